@@ -1,0 +1,270 @@
+// Command line of one subcommand: options from the field table, common options, help.
+#include "command.h"
+
+#include <clast/config.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const cli_command *command;
+    cli_common common;
+    void *config;
+    const clast_field **touched; ///< list fields that the command line has set already
+    int32_t n_touched;
+    bool help;
+} parser;
+
+__attribute__((format(printf, 2, 3))) static int usage_error(const parser *p, const char *format,
+                                                             ...)
+{
+    va_list args;
+    (void)fprintf(stderr, "clast %s: ", p->command->name);
+    va_start(args, format);
+    (void)vfprintf(stderr, format, args);
+    va_end(args);
+    (void)fprintf(stderr, "; see clast %s --help\n", p->command->name);
+    return 2;
+}
+
+static bool is_list(const clast_field *f)
+{
+    return f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST;
+}
+
+static bool touch(parser *p, const clast_field *f)
+{
+    for (int32_t i = 0; i < p->n_touched; ++i) {
+        if (p->touched[i] == f) {
+            return true;
+        }
+    }
+    p->touched[p->n_touched++] = f;
+    return false;
+}
+
+static int set_field(parser *p, const char *name, const char *value)
+{
+    const clast_field *f =
+        p->command->fields != NULL ? clast_fields_find(p->command->fields, name) : NULL;
+    if (f == NULL) {
+        const char *near =
+            p->command->fields != NULL ? clast_fields_nearest(p->command->fields, name) : NULL;
+        return near != NULL ? usage_error(p, "unknown option --%s (did you mean --%s?)", name, near)
+                            : usage_error(p, "unknown option --%s", name);
+    }
+    const bool append = is_list(f) && touch(p, f);
+    if (clast_field_set(f, p->config, value, append) != CLAST_OK) {
+        (void)fprintf(stderr, "clast %s: %s\n", p->command->name, clast_error_detail());
+        return 2;
+    }
+    return 0;
+}
+
+/// A bool option may stand without a value.
+static bool takes_value(const parser *p, const char *name)
+{
+    const clast_field *f =
+        p->command->fields != NULL ? clast_fields_find(p->command->fields, name) : NULL;
+    return f == NULL || f->type != CLAST_FIELD_BOOL;
+}
+
+static int set_pair(parser *p, const char *pair)
+{
+    char name[128];
+    const char *equals = strchr(pair, '=');
+    if (equals == NULL || (size_t)(equals - pair) >= sizeof name) {
+        return usage_error(p, "--set takes key=value, not '%s'", pair);
+    }
+    (void)snprintf(name, sizeof name, "%.*s", (int)(equals - pair), pair);
+    return set_field(p, name, equals + 1);
+}
+
+/// Options that every command has; 1 when taken, 0 when not known here, -1 after an error.
+static int common_option(parser *p, const char *name, const char *value, bool *used_value)
+{
+    *used_value = false;
+    if (strcmp(name, "json") == 0) {
+        p->common.json = true;
+    } else if (strcmp(name, "quiet") == 0) {
+        p->common.quiet = true;
+    } else if (strcmp(name, "help") == 0) {
+        p->help = true;
+    } else if (strcmp(name, "output") == 0 || strcmp(name, "threads") == 0 ||
+               strcmp(name, "set") == 0) {
+        *used_value = true;
+        if (value == NULL) {
+            (void)usage_error(p, "--%s needs a value", name);
+            return -1;
+        }
+        if (name[0] == 'o') {
+            p->common.output = value;
+        } else if (name[0] == 's') {
+            return set_pair(p, value) == 0 ? 1 : -1;
+        } else {
+            char *end = NULL;
+            const long n = strtol(value, &end, 10);
+            if (end == value || *end != '\0' || n < 0 || n > 4096) {
+                (void)usage_error(p, "-j takes 0 to 4096 threads, not '%s'", value);
+                return -1;
+            }
+            p->common.threads = (int32_t)n;
+        }
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+static int long_option(parser *p, int argc, char **argv, int *at)
+{
+    char name[128];
+    const char *text = argv[*at] + 2;
+    const char *equals = strchr(text, '=');
+    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
+    const char *next = *at + 1 < argc ? argv[*at + 1] : NULL;
+    const char *value = equals != NULL ? equals + 1 : next;
+    bool used = false;
+    const int known = common_option(p, name, value, &used);
+    if (known != 0) {
+        *at += used && equals == NULL ? 1 : 0;
+        return known > 0 ? 0 : 2;
+    }
+    if (!takes_value(p, name)) {
+        return set_field(p, name, equals != NULL ? equals + 1 : "true");
+    }
+    if (clast_fields_find(p->command->fields != NULL ? p->command->fields : &(clast_field){0},
+                          name) == NULL) {
+        return set_field(p, name, ""); // reports the unknown name
+    }
+    if (value == NULL) {
+        return usage_error(p, "--%s needs a value", name);
+    }
+    *at += equals == NULL ? 1 : 0;
+    return set_field(p, name, value);
+}
+
+static int short_option(parser *p, int argc, char **argv, int *at)
+{
+    static const struct {
+        char letter;
+        const char *name;
+    } letters[] = {{'o', "output"}, {'j', "threads"}, {'q', "quiet"}, {'h', "help"}};
+    const char *text = argv[*at] + 1;
+    for (size_t i = 0; i < sizeof letters / sizeof letters[0]; ++i) {
+        if (text[0] == letters[i].letter) {
+            const bool attached = text[1] != '\0';
+            const char *value = attached ? text + 1 : (*at + 1 < argc ? argv[*at + 1] : NULL);
+            bool used = false;
+            const int known = common_option(p, letters[i].name, value, &used);
+            *at += used && !attached ? 1 : 0;
+            return known > 0 ? 0 : 2;
+        }
+    }
+    return usage_error(p, "unknown option %s", argv[*at]);
+}
+
+static bool looks_like_number(const char *text)
+{
+    return text[0] == '-' && ((text[1] >= '0' && text[1] <= '9') || text[1] == '.');
+}
+
+static bool is_yaml(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot != NULL && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+}
+
+/// Reads every YAML file among the arguments before any option, so that options win.
+static int read_configs(parser *p, int argc, char **argv)
+{
+    for (int i = 0; i < argc && p->command->takes_config; ++i) {
+        if (argv[i][0] != '-' && is_yaml(argv[i]) && (i == 0 || argv[i - 1][0] != '-')) {
+            const clast_status status = clast_config_read(argv[i], p->command->fields, p->config);
+            if (status != CLAST_OK) {
+                (void)fprintf(stderr, "clast %s: %s\n", p->command->name, clast_error_detail());
+                return clast_status_exit_code(status);
+            }
+        }
+    }
+    return 0;
+}
+
+static int parse(parser *p, int argc, char **argv)
+{
+    bool options = true;
+    int code = read_configs(p, argc, argv);
+    for (int i = 0; i < argc && code == 0; ++i) {
+        const char *text = argv[i];
+        if (options && strcmp(text, "--") == 0) {
+            options = false;
+        } else if (options && strncmp(text, "--", 2) == 0) {
+            code = long_option(p, argc, argv, &i);
+        } else if (options && text[0] == '-' && text[1] != '\0' && !looks_like_number(text)) {
+            code = short_option(p, argc, argv, &i);
+        } else if (!(p->command->takes_config && is_yaml(text))) {
+            p->common.argument[p->common.n_argument++] = argv[i];
+        }
+    }
+    return code;
+}
+
+static int execute(parser *p)
+{
+    const cli_command *c = p->command;
+    if (p->common.n_argument < c->n_min) {
+        return usage_error(p, "missing %s", c->arguments);
+    }
+    if (p->common.n_argument > c->n_max) {
+        return usage_error(p, "too many arguments: '%s'", p->common.argument[c->n_max]);
+    }
+    clast_parallel_set_threads(p->common.threads);
+    const clast_status status = c->run(&p->common, p->config);
+    if (status != CLAST_OK && status != CLAST_E_NO) {
+        (void)fprintf(stderr, "clast %s: %s\n", c->name,
+                      clast_error_detail()[0] != '\0' ? clast_error_detail()
+                                                      : clast_status_text(status));
+    }
+    if (status == CLAST_E_STOPPED && cli_signal_code() != 0) {
+        return cli_signal_code();
+    }
+    return clast_status_exit_code(status);
+}
+
+int cli_run(const cli_command *command, int argc, char **argv)
+{
+    parser p = {.command = command, .common = {.command = command->name}};
+    int code = 4;
+    int32_t n_field = 1;
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        ++n_field;
+    }
+    p.common.argument = calloc((size_t)argc + 1, sizeof *p.common.argument);
+    p.config = calloc(1, command->config_size + 1);
+    p.touched = calloc((size_t)n_field, sizeof *p.touched);
+    if (p.common.argument == NULL || p.config == NULL || p.touched == NULL ||
+        (command->fields != NULL && clast_fields_default(command->fields, p.config) != CLAST_OK)) {
+        (void)fputs("clast: not enough memory\n", stderr);
+        goto done;
+    }
+    code = parse(&p, argc, argv);
+    if (code == 0 && p.help) {
+        cli_help(command);
+    } else if (code == 0) {
+        code = execute(&p);
+    }
+    if (command->fields != NULL) {
+        clast_fields_free(command->fields, p.config);
+    }
+done:
+    free((void *)p.touched);
+    free(p.config);
+    free(p.common.argument);
+    if (fflush(stdout) != 0 && code == 0) {
+        (void)fputs("clast: cannot write to standard output\n", stderr);
+        code = 4;
+    }
+    return code;
+}

@@ -1,0 +1,44 @@
+#pragma once
+// One subcommand: a field table, positional arguments and a function that calls the library.
+#include <clast/clast.h>
+
+/// What every command understands besides its own fields.
+typedef struct cli_common {
+    const char *output;  ///< -o PATH, or NULL
+    int32_t threads;     ///< -j N; 0: one per core
+    bool json;           ///< one JSON object on stdout
+    bool quiet;          ///< no progress on stderr
+    int32_t n_argument;  ///< positional arguments
+    char **argument;     ///< borrowed from argv
+    const char *command; ///< "mesh check"
+} cli_common;
+
+typedef struct cli_command {
+    const char *name;          ///< "mesh check"
+    const char *arguments;     ///< "FILE [FILE...]"; "" for none
+    const char *summary;       ///< one line
+    const char *details;       ///< more lines for --help, definitions and sources, or NULL
+    const clast_field *fields; ///< own options; NULL for none
+    size_t config_size;        ///< bytes of the configuration struct
+    int32_t n_min, n_max;      ///< positional arguments allowed
+    /// First positional argument may be a YAML configuration (name ends in .yaml or .yml), read
+    /// before the options.
+    bool takes_config;
+    clast_status (*run)(const cli_common *common, void *config);
+} cli_command;
+
+/// Parses argv and runs the command: returns the exit code; the error's one line goes to stderr.
+int cli_run(const cli_command *command, int argc, char **argv);
+
+/// Writes the help page of a command.
+void cli_help(const cli_command *command);
+
+/// The next command of the registry (cli/commands.def), or NULL after the last.
+const cli_command *cli_command_at(int32_t index);
+
+/// Progress on stderr for a monitor: at most 5 lines a second on a terminal, one a minute in a log.
+/// stop() is true after SIGINT or SIGTERM.
+clast_monitor cli_monitor(const cli_common *common);
+
+/// 130 after SIGINT, 143 after SIGTERM, 0 when neither came.
+int cli_signal_code(void);

@@ -1,0 +1,82 @@
+// Progress on stderr, and the signals that ask for a checkpoint.
+#include "command.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number)
+{
+    if (caught != 0) {
+        _exit(128 + number); // asked twice: the user does not want to wait
+    }
+    caught = number;
+}
+
+int cli_signal_code(void)
+{
+    return caught != 0 ? 128 + (int)caught : 0;
+}
+
+static bool stop(void *context)
+{
+    (void)context;
+    return caught != 0;
+}
+
+typedef struct {
+    double begun, last;
+    char phase[32];
+} state;
+
+static state now_state;
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void report(void *context, const char *phase, int64_t done, int64_t total)
+{
+    state *s = context;
+    const double t = now();
+    const bool terminal = isatty(STDERR_FILENO) != 0;
+    if (strcmp(s->phase, phase) != 0) {
+        (void)snprintf(s->phase, sizeof s->phase, "%s", phase);
+        s->begun = t;
+        s->last = t;
+        return;
+    }
+    const bool last = total > 0 && done >= total;
+    if (t - s->last < (terminal ? 0.2 : 60.0) && !(last && terminal)) {
+        return;
+    }
+    s->last = t;
+    const double rate = t > s->begun ? (double)done / (t - s->begun) : 0.0;
+    (void)fprintf(stderr, "%s%s %lld", terminal ? "\r\033[K" : "", phase, (long long)done);
+    if (total > 0) {
+        (void)fprintf(stderr, "/%lld (%.0f %%)", (long long)total,
+                      100.0 * (double)done / (double)total);
+    }
+    (void)fprintf(stderr, ", %.3g/s", rate);
+    if (total > 0 && rate > 0.0) {
+        (void)fprintf(stderr, ", %.0f s left", (double)(total - done) / rate);
+    }
+    (void)fputs(terminal && !last ? "" : "\n", stderr);
+    (void)fflush(stderr);
+}
+
+clast_monitor cli_monitor(const cli_common *common)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+    return (clast_monitor){
+        .report = common->quiet ? NULL : report, .stop = stop, .context = &now_state};
+}

@@ -1,0 +1,23 @@
+# Every third-party library that clast links, in one place; DESIGN names and ADRs justify them.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)
+pkg_check_modules(QHULL REQUIRED IMPORTED_TARGET qhull_r)
+pkg_check_modules(LAPACKE REQUIRED IMPORTED_TARGET lapacke)
+find_package(ZLIB REQUIRED)
+set(HDF5_PREFER_PARALLEL OFF)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_path(RANDOM123_INCLUDE Random123/philox.h REQUIRED)
+
+add_library(clast_deps INTERFACE)
+target_include_directories(clast_deps SYSTEM INTERFACE ${RANDOM123_INCLUDE} ${HDF5_C_INCLUDE_DIRS})
+target_link_libraries(clast_deps INTERFACE PkgConfig::CAIRO PkgConfig::JANSSON PkgConfig::YAML PkgConfig::QHULL
+  PkgConfig::LAPACKE ZLIB::ZLIB ${HDF5_C_LIBRARIES} Threads::Threads m)
+if(CLAST_OPENMP)
+  find_package(OpenMP COMPONENTS C)
+  if(OpenMP_C_FOUND)
+    target_link_libraries(clast_deps INTERFACE OpenMP::OpenMP_C)
+  endif()
+endif()

@@ -1,0 +1,11 @@
+#pragma once
+// All public headers.
+#include <clast/assembly.h>
+#include <clast/cloud.h>
+#include <clast/field.h>
+#include <clast/mesh.h>
+#include <clast/monitor.h>
+#include <clast/parallel.h>
+#include <clast/shape.h>
+#include <clast/status.h>
+#include <clast/table.h>

@@ -1,0 +1,11 @@
+#pragma once
+#include <clast/field.h>
+
+/// Reads a YAML mapping of keys to scalars or lists of scalars over `config` (already defaulted).
+///
+/// Scalars are texts, typed by the field table (YAML 1.1 has no say). Lists replace the field's
+/// list.
+/// @return CLAST_E_CONFIG for an unknown key (with file, line and the nearest known key), a value
+/// out of range, a
+///         duplicate key or nested mapping; CLAST_E_IO if unreadable; files over 16 MiB are refused
+CLAST_API clast_status clast_config_read(const char *path, const clast_field *fields, void *config);

@@ -1,0 +1,76 @@
+#pragma once
+#include <clast/status.h>
+
+// One table per configuration feeds the defaults, the range check, --help, the YAML file, the
+// command line and the manifest. Nothing else knows a default.
+
+typedef enum {
+    CLAST_FIELD_F64,       ///< double
+    CLAST_FIELD_I32,       ///< int32_t
+    CLAST_FIELD_I64,       ///< int64_t
+    CLAST_FIELD_U64,       ///< uint64_t
+    CLAST_FIELD_BOOL,      ///< bool
+    CLAST_FIELD_CHOICE,    ///< int32_t index into the words of `text`, "exact|spheres|march"
+    CLAST_FIELD_TEXT,      ///< char *, owned, never NULL after default; `text` is the default
+    CLAST_FIELD_TEXT_LIST, ///< clast_text_list
+    CLAST_FIELD_F64_LIST   ///< clast_f64_list
+} clast_field_type;
+
+typedef struct clast_text_list {
+    int32_t n;
+    char **item; ///< [n] owned
+} clast_text_list;
+
+typedef struct clast_f64_list {
+    int32_t n;
+    double *item; ///< [n] owned
+} clast_f64_list;
+
+/// One field; a table of them ends with {0}.
+typedef struct clast_field {
+    const char *name; ///< key in files; the option is --name with '-' for '_'
+    size_t offset;    ///< in the configuration struct
+    clast_field_type type;
+    double value;     ///< default of a number, bool or choice
+    double low, high; ///< range of a number, both included
+    const char *unit; ///< SI unit of the stored number, "-" for none; inputs may carry any unit of
+                      ///< that dimension
+    const char *help; ///< one line
+    const char *text; ///< choices "a|b|c", or the default text, or default list "a,b"
+} clast_field;
+
+/// Sets every field to its default. The struct's bytes before are ignored (not freed).
+CLAST_API clast_status clast_fields_default(const clast_field *fields, void *config);
+
+/// Frees owned texts and lists.
+CLAST_API void clast_fields_free(const clast_field *fields, void *config);
+
+/// The named field ('-' and '_' alike), or NULL.
+CLAST_API const clast_field *clast_fields_find(const clast_field *fields, const char *name);
+
+/// Known name nearest to a misspelt one (edit distance), or NULL when nothing is near.
+CLAST_API const char *clast_fields_nearest(const clast_field *fields, const char *name);
+
+/// Parses a text ("675 um", "50deg", "true", "exact") into a field. Lists: replaces by one item, or
+/// appends.
+/// @return CLAST_E_CONFIG with the key, the text, the range and the unit in the message
+CLAST_API clast_status clast_field_set(const clast_field *field, void *config, const char *text,
+                                       bool append);
+
+/// Empties a list field.
+CLAST_API void clast_field_clear(const clast_field *field, void *config);
+
+/// Value as text, as clast_field_set reads it (17 digits, SI, no unit). Lists: item `index`;
+/// returns length or -1.
+CLAST_API int clast_field_format(const clast_field *field, const void *config, int32_t index,
+                                 char *text, size_t size);
+
+/// Number of items: lists their length, all others 1.
+CLAST_API int32_t clast_field_count(const clast_field *field, const void *config);
+
+/// Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers
+/// are SI. Spaces between number and unit are optional. "phi" is accepted for lengths: 2^-phi mm.
+CLAST_API clast_status clast_unit_parse(const char *text, const char *si_unit, double *value);
+
+/// Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.
+CLAST_API clast_status clast_unit_factor(const char *unit, const char *si_unit, double *factor);

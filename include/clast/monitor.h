@@ -1,0 +1,11 @@
+#pragma once
+#include <clast/status.h>
+
+/// How long work talks to its caller: NULL, or callbacks. Called from the calling thread only.
+typedef struct clast_monitor {
+    /// done of total units in the named phase; total <= 0 when unknown. May be NULL.
+    void (*report)(void *context, const char *phase, int64_t done, int64_t total);
+    /// True asks the work to write its checkpoint and return CLAST_E_STOPPED. May be NULL.
+    bool (*stop)(void *context);
+    void *context;
+} clast_monitor;

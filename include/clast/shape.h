@@ -1,0 +1,60 @@
+#pragma once
+#include <clast/mesh.h>
+
+/// Spheres in a shape's frame: a filling, a clump, or a sphere composite.
+typedef struct clast_spheres {
+    int32_t n;
+    double (*centre)[3]; ///< [n][3] m
+    double *radius;      ///< [n] m
+} clast_spheres;
+
+CLAST_API clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres);
+CLAST_API void clast_spheres_free(clast_spheres *spheres);
+CLAST_API clast_status clast_spheres_copy(const clast_spheres *spheres, clast_spheres *copy);
+
+typedef enum {
+    CLAST_SHAPE_SPHERE,    ///< semi_axes[0] is the radius
+    CLAST_SHAPE_ELLIPSOID, ///< semi_axes a >= b >= c along x, y, z
+    CLAST_SHAPE_MESH,      ///< closed surface
+    CLAST_SHAPE_CLUMP      ///< union of spheres
+} clast_shape_kind;
+
+/// A kind of grain in its own frame: centroid at the origin, one shape shared by many grains.
+///
+/// A sphere or ellipsoid may carry a mesh too (for pictures and files); a mesh may carry spheres
+/// (its composite).
+typedef struct clast_shape {
+    clast_shape_kind kind;
+    char *name;          ///< unique within an assembly, never NULL once made
+    double semi_axes[3]; ///< sphere and ellipsoid exactly; else of the mass-equivalent ellipsoid, a
+                         ///< >= b >= c
+    clast_mesh mesh;     ///< surface, or empty
+    clast_spheres spheres;   ///< composite or clump, or empty
+    double volume;           ///< of the solid
+    double length;           ///< maximum length (diameter of the point set)
+    double bounding_radius;  ///< greatest distance of the surface from the centroid
+    double inertia[3][3];    ///< about the centroid, unit density
+    double source_origin[3]; ///< centroid in the source file's coordinates (point x of the file is
+                             ///< x - source_origin here)
+} clast_shape;
+
+CLAST_API void clast_shape_free(clast_shape *shape);
+CLAST_API clast_status clast_shape_copy(const clast_shape *shape, clast_shape *copy);
+
+/// Sphere of this radius.
+CLAST_API clast_status clast_shape_sphere(const char *name, double radius, clast_shape *shape);
+
+/// Ellipsoid of these semi-axes (any order; sorted a >= b >= c).
+CLAST_API clast_status clast_shape_ellipsoid(const char *name, const double semi_axes[3],
+                                             clast_shape *shape);
+
+/// Solid bounded by a closed outward mesh (copied, moved so that its centroid is the origin).
+CLAST_API clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh,
+                                        clast_shape *shape);
+
+/// Union of spheres (copied, moved so that the union's centroid is the origin).
+CLAST_API clast_status clast_shape_clump(const char *name, const clast_spheres *spheres,
+                                         clast_shape *shape);
+
+/// A surface for pictures and files: the shape's own mesh, or an icosphere of the given level.
+CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, clast_mesh *mesh);

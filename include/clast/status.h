@@ -1,0 +1,47 @@
+#pragma once
+// Status codes, the last error's text, and the marks that every public header needs.
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __FAST_MATH__
+#error "clast needs IEEE arithmetic: build without -ffast-math"
+#endif
+
+#ifdef __cplusplus
+#error "clast's headers are C17; wrap them in extern \"C\" from C++"
+#endif
+
+#define CLAST_API __attribute__((visibility("default")))
+#define CLAST_PI  3.14159265358979323846
+
+/// Every status: name, exit code of the command that ends with it, text.
+#define CLAST_STATUS_LIST(X)                                                                       \
+    X(OK, 0, "done")                                                                               \
+    X(E_NO, 1, "the check answered no")                                                            \
+    X(E_USAGE, 2, "wrong use")                                                                     \
+    X(E_CONFIG, 2, "wrong configuration")                                                          \
+    X(E_FORMAT, 3, "malformed input")                                                              \
+    X(E_GEOMETRY, 3, "unusable geometry")                                                          \
+    X(E_IO, 3, "cannot read")                                                                      \
+    X(E_LIMIT, 3, "beyond a stated limit")                                                         \
+    X(E_MEMORY, 4, "not enough memory")                                                            \
+    X(E_DISK, 4, "cannot write")                                                                   \
+    X(E_CONVERGE, 5, "did not converge")                                                           \
+    X(E_STOPPED, 130, "stopped with a checkpoint")
+
+#define CLAST_STATUS_ENUM(name, code, text) CLAST_##name,
+typedef enum { CLAST_STATUS_LIST(CLAST_STATUS_ENUM) CLAST_N_STATUS } clast_status;
+#undef CLAST_STATUS_ENUM
+
+/// Fixed text of a status ("unusable geometry").
+CLAST_API const char *clast_status_text(clast_status status);
+
+/// Exit code of a command that ends with this status (0 to 5, 130); DESIGN section 3.
+CLAST_API int clast_status_exit_code(clast_status status);
+
+/// The calling thread's last error in one line: what, where, how many, what to do. Never NULL.
+CLAST_API const char *clast_error_detail(void);
+
+/// Version text, "0.1.0".
+CLAST_API const char *clast_version(void);

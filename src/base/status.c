@@ -1,0 +1,61 @@
+// Status texts and the thread's last error message.
+#include "base/status.h"
+
+#include "clast_version.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { DETAIL_SIZE = 1024 };
+
+static _Thread_local char detail[DETAIL_SIZE];
+
+const char *clast_status_text(clast_status status)
+{
+#define TEXT(name, code, text) text,
+    static const char *const texts[] = {CLAST_STATUS_LIST(TEXT)};
+#undef TEXT
+    return (unsigned)status < CLAST_N_STATUS ? texts[status] : "unknown status";
+}
+
+int clast_status_exit_code(clast_status status)
+{
+#define CODE(name, code, text) code,
+    static const int codes[] = {CLAST_STATUS_LIST(CODE)};
+#undef CODE
+    return (unsigned)status < CLAST_N_STATUS ? codes[status] : 2;
+}
+
+const char *clast_error_detail(void)
+{
+    return detail;
+}
+
+const char *clast_version(void)
+{
+    return CLAST_VERSION_TEXT;
+}
+
+clast_status clx_fail(clast_status status, const char *format, ...)
+{
+    char text[DETAIL_SIZE];
+    va_list args;
+    va_start(args, format);
+    (void)vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    memcpy(detail, text, sizeof detail);
+    return status;
+}
+
+void clx_fail_prefix(const char *format, ...)
+{
+    char text[DETAIL_SIZE];
+    va_list args;
+    va_start(args, format);
+    const int n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (n >= 0 && n < DETAIL_SIZE - 1) {
+        (void)snprintf(text + n, sizeof text - (size_t)n, ": %s", detail);
+        memcpy(detail, text, sizeof detail);
+    }
+}

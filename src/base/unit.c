@@ -1,0 +1,132 @@
+// Units of measure: texts such as "675 um" become SI numbers.
+#include <clast/field.h>
+
+#include "base/status.h"
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *name;
+    const char *si;
+    double factor;
+} unit;
+
+static const unit units[] = {
+    {"m", "m", 1.0},
+    {"cm", "m", 1e-2},
+    {"mm", "m", 1e-3},
+    {"um", "m", 1e-6},
+    {"\xc2\xb5m", "m", 1e-6},
+    {"\xce\xbcm", "m", 1e-6},
+    {"nm", "m", 1e-9},
+    {"km", "m", 1e3},
+    {"in", "m", 0.0254},
+    {"rad", "rad", 1.0},
+    {"deg", "rad", CLAST_PI / 180.0},
+    {"kg", "kg", 1.0},
+    {"g", "kg", 1e-3},
+    {"mg", "kg", 1e-6},
+    {"t", "kg", 1e3},
+    {"s", "s", 1.0},
+    {"ms", "s", 1e-3},
+    {"us", "s", 1e-6},
+    {"min", "s", 60.0},
+    {"h", "s", 3600.0},
+    {"kg/m^3", "kg/m^3", 1.0},
+    {"kg/m3", "kg/m^3", 1.0},
+    {"g/cm^3", "kg/m^3", 1e3},
+    {"g/cm3", "kg/m^3", 1e3},
+    {"m/s", "m/s", 1.0},
+    {"cm/s", "m/s", 1e-2},
+    {"mm/s", "m/s", 1e-3},
+    {"m/s^2", "m/s^2", 1.0},
+    {"m/s2", "m/s^2", 1.0},
+    {"Pa", "Pa", 1.0},
+    {"kPa", "Pa", 1e3},
+    {"MPa", "Pa", 1e6},
+    {"GPa", "Pa", 1e9},
+    {"Pa*s", "Pa*s", 1.0},
+    {"Pas", "Pa*s", 1.0},
+    {"mPa*s", "Pa*s", 1e-3},
+    {"m^2/s", "m^2/s", 1.0},
+    {"m2/s", "m^2/s", 1.0},
+    {"m^2/s^3", "m^2/s^3", 1.0},
+    {"m^3/s", "m^3/s", 1.0},
+    {"1/s", "1/s", 1.0},
+    {"K", "K", 1.0},
+    {"J", "J", 1.0},
+    {"N", "N", 1.0},
+    {"N/m", "N/m", 1.0},
+    {"-", "-", 1.0},
+    {"%", "-", 0.01},
+};
+
+enum { N_UNIT = sizeof units / sizeof units[0] };
+
+static clast_status unknown(const char *name, const char *si)
+{
+    char known[256] = "";
+    for (int i = 0; i < N_UNIT; ++i) {
+        if (strcmp(units[i].si, si) == 0 && (unsigned char)units[i].name[0] < 0x80) {
+            const size_t used = strlen(known);
+            (void)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "",
+                           units[i].name);
+        }
+    }
+    return clx_fail(CLAST_E_CONFIG, "unknown unit '%s'; known here: %s", name,
+                    known[0] != '\0' ? known : si);
+}
+
+clast_status clast_unit_factor(const char *name, const char *si_unit, double *factor)
+{
+    for (int i = 0; i < N_UNIT; ++i) {
+        if (strcmp(units[i].name, name) == 0 && strcmp(units[i].si, si_unit) == 0) {
+            *factor = units[i].factor;
+            return CLAST_OK;
+        }
+    }
+    return unknown(name, si_unit);
+}
+
+static void trim_end(char *text)
+{
+    size_t n = strlen(text);
+    while (n > 0 && isspace((unsigned char)text[n - 1])) {
+        text[--n] = '\0';
+    }
+}
+
+clast_status clast_unit_parse(const char *text, const char *si_unit, double *value)
+{
+    char *end = NULL;
+    const double number = strtod(text, &end);
+    if (end == text) {
+        return clx_fail(CLAST_E_CONFIG, "'%s' is not a number", text);
+    }
+    if (!isfinite(number)) {
+        return clx_fail(CLAST_E_CONFIG, "'%s' is not a finite number", text);
+    }
+    while (isspace((unsigned char)*end)) {
+        ++end;
+    }
+    char name[32] = "";
+    (void)snprintf(name, sizeof name, "%s", end);
+    trim_end(name);
+    if (name[0] == '\0') {
+        *value = number;
+        return CLAST_OK;
+    }
+    if (strcmp(name, "phi") == 0 && strcmp(si_unit, "m") == 0) {
+        *value = 1e-3 * exp2(-number);
+        return CLAST_OK;
+    }
+    double factor = 0.0;
+    const clast_status status = clast_unit_factor(name, si_unit, &factor);
+    if (status == CLAST_OK) {
+        *value = number * factor;
+    }
+    return status;
+}

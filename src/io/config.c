@@ -1,0 +1,144 @@
+// YAML configuration files: one mapping of keys to scalars or lists, typed by the field table.
+#include <clast/config.h>
+
+#include "base/alloc.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <yaml.h>
+
+enum { CONFIG_LIMIT = 16 << 20 };
+
+typedef struct {
+    const char *path;
+    const clast_field *fields;
+    void *config;
+    bool *seen; ///< [number of fields]
+} reader;
+
+static clast_status fail_at(const reader *r, const yaml_node_t *node, const char *what,
+                            const char *detail)
+{
+    return clx_fail(CLAST_E_CONFIG, "%s:%zu:%zu: %s%s", r->path, node->start_mark.line + 1,
+                    node->start_mark.column + 1, what, detail);
+}
+
+static clast_status set_scalar(const reader *r, const clast_field *f, const yaml_node_t *value,
+                               bool append)
+{
+    if (value->type != YAML_SCALAR_NODE) {
+        return fail_at(r, value, f->name, ": expected a plain value");
+    }
+    const clast_status status =
+        clast_field_set(f, r->config, (const char *)value->data.scalar.value, append);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s:%zu", r->path, value->start_mark.line + 1);
+    }
+    return status;
+}
+
+static clast_status set_sequence(const reader *r, yaml_document_t *document, const clast_field *f,
+                                 const yaml_node_t *value)
+{
+    if (f->type != CLAST_FIELD_TEXT_LIST && f->type != CLAST_FIELD_F64_LIST) {
+        return fail_at(r, value, f->name, " takes one value, not a list");
+    }
+    clast_field_clear(f, r->config);
+    clast_status status = CLAST_OK;
+    for (yaml_node_item_t *item = value->data.sequence.items.start;
+         item < value->data.sequence.items.top && status == CLAST_OK; ++item) {
+        status = set_scalar(r, f, yaml_document_get_node(document, *item), true);
+    }
+    return status;
+}
+
+static clast_status set_key(const reader *r, yaml_document_t *document, const yaml_node_t *key,
+                            const yaml_node_t *value)
+{
+    if (key->type != YAML_SCALAR_NODE) {
+        return fail_at(r, key, "a key must be a plain word", "");
+    }
+    const char *name = (const char *)key->data.scalar.value;
+    const clast_field *f = clast_fields_find(r->fields, name);
+    if (f == NULL) {
+        const char *near = clast_fields_nearest(r->fields, name);
+        return clx_fail(CLAST_E_CONFIG, "%s:%zu: unknown key '%s'%s%s%s", r->path,
+                        key->start_mark.line + 1, name, near != NULL ? "; did you mean '" : "",
+                        near != NULL ? near : "", near != NULL ? "'?" : "");
+    }
+    if (r->seen[f - r->fields]) {
+        return fail_at(r, key, f->name, " is given twice");
+    }
+    r->seen[f - r->fields] = true;
+    return value->type == YAML_SEQUENCE_NODE ? set_sequence(r, document, f, value)
+                                             : set_scalar(r, f, value, false);
+}
+
+static clast_status read_document(const reader *r, yaml_document_t *document)
+{
+    const yaml_node_t *root = yaml_document_get_root_node(document);
+    if (root == NULL) {
+        return CLAST_OK; // an empty file keeps the defaults
+    }
+    if (root->type != YAML_MAPPING_NODE) {
+        return fail_at(r, root, "expected lines of the form 'key: value'", "");
+    }
+    clast_status status = CLAST_OK;
+    for (yaml_node_pair_t *pair = root->data.mapping.pairs.start;
+         pair < root->data.mapping.pairs.top && status == CLAST_OK; ++pair) {
+        status = set_key(r, document, yaml_document_get_node(document, pair->key),
+                         yaml_document_get_node(document, pair->value));
+    }
+    return status;
+}
+
+static clast_status open_file(const char *path, FILE **file)
+{
+    clast_status status = CLAST_OK;
+    *file = fopen(path, "rb");
+    CLX_CHECK(*file != NULL, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(fseek(*file, 0, SEEK_END) == 0, CLAST_E_IO, "%s is not a plain file", path);
+    const long size = ftell(*file);
+    CLX_CHECK(size >= 0 && size <= CONFIG_LIMIT, CLAST_E_LIMIT,
+              "%s: %ld bytes is too large for a configuration (limit %d)", path, size,
+              CONFIG_LIMIT);
+    rewind(*file);
+done:
+    return status;
+}
+
+clast_status clast_config_read(const char *path, const clast_field *fields, void *config)
+{
+    clast_status status = CLAST_OK;
+    FILE *file = NULL;
+    yaml_parser_t parser;
+    yaml_document_t document;
+    bool has_parser = false;
+    bool has_document = false;
+    reader r = {.path = path, .fields = fields, .config = config};
+    int64_t n = 0;
+    while (fields[n].name != NULL) {
+        ++n;
+    }
+    CLX_TRY(clx_alloc(&r.seen, n, sizeof *r.seen));
+    CLX_TRY(open_file(path, &file));
+    CLX_CHECK(yaml_parser_initialize(&parser) == 1, CLAST_E_MEMORY, "no memory to read %s", path);
+    has_parser = true;
+    yaml_parser_set_input_file(&parser, file);
+    CLX_CHECK(yaml_parser_load(&parser, &document) == 1, CLAST_E_CONFIG, "%s:%zu: %s", path,
+              parser.problem_mark.line + 1, parser.problem != NULL ? parser.problem : "not YAML");
+    has_document = true;
+    CLX_TRY(read_document(&r, &document));
+done:
+    if (has_document) {
+        yaml_document_delete(&document);
+    }
+    if (has_parser) {
+        yaml_parser_delete(&parser);
+    }
+    if (file != NULL) {
+        (void)fclose(file);
+    }
+    clx_free(r.seen);
+    return status;
+}

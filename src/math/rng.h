@@ -1,0 +1,60 @@
+#pragma once
+// Random draws as pure functions of (seed, stream, index), never of call order, threads or ranks.
+// Philox4x32-10 from Random123 [Salmon2011]; counter = (index, part of stream), key = seed.
+#include <stdint.h>
+
+/// A cursor over one stream: the k-th draw from (seed, stream, index) is always the same number.
+typedef struct clx_rng {
+    uint64_t seed;
+    uint32_t stream;  ///< what is drawn: one number per purpose, see enum clx_stream
+    uint64_t index;   ///< which item (grain, trial, point)
+    uint32_t counter; ///< next block of this item
+    uint32_t block[4];
+    uint32_t used; ///< words of block used up
+} clx_rng;
+
+/// Purposes; a purpose keeps its number for ever, so that a new one never moves an old result.
+enum clx_stream {
+    CLX_STREAM_TEST = 0,
+    CLX_STREAM_FILL = 1,
+    CLX_STREAM_AGGREGATE_SIZE = 2,
+    CLX_STREAM_AGGREGATE_SHAPE = 3,
+    CLX_STREAM_AGGREGATE_AXIS = 4,
+    CLX_STREAM_AGGREGATE_RAY = 5,
+    CLX_STREAM_AGGREGATE_ORIENTATION = 6,
+    CLX_STREAM_AGGREGATE_ORIGIN = 7,
+    CLX_STREAM_AGGREGATE_ORDER = 8,
+    CLX_STREAM_ENVELOPE = 9,
+    CLX_STREAM_UNION = 10,
+    CLX_STREAM_RENDER = 11,
+    CLX_STREAM_CLUSTER = 12,
+    CLX_STREAM_FIT = 13,
+    CLX_STREAM_GHOST = 20,
+    CLX_STREAM_BOOTSTRAP = 21,
+    CLX_STREAM_COLLISION = 22,
+    CLX_STREAM_SHAPE = 30,
+    CLX_STREAM_GRADING = 31
+};
+
+/// Cursor at the first draw of (seed, stream, index).
+clx_rng clx_rng_at(uint64_t seed, uint32_t stream, uint64_t index);
+
+uint32_t clx_rng_u32(clx_rng *rng);
+
+/// Uniform on (0, 1): 52 bits plus half a step, never 0 or 1.
+double clx_rng_uniform(clx_rng *rng);
+
+/// Standard normal (Box-Muller, two uniforms a draw).
+double clx_rng_normal(clx_rng *rng);
+
+/// Uniform on 0 .. n-1 without bias.
+int64_t clx_rng_below(clx_rng *rng, int64_t n);
+
+/// Uniform direction on the unit sphere.
+void clx_rng_direction(clx_rng *rng, double direction[3]);
+
+/// Uniform direction within `half_angle` of the unit axis (cosine uniform on the cap).
+void clx_rng_cone(clx_rng *rng, const double axis[3], double half_angle, double direction[3]);
+
+/// Orientation uniform on SO(3), unit quaternion w, x, y, z. [Shoemake1992]
+void clx_rng_orientation(clx_rng *rng, double orientation[4]);

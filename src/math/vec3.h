@@ -1,0 +1,143 @@
+#pragma once
+// Vectors of three, 3x3 matrices and quaternions, inline; out comes first, inputs may alias it.
+// Matrices are read through plain (non-const) parameters: C17 cannot pass double[3][3] as const double[3][3].
+#include <math.h>
+#include <stdbool.h>
+
+static inline void v3_set(double out[3], double x, double y, double z)
+{
+    out[0] = x;
+    out[1] = y;
+    out[2] = z;
+}
+
+static inline void v3_copy(double out[3], const double a[3])
+{
+    v3_set(out, a[0], a[1], a[2]);
+}
+
+static inline void v3_add(double out[3], const double a[3], const double b[3])
+{
+    v3_set(out, a[0] + b[0], a[1] + b[1], a[2] + b[2]);
+}
+
+static inline void v3_sub(double out[3], const double a[3], const double b[3])
+{
+    v3_set(out, a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+static inline void v3_scale(double out[3], double s, const double a[3])
+{
+    v3_set(out, s * a[0], s * a[1], s * a[2]);
+}
+
+/// out = a + s b
+static inline void v3_axpy(double out[3], const double a[3], double s, const double b[3])
+{
+    v3_set(out, a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]);
+}
+
+static inline double v3_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void v3_cross(double out[3], const double a[3], const double b[3])
+{
+    v3_set(out, a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
+static inline double v3_norm2(const double a[3])
+{
+    return v3_dot(a, a);
+}
+
+static inline double v3_norm(const double a[3])
+{
+    return sqrt(v3_dot(a, a));
+}
+
+static inline double v3_distance2(const double a[3], const double b[3])
+{
+    double d[3];
+    v3_sub(d, a, b);
+    return v3_norm2(d);
+}
+
+static inline double v3_distance(const double a[3], const double b[3])
+{
+    return sqrt(v3_distance2(a, b));
+}
+
+/// Scales to unit length; false (and out = 0) for a zero vector.
+static inline bool v3_unit(double out[3], const double a[3])
+{
+    const double n = v3_norm(a);
+    v3_scale(out, n > 0.0 ? 1.0 / n : 0.0, a);
+    return n > 0.0;
+}
+
+/// Two unit vectors that complete unit n to a right-handed frame (a, b, n); continuous but at n =
+/// -z. [Duff2017]
+static inline void v3_frame(const double n[3], double a[3], double b[3])
+{
+    const double sign = n[2] >= 0.0 ? 1.0 : -1.0;
+    const double p = -1.0 / (sign + n[2]);
+    const double q = n[0] * n[1] * p;
+    v3_set(a, 1.0 + sign * n[0] * n[0] * p, sign * q, -sign * n[0]);
+    v3_set(b, q, sign + n[1] * n[1] * p, -n[1]);
+}
+
+/// out = M a
+static inline void m3_mul(double out[3], double m[3][3], const double a[3])
+{
+    v3_set(out, v3_dot(m[0], a), v3_dot(m[1], a), v3_dot(m[2], a));
+}
+
+/// out = M^T a
+static inline void m3_mul_t(double out[3], double m[3][3], const double a[3])
+{
+    v3_set(out, m[0][0] * a[0] + m[1][0] * a[1] + m[2][0] * a[2],
+           m[0][1] * a[0] + m[1][1] * a[1] + m[2][1] * a[2],
+           m[0][2] * a[0] + m[1][2] * a[1] + m[2][2] * a[2]);
+}
+
+/// Rotation matrix of a unit quaternion (w, x, y, z): world = M body.
+static inline void q_matrix(double m[3][3], const double q[4])
+{
+    const double w = q[0], x = q[1], y = q[2], z = q[3];
+    v3_set(m[0], 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y));
+    v3_set(m[1], 2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x));
+    v3_set(m[2], 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y));
+}
+
+/// out = a b: first b, then a.
+static inline void q_mul(double out[4], const double a[4], const double b[4])
+{
+    const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    const double y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    const double z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+    out[0] = w;
+    out[1] = x;
+    out[2] = y;
+    out[3] = z;
+}
+
+static inline void q_unit(double q[4])
+{
+    const double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; ++i) {
+        q[i] /= n;
+    }
+}
+
+/// Rotates a vector by a unit quaternion.
+static inline void q_rotate(double out[3], const double q[4], const double a[3])
+{
+    double m[3][3];
+    double r[3];
+    q_matrix(m, q);
+    m3_mul(r, m, a);
+    v3_copy(out, r);
+}

@@ -1,0 +1,39 @@
+// Spheres in a shape's frame: life cycle.
+#include <clast/shape.h>
+
+#include "base/alloc.h"
+#include <string.h>
+
+void clast_spheres_free(clast_spheres *spheres)
+{
+    clx_free(spheres->centre);
+    clx_free(spheres->radius);
+    *spheres = (clast_spheres){0};
+}
+
+clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres made = {.n = n};
+    CLX_TRY(clx_alloc(&made.centre, n, sizeof *made.centre));
+    CLX_TRY(clx_alloc(&made.radius, n, sizeof *made.radius));
+    *spheres = made;
+    made = (clast_spheres){0};
+done:
+    clast_spheres_free(&made);
+    return status;
+}
+
+clast_status clast_spheres_copy(const clast_spheres *spheres, clast_spheres *copy)
+{
+    clast_spheres made = {0};
+    const clast_status status = clast_spheres_alloc(spheres->n, &made);
+    if (status == CLAST_OK) {
+        if (spheres->n > 0) {
+            memcpy(made.centre, spheres->centre, (size_t)spheres->n * sizeof *made.centre);
+            memcpy(made.radius, spheres->radius, (size_t)spheres->n * sizeof *made.radius);
+        }
+        *copy = made;
+    }
+    return status;
+}
