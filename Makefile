@@ -1,14 +1,23 @@
-# clast: the everyday commands. CMake does the building; this file names what people type.
-.PHONY: all dev release quick test demo bench paper docs format install clean setup
+# clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format golden install clean
 all: dev
 
-setup: ; @tools/setup.sh build
-dev release tsan coverage minimal fuzz:
+dev release tsan coverage minimal:
+	@tools/setup.sh build
 	@tools/build.sh $@
 quick: dev
 	@ctest --test-dir build/dev -j2 --output-on-failure
+test:
+	@command -v bash >/dev/null && tools/test.sh
+demo:
+	@tools/demo.sh
 install: release
 	@cmake --install build/release
+fuzz:
+	@tools/fuzz.sh
+docs:
+	@tools/docs.sh
 format:
-	@clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.def')
-clean: ; rm -rf build
+	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
+clean:
+	rm -rf build

@@ -2,6 +2,7 @@
 #include "base/status.h"
 
 #include "clast_version.h"
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,4 +59,13 @@ void clx_fail_prefix(const char *format, ...)
         (void)snprintf(text + n, sizeof text - (size_t)n, ": %s", detail);
         memcpy(detail, text, sizeof detail);
     }
+}
+
+const char *clx_errno_text(void)
+{
+    static _Thread_local char text[128];
+    if (strerror_r(errno, text, sizeof text) != 0) {
+        (void)snprintf(text, sizeof text, "error %d", errno);
+    }
+    return text;
 }

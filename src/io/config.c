@@ -2,9 +2,7 @@
 #include <clast/config.h>
 
 #include "base/alloc.h"
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 #include <yaml.h>
 
 enum { CONFIG_LIMIT = 16 << 20 };
@@ -96,7 +94,7 @@ static clast_status open_file(const char *path, FILE **file)
 {
     clast_status status = CLAST_OK;
     *file = fopen(path, "rb");
-    CLX_CHECK(*file != NULL, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(*file != NULL, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_CHECK(fseek(*file, 0, SEEK_END) == 0, CLAST_E_IO, "%s is not a plain file", path);
     const long size = ftell(*file);
     CLX_CHECK(size >= 0 && size <= CONFIG_LIMIT, CLAST_E_LIMIT,

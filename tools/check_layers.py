@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Fails when an include points up, or sideways into another folder of the same layer (STYLE section 1).
+
+A public header belongs to the highest layer that defines one of its functions. Only io, plot, render and base/file.c
+may open files.
+"""
+import pathlib
+import re
+import sys
+
+LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "contact": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
+         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "study": 8, "report": 8}
+OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def strip_comments(text):
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+
+
+def header_owners():
+    """Public header name -> folder that implements it."""
+    defined = {}
+    for path in ROOT.glob("src/*/*.c"):
+        for name in re.findall(r"^[a-z_][\w \*]*?\b(clast_\w+)\(", strip_comments(path.read_text()), flags=re.M):
+            defined.setdefault(name, path.parent.name)
+    owners = {}
+    for path in ROOT.glob("include/clast/*.h"):
+        text = strip_comments(path.read_text())
+        folders = {defined[n] for n in re.findall(r"\b(clast_\w+)\s*\(", text) if n in defined}
+        if folders:
+            owners[path.name] = max(folders, key=lambda f: LAYER[f])
+    return owners
+
+
+def problems():
+    owners = header_owners()
+    for path in sorted(ROOT.glob("src/*/*.[ch]")):
+        folder = path.parent.name
+        if folder not in LAYER:
+            yield f"{path.relative_to(ROOT)}: folder {folder} has no layer"
+            continue
+        text = strip_comments(path.read_text())
+        for name in re.findall(r'#include\s+[<"]([^>"]+)[>"]', text):
+            parts = name.split("/")
+            target = owners.get(parts[1]) if parts[0] == "clast" and len(parts) == 2 else parts[0]
+            if target not in LAYER or target == folder:
+                continue
+            if LAYER[target] >= LAYER[folder]:
+                yield (f"{path.relative_to(ROOT)}: includes {name} ({target}, layer {LAYER[target]}) "
+                       f"from {folder}, layer {LAYER[folder]}")
+        opens = OPENERS.search(text)
+        if opens and LAYER[folder] < 7 and path.name != "file.c":
+            yield f"{path.relative_to(ROOT)}: opens files ({opens.group(1)}); only io, plot, render and base/file.c do"
+    for path in sorted(ROOT.glob("cli/*.[ch]")):
+        for name in re.findall(r'#include\s+"([^"]+)"', path.read_text()):
+            if "/" in name:
+                yield f"{path.relative_to(ROOT)}: includes {name}; the command uses public headers only"
+
+
+def main():
+    found = list(problems())
+    for line in found:
+        print(line)
+    print(f"layers: {len(found)} broken")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
