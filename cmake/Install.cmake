@@ -10,3 +10,15 @@ install(FILES ${CMAKE_BINARY_DIR}/clastConfig.cmake ${CMAKE_BINARY_DIR}/clastCon
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/clast)
 configure_file(cmake/clast.pc.in ${CMAKE_BINARY_DIR}/clast.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/clast.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# Manual page and completions come from the command's own option tables.
+set(MADE ${CMAKE_BINARY_DIR}/generated)
+add_custom_command(OUTPUT ${MADE}/clast.1 ${MADE}/clast.bash ${MADE}/_clast
+  COMMAND clast_cli man > ${MADE}/clast.1
+  COMMAND clast_cli completion > ${MADE}/clast.bash
+  COMMAND clast_cli completion --shell zsh > ${MADE}/_clast
+  DEPENDS clast_cli VERBATIM)
+add_custom_target(clast_pages ALL DEPENDS ${MADE}/clast.1 ${MADE}/clast.bash ${MADE}/_clast)
+install(FILES ${MADE}/clast.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${MADE}/clast.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME clast)
+install(FILES ${MADE}/_clast DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

@@ -1,0 +1,86 @@
+// clast man: the manual page in roff, from the same tables as --help.
+#include "command.h"
+
+#include <stdio.h>
+
+/// roff text: hyphens and backslashes escaped, a leading dot made harmless.
+static void print_text(const char *text)
+{
+    for (const char *c = text; *c != '\0'; ++c) {
+        if (*c == '-') {
+            (void)fputs("\\-", stdout);
+        } else if (*c == '\\') {
+            (void)fputs("\\e", stdout);
+        } else if ((*c == '.' || *c == '\'') && (c == text || c[-1] == '\n')) {
+            (void)printf("\\&%c", *c);
+        } else {
+            (void)putchar(*c);
+        }
+    }
+}
+
+static void print_option(const clast_field *f)
+{
+    (void)printf(".TP\n.B \\-\\-");
+    for (const char *c = f->name; *c != '\0'; ++c) {
+        (void)fputs(*c == '_' ? "\\-" : (char[]){*c, '\0'}, stdout);
+    }
+    (void)putchar('\n');
+    print_text(f->help);
+    if (f->type == CLAST_FIELD_CHOICE) {
+        (void)printf(" {");
+        print_text(f->text);
+        (void)printf("}");
+    }
+    (void)putchar('\n');
+}
+
+static void print_command(const cli_command *command)
+{
+    (void)printf(".SS clast ");
+    print_text(command->name);
+    (void)putchar(' ');
+    print_text(command->arguments);
+    (void)printf("\n");
+    print_text(command->summary);
+    (void)printf("\n");
+    if (command->details != NULL) {
+        (void)printf(".PP\n");
+        print_text(command->details);
+        (void)printf("\n");
+    }
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        print_option(f);
+    }
+}
+
+static clast_status run(const cli_common *common, void *values)
+{
+    (void)common;
+    (void)values;
+    (void)printf(".TH CLAST 1 \"\" \"clast %s\" \"User Commands\"\n"
+                 ".SH NAME\nclast \\- particles that stick, settle and cluster\n"
+                 ".SH SYNOPSIS\n.B clast\nCOMMAND [arguments] [options]\n.SH COMMANDS\n",
+                 clast_version());
+    for (int32_t i = 0; cli_command_at(i) != NULL; ++i) {
+        print_command(cli_command_at(i));
+    }
+    (void)printf(
+        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go\n"
+        ".TP\n.B \\-j, \\-\\-threads N\nthreads; 0 means one per core; results do not depend on "
+        "it\n"
+        ".TP\n.B \\-\\-set KEY=VALUE\nthe same as \\-\\-KEY VALUE\n"
+        ".TP\n.B \\-\\-json\none JSON object on standard output\n"
+        ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"
+        ".SH EXIT STATUS\n0 done; 1 a check answered no; 2 usage; 3 bad input; 4 not enough memory "
+        "or disk; 5 did not converge; 130 or 143 stopped with a checkpoint.\n");
+    return CLAST_OK;
+}
+
+const cli_command cli_man = {
+    .name = "man",
+    .arguments = "",
+    .summary = "print the manual page: clast man | man -l -",
+    .config_size = 1,
+    .run = run,
+};

@@ -1,0 +1,62 @@
+"""CLI: the frame itself, whatever the subcommand."""
+import re
+import subprocess
+import unittest
+
+from clitest import CLAST, Case, clast
+
+
+def commands():
+    listing = clast("--help").out.split("commands:\n")[1].split("\n\n")[0]
+    return [line[2:18].rstrip() for line in listing.splitlines() if line.strip()]
+
+
+class Frame(Case):
+    def test_version_names_the_build(self):
+        self.assertRegex(clast("--version").out, r"^clast \d+\.\d+\.\d+")
+
+    def test_no_command_is_a_usage_error(self):
+        result = clast()
+        self.assertEqual(result.code, 2)
+        self.assertIn("usage: clast", result.err)
+
+    def test_unknown_command_is_named(self):
+        self.assert_fails(2, "comple", says=["unknown command 'comple'", "clast completion"])
+
+    def test_unknown_option_names_the_nearest(self):
+        self.assert_fails(2, "completion", "--shel", "bash", says=["--shel", "did you mean --shell"])
+
+    def test_wrong_choice_lists_the_choices(self):
+        self.assert_fails(2, "completion", "--shell", "fish", says=["bash|zsh"])
+
+    def test_every_command_has_a_help_page_with_its_options(self):
+        for name in commands():
+            page = clast(*name.split(), "--help")
+            self.assertEqual(page.code, 0, name)
+            self.assertIn(f"usage: clast {name}", page.out)
+            self.assertIn("exit codes:", page.out)
+
+    def test_manual_names_every_command(self):
+        page = clast("man").out.replace("\\-", "-")
+        for name in commands():
+            self.assertIn(f".SS clast {name} ", page)
+
+    def test_bash_completion_is_valid_and_complete(self):
+        script = clast("completion").out
+        check = subprocess.run(["bash", "-n"], input=script, text=True, capture_output=True, check=False)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        for name in commands():
+            self.assertIn(f'"{name}"', script)
+        ask = script + '\nCOMP_WORDS=(clast completion --sh); COMP_CWORD=2; _clast; echo "${COMPREPLY[@]}"'
+        done = subprocess.run(["bash"], input=ask, text=True, capture_output=True, check=True)
+        self.assertIn("--shell", done.stdout)
+
+    def test_full_disk_on_stdout_is_an_error(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            done = subprocess.run([CLAST, "man"], stdout=full, stderr=subprocess.PIPE, check=False)
+        self.assertEqual(done.returncode, 4)
+        self.assertTrue(re.search(rb"cannot write", done.stderr))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+"""Runs the built command for the tests in tests/cli (CLAST names it)."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CLAST = os.environ.get("CLAST", str(ROOT / "build/dev/clast"))
+
+
+class Result:
+    def __init__(self, done):
+        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
+
+    @property
+    def json(self):
+        return json.loads(self.out)
+
+
+def clast(*arguments, cwd=None, stdin=None, timeout=300, env=None):
+    """Runs `clast ARGUMENTS` and returns code, out, err (texts) and json (parsed stdout)."""
+    done = subprocess.run([CLAST, *map(str, arguments)], cwd=cwd, input=stdin, timeout=timeout, text=True,
+                          capture_output=True, check=False, env={**os.environ, **(env or {})})
+    return Result(done)
+
+
+class Case(unittest.TestCase):
+    """A test case with a scratch folder `self.folder` and a check for one-line errors."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def assert_fails(self, code, *arguments, says=(), **options):
+        """The command ends with `code`, says one line on stderr that holds each of `says`, and nothing on stdout."""
+        result = clast(*arguments, **options)
+        self.assertEqual(result.code, code, result.err)
+        self.assertEqual(result.err.count("\n"), 1, result.err)
+        for text in says:
+            self.assertIn(text, result.err)
+        self.assertEqual(result.out, "")
+        return result
+
+
+def shared(name):
+    """Path in ../shared/data, or None after saying loudly that the check is skipped."""
+    path = ROOT.parent / "shared/data" / name
+    if not path.exists():
+        print(f"SKIPPED LOUDLY: {path} is not here; this check did not run")
+        return None
+    return path
