@@ -3,6 +3,7 @@
 #include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/field.h>
+#include <clast/hull.h>
 #include <clast/mesh.h>
 #include <clast/monitor.h>
 #include <clast/parallel.h>

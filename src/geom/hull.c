@@ -1,0 +1,260 @@
+// Convex hull by qhull_r (Barber, Dobkin, Huhdanpaa 1996, "The quickhull algorithm for convex
+// hulls").
+//
+// The rank of the points is checked first, so that the message names the trouble (a plane, a line)
+// in the user's words and not in qhull's. Points are mapped to the unit cube axis by axis: hulls do
+// not change under affine maps, and qhull's merge thresholds are meant for numbers of order 1. What
+// comes back are indices; vertices keep the caller's bits. Triangles are sorted, because qhull's
+// facet list follows the addresses of its blocks.
+#include "geom/hull.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include <libqhull_r/qhull_ra.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double RANK_TOLERANCE = 1e-13; // of the extent; doubles near 1 are spaced by 2e-16
+
+/// Index of the point farthest from the flat through the `rank` orthonormal axes at `origin`.
+static int64_t farthest(const double (*point)[3], int64_t n, const double origin[3],
+                        double axis[3][3], int rank, double *distance, double offset[3])
+{
+    int64_t at = 0;
+    double best = -1.0;
+    for (int64_t i = 0; i < n; ++i) {
+        double d[3];
+        v3_sub(d, point[i], origin);
+        for (int pass = 0; pass < 2; ++pass) { // twice: the first leaves rounding of the long part
+            for (int k = 0; k < rank; ++k) {
+                v3_axpy(d, d, -v3_dot(d, axis[k]), axis[k]);
+            }
+        }
+        const double norm2 = v3_norm2(d);
+        if (norm2 > best) {
+            best = norm2;
+            at = i;
+            v3_copy(offset, d);
+        }
+    }
+    *distance = sqrt(best);
+    return at;
+}
+
+int clx_points_rank(const double (*point)[3], int64_t n, double tolerance)
+{
+    double axis[3][3] = {{0}};
+    double extent = 0.0;
+    if (n < 1) {
+        return -1;
+    }
+    for (int rank = 0; rank < 3; ++rank) {
+        double distance = 0.0;
+        double offset[3] = {0};
+        (void)farthest(point, n, point[0], axis, rank, &distance, offset);
+        if (!(distance > tolerance * extent) || !v3_unit(axis[rank], offset)) {
+            return rank;
+        }
+        extent = rank == 0 ? distance : extent;
+    }
+    return 3;
+}
+
+static clast_status check_points(const double (*point)[3], int64_t n)
+{
+    static const char *const flats[] = {"are one point", "lie on one line", "lie in one plane"};
+    for (int64_t i = 0; i < n; ++i) {
+        if (!isfinite(point[i][0]) || !isfinite(point[i][1]) || !isfinite(point[i][2])) {
+            return clx_fail(CLAST_E_GEOMETRY, "convex hull: point %lld of %lld is not finite",
+                            (long long)i, (long long)n);
+        }
+    }
+    if (n < 4) {
+        return clx_fail(CLAST_E_GEOMETRY, "convex hull of %lld points; a solid has at least 4",
+                        (long long)n);
+    }
+    const int rank = clx_points_rank(point, n, RANK_TOLERANCE);
+    if (rank < 3) {
+        return clx_fail(CLAST_E_GEOMETRY, "convex hull: all %lld points %s, which has no volume",
+                        (long long)n, flats[rank]);
+    }
+    return CLAST_OK;
+}
+
+/// Points mapped to [-1, 1] axis by axis.
+static clast_status scaled_points(const double (*point)[3], int64_t n, double **scaled)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    const clast_status status = clx_alloc(scaled, 3 * n, sizeof **scaled);
+    for (int64_t i = 0; i < n && status == CLAST_OK; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = fmin(low[k], point[i][k]);
+            high[k] = fmax(high[k], point[i][k]);
+        }
+    }
+    for (int64_t i = 0; i < n && status == CLAST_OK; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double half = 0.5 * high[k] - 0.5 * low[k];
+            (*scaled)[3 * i + k] = (point[i][k] - (low[k] + half)) / half;
+        }
+    }
+    return status;
+}
+
+static int compare_triangles(const void *a, const void *b)
+{
+    const int32_t *p = a;
+    const int32_t *q = b;
+    for (int k = 0; k < 3; ++k) {
+        if (p[k] != q[k]) {
+            return p[k] < q[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/// Turns a triangle so that its smallest number comes first.
+static void rotate_smallest_first(int32_t tri[3])
+{
+    while (tri[0] > tri[1] || tri[0] > tri[2]) {
+        const int32_t first = tri[0];
+        tri[0] = tri[1];
+        tri[1] = tri[2];
+        tri[2] = first;
+    }
+}
+
+/// Copies qhull's facets as triangles of point numbers.
+static void collect_triangles(qhT *qh, int32_t (*tri)[3])
+{
+    facetT *facet;
+    vertexT *vertex;
+    vertexT **vertexp;
+    int32_t t = 0;
+    FORALLfacets
+    {
+        int k = 0;
+        FOREACHvertex_(facet->vertices)
+        {
+            if (k < 3) {
+                tri[t][k] = qh_pointid(qh, vertex->point);
+            }
+            ++k;
+        }
+        if ((facet->toporient ^ qh_ORIENTclock) != 0) {
+            const int32_t swap = tri[t][0];
+            tri[t][0] = tri[t][1];
+            tri[t][1] = swap;
+        }
+        rotate_smallest_first(tri[t++]);
+    }
+    qsort(tri, (size_t)t, sizeof *tri, compare_triangles);
+}
+
+/// Makes the mesh of triangles given by point numbers, with only the points they use.
+static clast_status compact(const double (*point)[3], int64_t n, clast_mesh *hull)
+{
+    clast_status status = CLAST_OK;
+    int32_t *number = NULL;
+    int32_t n_vert = 0;
+    CLX_TRY(clx_alloc(&number, n, sizeof *number));
+    for (int32_t t = 0; t < hull->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            n_vert += number[hull->tri[t][k]] == 0;
+            number[hull->tri[t][k]] = 1;
+        }
+    }
+    CLX_TRY(clx_alloc(&hull->vert, n_vert, sizeof *hull->vert));
+    for (int64_t i = 0; i < n; ++i) {
+        if (number[i] != 0) {
+            v3_copy(hull->vert[hull->n_vert], point[i]);
+            number[i] = hull->n_vert++;
+        }
+    }
+    for (int32_t t = 0; t < hull->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            hull->tri[t][k] = number[hull->tri[t][k]];
+        }
+    }
+done:
+    clx_free(number);
+    return status;
+}
+
+static clast_status emit(qhT *qh, const double (*point)[3], int64_t n, clast_mesh *hull)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh made = {.n_tri = qh->num_facets};
+    CLX_TRY(clx_alloc(&made.tri, made.n_tri, sizeof *made.tri));
+    collect_triangles(qh, made.tri);
+    CLX_TRY(compact(point, n, &made));
+    if (clast_mesh_volume(&made) < 0.0) {
+        for (int32_t t = 0; t < made.n_tri; ++t) {
+            const int32_t swap = made.tri[t][1];
+            made.tri[t][1] = made.tri[t][2];
+            made.tri[t][2] = swap;
+        }
+    }
+    *hull = made;
+    made = (clast_mesh){0};
+done:
+    clast_mesh_free(&made);
+    return status;
+}
+
+/// First line of qhull's report without its code ("QH6154 qhull precision error: ...").
+static clast_status explain(int code, const char *text, int64_t n)
+{
+    const char *start = text != NULL ? text : "";
+    while (*start == '\n') {
+        ++start;
+    }
+    if (code == qh_ERRmem) {
+        return clx_fail(CLAST_E_MEMORY, "no memory for the convex hull of %lld points",
+                        (long long)n);
+    }
+    return clx_fail(CLAST_E_GEOMETRY, "convex hull of %lld points: qhull says %.*s", (long long)n,
+                    (int)strcspn(start, "\n"), start);
+}
+
+clast_status clx_hull_points(const double (*point)[3], int64_t n, clast_mesh *hull)
+{
+    clast_status status = CLAST_OK;
+    qhT *qh = NULL;
+    double *scaled = NULL;
+    char *text = NULL;
+    size_t text_size = 0;
+    FILE *report = NULL;
+    bool started = false;
+    CLX_TRY(check_points(point, n));
+    CLX_CHECK(n <= INT32_MAX / 4, CLAST_E_LIMIT, "convex hull of %lld points is beyond 2^29",
+              (long long)n);
+    CLX_TRY(clx_alloc(&qh, 1, sizeof *qh));
+    CLX_TRY(scaled_points(point, n, &scaled));
+    report = open_memstream(&text, &text_size); // memory, not a file: what qhull would print
+    CLX_CHECK(report != NULL, CLAST_E_MEMORY, "no memory for qhull's messages");
+    started = true;
+    char options[] = "qhull Qt Pp"; // triangles only; no advice about narrow hulls
+    const int code = qh_new_qhull(qh, 3, (int)n, scaled, False, options, NULL, report);
+    (void)fflush(report);
+    status = code == 0 ? emit(qh, point, n, hull) : explain(code, text, n);
+done:
+    if (started) {
+        int long_blocks = 0;
+        int long_bytes = 0;
+        qh_freeqhull(qh, !qh_ALL);
+        qh_memfreeshort(qh, &long_blocks, &long_bytes);
+        (void)fclose(report);
+    }
+    free(text); // by open_memstream, not ours
+    clx_free(scaled);
+    clx_free(qh);
+    return status;
+}
+
+clast_status clast_mesh_hull(const clast_mesh *mesh, clast_mesh *hull)
+{
+    return clx_hull_points((const double(*)[3])mesh->vert, mesh->n_vert, hull);
+}
