@@ -56,5 +56,6 @@ CLAST_API clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh
 CLAST_API clast_status clast_shape_clump(const char *name, const clast_spheres *spheres,
                                          clast_shape *shape);
 
-/// A surface for pictures and files: the shape's own mesh, or an icosphere of the given level.
+/// A surface for pictures and files: the shape's own mesh, or an icosphere of the given level (one
+/// for each sphere of a clump: closed surfaces that may pass through each other).
 CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, clast_mesh *mesh);

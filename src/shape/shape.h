@@ -1,0 +1,16 @@
+#pragma once
+// What the kinds of shapes share inside the library.
+#include <clast/shape.h>
+
+/// Semi-axes a >= b >= c of the solid ellipsoid with this volume and this inertia about its
+/// centroid at unit density: the eigenvalues of C = trace(I)/2 - I are V a^2 / 5, cyclic.
+///                                                              [Landau1976 sec. 32, problem 2f]
+///
+/// @return CLAST_E_GEOMETRY if the moments break the triangle inequality (no solid has them)
+clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double semi_axes[3]);
+
+/// Volume, centroid and inertia of a union of spheres.
+clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *mass);
+
+/// Greatest distance between two points of a union of spheres.
+double clx_spheres_length(const clast_spheres *spheres);

@@ -1,0 +1,206 @@
+/* Unit: placed shapes add up, and their box touches the true surfaces. */
+#include "support.h"
+
+#include "math/rng.h"
+#include "math/vec3.h"
+#include <string.h>
+
+static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+
+static clast_status add(clast_assembly *a, int32_t shape, double x, double y, double z, double s)
+{
+    return clast_assembly_add_grain(a, shape, (double[3]){x, y, z}, upright, s, 1000.0 * s);
+}
+
+static clast_status two_balls(clast_assembly *a)
+{
+    clast_shape ball = {0};
+    clast_status status = clast_shape_sphere("ball", 1.0, &ball);
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_shape(a, &ball, NULL);
+    }
+    if (status == CLAST_OK) {
+        status = add(a, 0, 0.0, 0.0, 0.0, 1.0);
+    }
+    if (status == CLAST_OK) {
+        status = add(a, 0, 3.0, 0.0, 0.0, 2.0);
+    }
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_contact(a, 0, 1, (double[3]){1.0, 0.0, 0.0});
+    }
+    clast_shape_free(&ball);
+    return status;
+}
+
+static void totals_follow_volumes_and_densities(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    double centre[3];
+    double low[3];
+    double high[3];
+    CHECK_OK(two_balls(&a));
+    const double ball = 4.0 / 3.0 * CLAST_PI;
+    CHECK_REL(clast_assembly_volume(&a), 9.0 * ball, 1e-15);
+    CHECK_REL(clast_assembly_mass(&a), (1000.0 + 8.0 * 2000.0) * ball, 1e-15);
+    clast_assembly_centre(&a, centre);
+    CHECK_REL(centre[0], 3.0 * 16.0 / 17.0, 1e-15);
+    clast_assembly_bounds(&a, low, high);
+    CHECK_REL(low[0], -1.0, 0.0);
+    CHECK_REL(high[0], 5.0, 0.0);
+    CHECK_REL(high[1], 2.0, 0.0);
+    assert_int_equal(a.id[1], 1);
+    assert_int_equal(a.n_contact, 1);
+    clast_assembly_free(&a);
+}
+
+static void nothing_has_no_volume_and_an_empty_box(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    double low[3];
+    double high[3];
+    clast_assembly_bounds(&a, low, high);
+    assert_true(low[0] > high[0]);
+    assert_true(clast_assembly_volume(&a) == 0.0);
+    clast_assembly_centre(&a, low);
+    assert_true(low[0] == 0.0);
+    clast_assembly_free(&a);
+}
+
+/* The box of a turned ellipsoid is exact: the support point along each axis lies on it. */
+static void ellipsoid_box_touches_its_surface(void **state)
+{
+    (void)state;
+    const double axes[3] = {5.0, 2.0, 0.5};
+    clast_shape e = {0};
+    CHECK_OK(clast_shape_ellipsoid("e", axes, &e));
+    for (uint64_t trial = 0; trial < 100; ++trial) {
+        clast_assembly a = {0};
+        clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, trial);
+        double q[4];
+        double m[3][3];
+        double low[3];
+        double high[3];
+        clx_rng_orientation(&rng, q);
+        q_matrix(m, q);
+        CHECK_OK(clast_assembly_add_shape(&a, &e, NULL));
+        CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){1.0, 2.0, 3.0}, q, 2.0, 1.0));
+        clast_assembly_bounds(&a, low, high);
+        for (int k = 0; k < 3; ++k) {
+            /* Support point in the body frame along n = R^T e_k: A2 n / |A n|. */
+            double image[3];
+            double body[3];
+            for (int j = 0; j < 3; ++j) {
+                image[j] = axes[j] * m[k][j];
+            }
+            const double norm = v3_norm(image);
+            for (int j = 0; j < 3; ++j) {
+                body[j] = 2.0 * axes[j] * image[j] / norm;
+            }
+            CHECK_REL(high[k], a.position[0][k] + v3_dot(m[k], body), 1e-13);
+            CHECK_REL(high[k] + low[k], 2.0 * a.position[0][k], 1e-12);
+        }
+        clast_assembly_free(&a);
+    }
+    clast_shape_free(&e);
+}
+
+static void mesh_box_is_that_of_its_surface(void **state)
+{
+    (void)state;
+    const double half = sqrt(0.5);
+    const double quarter[4] = {cos(CLAST_PI / 8.0), 0.0, 0.0, sin(CLAST_PI / 8.0)};
+    clast_mesh cube = {0};
+    clast_mesh surface = {0};
+    clast_shape s = {0};
+    clast_assembly a = {0};
+    double low[3];
+    double high[3];
+    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &cube));
+    CHECK_OK(clast_shape_mesh("cube", &cube, &s));
+    CHECK_OK(clast_assembly_add_shape(&a, &s, NULL));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){0, 0, 0}, quarter, 1.0, 1.0));
+    clast_assembly_bounds(&a, low, high);
+    CHECK_REL(high[0], half, 1e-15); /* turned by 45 degrees about z */
+    CHECK_REL(high[2], 0.5, 1e-15);
+    CHECK_OK(clast_assembly_grain_surface(&a, 0, 0, &surface));
+    CHECK_OK(clast_assembly_grain_surface(&a, 0, 0, &surface));
+    assert_int_equal(surface.n_tri, 24);
+    clast_mesh_bounds(&surface, low, high);
+    CHECK_REL(high[0], half, 1e-15);
+    clast_mesh_free(&surface);
+    clast_mesh_free(&cube);
+    clast_shape_free(&s);
+    clast_assembly_free(&a);
+}
+
+static void wrong_grains_are_refused(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_shape ball = {0};
+    const double origin[3] = {0, 0, 0};
+    CHECK_OK(two_balls(&a));
+    CHECK_STATUS(clast_assembly_add_grain(&a, 1, origin, upright, 1, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, -1, origin, upright, 1, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, 0, origin, upright, 0, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, 0, origin, upright, 1, 0), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, 0, origin, upright, NAN, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, 0, (double[3]){NAN, 0, 0}, upright, 1, 1),
+                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_grain(&a, 0, origin, (double[4]){1, 1, 0, 0}, 1, 1),
+                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_contact(&a, 0, 0, origin), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_add_contact(&a, 0, 2, origin), CLAST_E_USAGE);
+    CHECK_OK(clast_shape_sphere("ball", 2.0, &ball));
+    CHECK_STATUS(clast_assembly_add_shape(&a, &ball, NULL), CLAST_E_USAGE);
+    assert_int_equal(a.n_grain, 2);
+    assert_int_equal(a.n_shape, 1);
+    clast_shape_free(&ball);
+    clast_assembly_free(&a);
+}
+
+static clast_status make_many(void *context)
+{
+    (void)context;
+    clast_assembly a = {0};
+    clast_assembly copy = {0};
+    clast_status status = two_balls(&a);
+    for (int i = 0; i < 40 && status == CLAST_OK; ++i) {
+        status = add(&a, 0, i, 0.0, 0.0, 1.0);
+        if (status == CLAST_OK) {
+            status = clast_assembly_add_contact(&a, i, i + 1, a.position[i]);
+        }
+    }
+    if (status == CLAST_OK) {
+        status = clast_assembly_copy(&a, &copy);
+    }
+    if (status == CLAST_OK) {
+        assert_int_equal(copy.n_grain, 42);
+        assert_memory_equal(copy.position, a.position, 42 * sizeof *a.position);
+        assert_memory_equal(copy.contact, a.contact, 41 * sizeof *a.contact);
+    }
+    clast_assembly_free(&a);
+    clast_assembly_free(&copy);
+    return status;
+}
+
+static void assembly_survives_refused_memory(void **state)
+{
+    (void)state;
+    support_refuse_each_allocation(make_many, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(totals_follow_volumes_and_densities),
+        cmocka_unit_test(nothing_has_no_volume_and_an_empty_box),
+        cmocka_unit_test(ellipsoid_box_touches_its_surface),
+        cmocka_unit_test(mesh_box_is_that_of_its_surface),
+        cmocka_unit_test(wrong_grains_are_refused),
+        cmocka_unit_test(assembly_survives_refused_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
