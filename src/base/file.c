@@ -1,0 +1,359 @@
+// Outputs that appear at once or not at all: temporary file in the same folder, sync, rename, sync
+// of the folder [POSIX rename(2) is atomic within one file system]. And whole inputs with a limit.
+#define _XOPEN_SOURCE 700 // realpath
+#include "base/file.h"
+
+#include "base/alloc.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#ifdef CLAST_ALLOC_INJECT
+#include <stdatomic.h>
+static _Atomic int64_t countdown;
+static _Atomic int refusal;
+
+int64_t clx_file_refuse(int64_t k, int error)
+{
+    atomic_store(&refusal, error);
+    return atomic_exchange(&countdown, k);
+}
+
+static bool refused(void)
+{
+    if (atomic_load(&countdown) > 0 && atomic_fetch_sub(&countdown, 1) == 1) {
+        errno = atomic_load(&refusal);
+        return true;
+    }
+    return false;
+}
+#else
+static bool refused(void)
+{
+    return false;
+}
+#endif
+
+/// Keeps the first failure and words it for the person at the terminal.
+static clast_status fail_file(clx_file *file, const char *doing)
+{
+    if (file->error == 0) {
+        file->error = errno != 0 ? errno : EIO;
+        file->doing = doing;
+    }
+    return clx_fail(CLAST_E_DISK, "cannot write %s: %s: %s", file->path, file->doing,
+                    strerror(file->error));
+}
+
+static void forget(clx_file *file)
+{
+    clx_free(file->path);
+    clx_free(file->target);
+    clx_free(file->temporary);
+    clx_free(file->buffer);
+    *file = (clx_file){0};
+}
+
+void clx_file_abandon(clx_file *file)
+{
+    if (file->buffer != NULL) {
+        (void)close(file->descriptor);
+        if (file->temporary != NULL) {
+            (void)unlink(file->temporary);
+        }
+    }
+    forget(file);
+}
+
+/// Folder part of a path with its slash, "" when there is none; length in bytes.
+static size_t folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? (size_t)(slash - path) + 1 : 0;
+}
+
+/// Follows a link, so that the file it names is replaced and not the link.
+static clast_status find_target(const char *path, char **target, bool *is_plain)
+{
+    clast_status status = CLAST_OK;
+    struct stat info;
+    char followed[PATH_MAX];
+    *is_plain = true;
+    if (path[0] == '\0') {
+        return clx_fail(CLAST_E_DISK, "cannot write a file without a name");
+    }
+    if (stat(path, &info) != 0) {
+        return clx_alloc_text(target, path);
+    }
+    CLX_CHECK(!S_ISDIR(info.st_mode), CLAST_E_DISK, "cannot write %s: it is a folder", path);
+    *is_plain = S_ISREG(info.st_mode);
+    CLX_CHECK(!*is_plain || realpath(path, followed) != NULL, CLAST_E_DISK, "cannot write %s: %s",
+              path, strerror(errno));
+    CLX_TRY(clx_alloc_text(target, *is_plain ? followed : path));
+done:
+    return status;
+}
+
+/// Opens the first free name ".clast-PID-K.tmp" in the target's folder.
+static clast_status open_temporary(clx_file *file)
+{
+    enum { TRIES = 1000 };
+    clast_status status = CLAST_OK;
+    const size_t folder = folder_length(file->target);
+    const size_t size = folder + 64;
+    CLX_TRY(clx_alloc(&file->temporary, (int64_t)size, 1));
+    file->descriptor = -1;
+    for (int k = 0; k < TRIES && file->descriptor < 0; ++k) {
+        (void)snprintf(file->temporary, size, "%.*s.clast-%ld-%d.tmp", (int)folder, file->target,
+                       (long)getpid(), k);
+        if (!refused()) {
+            file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        }
+        if (file->descriptor < 0 && errno != EEXIST) {
+            break;
+        }
+    }
+    if (file->descriptor < 0) {
+        status = errno == ENOENT
+                     ? clx_fail(CLAST_E_DISK, "cannot write %s: there is no folder %.*s",
+                                file->path, (int)folder, file->target)
+                     : fail_file(file, "open");
+    }
+done:
+    return status;
+}
+
+static clast_status open_device(clx_file *file)
+{
+    if (!refused()) {
+        file->descriptor = open(file->target, O_WRONLY | O_CLOEXEC);
+    } else {
+        file->descriptor = -1;
+    }
+    return file->descriptor < 0 ? fail_file(file, "open") : CLAST_OK;
+}
+
+clast_status clx_file_begin(const char *path, clx_file *file)
+{
+    clast_status status = CLAST_OK;
+    clx_file made = {0};
+    char *buffer = NULL;
+    bool is_plain = true;
+    CLX_TRY(clx_alloc_text(&made.path, path));
+    CLX_TRY(find_target(path, &made.target, &is_plain));
+    CLX_TRY(clx_alloc(&buffer, CLX_FILE_BUFFER, 1));
+    CLX_TRY(is_plain ? open_temporary(&made) : open_device(&made));
+    made.buffer = buffer;
+    *file = made;
+    made = (clx_file){0};
+    buffer = NULL;
+done:
+    clx_free(buffer);
+    forget(&made);
+    return status;
+}
+
+static clast_status flush(clx_file *file)
+{
+    int64_t done = 0;
+    while (done < file->used) {
+        const ssize_t n =
+            refused() ? -1
+                      : write(file->descriptor, file->buffer + done, (size_t)(file->used - done));
+        if (n < 0 && errno != EINTR) {
+            return fail_file(file, "write");
+        }
+        done += n > 0 ? n : 0;
+    }
+    file->used = 0;
+    return CLAST_OK;
+}
+
+clast_status clx_file_write(clx_file *file, const void *bytes, size_t n)
+{
+    const char *from = bytes;
+    CLAST_ASSERT(file->buffer != NULL);
+    if (file->error != 0) {
+        return fail_file(file, NULL);
+    }
+    file->written += (int64_t)n;
+    while (n > 0) {
+        const size_t room = (size_t)(CLX_FILE_BUFFER - file->used);
+        const size_t part = n < room ? n : room;
+        memcpy(file->buffer + file->used, from, part);
+        file->used += (int64_t)part;
+        from += part;
+        n -= part;
+        if (file->used == CLX_FILE_BUFFER) {
+            const clast_status status = flush(file);
+            if (status != CLAST_OK) {
+                return status;
+            }
+        }
+    }
+    return CLAST_OK;
+}
+
+clast_status clx_file_print(clx_file *file, const char *format, ...)
+{
+    clast_status status = CLAST_OK;
+    char text[512];
+    char *longer = NULL;
+    va_list args;
+    va_start(args, format);
+    const int n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    CLX_CHECK(n >= 0, CLAST_E_DISK, "cannot write %s: text cannot be formatted", file->path);
+    if ((size_t)n < sizeof text) {
+        return clx_file_write(file, text, (size_t)n);
+    }
+    CLX_TRY(clx_alloc(&longer, (int64_t)n + 1, 1));
+    va_start(args, format);
+    (void)vsnprintf(longer, (size_t)n + 1, format, args);
+    va_end(args);
+    CLX_TRY(clx_file_write(file, longer, (size_t)n));
+done:
+    clx_free(longer);
+    return status;
+}
+
+/// Makes the new name durable. File systems that cannot sync folders say EINVAL; that is fine.
+static clast_status sync_folder(clx_file *file)
+{
+    const size_t n = folder_length(file->target);
+    clast_status status = CLAST_OK;
+    file->target[n > 1 ? n - 1 : n] = '\0';
+    const int folder =
+        refused() ? -1 : open(n > 0 ? file->target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0 || ((refused() || fsync(folder) != 0) && errno != EINVAL && errno != ENOTSUP)) {
+        status = fail_file(file, "sync of its folder");
+    }
+    if (folder >= 0) {
+        (void)close(folder);
+    }
+    return status;
+}
+
+clast_status clx_file_commit(clx_file *file)
+{
+    clast_status status = CLAST_OK;
+    CLAST_ASSERT(file->buffer != NULL);
+    if (file->error != 0) {
+        status = fail_file(file, NULL);
+        goto done;
+    }
+    CLX_TRY(flush(file));
+    if (file->temporary != NULL && (refused() || fsync(file->descriptor) != 0)) {
+        status = fail_file(file, "sync");
+        goto done;
+    }
+    const int closed = close(file->descriptor);
+    clx_free(file->buffer); // from here on abandon does nothing
+    file->buffer = NULL;
+    if (closed != 0) {
+        status = fail_file(file, "close");
+    } else if (file->temporary != NULL &&
+               (refused() || rename(file->temporary, file->target) != 0)) {
+        status = fail_file(file, "rename");
+    }
+    if (status != CLAST_OK && file->temporary != NULL) {
+        (void)unlink(file->temporary);
+    }
+    if (status == CLAST_OK && file->temporary != NULL) {
+        status = sync_folder(file);
+    }
+done:
+    clx_file_abandon(file);
+    return status;
+}
+
+static clast_status open_input(const char *path, int *descriptor)
+{
+    clast_status status = CLAST_OK;
+    struct stat info;
+    *descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    CLX_CHECK(*descriptor >= 0, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(fstat(*descriptor, &info) == 0, CLAST_E_IO, "cannot read %s: %s", path,
+              strerror(errno));
+    CLX_CHECK(!S_ISDIR(info.st_mode), CLAST_E_IO, "cannot read %s: it is a folder", path);
+done:
+    return status;
+}
+
+clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes, int64_t *n)
+{
+    clast_status status = CLAST_OK;
+    char *block = NULL;
+    int64_t capacity = 0;
+    int64_t used = 0;
+    int descriptor = -1;
+    struct stat info;
+    CLX_TRY(open_input(path, &descriptor));
+    if (fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) {
+        CLX_CHECK(info.st_size <= limit, CLAST_E_LIMIT, "%s has %lld bytes; the limit is %lld",
+                  path, (long long)info.st_size, (long long)limit);
+        CLX_TRY(clx_grow(&block, &capacity, (int64_t)info.st_size + 2, 1));
+    }
+    for (;;) {
+        CLX_TRY(clx_grow(&block, &capacity, used + 2, 1));
+        const ssize_t got = read(descriptor, block + used, (size_t)(capacity - used - 1));
+        CLX_CHECK(got >= 0 || errno == EINTR, CLAST_E_IO, "cannot read %s: %s", path,
+                  strerror(errno));
+        if (got == 0) {
+            break;
+        }
+        used += got > 0 ? got : 0;
+        CLX_CHECK(used <= limit, CLAST_E_LIMIT, "%s has more than %lld bytes", path,
+                  (long long)limit);
+    }
+    block[used] = '\0';
+    *bytes = block;
+    *n = used;
+    block = NULL;
+done:
+    if (descriptor >= 0) {
+        (void)close(descriptor);
+    }
+    clx_free(block);
+    return status;
+}
+
+static clast_status make_one(const char *path)
+{
+    struct stat info;
+    if (!refused() && mkdir(path, 0777) == 0) {
+        return CLAST_OK;
+    }
+    const int error = errno;
+    if (stat(path, &info) == 0 && error == EEXIST) {
+        return S_ISDIR(info.st_mode)
+                   ? CLAST_OK
+                   : clx_fail(CLAST_E_DISK, "cannot make folder %s: a file has that name", path);
+    }
+    return clx_fail(CLAST_E_DISK, "cannot make folder %s: %s", path, strerror(error));
+}
+
+clast_status clx_folder_make(const char *path)
+{
+    clast_status status = CLAST_OK;
+    char *part = NULL;
+    CLX_CHECK(path[0] != '\0', CLAST_E_DISK, "cannot make a folder without a name");
+    CLX_TRY(clx_alloc_text(&part, path));
+    for (char *c = part + 1; *c != '\0'; ++c) {
+        if (*c == '/') {
+            *c = '\0';
+            CLX_TRY(make_one(part));
+            *c = '/';
+        }
+    }
+    CLX_TRY(make_one(part));
+done:
+    clx_free(part);
+    return status;
+}
