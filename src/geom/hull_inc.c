@@ -1,0 +1,558 @@
+// The growing convex hull: conflict lists within a batch as in quickhull [Barber1996], a visible
+// region found by walking over edges, and exact signs so that coplanar input is no special case.
+//
+// Why exact signs suffice: with "visible" meaning strictly outside, the visible region of a point
+// is an open disk of facets whatever the degeneracy, no horizon edge is collinear with the point,
+// and a point that sees no new facet of those that replaced its own is inside (the new facet over a
+// horizon edge lies between the two old planes, so whoever sees both sees it).
+//
+// The volume grows by the tetrahedra between a point and the facets it sees: positive terms, so the
+// sum keeps its digits over any number of insertions.
+#include "geom/hull_inc.h"
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include "math/predicates.h"
+#include "math/vec3.h"
+
+void clx_hull_inc_free(clx_hull_inc *hull)
+{
+    clx_free(hull->facet);
+    clx_free(hull->vert);
+    clx_free(hull->free_facet);
+    clx_free(hull->free_vert);
+    clx_free(hull->pending);
+    clx_free(hull->pending_tag);
+    clx_free(hull->next);
+    clx_free(hull->candidate);
+    clx_free(hull->work);
+    clx_free(hull->visible);
+    clx_free(hull->horizon);
+    clx_free(hull->fresh);
+    *hull = (clx_hull_inc){0};
+}
+
+static double signed_distance(const clx_hull_inc *hull, const clx_hull_facet *facet,
+                              const double point[3])
+{
+    double d[3];
+    v3_sub(d, point, hull->vert[facet->vert[0]].point);
+    return v3_dot(facet->normal, d);
+}
+
+bool clx_hull_inc_sees(const clx_hull_inc *hull, const clx_hull_facet *facet, const double point[3])
+{
+    const double distance = signed_distance(hull, facet, point);
+    const double doubt = facet->tolerance * hull->reach;
+    if (distance > doubt) {
+        return true;
+    }
+    if (distance < -doubt) {
+        return false;
+    }
+    return clx_orient3d(hull->vert[facet->vert[0]].point, hull->vert[facet->vert[1]].point,
+                        hull->vert[facet->vert[2]].point, point) < 0.0;
+}
+
+/// Unit normal, and how far rounding may turn it: the cross product errs by a few units of
+/// roundoff of |u| |v|, which matters for slivers only.
+static void set_plane(const clx_hull_inc *hull, clx_hull_facet *facet)
+{
+    double u[3];
+    double v[3];
+    double n[3];
+    v3_sub(u, hull->vert[facet->vert[1]].point, hull->vert[facet->vert[0]].point);
+    v3_sub(v, hull->vert[facet->vert[2]].point, hull->vert[facet->vert[0]].point);
+    v3_cross(n, u, v);
+    const double length = v3_norm(n);
+    const double size = v3_norm(u) * v3_norm(v);
+    if (length > 0x1p-40 * size) {
+        v3_scale(facet->normal, 1.0 / length, n);
+        facet->tolerance = 16.0 * 0x1p-53 * (1.0 + size / length);
+    } else {
+        v3_set(facet->normal, 0.0, 0.0, 0.0);
+        facet->tolerance = 1.0; /* always ask the exact sign */
+    }
+}
+
+/// Six times the volume of (facet, point), positive when the point is outside.
+static double six_volume(const clx_hull_inc *hull, const clx_hull_facet *facet,
+                         const double point[3])
+{
+    double a[3];
+    double b[3];
+    double c[3];
+    double n[3];
+    v3_sub(a, hull->vert[facet->vert[0]].point, point);
+    v3_sub(b, hull->vert[facet->vert[1]].point, point);
+    v3_sub(c, hull->vert[facet->vert[2]].point, point);
+    v3_cross(n, b, c);
+    return -v3_dot(a, n);
+}
+
+static void add_volume(clx_hull_inc *hull, double term)
+{
+    const double sum = hull->volume + term;
+    hull->volume_low += fabs(hull->volume) >= fabs(term) ? (hull->volume - sum) + term
+                                                         : (term - sum) + hull->volume;
+    hull->volume = sum;
+}
+
+static clast_status reserve_facets(clx_hull_inc *hull, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    const int64_t need = (int64_t)hull->facet_end + n;
+    CLX_TRY(clx_grow(&hull->facet, &hull->facet_room, need, sizeof *hull->facet));
+    CLX_TRY(clx_grow(&hull->free_facet, &hull->free_facet_room, need, sizeof *hull->free_facet));
+done:
+    return status;
+}
+
+static clast_status reserve_vertex(clx_hull_inc *hull, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    const int64_t need = (int64_t)hull->vert_end + n;
+    CLX_TRY(clx_grow(&hull->vert, &hull->vert_room, need, sizeof *hull->vert));
+    CLX_TRY(clx_grow(&hull->free_vert, &hull->free_vert_room, need, sizeof *hull->free_vert));
+done:
+    return status;
+}
+
+static int32_t new_facet(clx_hull_inc *hull, int32_t a, int32_t b, int32_t c)
+{
+    const int32_t f =
+        hull->n_free_facet > 0 ? hull->free_facet[--hull->n_free_facet] : hull->facet_end++;
+    hull->facet[f] = (clx_hull_facet){.vert = {a, b, c}, .adj = {-1, -1, -1}, .outside = -1};
+    for (int k = 0; k < 3; ++k) {
+        ++hull->vert[hull->facet[f].vert[k]].degree;
+    }
+    set_plane(hull, &hull->facet[f]);
+    ++hull->n_facet;
+    return f;
+}
+
+static void drop_facet(clx_hull_inc *hull, int32_t f)
+{
+    for (int k = 0; k < 3; ++k) {
+        const int32_t v = hull->facet[f].vert[k];
+        if (--hull->vert[v].degree == 0) {
+            hull->free_vert[hull->n_free_vert++] = v;
+            --hull->n_vert;
+        }
+    }
+    hull->facet[f].vert[0] = -1;
+    hull->free_facet[hull->n_free_facet++] = f;
+    --hull->n_facet;
+}
+
+static int32_t new_vertex(clx_hull_inc *hull, const double point[3], int32_t tag)
+{
+    const int32_t v =
+        hull->n_free_vert > 0 ? hull->free_vert[--hull->n_free_vert] : hull->vert_end++;
+    hull->vert[v] = (clx_hull_vertex){.tag = tag};
+    v3_copy(hull->vert[v].point, point);
+    ++hull->n_vert;
+    ++hull->n_inserted;
+    return v;
+}
+
+/// Edge number of `facet` that runs from `from`.
+static int side_from(const clx_hull_facet *facet, int32_t from)
+{
+    return facet->vert[0] == from ? 0 : facet->vert[1] == from ? 1 : 2;
+}
+
+/// Collects the facets that the point sees, from one of them, and the edges around them.
+static clast_status find_horizon(clx_hull_inc *hull, int32_t first, const double point[3])
+{
+    clast_status status = CLAST_OK;
+    const int64_t seen = 2 * ++hull->stamp;
+    CLX_TRY(clx_grow(&hull->visible, &hull->visible_room, hull->facet_end, sizeof *hull->visible));
+    CLX_TRY(clx_grow(&hull->horizon, &hull->horizon_room, (int64_t)hull->facet_end * 3,
+                     sizeof *hull->horizon));
+    hull->n_visible = 0;
+    hull->n_horizon = 0;
+    hull->facet[first].stamp = seen;
+    hull->visible[hull->n_visible++] = first;
+    for (int32_t i = 0; i < hull->n_visible; ++i) {
+        const clx_hull_facet *facet = &hull->facet[hull->visible[i]];
+        for (int k = 0; k < 3; ++k) {
+            clx_hull_facet *beyond = &hull->facet[facet->adj[k]];
+            if (beyond->stamp < seen) {
+                const bool is_visible = clx_hull_inc_sees(hull, beyond, point);
+                beyond->stamp = seen + (is_visible ? 0 : 1);
+                if (is_visible) {
+                    hull->visible[hull->n_visible++] = facet->adj[k];
+                }
+            }
+            if (beyond->stamp == seen + 1) {
+                const int32_t from = facet->vert[k];
+                const int32_t to = facet->vert[(k + 1) % 3];
+                hull->horizon[hull->n_horizon++] =
+                    (clx_hull_edge){from, to, facet->adj[k], side_from(beyond, to)};
+            }
+        }
+    }
+done:
+    return status;
+}
+
+/// Joins the point to every horizon edge; new facets go to hull->fresh.
+static void raise_cone(clx_hull_inc *hull, const double point[3], int32_t tag)
+{
+    const int32_t apex = new_vertex(hull, point, tag);
+    for (int32_t i = 0; i < hull->n_horizon; ++i) {
+        const clx_hull_edge *edge = &hull->horizon[i];
+        const int32_t f = new_facet(hull, edge->from, edge->to, apex);
+        hull->fresh[i] = f;
+        hull->facet[f].adj[0] = edge->beyond;
+        hull->facet[edge->beyond].adj[edge->side] = f;
+        hull->vert[edge->from].link = f;
+    }
+    for (int32_t i = 0; i < hull->n_horizon; ++i) {
+        const int32_t f = hull->fresh[i];
+        const int32_t follower = hull->vert[hull->horizon[i].to].link;
+        hull->facet[f].adj[1] = follower;
+        hull->facet[follower].adj[2] = f;
+    }
+}
+
+static clast_status push_work(clx_hull_inc *hull, int32_t f)
+{
+    const clast_status status =
+        clx_grow(&hull->work, &hull->work_room, (int64_t)hull->n_work + 1, sizeof *hull->work);
+    if (status == CLAST_OK) {
+        hull->work[hull->n_work++] = f;
+    }
+    return status;
+}
+
+/// Hands a point to the first of these facets that it sees; a point that sees none is inside.
+static clast_status assign(clx_hull_inc *hull, int32_t i, const double point[3], int32_t n,
+                           const int32_t *facets)
+{
+    for (int32_t j = 0; j < n; ++j) {
+        clx_hull_facet *facet = &hull->facet[facets[j]];
+        if (clx_hull_inc_sees(hull, facet, point)) {
+            hull->next[i] = facet->outside;
+            facet->outside = i;
+            return hull->next[i] < 0 ? push_work(hull, facets[j]) : CLAST_OK;
+        }
+    }
+    return CLAST_OK;
+}
+
+/// Takes the farthest point of a facet's list into the hull and shares out the other points.
+static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double (*point)[3],
+                                    const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    int32_t best = hull->facet[f].outside;
+    double far = signed_distance(hull, &hull->facet[f], point[best]);
+    int32_t list = -1;
+    for (int32_t i = hull->next[best]; i >= 0; i = hull->next[i]) {
+        const double distance = signed_distance(hull, &hull->facet[f], point[i]);
+        if (distance > far) {
+            far = distance;
+            best = i;
+        }
+    }
+    CLX_TRY(find_horizon(hull, f, point[best]));
+    CLX_TRY(reserve_vertex(hull, 1));
+    CLX_TRY(reserve_facets(hull, hull->n_horizon));
+    CLX_TRY(clx_grow(&hull->fresh, &hull->fresh_room, hull->n_horizon, sizeof *hull->fresh));
+    for (int32_t i = 0; i < hull->n_visible; ++i) {
+        const clx_hull_facet *facet = &hull->facet[hull->visible[i]];
+        add_volume(hull, six_volume(hull, facet, point[best]) / 6.0);
+        for (int32_t p = facet->outside; p >= 0;) {
+            const int32_t after = hull->next[p];
+            hull->next[p] = list;
+            list = p;
+            p = after;
+        }
+    }
+    raise_cone(hull, point[best],
+               tag[best]); // before the old facets go: a slot must not change hands
+    for (int32_t i = 0; i < hull->n_visible; ++i) {
+        drop_facet(hull, hull->visible[i]);
+    }
+    for (int32_t p = list; p >= 0;) {
+        const int32_t after = hull->next[p];
+        if (p != best) {
+            CLX_TRY(assign(hull, p, point[p], hull->n_horizon, hull->fresh));
+        }
+        p = after;
+    }
+done:
+    return status;
+}
+
+/// Facets that some point of the box may see.
+static clast_status find_candidates(clx_hull_inc *hull, const double low[3], const double high[3],
+                                    int32_t *n_candidate)
+{
+    clast_status status = CLAST_OK;
+    double centre[3];
+    double half[3];
+    int32_t n = 0;
+    CLX_TRY(
+        clx_grow(&hull->candidate, &hull->candidate_room, hull->n_facet, sizeof *hull->candidate));
+    for (int k = 0; k < 3; ++k) {
+        centre[k] = 0.5 * (low[k] + high[k]);
+        half[k] = 0.5 * (high[k] - low[k]);
+    }
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        const clx_hull_facet *facet = &hull->facet[f];
+        if (facet->vert[0] < 0) {
+            continue;
+        }
+        const double *normal = facet->normal;
+        const double most = signed_distance(hull, facet, centre) + fabs(normal[0]) * half[0] +
+                            fabs(normal[1]) * half[1] + fabs(normal[2]) * half[2];
+        if (most >= -2.0 * facet->tolerance * hull->reach) {
+            hull->candidate[n++] = f;
+        }
+    }
+    *n_candidate = n;
+done:
+    return status;
+}
+
+static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                                 const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    double low[3];
+    double high[3];
+    int32_t n_candidate = 0;
+    v3_copy(low, point[0]);
+    v3_copy(high, point[0]);
+    for (int32_t i = 1; i < n; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = fmin(low[k], point[i][k]);
+            high[k] = fmax(high[k], point[i][k]);
+        }
+    }
+    CLX_TRY(find_candidates(hull, low, high, &n_candidate));
+    CLX_TRY(clx_grow(&hull->next, &hull->next_room, n, sizeof *hull->next));
+    hull->n_work = 0;
+    for (int32_t i = 0; i < n && n_candidate > 0; ++i) {
+        CLX_TRY(assign(hull, i, point[i], n_candidate, hull->candidate));
+    }
+    while (hull->n_work > 0) {
+        const int32_t f = hull->work[--hull->n_work];
+        // A dropped facet's slot may have been taken by a later one, with its own entry here.
+        if (hull->facet[f].vert[0] < 0 || hull->facet[f].outside < 0) {
+            continue;
+        }
+        CLX_TRY(insert_farthest(hull, f, point, tag));
+    }
+done:
+    if (status != CLAST_OK) { // indices of this batch must not be met by the next one
+        for (int32_t f = 0; f < hull->facet_end; ++f) {
+            hull->facet[f].outside = -1;
+        }
+    }
+    return status;
+}
+
+/// Whether three points are exactly collinear: all three projections are.
+static bool is_collinear(const double a[3], const double b[3], const double c[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3;
+        const int j = (k + 2) % 3;
+        const double p[2] = {a[i], a[j]};
+        const double q[2] = {b[i], b[j]};
+        const double r[2] = {c[i], c[j]};
+        if (clx_orient2d(p, q, r) != 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static double twice_area(const double a[3], const double b[3], const double c[3])
+{
+    double u[3];
+    double v[3];
+    double n[3];
+    v3_sub(u, b, a);
+    v3_sub(v, c, a);
+    v3_cross(n, u, v);
+    return v3_norm(n);
+}
+
+/// Four pending points that are not coplanar, far apart; false when there are none.
+static bool find_simplex(const clx_hull_inc *hull, int32_t s[4])
+{
+    double(*const p)[3] = hull->pending;
+    double best = 0.0;
+    s[0] = 0;
+    s[1] = s[2] = s[3] = -1;
+    for (int32_t i = 1; i < hull->n_pending; ++i) {
+        if (v3_distance2(p[i], p[0]) > best) {
+            best = v3_distance2(p[i], p[0]);
+            s[1] = i;
+        }
+    }
+    best = -1.0;
+    for (int32_t i = 1; i < hull->n_pending && s[1] >= 0; ++i) {
+        const double area = twice_area(p[s[0]], p[s[1]], p[i]);
+        if (area > best && !is_collinear(p[s[0]], p[s[1]], p[i])) {
+            best = area;
+            s[2] = i;
+        }
+    }
+    best = 0.0;
+    for (int32_t i = 1; i < hull->n_pending && s[2] >= 0; ++i) {
+        const double six = fabs(clx_orient3d(p[s[0]], p[s[1]], p[s[2]], p[i]));
+        if (six > best) {
+            best = six;
+            s[3] = i;
+        }
+    }
+    return s[3] >= 0;
+}
+
+static clast_status raise_simplex(clx_hull_inc *hull, const int32_t s[4])
+{
+    clast_status status = CLAST_OK;
+    int32_t v[4];
+    int32_t f[4];
+    CLX_TRY(reserve_vertex(hull, 4));
+    CLX_TRY(reserve_facets(hull, 4));
+    for (int i = 0; i < 4; ++i) {
+        v[i] = new_vertex(hull, hull->pending[s[i]], hull->pending_tag[s[i]]);
+    }
+    if (clx_orient3d(hull->vert[v[0]].point, hull->vert[v[1]].point, hull->vert[v[2]].point,
+                     hull->vert[v[3]].point) < 0.0) { // the fourth must be below (0, 1, 2)
+        const int32_t swap = v[0];
+        v[0] = v[1];
+        v[1] = swap;
+    }
+    f[0] = new_facet(hull, v[0], v[1], v[2]);
+    f[1] = new_facet(hull, v[1], v[0], v[3]);
+    f[2] = new_facet(hull, v[2], v[1], v[3]);
+    f[3] = new_facet(hull, v[0], v[2], v[3]);
+    const int32_t adj[4][3] = {
+        {f[1], f[2], f[3]}, {f[0], f[3], f[2]}, {f[0], f[1], f[3]}, {f[0], f[2], f[1]}};
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            hull->facet[f[i]].adj[k] = adj[i][k];
+        }
+    }
+    add_volume(hull, -six_volume(hull, &hull->facet[f[0]], hull->vert[v[3]].point) / 6.0);
+    hull->is_solid = true;
+done:
+    return status;
+}
+
+static clast_status keep_pending(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                                 const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    const int64_t need = (int64_t)hull->n_pending + n;
+    CLX_TRY(clx_grow(&hull->pending, &hull->pending_room, need, sizeof *hull->pending));
+    CLX_TRY(clx_grow(&hull->pending_tag, &hull->pending_tag_room, need, sizeof *hull->pending_tag));
+    for (int32_t i = 0; i < n; ++i) {
+        v3_copy(hull->pending[hull->n_pending], point[i]);
+        hull->pending_tag[hull->n_pending++] = tag[i];
+    }
+done:
+    return status;
+}
+
+static void extend_box(clx_hull_inc *hull, int32_t n, const double (*point)[3])
+{
+    if (hull->n_pending == 0 && !hull->is_solid) {
+        v3_copy(hull->low, point[0]);
+        v3_copy(hull->high, point[0]);
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            hull->low[k] = fmin(hull->low[k], point[i][k]);
+            hull->high[k] = fmax(hull->high[k], point[i][k]);
+        }
+    }
+    hull->reach = v3_distance(hull->low, hull->high);
+}
+
+clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                              const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    int32_t s[4];
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_CHECK(isfinite(point[i][0]) && isfinite(point[i][1]) && isfinite(point[i][2]),
+                  CLAST_E_GEOMETRY, "hull: point %d of %d is not finite", i + 1, n);
+    }
+    if (n == 0) {
+        goto done;
+    }
+    extend_box(hull, n, point);
+    if (hull->is_solid) {
+        CLX_TRY(insert_batch(hull, n, point, tag));
+        goto done;
+    }
+    CLX_TRY(keep_pending(hull, n, point, tag));
+    if (find_simplex(hull, s)) {
+        CLX_TRY(raise_simplex(hull, s));
+        CLX_TRY(insert_batch(hull, hull->n_pending, (const double(*)[3])hull->pending,
+                             hull->pending_tag));
+        hull->n_pending = 0;
+    }
+done:
+    return status;
+}
+
+double clx_hull_inc_volume(const clx_hull_inc *hull)
+{
+    return hull->volume + hull->volume_low;
+}
+
+double clx_hull_inc_area(const clx_hull_inc *hull)
+{
+    double area = 0.0;
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        const int32_t *v = hull->facet[f].vert;
+        if (v[0] >= 0) {
+            area += 0.5 * twice_area(hull->vert[v[0]].point, hull->vert[v[1]].point,
+                                     hull->vert[v[2]].point);
+        }
+    }
+    return area;
+}
+
+clast_status clx_hull_inc_mesh(const clx_hull_inc *hull, clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh made = {0};
+    int32_t *number = NULL;
+    int32_t n_vert = 0;
+    int32_t n_tri = 0;
+    CLX_CHECK(hull->is_solid, CLAST_E_GEOMETRY, "hull: all %d points lie in one plane",
+              hull->n_pending);
+    CLX_TRY(clx_alloc(&number, hull->vert_end, sizeof *number));
+    CLX_TRY(clast_mesh_alloc(hull->n_vert, hull->n_facet, &made));
+    for (int32_t v = 0; v < hull->vert_end; ++v) {
+        if (hull->vert[v].degree > 0) {
+            v3_copy(made.vert[n_vert], hull->vert[v].point);
+            number[v] = n_vert++;
+        }
+    }
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        if (hull->facet[f].vert[0] >= 0) {
+            for (int k = 0; k < 3; ++k) {
+                made.tri[n_tri][k] = number[hull->facet[f].vert[k]];
+            }
+            ++n_tri;
+        }
+    }
+    *mesh = made;
+    made = (clast_mesh){0};
+done:
+    clast_mesh_free(&made);
+    clx_free(number);
+    return status;
+}
