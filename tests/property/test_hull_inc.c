@@ -126,7 +126,7 @@ static void random_points_agree_with_qhull(void **state)
     clx_hull_inc hull = {0};
     clast_mesh mesh = {0};
     add_in_batches(&hull, N, (const point3 *)p, 100);
-    CHECK_OK(clx_hull_points(N, (const point3 *)p, &mesh));
+    CHECK_OK(clx_hull_points((const point3 *)p, N, &mesh));
     CHECK_REL(clx_hull_inc_volume(&hull), clast_mesh_volume(&mesh), 1e-12);
     CHECK_REL(clx_hull_inc_area(&hull), clast_mesh_area(&mesh), 1e-12);
     assert_int_equal(hull.n_vert, mesh.n_vert);
@@ -168,7 +168,7 @@ static void buried_vertices_are_forgotten(void **state)
         }
         add_in_batches(&hull, 200, (const point3 *)p, 200);
     }
-    assert_in_range(hull.n_vert, 150, 260);
+    assert_in_range(hull.n_vert, 200, 320); /* the last shell and a few of the one before */
     assert_true(hull.vert_end < 500);
     assert_true(hull.facet_end < 2000);
     clx_hull_inc_free(&hull);
