@@ -1,7 +1,9 @@
 #pragma once
 // All public headers.
 #include <clast/assembly.h>
+#include <clast/chart.h>
 #include <clast/cloud.h>
+#include <clast/config.h>
 #include <clast/field.h>
 #include <clast/hull.h>
 #include <clast/mesh.h>

@@ -357,3 +357,15 @@ done:
     clx_free(part);
     return status;
 }
+
+clast_status clx_file_write_all(const char *path, const void *bytes, size_t n)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(clx_file_write(&file, bytes, n));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}

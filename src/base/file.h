@@ -51,6 +51,9 @@ clast_status clx_file_commit(clx_file *file);
 /// Removes the temporary file of an uncommitted output; does nothing after commit or for {0}.
 void clx_file_abandon(clx_file *file);
 
+/// One whole output at once: begin, write, commit.
+clast_status clx_file_write_all(const char *path, const void *bytes, size_t n);
+
 /// Whole file into a fresh block (clx_free it) of *n bytes and one 0 byte more, pipes too.
 ///
 /// @return CLAST_E_IO if missing, unreadable or a folder; CLAST_E_LIMIT beyond `limit` bytes

@@ -1,6 +1,7 @@
 #pragma once
 // Vectors of three, 3x3 matrices and quaternions, inline; out comes first, inputs may alias it.
-// Matrices are read through plain (non-const) parameters: C17 cannot pass double[3][3] as const double[3][3].
+// Matrices are read through plain (non-const) parameters: C17 cannot pass double[3][3] as const
+// double[3][3].
 #include <math.h>
 #include <stdbool.h>
 

@@ -1,0 +1,11 @@
+#pragma once
+// Colours that colour-blind readers can tell apart, shared by charts and pictures.
+
+enum { CLX_N_COLOUR = 8 };
+
+/// Categorical set of Okabe and Ito (2008), sRGB 0..1; index modulo 8, -1 gives grey.
+void clx_colour_category(int index, double rgb[3]);
+
+/// Sequential map, dark blue through green to yellow, perceptually even (viridis sampled at 16
+/// points); t in [0, 1].
+void clx_colour_sequence(double t, double rgb[3]);

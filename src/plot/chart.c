@@ -1,0 +1,92 @@
+// Charts: measures, draws and writes one figure.
+#include <clast/chart.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "plot/figure.h"
+
+static void draw_marks(clx_figure *f)
+{
+    static const double right[2] = {1.0, 0.0};
+    const double dash[2] = {2.0, 2.0};
+    cairo_t *cr = f->canvas->cr;
+    for (int32_t i = 0; i < f->chart->n_mark; ++i) {
+        const double y = clx_figure_y(f, f->chart->mark_y[i]);
+        cairo_set_source_rgb(cr, 0.35, 0.35, 0.35);
+        cairo_set_dash(cr, dash, 2, 0.0);
+        cairo_set_line_width(cr, 0.9);
+        clx_canvas_line(f->canvas, f->left, y, f->right, y);
+        cairo_set_dash(cr, NULL, 0, 0.0);
+        if (f->chart->mark_label != NULL && f->chart->mark_label[i] != NULL) {
+            clx_canvas_text(f->canvas, f->right - 4.0, y - 3.0, right, CLX_FONT_TICK - 1.0,
+                            f->chart->mark_label[i]);
+        }
+    }
+}
+
+static void draw(clx_figure *f)
+{
+    cairo_t *cr = f->canvas->cr;
+    clx_figure_lay_out(f);
+    clx_figure_grid(f);
+    cairo_save(cr);
+    cairo_rectangle(cr, f->left, f->top, f->right - f->left, f->bottom - f->top);
+    cairo_clip(cr);
+    if (f->chart->heat != NULL && f->has_value) {
+        clx_figure_heat(f);
+    }
+    for (int32_t i = 0; i < f->chart->n_series; ++i) {
+        clx_figure_series(f, &f->chart->series[i]);
+    }
+    draw_marks(f);
+    cairo_restore(cr);
+    clx_figure_frame(f);
+    if (f->has_value) {
+        clx_figure_value_bar(f);
+    }
+    (void)clx_figure_legend(f, true);
+}
+
+static clast_status draw_to(const clast_chart *chart, clx_canvas_format format, clx_canvas *canvas)
+{
+    clast_status status = CLAST_OK;
+    clx_figure f = {.canvas = canvas, .chart = chart};
+    CLX_TRY(clx_figure_measure(&f));
+    CLX_TRY(clx_canvas_begin(canvas, format, chart->width > 0.0 ? chart->width : 480.0,
+                             chart->height > 0.0 ? chart->height : 340.0));
+    draw(&f);
+    CLX_TRY(clx_canvas_finish(canvas));
+done:
+    return status;
+}
+
+clast_status clast_chart_write(const clast_chart *chart, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_canvas canvas = {0};
+    clx_canvas_format format = CLX_CANVAS_SVG;
+    CLX_TRY(clx_canvas_format_of(path, &format));
+    CLX_TRY(draw_to(chart, format, &canvas));
+    CLX_TRY(clx_file_write_all(path, canvas.bytes, (size_t)canvas.n));
+done:
+    clx_canvas_free(&canvas);
+    return status;
+}
+
+clast_status clast_chart_svg(const clast_chart *chart, unsigned char **bytes, size_t *n)
+{
+    clx_canvas canvas = {0};
+    const clast_status status = draw_to(chart, CLX_CANVAS_SVG, &canvas);
+    if (status == CLAST_OK) {
+        *bytes = canvas.bytes;
+        *n = (size_t)canvas.n;
+        canvas.bytes = NULL;
+    }
+    clx_canvas_free(&canvas);
+    return status;
+}
+
+void clast_bytes_free(unsigned char *bytes)
+{
+    clx_free(bytes);
+}

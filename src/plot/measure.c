@@ -1,0 +1,89 @@
+// Ranges of a chart's axes, from its data.
+#include "plot/figure.h"
+
+#include <math.h>
+
+typedef struct {
+    double low, high;
+    bool log;
+} span;
+
+static void widen(span *s, double value)
+{
+    if (isfinite(value) && (!s->log || value > 0.0)) {
+        s->low = fmin(s->low, value);
+        s->high = fmax(s->high, value);
+    }
+}
+
+static void widen_all(span *s, const double *values, int64_t n)
+{
+    for (int64_t i = 0; values != NULL && i < n; ++i) {
+        widen(s, values[i]);
+    }
+}
+
+static clast_status settle(span *s, const clast_axis *axis, bool pad, int wanted, clx_ticks *ticks)
+{
+    const bool given = axis->low < axis->high;
+    if (given) {
+        s->low = axis->low;
+        s->high = axis->high;
+    }
+    if (!(s->low <= s->high) || (s->log && s->low <= 0.0)) {
+        return clx_fail(CLAST_E_USAGE, "chart axis '%s' has no finite%s value to show",
+                        axis->label != NULL ? axis->label : "", s->log ? " positive" : "");
+    }
+    if (s->low == s->high) {
+        const double more = s->low == 0.0 ? 1.0 : 0.1 * fabs(s->low);
+        s->low -= more;
+        s->high += more;
+    }
+    clx_ticks_make(s->low, s->high, s->log, pad && !given, wanted, ticks);
+    return CLAST_OK;
+}
+
+static void widen_series(span *x, span *y, span *value, const clast_series *e)
+{
+    widen_all(x, e->x, e->n + (e->kind == CLAST_SERIES_BARS ? 1 : 0));
+    widen_all(y, e->y, e->n);
+    widen_all(y, e->low, e->n);
+    widen_all(y, e->high, e->n);
+    widen_all(value, e->value, e->n);
+    if (e->kind == CLAST_SERIES_BARS) {
+        widen(y, 0.0);
+    }
+}
+
+static void widen_heat(span *x, span *y, span *value, const clast_heat *h)
+{
+    widen(x, h->x_low);
+    widen(x, h->x_high);
+    widen(y, h->y_low);
+    widen(y, h->y_high);
+    widen_all(value, h->value, (int64_t)h->n_x * h->n_y);
+}
+
+clast_status clx_figure_measure(clx_figure *figure)
+{
+    const clast_chart *c = figure->chart;
+    clast_status status = CLAST_OK;
+    span x = {INFINITY, -INFINITY, c->x.log};
+    span y = {INFINITY, -INFINITY, c->y.log};
+    span value = {INFINITY, -INFINITY, c->value_axis.log};
+    for (int32_t i = 0; i < c->n_series; ++i) {
+        widen_series(&x, &y, &value, &c->series[i]);
+    }
+    widen_all(&y, c->mark_y, c->n_mark);
+    if (c->heat != NULL) {
+        widen_heat(&x, &y, &value, c->heat);
+    }
+    figure->has_value = c->value_axis.label != NULL;
+    CLX_TRY(settle(&x, &c->x, c->heat == NULL, 6, &figure->x));
+    CLX_TRY(settle(&y, &c->y, c->heat == NULL, 5, &figure->y));
+    if (figure->has_value) {
+        CLX_TRY(settle(&value, &c->value_axis, false, 5, &figure->value));
+    }
+done:
+    return status;
+}

@@ -1,0 +1,134 @@
+// How each kind of series is drawn.
+#include "plot/figure.h"
+
+#include "math/colour.h"
+#include <math.h>
+
+static void draw_path(clx_figure *f, const clast_series *e)
+{
+    const double dash[2] = {5.0, 3.0};
+    cairo_t *cr = f->canvas->cr;
+    bool pen_down = false;
+    for (int64_t i = 0; i < e->n; ++i) {
+        if (!isfinite(e->x[i]) || !isfinite(e->y[i])) {
+            pen_down = false;
+            continue;
+        }
+        const double x = clx_figure_x(f, e->x[i]);
+        if (pen_down && e->kind == CLAST_SERIES_STEP) {
+            cairo_line_to(cr, x, clx_figure_y(f, e->y[i - 1]));
+        }
+        (pen_down ? cairo_line_to : cairo_move_to)(cr, x, clx_figure_y(f, e->y[i]));
+        pen_down = true;
+    }
+    cairo_set_dash(cr, dash, e->dashed ? 2 : 0, 0.0);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cr, 1.6);
+    cairo_stroke(cr);
+    cairo_set_dash(cr, NULL, 0, 0.0);
+}
+
+static void draw_band(clx_figure *f, const clast_series *e)
+{
+    cairo_t *cr = f->canvas->cr;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int64_t j = 0; j < e->n; ++j) {
+            const int64_t i = pass == 0 ? j : e->n - 1 - j;
+            const double y = pass == 0 ? e->high[i] : e->low[i];
+            if (isfinite(e->x[i]) && isfinite(y)) {
+                cairo_line_to(cr, clx_figure_x(f, e->x[i]), clx_figure_y(f, y));
+            }
+        }
+    }
+    cairo_fill(cr);
+}
+
+static void draw_points(clx_figure *f, const clast_series *e)
+{
+    cairo_t *cr = f->canvas->cr;
+    const double radius = e->n > 2000 ? 1.2 : e->n > 200 ? 2.0 : 3.0;
+    cairo_set_line_width(cr, 1.0);
+    for (int64_t i = 0; i < e->n; ++i) {
+        if (!isfinite(e->x[i]) || !isfinite(e->y[i])) {
+            continue;
+        }
+        const double x = clx_figure_x(f, e->x[i]);
+        if (e->value != NULL && f->has_value) {
+            double rgb[3];
+            clx_colour_sequence(clx_ticks_place(&f->value, e->value[i]), rgb);
+            clx_canvas_colour(f->canvas, rgb, 1.0);
+        }
+        if (e->low != NULL && e->high != NULL) {
+            clx_canvas_line(f->canvas, x, clx_figure_y(f, e->low[i]), x,
+                            clx_figure_y(f, e->high[i]));
+        }
+        cairo_arc(cr, x, clx_figure_y(f, e->y[i]), radius, 0.0, 2.0 * CLAST_PI);
+        cairo_fill(cr);
+    }
+}
+
+static void draw_bars(clx_figure *f, const clast_series *e)
+{
+    cairo_t *cr = f->canvas->cr;
+    const double base = clx_figure_y(f, f->y.log ? f->y.low : fmax(0.0, f->y.low));
+    for (int64_t i = 0; i < e->n; ++i) {
+        const double x0 = clx_figure_x(f, e->x[i]);
+        const double x1 = clx_figure_x(f, e->x[i + 1]);
+        if (isfinite(e->y[i]) && isfinite(x0) && isfinite(x1)) {
+            const double y = clx_figure_y(f, e->y[i]);
+            cairo_rectangle(cr, x0, y, x1 - x0, base - y);
+        }
+    }
+    cairo_fill_preserve(cr);
+    cairo_set_source_rgb(cr, 1.0, 1.0, 1.0);
+    cairo_set_line_width(cr, 0.6);
+    cairo_stroke(cr);
+}
+
+void clx_figure_heat(clx_figure *f)
+{
+    const clast_heat *h = f->chart->heat;
+    cairo_t *cr = f->canvas->cr;
+    const double dx = (h->x_high - h->x_low) / h->n_x;
+    const double dy = (h->y_high - h->y_low) / h->n_y;
+    cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+    for (int64_t k = 0; k < (int64_t)h->n_x * h->n_y; ++k) {
+        double rgb[3];
+        if (!isfinite(h->value[k])) {
+            continue;
+        }
+        const int32_t column = (int32_t)(k % h->n_x);
+        const int32_t row = (int32_t)(k / h->n_x);
+        const double x0 = clx_figure_x(f, h->x_low + column * dx);
+        const double x1 = clx_figure_x(f, h->x_low + (column + 1) * dx);
+        const double y0 = clx_figure_y(f, h->y_low + row * dy);
+        const double y1 = clx_figure_y(f, h->y_low + (row + 1) * dy);
+        clx_colour_sequence(clx_ticks_place(&f->value, h->value[k]), rgb);
+        clx_canvas_colour(f->canvas, rgb, 1.0);
+        cairo_rectangle(cr, x0, y1, x1 - x0, y0 - y1);
+        cairo_fill(cr);
+    }
+    cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+void clx_figure_series(clx_figure *f, const clast_series *e)
+{
+    double rgb[3];
+    clx_colour_category(e->colour, rgb);
+    clx_canvas_colour(f->canvas, rgb, e->kind == CLAST_SERIES_BAND ? 0.25 : 1.0);
+    switch (e->kind) {
+    case CLAST_SERIES_LINE:
+    case CLAST_SERIES_STEP:
+        draw_path(f, e);
+        break;
+    case CLAST_SERIES_POINTS:
+        draw_points(f, e);
+        break;
+    case CLAST_SERIES_BAND:
+        draw_band(f, e);
+        break;
+    case CLAST_SERIES_BARS:
+        draw_bars(f, e);
+        break;
+    }
+}

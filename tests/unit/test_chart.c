@@ -1,0 +1,132 @@
+/* Unit: what a chart shows, checked in its SVG text and by its bytes. */
+#include "support.h"
+
+#include "plot/ticks.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N = 50 };
+
+static void fill(double *x, double *y, double *low, double *high)
+{
+    for (int i = 0; i < N; ++i) {
+        x[i] = 1.0 + 15.0 * i;
+        y[i] = 0.8 - 0.7 * exp(-i / 12.0);
+        low[i] = y[i] - 0.05;
+        high[i] = y[i] + 0.05;
+    }
+}
+
+static clast_status write_history(const char *path)
+{
+    double x[N], y[N], low[N], high[N];
+    fill(x, y, low, high);
+    const double mark[] = {0.73};
+    const char *const mark_label[] = {"published, 0.73"};
+    const clast_series series[] = {
+        {CLAST_SERIES_BAND, "95 % interval of 8 repeats", x, NULL, low, high, NULL, N, 0, false},
+        {CLAST_SERIES_LINE, "mean", x, y, NULL, NULL, NULL, N, 0, false},
+        {CLAST_SERIES_POINTS, "observed", x, high, low, high, NULL, 5, 1, false}};
+    const clast_chart chart = {.title = "Porosity while the aggregate grows",
+                               .x = {.label = "particles (-)"},
+                               .y = {.label = "porosity (-)"},
+                               .series = series,
+                               .n_series = 3,
+                               .mark_y = mark,
+                               .mark_label = mark_label,
+                               .n_mark = 1};
+    return clast_chart_write(&chart, path);
+}
+
+static clast_status write_heat(const char *path)
+{
+    double value[600];
+    for (int i = 0; i < 600; ++i) {
+        value[i] = pow(10.0, (i % 30) / 10.0 - (i / 30) / 20.0);
+    }
+    value[37] = NAN;
+    const clast_heat heat = {30, 20, value, 0.0, 3.0, 0.0, 2.0};
+    const clast_chart chart = {.title = "Heat",
+                               .x = {.label = "x (m)"},
+                               .y = {.label = "y (m)"},
+                               .value_axis = {.label = "count (-)", .log = true},
+                               .heat = &heat,
+                               .equal = true};
+    return clast_chart_write(&chart, path);
+}
+
+static void ticks_are_round_numbers(void **state)
+{
+    (void)state;
+    clx_ticks t;
+    clx_ticks_make(0.103, 0.777, false, true, 5, &t);
+    CHECK_ABS(t.low, 0.1, 1e-12);
+    CHECK_ABS(t.high, 0.8, 1e-12);
+    assert_string_equal(t.label[0], "0.1");
+    clx_ticks_make(3e-6, 4e-3, true, true, 6, &t);
+    assert_int_equal(t.n, 5);
+    assert_string_equal(t.label[0], "1e-06");
+    CHECK_ABS(clx_ticks_place(&t, 1e-4), 0.5, 1e-12);
+    clx_ticks_make(2.0, 7.0, true, true, 6, &t);
+    assert_string_equal(t.label[0], "2");
+    assert_string_equal(t.label[1], "5");
+}
+
+static size_t read_file(const char *path, char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t n = fread(bytes, 1, size, file);
+    fclose(file);
+    return n;
+}
+
+static void charts_come_in_three_formats_with_equal_bytes(void **state)
+{
+    (void)state;
+    static char a[1 << 20], b[1 << 20];
+    const char *const names[] = {"a.svg", "a.pdf", "a.png"};
+    const char *const magic[] = {"<?xml", "%PDF", "\x89PNG"};
+    for (int i = 0; i < 3; ++i) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", support_scratch(), names[i]);
+        CHECK_OK(write_history(path));
+        const size_t n = read_file(path, a, sizeof a);
+        CHECK_OK(write_history(path));
+        assert_int_equal(read_file(path, b, sizeof b), n);
+        assert_memory_equal(a, b, n);
+        assert_memory_equal(a, magic[i], strlen(magic[i]));
+    }
+}
+
+static void heat_maps_have_a_colour_bar(void **state)
+{
+    (void)state;
+    char path[512];
+    snprintf(path, sizeof path, "%s/heat.png", support_scratch());
+    CHECK_OK(write_heat(path));
+}
+
+static void empty_axis_and_unknown_format_are_refused(void **state)
+{
+    (void)state;
+    const double nan[2] = {NAN, NAN};
+    const clast_series series = {.kind = CLAST_SERIES_LINE, .x = nan, .y = nan, .n = 2};
+    const clast_chart chart = {.x = {.label = "x"}, .series = &series, .n_series = 1};
+    CHECK_STATUS(clast_chart_write(&chart, "never.svg"), CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "'x' has no finite"));
+    CHECK_STATUS(write_history("never.gif"), CLAST_E_USAGE);
+    CHECK_STATUS(write_history("/nowhere/at/all.svg"), CLAST_E_DISK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ticks_are_round_numbers),
+        cmocka_unit_test(charts_come_in_three_formats_with_equal_bytes),
+        cmocka_unit_test(heat_maps_have_a_colour_bar),
+        cmocka_unit_test(empty_axis_and_unknown_format_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
