@@ -1,6 +1,7 @@
 #pragma once
 // All public headers.
 #include <clast/assembly.h>
+#include <clast/bvh.h>
 #include <clast/chart.h>
 #include <clast/cloud.h>
 #include <clast/config.h>

@@ -1,0 +1,44 @@
+#pragma once
+// What the library's own code may know of a clast_bvh: its nodes and its triangles in leaf order.
+#include "geom/tree.h"
+#include <clast/bvh.h>
+
+/// How clast_bvh_inside decides.
+typedef enum {
+    CLX_BVH_WINDING,    ///< closed, oriented: crossings with sign
+    CLX_BVH_PARITY,     ///< closed but for orientation: crossings without sign
+    CLX_BVH_SOLID_ANGLE ///< open: generalised winding number
+} clx_bvh_rule;
+
+/// Expansion of the solid angle of one node's triangles about `centre` [Barill2018 eq. 10].
+typedef struct clx_bvh_moment {
+    double centre[3];    ///< area-weighted
+    double radius;       ///< greatest distance of a corner from the centre
+    double dipole[3];    ///< sum of area times normal
+    double second[3][3]; ///< sum of area times (centroid - centre) times normal^T
+} clx_bvh_moment;
+
+struct clast_bvh {
+    const clast_mesh *mesh; ///< borrowed
+    clx_tree tree;          ///< item i of the tree is triangle tree.item[i] of the mesh; boxes are
+                            ///< padded by 2^-50 of the largest coordinate
+    double (*corner)[3][3]; ///< [n_tri] corners of triangle tree.item[i], in leaf order
+    double reach;           ///< largest absolute coordinate
+    clx_bvh_rule rule;
+    clx_bvh_moment *moment; ///< [n_node], for CLX_BVH_SOLID_ANGLE only
+};
+
+/// True if any triangle is hit with t_low <= t <= t_high: cheaper than the first hit.
+bool clx_bvh_blocked(const clast_bvh *bvh, const double origin[3], const double direction[3],
+                     double t_low, double t_high);
+
+/// Closest point of a triangle to a point: squared distance; *closest is on the triangle to
+/// rounding, also for slivers and triangles that are segments or points.
+double clx_triangle_closest(double corner[3][3], const double point[3], double closest[3]);
+
+/// Generalised winding number of the surface about a point (an open surface's fraction); needs
+/// bvh->moment.
+double clx_bvh_solid_angle(const clast_bvh *bvh, const double point[3]);
+
+/// Fills bvh->moment [n_node] from the tree and the corners.
+void clx_bvh_fill_moments(clast_bvh *bvh);
