@@ -8,6 +8,7 @@
 #include <clast/field.h>
 #include <clast/hull.h>
 #include <clast/mesh.h>
+#include <clast/mesh_file.h>
 #include <clast/monitor.h>
 #include <clast/parallel.h>
 #include <clast/shape.h>

@@ -1,0 +1,137 @@
+// Surfaces from files and to files: which format, and the way there and back.
+#include <clast/mesh_file.h>
+
+#include "base/alloc.h"
+#include "io/mesh_io.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const struct {
+    clast_mesh_format format;
+    const char *name;
+} names[] = {{CLAST_MESH_STL, "stl"}};
+
+enum { N_NAME = sizeof names / sizeof names[0] };
+
+const char *clast_mesh_format_name(clast_mesh_format format)
+{
+    for (int i = 0; i < N_NAME; ++i) {
+        if (names[i].format == format) {
+            return names[i].name;
+        }
+    }
+    return "any";
+}
+
+clast_mesh_format clast_mesh_format_of_path(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+    for (int i = 0; i < N_NAME && dot != NULL; ++i) {
+        if (strcasecmp(dot + 1, names[i].name) == 0) {
+            return names[i].format;
+        }
+    }
+    return CLAST_MESH_ANY;
+}
+
+void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
+{
+    if (report->n_warning < CLAST_MESH_N_WARNING) {
+        va_list args;
+        va_start(args, format);
+        (void)vsnprintf(report->warning[report->n_warning++], CLAST_MESH_WARNING_SIZE, format,
+                        args);
+        va_end(args);
+    }
+}
+
+static clast_status parse(const void *bytes, size_t n, clast_mesh_format format, clast_mesh *mesh,
+                          clast_mesh_read_report *report)
+{
+    switch (format) {
+    case CLAST_MESH_STL:
+        return clx_stl_parse(bytes, n, mesh, report);
+    default:
+        return clx_fail(CLAST_E_FORMAT, "neither content nor name say that this is a surface; STL, "
+                                        "OBJ, PLY and OFF are read");
+    }
+}
+
+clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
+                              clast_mesh *mesh, clast_mesh_read_report *report)
+{
+    clast_mesh made = {0};
+    clast_mesh_read_report found = {.format = format, .n_byte = (int64_t)n};
+    const clast_status status = parse(bytes, n, format, &made, &found);
+    if (status == CLAST_OK) {
+        *mesh = made;
+        if (report != NULL) {
+            *report = found;
+        }
+    }
+    return status;
+}
+
+clast_status clast_mesh_read(const char *path, clast_mesh *mesh, clast_mesh_read_report *report)
+{
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_file_read_all(path, INT64_MAX, &bytes, &n));
+    status = clast_mesh_parse(bytes, (size_t)n, clast_mesh_format_of_path(path), mesh, report);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", path);
+    }
+done:
+    clx_free(bytes);
+    return status;
+}
+
+static clast_status check_mesh(const clast_mesh *mesh)
+{
+    for (int32_t i = 0; i < mesh->n_vert; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            if (!isfinite(mesh->vert[i][k])) {
+                return clx_fail(CLAST_E_GEOMETRY, "coordinate %c of vertex %d is %g, not finite",
+                                "xyz"[k], i, mesh -> vert[i][k]);
+            }
+        }
+    }
+    return CLAST_OK;
+}
+
+static clast_status write_format(clast_mesh_format format, const clast_mesh *mesh,
+                                 const clast_mesh_write_options *options, clx_file *file)
+{
+    switch (format) {
+    case CLAST_MESH_STL:
+        return clx_stl_write(mesh, options, file);
+    default:
+        return clx_fail(CLAST_E_USAGE, "no surface format by that name; write .stl, .obj, .ply, "
+                                       ".off or .3mf");
+    }
+}
+
+clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
+                              const clast_mesh_write_options *options)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    const clast_mesh_write_options o = options != NULL ? *options : (clast_mesh_write_options){0};
+    const clast_mesh_format format =
+        o.format != CLAST_MESH_ANY ? o.format : clast_mesh_format_of_path(path);
+    CLX_TRY(check_mesh(mesh));
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(write_format(format, mesh, &o, &file));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    if (status == CLAST_E_USAGE || status == CLAST_E_GEOMETRY) {
+        clx_fail_prefix("%s", path);
+    }
+    clx_file_abandon(&file);
+    return status;
+}

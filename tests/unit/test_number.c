@@ -1,0 +1,152 @@
+/* Unit: decimal texts against strtod and against known hard cases. */
+#include "support.h"
+
+#include "base/number.h"
+#include "math/rng.h"
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double parse(const char *text)
+{
+    double v = NAN;
+    const char *end = text + strlen(text);
+    assert_ptr_equal(clx_number_parse(text, end, &v), end);
+    return v;
+}
+
+static void same_as_strtod(const char *text)
+{
+    const double ours = parse(text);
+    const double theirs = strtod(text, NULL);
+    if (memcmp(&ours, &theirs, sizeof ours) != 0) {
+        fail_msg("%s: ours %.17g, strtod %.17g", text, ours, theirs);
+    }
+}
+
+static void hard_cases_round_as_strtod(void **state)
+{
+    static const char *const texts[] = {"0",
+                                        "-0",
+                                        "1",
+                                        "-1.5",
+                                        ".8e-1",
+                                        "-.7e+2",
+                                        "5.",
+                                        "1e22",
+                                        "1e23",
+                                        "9007199254740993",
+                                        "9007199254740992.5",
+                                        "8.5e-1",
+                                        "1e-320",
+                                        "4.9406564584124654e-324",
+                                        "2.4703282292062327e-324",
+                                        "2.4703282292062328e-324",
+                                        "2.2250738585072011e-308",
+                                        "2.2250738585072014e-308",
+                                        "1.7976931348623157e308",
+                                        "1.7976931348623159e308",
+                                        "1e309",
+                                        "-1e400",
+                                        "1e-400",
+                                        "0e999999999999",
+                                        "123456789012345678901234567890",
+                                        "0.000000000000000000000000000000000000000000000000000001",
+                                        "7.2057594037927933e16",
+                                        "1.00000000000000011102230246251565404236316680908203125",
+                                        "1.00000000000000011102230246251565404236316680908203124",
+                                        "1.00000000000000011102230246251565404236316680908203126",
+                                        "6.02214076e+023",
+                                        "3.14159265358979323846264338327950288e-1",
+                                        "1e99999999999999999999",
+                                        "18446744073709551615e-27",
+                                        "1234567890123456789e27"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        same_as_strtod(texts[i]);
+    }
+}
+
+static void half_way_between_doubles_is_decided_by_the_last_of_many_digits(void **state)
+{
+    (void)state;
+    char text[1200] = "1.00000000000000011102230246251565404236316680908203125";
+    const size_t n = strlen(text);
+    memset(text + n, '0', 1000);
+    text[n + 1000] = '\0';
+    assert_true(parse(text) == 1.0);
+    text[n + 999] = '1';
+    assert_true(parse(text) == nextafter(1.0, 2.0));
+}
+
+static void random_numbers_round_as_strtod(void **state)
+{
+    (void)state;
+    clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, 0);
+    for (int i = 0; i < 60000; ++i) {
+        char text[64];
+        uint64_t bits = (uint64_t)clx_rng_u32(&rng) << 32 | clx_rng_u32(&rng);
+        double v = 0.0;
+        memcpy(&v, &bits, sizeof v);
+        if (i % 2 == 0) {
+            v = clx_rng_normal(&rng) * pow(10.0, (double)(i % 40 - 20));
+        }
+        if (isfinite(v)) {
+            (void)snprintf(text, sizeof text, "%.*g", 1 + i % 24, v);
+            same_as_strtod(text);
+            const int n = clx_number_format(v, text);
+            assert_int_equal(n, strlen(text));
+            assert_true(parse(text) == v);
+        }
+    }
+}
+
+static void words_and_scraps_are_no_numbers(void **state)
+{
+    static const char *const texts[] = {"", "-", "+", ".", "-.", "e5", "nan", "inf", "x1"};
+    (void)state;
+    double v = 0.0;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        assert_null(clx_number_parse(texts[i], texts[i] + strlen(texts[i]), &v));
+    }
+    const char *tail = "1e+x";
+    assert_ptr_equal(clx_number_parse(tail, tail + 4, &v), tail + 1);
+    assert_true(isinf(parse("1e999")));
+}
+
+/* Property: a host with a decimal comma reads and writes the same files. */
+static void decimal_comma_locale_changes_nothing(void **state)
+{
+    (void)state;
+    static const char *const wanted[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
+    const char *got = NULL;
+    for (size_t i = 0; i < 4 && got == NULL; ++i) {
+        got = setlocale(LC_NUMERIC, wanted[i]);
+    }
+    if (got == NULL) {
+        print_message("SKIPPED LOUDLY: no locale with a decimal comma is installed\n");
+        skip();
+    }
+    char text[CLX_NUMBER_SIZE];
+    char printed[16];
+    (void)snprintf(printed, sizeof printed, "%g", 1.5);
+    assert_string_equal(printed, "1,5"); // the locale is what it says
+    (void)clx_number_format(-1234.5625, text);
+    const double value = parse("-1234.5625");
+    (void)setlocale(LC_NUMERIC, "C");
+    assert_string_equal(text, "-1234.5625");
+    assert_true(value == -1234.5625);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_cases_round_as_strtod),
+        cmocka_unit_test(half_way_between_doubles_is_decided_by_the_last_of_many_digits),
+        cmocka_unit_test(random_numbers_round_as_strtod),
+        cmocka_unit_test(words_and_scraps_are_no_numbers),
+        cmocka_unit_test(decimal_comma_locale_changes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
