@@ -54,7 +54,7 @@ static bool touch_convex(const clx_touch_body *moving, const clx_touch_body *lyi
     if (!entry(moving, lying, path, c, &found) || found.t > path->t_high) {
         return false;
     }
-    *touch = (clx_touch){.t = found.t, .beaten = found.t <= path->t_enough};
+    *touch = (clx_touch){.t = found.t};
     touch_from_frame(touch->normal, path, found.normal);
     surface_point(lying, touch->normal, touch->point);
     if (found.t < path->t_low) {
@@ -64,6 +64,7 @@ static bool touch_convex(const clx_touch_body *moving, const clx_touch_body *lyi
         touch->t = path->t_low;
         touch->overlap = true;
     }
+    touch->beaten = touch->t <= path->t_enough;
     return true;
 }
 
