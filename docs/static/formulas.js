@@ -1,0 +1,1 @@
+// Formulas are shown as TeX: the site needs no network and bundles no renderer.
