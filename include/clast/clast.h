@@ -11,6 +11,7 @@
 #include <clast/mesh_file.h>
 #include <clast/monitor.h>
 #include <clast/parallel.h>
+#include <clast/printable.h>
 #include <clast/shape.h>
 #include <clast/status.h>
 #include <clast/table.h>

@@ -1,0 +1,213 @@
+// An assembly as one printable body: union of grains and necks, voids filled, checked to be one
+// piece.
+#include <clast/printable.h>
+
+#include "assembly/distance_field.h"
+#include "base/alloc.h"
+#include "math/vec3.h"
+
+static double thinnest_grain(const clast_assembly *a)
+{
+    double thinnest = INFINITY;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        thinnest = fmin(thinnest, 2.0 * a->scale[i] * a->shape[a->shape_id[i]].semi_axes[2]);
+    }
+    return thinnest;
+}
+
+static clast_status choose(const clast_assembly *a, const clast_printable_config *config,
+                           const double low[3], const double high[3],
+                           clast_printable_report *report)
+{
+    const double extent = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+    const double thinnest = thinnest_grain(a);
+    report->neck = config->neck > 0.0 ? config->neck : 0.5 * thinnest;
+    report->spacing = config->spacing;
+    if (!(report->spacing > 0.0)) {
+        report->spacing = fmax(0.25 * report->neck, extent / 300.0);
+    }
+    report->smallest_feature = fmin(report->neck, thinnest);
+    if (report->spacing > 0.5 * extent) {
+        return clx_fail(CLAST_E_USAGE, "a spacing of %g cannot show a body of extent %g",
+                        report->spacing, extent);
+    }
+    return CLAST_OK;
+}
+
+typedef struct {
+    const clx_grid *grid;
+    uint8_t *seen;
+    int64_t *stack; ///< nodes to visit
+    int64_t n_stack, capacity;
+} flood;
+
+static bool neighbour_of(const clx_grid *g, int64_t node, int which, int64_t *neighbour)
+{
+    const int32_t at[3] = {(int32_t)(node % g->n[0]), (int32_t)(node / g->n[0] % g->n[1]),
+                           (int32_t)(node / ((int64_t)g->n[0] * g->n[1]))};
+    int64_t index = 0;
+    for (int k = 2; k >= 0; --k) {
+        const int32_t to = at[k] + clx_grid_neighbour[which][k];
+        if (to < 0 || to >= g->n[k]) {
+            return false;
+        }
+        index = index * g->n[k] + to;
+    }
+    *neighbour = index;
+    return true;
+}
+
+/// Marks everything on `from`'s side of the surface that is joined to it; *count nodes.
+static clast_status spread(flood *f, int64_t from, int64_t *count)
+{
+    clast_status status = CLAST_OK;
+    const bool inside = f->grid->value[from] < 0.0f;
+    *count = 0;
+    CLX_TRY(clx_grow(&f->stack, &f->capacity, 1, sizeof *f->stack));
+    f->stack[0] = from;
+    f->n_stack = 1;
+    f->seen[from] = 1;
+    while (f->n_stack > 0) {
+        const int64_t node = f->stack[--f->n_stack];
+        ++*count;
+        CLX_TRY(
+            clx_grow(&f->stack, &f->capacity, f->n_stack + CLX_GRID_NEIGHBOURS, sizeof *f->stack));
+        for (int e = 0; e < CLX_GRID_NEIGHBOURS; ++e) {
+            int64_t next = 0;
+            if (neighbour_of(f->grid, node, e, &next) && f->seen[next] == 0 &&
+                (f->grid->value[next] < 0.0f) == inside) {
+                f->seen[next] = 1;
+                f->stack[f->n_stack++] = next;
+            }
+        }
+    }
+done:
+    return status;
+}
+
+/// Counts pieces and voids; `seen` then marks the outer world (1) and everything else that was
+/// visited.
+static clast_status survey(flood *f, clast_printable_report *report, uint8_t *is_void)
+{
+    clast_status status = CLAST_OK;
+    const clx_grid *g = f->grid;
+    const int64_t total = (int64_t)g->n[0] * g->n[1] * g->n[2];
+    int64_t count = 0;
+    CLX_TRY(spread(f, 0, &count)); // the corner of the grid is outside
+    for (int64_t node = 0; node < total; ++node) {
+        if (f->seen[node] != 0) {
+            continue;
+        }
+        CLX_TRY(spread(f, node, &count));
+        if (g->value[node] < 0.0f) {
+            ++report->n_part;
+        } else {
+            ++report->n_void;
+            report->void_volume += (double)count * g->h * g->h * g->h;
+            is_void[node] = 1;
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status fill_voids(flood *f, clx_grid *grid, const uint8_t *is_void)
+{
+    const int64_t total = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
+    clast_status status = CLAST_OK;
+    for (int64_t node = 0; node < total && status == CLAST_OK; ++node) {
+        f->seen[node] = 0;
+    }
+    for (int64_t node = 0; node < total && status == CLAST_OK; ++node) {
+        int64_t count = 0;
+        if (is_void[node] != 0) {
+            status = spread(f, node, &count);
+        }
+    }
+    for (int64_t node = 0; node < total && status == CLAST_OK; ++node) {
+        if (f->seen[node] != 0) {
+            grid->value[node] = (float)-grid->h;
+        }
+    }
+    return status;
+}
+
+static clast_status make_solid(clx_grid *grid, bool keep_voids, clast_printable_report *report)
+{
+    clast_status status = CLAST_OK;
+    const int64_t total = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
+    flood f = {.grid = grid};
+    uint8_t *is_void = NULL;
+    CLX_TRY(clx_alloc(&f.seen, total, 1));
+    CLX_TRY(clx_alloc(&is_void, total, 1));
+    CLX_TRY(survey(&f, report, is_void));
+    CLX_CHECK(
+        report->n_part == 1, CLAST_E_GEOMETRY,
+        "the union falls into %d pieces with necks of %g sampled at %g; use a thicker neck or "
+        "a finer spacing",
+        report->n_part, report->neck, report->spacing);
+    if (!keep_voids && report->n_void > 0) {
+        CLX_TRY(fill_voids(&f, grid, is_void));
+    }
+done:
+    clx_free(f.seen);
+    clx_free(f.stack);
+    clx_free(is_void);
+    return status;
+}
+
+static clast_status check_input(const clast_assembly *a)
+{
+    if (a->n_grain < 1) {
+        return clx_fail(CLAST_E_USAGE, "an assembly without grains cannot be printed");
+    }
+    if (a->n_grain > 1 && a->n_contact == 0) {
+        return clx_fail(CLAST_E_USAGE,
+                        "the contacts of these %d grains are not known, so no neck can be placed",
+                        a->n_grain);
+    }
+    return CLAST_OK;
+}
+
+static void tell(const clast_monitor *monitor, int64_t done)
+{
+    if (monitor != NULL && monitor->report != NULL) {
+        monitor->report(monitor->context, "printable surface", done, 3);
+    }
+}
+
+clast_status clast_assembly_printable(const clast_assembly *assembly,
+                                      const clast_printable_config *config,
+                                      const clast_monitor *monitor, clast_mesh *mesh,
+                                      clast_printable_report *report)
+{
+    clast_status status = CLAST_OK;
+    clast_printable_report made = {.solid_volume = clast_assembly_volume(assembly)};
+    clx_distance_field field = {0};
+    clx_grid grid = {0};
+    double low[3];
+    double high[3];
+    CLX_TRY(check_input(assembly));
+    clast_assembly_bounds(assembly, low, high);
+    CLX_TRY(choose(assembly, config, low, high, &made));
+    for (int k = 0; k < 3; ++k) {
+        low[k] -= 0.5 * made.neck + 2.0 * made.spacing;
+        high[k] += 0.5 * made.neck + 3.0 * made.spacing;
+    }
+    CLX_TRY(clx_grid_alloc(low, high, made.spacing, (float)made.spacing, &grid));
+    CLX_TRY(clx_distance_field_init(assembly, &field));
+    clx_distance_field_sample(&field, &grid);
+    clx_distance_field_balls((const double(*)[3])assembly->contact_point, assembly->n_contact,
+                             0.5 * made.neck, &grid);
+    tell(monitor, 1);
+    CLX_TRY(make_solid(&grid, config->keep_voids, &made));
+    tell(monitor, 2);
+    CLX_TRY(clx_isosurface(&grid, 0.0, mesh));
+    made.volume = clast_mesh_volume(mesh);
+    *report = made;
+    tell(monitor, 3);
+done:
+    clx_grid_free(&grid);
+    clx_distance_field_free(&field);
+    return status;
+}
