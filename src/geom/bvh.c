@@ -7,24 +7,30 @@
 
 enum { LEAF_SIZE = 4 };
 
+static clast_status check_vertex(const clast_mesh *mesh, int32_t v, double *largest)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double x = fabs(mesh->vert[v][i]);
+        if (!(x <= 1e100)) {
+            return clx_fail(CLAST_E_GEOMETRY,
+                            "vertex %d has coordinate %g; it must be finite and below 1e100", v,
+                            mesh->vert[v][i]);
+        }
+        *largest = x > *largest ? x : *largest;
+    }
+    return CLAST_OK;
+}
+
 static clast_status check_mesh(const clast_mesh *mesh, double *reach)
 {
     clast_status status = CLAST_OK;
     double largest = 0.0;
     CLX_CHECK(mesh->n_tri >= 1, CLAST_E_GEOMETRY, "the surface has no triangles");
-    for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const int32_t v = mesh->tri[t][k];
-            CLX_CHECK(v >= 0 && v < mesh->n_vert, CLAST_E_GEOMETRY,
-                      "triangle %d names vertex %d of %d", t, v, mesh->n_vert);
-            for (int i = 0; i < 3; ++i) {
-                const double x = fabs(mesh->vert[v][i]);
-                CLX_CHECK(x <= 1e100, CLAST_E_GEOMETRY,
-                          "vertex %d has coordinate %g; it must be finite and below 1e100", v,
-                          mesh->vert[v][i]);
-                largest = x > largest ? x : largest;
-            }
-        }
+    for (int64_t i = 0; i < 3 * (int64_t)mesh->n_tri; ++i) {
+        const int32_t v = mesh->tri[i / 3][i % 3];
+        CLX_CHECK(v >= 0 && v < mesh->n_vert, CLAST_E_GEOMETRY,
+                  "triangle %lld names vertex %d of %d", (long long)(i / 3), v, mesh->n_vert);
+        CLX_TRY(check_vertex(mesh, v, &largest));
     }
     *reach = largest;
 done:

@@ -42,3 +42,20 @@ double clx_bvh_solid_angle(const clast_bvh *bvh, const double point[3]);
 
 /// Fills bvh->moment [n_node] from the tree and the corners.
 void clx_bvh_fill_moments(clast_bvh *bvh);
+
+/// True if two triangles have a common point besides the corners and the edge they share: they
+/// cross, overlap in one plane, or touch (a corner on the other's face or edge). Exact.
+///
+/// Corners are shared when they are at the same place, whatever their numbers. Triangles with all
+/// three corners shared (duplicates) and triangles without area are faults of another kind: false.
+bool clx_triangles_meet(double a[3][3], double b[3][3]);
+
+/// Pairs of triangles that meet in the sense of clx_triangles_meet, what `mesh check` reports.
+///
+/// All are counted in *n_pair; min(*n_pair, cap) of them are written to pair, each with its lower
+/// number first, in rising order (when there are more than cap: some of them, always the same).
+/// O(n log n) and the same for any thread count.
+///
+/// @param pair  [cap][2], or NULL with cap = 0
+clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t cap, int32_t (*pair)[2],
+                                        int64_t *n_pair);

@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 
-enum { N_BIN = 16 };
+enum { N_BIN = 16, N_BIN_SMALL = 6, SMALL = 24 };
 
 typedef struct {
     double low[3];
@@ -20,6 +20,23 @@ typedef struct {
     clx_tree *tree;
     int32_t leaf_size;
 } build_state;
+
+/// The bins of one range along three axes.
+typedef struct {
+    int32_t n; ///< bins in use, N_BIN or N_BIN_SMALL
+    double origin[3];
+    double per_length[3];
+    bin bin[3][N_BIN];
+} bin_grid;
+
+/// Boxes of one node: their number, depth, hull, and the hull of their (doubled) middles.
+typedef struct {
+    clx_tree_box *box;
+    int32_t n;
+    int depth;
+    bin bounds;
+    bin middles;
+} node_range;
 
 /// Where to part a range: axis < 0 means not at all.
 typedef struct {
@@ -54,63 +71,68 @@ static double bin_area(const bin *b)
     return b->count > 0 ? x * y + y * z + z * x : 0.0;
 }
 
+/// Twice the middle of a box: what bins and medians sort by.
 static double middle(const clx_tree_box *box, int axis)
 {
-    return 0.5 * (box->low[axis] + box->high[axis]);
+    return box->low[axis] + box->high[axis];
 }
 
-static int32_t bin_of(const clx_tree_box *box, int axis, double origin, double per_length)
+static int32_t bin_of(const bin_grid *grid, const clx_tree_box *box, int axis)
 {
-    const int32_t b = (int32_t)((middle(box, axis) - origin) * per_length);
-    return b < 0 ? 0 : b >= N_BIN ? N_BIN - 1 : b;
+    const double x = (middle(box, axis) - grid->origin[axis]) * grid->per_length[axis];
+    const int32_t b = (int32_t)x;
+    return b < grid->n ? b : grid->n - 1;
 }
 
 /// Cheapest plane between bins along one axis.
-static void best_plane(const bin *bins, int axis, split_choice *best)
+static void best_plane(const bin_grid *grid, int axis, split_choice *best)
 {
+    const bin *bins = grid->bin[axis];
     double right_cost[N_BIN];
     bin side;
     bin_empty(&side);
-    for (int i = N_BIN - 1; i > 0; --i) {
+    for (int32_t i = grid->n - 1; i > 0; --i) {
         bin_add(&side, bins[i].low, bins[i].high, bins[i].count);
         right_cost[i] = bin_area(&side) * side.count;
     }
-    const int32_t n_right_most = side.count + bins[0].count;
+    const int32_t n_item = side.count + bins[0].count;
     bin_empty(&side);
-    for (int32_t i = 0; i < N_BIN - 1; ++i) {
+    for (int32_t i = 0; i < grid->n - 1; ++i) {
         bin_add(&side, bins[i].low, bins[i].high, bins[i].count);
         const double cost = bin_area(&side) * side.count + right_cost[i + 1];
-        if (side.count > 0 && side.count < n_right_most && cost < best->cost) {
+        if (side.count > 0 && side.count < n_item && cost < best->cost) {
             *best = (split_choice){axis, i, cost};
         }
     }
 }
 
-/// Bins of the range's box middles along the three axes, spread over the box of the middles.
-static void fill_bins(const clx_tree_box *box, int32_t n, const bin *middles,
-                      const double per_length[3], bin bins[3][N_BIN])
+/// Sorts a range's boxes into bins spread over the box of their middles.
+static void fill_bins(const clx_tree_box *box, int32_t n, const bin *middles, bin_grid *grid)
 {
+    grid->n = n < SMALL ? N_BIN_SMALL : N_BIN;
     for (int k = 0; k < 3; ++k) {
-        for (int i = 0; i < N_BIN; ++i) {
-            bin_empty(&bins[k][i]);
+        const double length = middles->high[k] - middles->low[k];
+        const double per_length = grid->n * (1.0 - 1e-12) / length;
+        grid->origin[k] = middles->low[k];
+        grid->per_length[k] = per_length < 1e300 ? per_length : 0.0;
+        for (int32_t i = 0; i < grid->n; ++i) {
+            bin_empty(&grid->bin[k][i]);
         }
     }
     for (int32_t i = 0; i < n; ++i) {
         for (int k = 0; k < 3; ++k) {
-            const int32_t b = bin_of(&box[i], k, middles->low[k], per_length[k]);
-            bin_add(&bins[k][b], box[i].low, box[i].high, 1);
+            bin_add(&grid->bin[k][bin_of(grid, &box[i], k)], box[i].low, box[i].high, 1);
         }
     }
 }
 
 /// Parts the range in place by bin number; how many went left.
-static int32_t part(clx_tree_box *box, int32_t n, const split_choice *split, double origin,
-                    double per_length)
+static int32_t part(clx_tree_box *box, int32_t n, const bin_grid *grid, const split_choice *split)
 {
     int32_t i = 0;
     int32_t j = n;
     while (i < j) {
-        if (bin_of(&box[i], split->axis, origin, per_length) <= split->bin) {
+        if (bin_of(grid, &box[i], split->axis) <= split->bin) {
             ++i;
         } else {
             const clx_tree_box swap = box[--j];
@@ -180,63 +202,53 @@ static int longest_axis(const bin *b)
     return axis;
 }
 
-static bin box_of_middles(const clx_tree_box *box, int32_t n)
-{
-    bin b;
-    bin_empty(&b);
-    for (int32_t i = 0; i < n; ++i) {
-        const double m[3] = {middle(&box[i], 0), middle(&box[i], 1), middle(&box[i], 2)};
-        bin_add(&b, m, m, 1);
-    }
-    return b;
-}
-
 /// Parts a range; items that go left (0: keep it as a leaf), and the axis.
-static int32_t split(const build_state *s, clx_tree_box *box, int32_t n, int depth, double area,
-                     int *axis)
+static int32_t split(const build_state *s, const node_range *range, int *axis)
 {
-    const bin middles = box_of_middles(box, n);
-    bin bins[3][N_BIN];
-    double per_length[3];
+    bin_grid grid;
     split_choice best = {-1, 0, INFINITY};
-    *axis = longest_axis(&middles);
-    if (depth + 1 + levels(n - 1) <= CLX_TREE_DEPTH) {
+    const double area = bin_area(&range->bounds);
+    *axis = longest_axis(&range->middles);
+    if (range->depth + 1 + levels(range->n - 1) <= CLX_TREE_DEPTH) {
+        fill_bins(range->box, range->n, &range->middles, &grid);
         for (int k = 0; k < 3; ++k) {
-            const double length = middles.high[k] - middles.low[k];
-            per_length[k] = length > 0.0 ? N_BIN * (1.0 - 1e-12) / length : 0.0;
-            per_length[k] = per_length[k] < 1e300 ? per_length[k] : 0.0;
-        }
-        fill_bins(box, n, &middles, per_length, bins);
-        for (int k = 0; k < 3; ++k) {
-            best_plane(bins[k], k, &best);
+            best_plane(&grid, k, &best);
         }
     }
     // Cost of a visit and of an item are alike: a leaf costs n, a split 1 + cost / area.
-    if (n <= s->leaf_size && !(area + best.cost < n * area)) {
+    if (range->n <= s->leaf_size && !(area + best.cost < range->n * area)) {
         return 0;
     }
     if (best.axis >= 0) {
         *axis = best.axis;
-        return part(box, n, &best, middles.low[best.axis], per_length[best.axis]);
+        return part(range->box, range->n, &grid, &best);
     }
-    part_median(box, n, n / 2, *axis);
-    return n / 2;
+    part_median(range->box, range->n, range->n / 2, *axis);
+    return range->n / 2;
+}
+
+static void measure(node_range *range)
+{
+    bin_empty(&range->bounds);
+    bin_empty(&range->middles);
+    for (int32_t i = 0; i < range->n; ++i) {
+        const clx_tree_box *box = &range->box[i];
+        const double m[3] = {middle(box, 0), middle(box, 1), middle(box, 2)};
+        bin_add(&range->bounds, box->low, box->high, 1);
+        bin_add(&range->middles, m, m, 1);
+    }
 }
 
 static void build_node(build_state *s, int32_t first, int32_t n, int depth)
 {
-    clx_tree_box *box = s->box + first;
     const int32_t self = s->tree->n_node++;
+    node_range range = {.box = s->box + first, .n = n, .depth = depth};
     int axis = 0;
-    bin bounds;
-    bin_empty(&bounds);
-    for (int32_t i = 0; i < n; ++i) {
-        bin_add(&bounds, box[i].low, box[i].high, 1);
-    }
-    const int32_t n_left = n > 1 ? split(s, box, n, depth, bin_area(&bounds), &axis) : 0;
+    measure(&range);
+    const int32_t n_left = n > 1 ? split(s, &range, &axis) : 0;
     clx_tree_node *node = &s->tree->node[self];
-    v3_copy(node->low, bounds.low);
-    v3_copy(node->high, bounds.high);
+    v3_copy(node->low, range.bounds.low);
+    v3_copy(node->high, range.bounds.high);
     node->first = first;
     node->count = n;
     node->axis = axis;

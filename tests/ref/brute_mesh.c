@@ -148,3 +148,49 @@ double brute_winding(const clast_mesh *mesh, const double point[3])
     }
     return (double)(sum / (2.0L * acosl(-1.0L)));
 }
+
+/// Edge p q through triangle t, by Cramer's rule.
+static bool edge_passes(const clast_mesh *mesh, const double p[3], const double q[3], int32_t t)
+{
+    real d[3];
+    real e1[3];
+    real e2[3];
+    real s[3];
+    real h[3];
+    real r[3];
+    sub(d, q, p);
+    sub(e1, corner(mesh, t, 1), corner(mesh, t, 0));
+    sub(e2, corner(mesh, t, 2), corner(mesh, t, 0));
+    sub(s, p, corner(mesh, t, 0));
+    cross(h, d, e2);
+    cross(r, s, e1);
+    const real det = dot(e1, h);
+    if (det == 0.0L) {
+        return false;
+    }
+    const real u = dot(s, h) / det;
+    const real v = dot(d, r) / det;
+    const real at = dot(e2, r) / det;
+    return at >= 0.0L && at <= 1.0L && u >= 0.0L && v >= 0.0L && u + v <= 1.0L;
+}
+
+int64_t brute_crossing_pairs(const clast_mesh *mesh)
+{
+    int64_t n = 0;
+    for (int32_t i = 0; i < mesh->n_tri; ++i) {
+        for (int32_t j = i + 1; j < mesh->n_tri; ++j) {
+            bool meets = false;
+            bool shares = false;
+            for (int k = 0; k < 9; ++k) {
+                shares = shares || mesh->tri[i][k / 3] == mesh->tri[j][k % 3];
+            }
+            for (int k = 0; k < 3 && !shares; ++k) {
+                const int l = (k + 1) % 3;
+                meets = meets || edge_passes(mesh, corner(mesh, i, k), corner(mesh, i, l), j) ||
+                        edge_passes(mesh, corner(mesh, j, k), corner(mesh, j, l), i);
+            }
+            n += meets;
+        }
+    }
+    return n;
+}

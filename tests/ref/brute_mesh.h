@@ -14,3 +14,7 @@ double brute_ray(const clast_mesh *mesh, const double origin[3], const double di
 
 /// Sum of the triangles' solid angles over 4 pi.
 double brute_winding(const clast_mesh *mesh, const double point[3]);
+
+/// Number of pairs of triangles without a common vertex number of which an edge of one passes
+/// through the other (general position: no coplanar pairs). O(n^2).
+int64_t brute_crossing_pairs(const clast_mesh *mesh);
