@@ -122,7 +122,8 @@ static int32_t new_facet(clx_hull_inc *hull, int32_t a, int32_t b, int32_t c)
 {
     const int32_t f =
         hull->n_free_facet > 0 ? hull->free_facet[--hull->n_free_facet] : hull->facet_end++;
-    hull->facet[f] = (clx_hull_facet){.vert = {a, b, c}, .adj = {-1, -1, -1}, .outside = -1};
+    hull->facet[f] =
+        (clx_hull_facet){.vert = {a, b, c}, .adj = {-1, -1, -1}, .outside = -1, .owner = -1};
     for (int k = 0; k < 3; ++k) {
         ++hull->vert[hull->facet[f].vert[k]].degree;
     }
@@ -242,14 +243,10 @@ static clast_status assign(clx_hull_inc *hull, int32_t i, const double point[3],
     return CLAST_OK;
 }
 
-/// Takes the farthest point of a facet's list into the hull and shares out the other points.
-static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double (*point)[3],
-                                    const int32_t *tag)
+static int32_t farthest_listed(const clx_hull_inc *hull, int32_t f, const double (*point)[3])
 {
-    clast_status status = CLAST_OK;
     int32_t best = hull->facet[f].outside;
     double far = signed_distance(hull, &hull->facet[f], point[best]);
-    int32_t list = -1;
     for (int32_t i = hull->next[best]; i >= 0; i = hull->next[i]) {
         const double distance = signed_distance(hull, &hull->facet[f], point[i]);
         if (distance > far) {
@@ -257,13 +254,16 @@ static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double 
             best = i;
         }
     }
-    CLX_TRY(find_horizon(hull, f, point[best]));
-    CLX_TRY(reserve_vertex(hull, 1));
-    CLX_TRY(reserve_facets(hull, hull->n_horizon));
-    CLX_TRY(clx_grow(&hull->fresh, &hull->fresh_room, hull->n_horizon, sizeof *hull->fresh));
+    return best;
+}
+
+/// Adds the volume between the visible facets and the point, and joins their lists into one.
+static int32_t leave_visible(clx_hull_inc *hull, const double point[3])
+{
+    int32_t list = -1;
     for (int32_t i = 0; i < hull->n_visible; ++i) {
         const clx_hull_facet *facet = &hull->facet[hull->visible[i]];
-        add_volume(hull, six_volume(hull, facet, point[best]) / 6.0);
+        add_volume(hull, six_volume(hull, facet, point) / 6.0);
         for (int32_t p = facet->outside; p >= 0;) {
             const int32_t after = hull->next[p];
             hull->next[p] = list;
@@ -271,8 +271,22 @@ static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double 
             p = after;
         }
     }
+    return list;
+}
+
+/// Takes the farthest point of a facet's list into the hull and shares out the other points.
+static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double (*point)[3],
+                                    const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    const int32_t best = farthest_listed(hull, f, point);
+    CLX_TRY(find_horizon(hull, f, point[best]));
+    CLX_TRY(reserve_vertex(hull, 1));
+    CLX_TRY(reserve_facets(hull, hull->n_horizon));
+    CLX_TRY(clx_grow(&hull->fresh, &hull->fresh_room, hull->n_horizon, sizeof *hull->fresh));
+    const int32_t list = leave_visible(hull, point[best]);
     raise_cone(hull, point[best],
-               tag[best]); // before the old facets go: a slot must not change hands
+               tag[best]); // before the old ones go: a slot must not change hands
     for (int32_t i = 0; i < hull->n_visible; ++i) {
         drop_facet(hull, hull->visible[i]);
     }
@@ -318,6 +332,29 @@ done:
     return status;
 }
 
+/// Inserts what the outside lists hold, farthest points first.
+static clast_status insert_listed(clx_hull_inc *hull, const double (*point)[3], const int32_t *tag)
+{
+    clast_status status = CLAST_OK;
+    while (hull->n_work > 0) {
+        const int32_t f = hull->work[--hull->n_work];
+        // A dropped facet's slot may have been taken by a later one, with its own entry here.
+        if (hull->facet[f].vert[0] >= 0 && hull->facet[f].outside >= 0) {
+            CLX_TRY(insert_farthest(hull, f, point, tag));
+        }
+    }
+done:
+    return status;
+}
+
+/// Indices of a batch that failed must not be met by the next one.
+static void clear_lists(clx_hull_inc *hull)
+{
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        hull->facet[f].outside = -1;
+    }
+}
+
 static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*point)[3],
                                  const int32_t *tag)
 {
@@ -339,19 +376,10 @@ static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*p
     for (int32_t i = 0; i < n && n_candidate > 0; ++i) {
         CLX_TRY(assign(hull, i, point[i], n_candidate, hull->candidate));
     }
-    while (hull->n_work > 0) {
-        const int32_t f = hull->work[--hull->n_work];
-        // A dropped facet's slot may have been taken by a later one, with its own entry here.
-        if (hull->facet[f].vert[0] < 0 || hull->facet[f].outside < 0) {
-            continue;
-        }
-        CLX_TRY(insert_farthest(hull, f, point, tag));
-    }
+    CLX_TRY(insert_listed(hull, point, tag));
 done:
-    if (status != CLAST_OK) { // indices of this batch must not be met by the next one
-        for (int32_t f = 0; f < hull->facet_end; ++f) {
-            hull->facet[f].outside = -1;
-        }
+    if (status != CLAST_OK) {
+        clear_lists(hull);
     }
     return status;
 }
@@ -478,23 +506,22 @@ static void extend_box(clx_hull_inc *hull, int32_t n, const double (*point)[3])
     hull->reach = v3_distance(hull->low, hull->high);
 }
 
-clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
-                              const int32_t *tag)
+static clast_status check_finite(int32_t n, const double (*point)[3])
+{
+    for (int32_t i = 0; i < n; ++i) {
+        if (!(isfinite(point[i][0]) && isfinite(point[i][1]) && isfinite(point[i][2]))) {
+            return clx_fail(CLAST_E_GEOMETRY, "hull: point %d of %d is not finite", i + 1, n);
+        }
+    }
+    return CLAST_OK;
+}
+
+/// Keeps points while all are coplanar; raises the hull when they no longer are.
+static clast_status add_flat(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                             const int32_t *tag)
 {
     clast_status status = CLAST_OK;
     int32_t s[4];
-    for (int32_t i = 0; i < n; ++i) {
-        CLX_CHECK(isfinite(point[i][0]) && isfinite(point[i][1]) && isfinite(point[i][2]),
-                  CLAST_E_GEOMETRY, "hull: point %d of %d is not finite", i + 1, n);
-    }
-    if (n == 0) {
-        goto done;
-    }
-    extend_box(hull, n, point);
-    if (hull->is_solid) {
-        CLX_TRY(insert_batch(hull, n, point, tag));
-        goto done;
-    }
     CLX_TRY(keep_pending(hull, n, point, tag));
     if (find_simplex(hull, s)) {
         CLX_TRY(raise_simplex(hull, s));
@@ -503,6 +530,40 @@ clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*poin
         hull->n_pending = 0;
     }
 done:
+    return status;
+}
+
+clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                              const int32_t *tag)
+{
+    const clast_status status = check_finite(n, point);
+    if (status != CLAST_OK || n == 0) {
+        return status;
+    }
+    extend_box(hull, n, point);
+    return hull->is_solid ? insert_batch(hull, n, point, tag) : add_flat(hull, n, point, tag);
+}
+
+clast_status clx_hull_inc_add_seen(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                                   const int32_t *tag, const int32_t *facet)
+{
+    clast_status status = CLAST_OK;
+    CLAST_ASSERT(hull->is_solid);
+    if (n == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(check_finite(n, point));
+    extend_box(hull, n, point);
+    CLX_TRY(clx_grow(&hull->next, &hull->next_room, n, sizeof *hull->next));
+    hull->n_work = 0;
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_TRY(assign(hull, i, point[i], 1, &facet[i]));
+    }
+    CLX_TRY(insert_listed(hull, point, tag));
+done:
+    if (status != CLAST_OK) {
+        clear_lists(hull);
+    }
     return status;
 }
 

@@ -11,6 +11,8 @@ typedef struct clx_hull_facet {
     double tolerance; ///< error of a distance to this facet, as a share of the hull's reach
     int32_t outside;  ///< batch: first point known to see this facet, or -1
     int64_t stamp;    ///< search: twice its number, plus one when seen not to be visible
+    int32_t owner;    ///< the caller's; -1 at birth
+    double excess;    ///< the caller's; 0 at birth
 } clx_hull_facet;
 
 typedef struct clx_hull_vertex {
@@ -78,6 +80,11 @@ void clx_hull_inc_free(clx_hull_inc *hull);
 ///         (the hull is then still the hull of some of the points)
 clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
                               const int32_t *tag);
+
+/// As clx_hull_inc_add on a solid hull, with a live facet that each point is thought to see: a
+/// point that does not see it is passed over, and no search is made.
+clast_status clx_hull_inc_add_seen(clx_hull_inc *hull, int32_t n, const double (*point)[3],
+                                   const int32_t *tag, const int32_t *facet);
 
 /// Volume of the hull; 0 while all points are coplanar. O(1): the sum of what each insertion added,
 /// all terms positive, with compensation.
