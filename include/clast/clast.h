@@ -1,5 +1,7 @@
 #pragma once
 // All public headers.
+#include <clast/aggregate.h>
+#include <clast/aggregate_file.h>
 #include <clast/assembly.h>
 #include <clast/bvh.h>
 #include <clast/chart.h>

@@ -1,0 +1,212 @@
+#pragma once
+// Virtual aggregates: grains thrown one after another at a core, or clusters at clusters, each
+// stopped at first touch.                       [docs/theory/aggregation.md; Rossi & Bonadonna
+// 2021]
+#include <clast/assembly.h>
+#include <clast/field.h>
+#include <clast/monitor.h>
+#include <clast/table.h>
+
+typedef enum { CLAST_AGGREGATE_CORE, CLAST_AGGREGATE_CLUSTER } clast_aggregate_mode;
+
+/// How the first touch is found.
+typedef enum {
+    CLAST_CONTACT_EXACT,   ///< on the true surfaces, to rounding
+    CLAST_CONTACT_SPHERES, ///< on the sphere composites, in closed form
+    CLAST_CONTACT_MARCH    ///< on the sphere composites by growing steps, as published
+} clast_contact_method;
+
+/// Which published engine `march` repeats.
+typedef enum {
+    CLAST_MARCH_RELEASE, ///< SCARLET_v1 as released
+    CLAST_MARCH_FIGURES  ///< the program behind Figs 16-18 of the paper
+} clast_march_flavour;
+
+typedef enum {
+    CLAST_SIZE_LENGTH, ///< maximum length of the solid
+    CLAST_SIZE_VOLUME, ///< diameter of the sphere of equal volume
+    CLAST_SIZE_MEAN    ///< (L I S)^(1/3), the geometric mean of the three form dimensions
+} clast_size_meaning;
+
+typedef enum {
+    CLAST_SIZE_LIST,
+    CLAST_SIZE_UNIFORM,
+    CLAST_SIZE_LOGUNIFORM,
+    CLAST_SIZE_NORMAL,
+    CLAST_SIZE_LOGNORMAL,
+    CLAST_SIZE_WEIBULL
+} clast_size_law;
+
+typedef enum { CLAST_ORDER_GIVEN, CLAST_ORDER_SHUFFLED, CLAST_ORDER_DESCENDING } clast_size_order;
+
+typedef enum {
+    CLAST_ORIGIN_AUTO,  ///< the core's centre; a random grain when that lies outside the core
+    CLAST_ORIGIN_CORE,  ///< the core's centre
+    CLAST_ORIGIN_MASS,  ///< the aggregate's centre of mass
+    CLAST_ORIGIN_GRAIN, ///< the centre of a random placed grain, drawn for each ray
+    CLAST_ORIGIN_SPHERE ///< the centre of a random sphere of the composites, drawn for each ray
+} clast_ray_origin;
+
+typedef enum { CLAST_TARGET_CORE, CLAST_TARGET_MASS } clast_search_target;
+
+typedef enum { CLAST_PICK_RANDOM, CLAST_PICK_MASS, CLAST_PICK_KERNEL } clast_cluster_pick;
+
+/// All of one run. Texts and lists are owned; start from clast_fields_default.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding) grouped as the options are
+typedef struct clast_aggregate_config {
+    int32_t mode;
+    char *core;                   ///< file, "sphere", "ellipsoid:a,b,c" (full axes) or state.h5
+    double core_size;             ///< by core_meaning; 0: as the file says
+    int32_t core_meaning;         ///< clast_size_meaning of core_size
+    double core_density;          ///< kg/m3
+    clast_text_list coat;         ///< as core
+    clast_f64_list coat_weight;   ///< chance of each coat shape; empty: equal
+    clast_f64_list class_limit;   ///< sizes up to limit k take coat shape k; empty: by weight
+    clast_f64_list coat_density;  ///< one for all, or one each
+    char *core_spheres;           ///< sphere composite of the core (CSV), "" to fill it
+    clast_text_list coat_spheres; ///< the same for each coat shape
+    int32_t fill_spheres;         ///< spheres of a composite made here
+    char *unit;                   ///< of the coordinates in surface files
+
+    char *sizes; ///< CSV file of sizes or of a histogram
+    char *size_column;
+    char *size_unit;
+    clast_f64_list size; ///< sizes given here
+    int32_t size_law;
+    double size_mean, size_deviation, size_shape, size_low, size_high;
+    int32_t n_particle; ///< 0: all of the list
+    bool size_draw;     ///< draw n_particle sizes from the histogram instead of taking all
+    bool size_by_mass;  ///< the histogram's counts are masses
+    int32_t replicate;
+    int32_t size_meaning;
+    int32_t order;
+
+    double cone;
+    int32_t rays;
+    int32_t orientations;
+    char *axis; ///< "random" or "x,y,z"
+    int32_t origin;
+    int32_t target;
+    double start; ///< particle sizes beyond the outermost hit of the ray; 0: from outside of all
+    int32_t max_tries;
+
+    int32_t contact;
+    int32_t flavour;
+    double march_coarse, march_fine; ///< step constants; 0: the flavour's
+    int32_t march_steps;
+    int32_t march_vertices;
+
+    clast_text_list envelope; ///< names; the first gives d_agg and density
+    int32_t envelope_every;
+    int32_t envelope_rays;
+    double envelope_length; ///< of alpha and wrap surfaces
+
+    double stop_mass;     ///< kg; 0: never
+    double stop_size;     ///< D_agg; 0: never
+    double stop_porosity; ///< 0: never
+
+    int32_t pick;    ///< cluster mode: which two clusters meet
+    int32_t n_final; ///< cluster mode: clusters left at the end
+
+    int32_t repeats;
+    double confidence;
+    uint64_t seed;
+    int32_t checkpoint_every;
+    char *resume;
+} clast_aggregate_config;
+
+/// The table behind YAML keys, options, defaults, ranges and manifest.
+extern CLAST_API const clast_field clast_aggregate_fields[];
+
+/// Sizes as they came: sizes or bins with counts. [m]
+typedef struct clast_sizes {
+    int64_t n;
+    double *low, *high; ///< [n] m; equal for a plain size
+    double *count;      ///< [n] > 0
+} clast_sizes;
+
+CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
+CLAST_API void clast_sizes_free(clast_sizes *sizes);
+
+/// Combinations of options that a single field's range cannot see.
+///
+/// @return CLAST_E_CONFIG with the option, its value and what to do
+CLAST_API clast_status clast_aggregate_config_check(const clast_aggregate_config *config);
+
+/// What an aggregation starts from; everything is borrowed for the life of the run.
+typedef struct clast_aggregate_input {
+    const clast_assembly *core; ///< one grain or a rigid group, at its own scale
+    int32_t n_coat;
+    const clast_assembly *coat; ///< [n_coat] one grain or a rigid group each
+    const clast_sizes *sizes;   ///< NULL when a law draws them
+} clast_aggregate_input;
+
+/// Why an aggregate stopped growing.
+typedef enum {
+    CLAST_STOP_NOT, ///< it has not
+    CLAST_STOP_LIST,
+    CLAST_STOP_MASS,
+    CLAST_STOP_SIZE,
+    CLAST_STOP_POROSITY
+} clast_aggregate_stop;
+
+enum { CLAST_ENVELOPE_LIMIT = 16 };
+
+/// An aggregate in numbers, SI.
+typedef struct clast_aggregate_result {
+    int32_t n_particle; ///< placed on the core
+    int32_t n_grain;    ///< core included
+    int32_t n_contact;
+    double mass;
+    double solid_sum;            ///< sum of the grains' volumes
+    double radius_of_gyration;   ///< of the mass, each grain's own extent included
+    double max_overlap;          ///< greatest step back that frees a particle; 0 within rounding
+    double max_overlap_relative; ///< the same by the particle's radius
+    clast_aggregate_stop stop;
+    double contact_s, envelope_s, wall_s;
+} clast_aggregate_result;
+
+/// A growing aggregate. Opaque; one thread at a time (it uses several inside).
+typedef struct clast_aggregate clast_aggregate;
+
+/// The core alone, ready to grow. config and input are borrowed for the life of the handle.
+///
+/// @param repeat  0, 1, ... : which of the independent aggregates of this seed
+/// @return CLAST_E_CONFIG for options that cannot be met (a core below 1e-6 of a particle, a mass
+///         that all particles together do not have), CLAST_E_GEOMETRY for unusable shapes
+CLAST_API clast_status clast_aggregate_create(const clast_aggregate_config *config,
+                                              const clast_aggregate_input *input, int32_t repeat,
+                                              clast_aggregate **aggregate);
+CLAST_API void clast_aggregate_destroy(clast_aggregate *aggregate); ///< NULL is allowed
+
+/// Places up to n more particles, fewer when a stop criterion is met or the list ends.
+///
+/// @return CLAST_E_STOPPED when the monitor asks: what is placed stays and growing may go on;
+///         CLAST_E_CONVERGE when max_tries axes in a row miss the aggregate
+CLAST_API clast_status clast_aggregate_grow(clast_aggregate *aggregate, int32_t n,
+                                            const clast_monitor *monitor);
+
+CLAST_API bool clast_aggregate_is_done(const clast_aggregate *aggregate);
+
+/// All particles of the run, placed or not.
+CLAST_API int32_t clast_aggregate_n_particle(const clast_aggregate *aggregate);
+
+/// Grains so far; grain 0 (and those after it, if the core is a group) is the core. Borrowed: valid
+/// until the next call that grows.
+CLAST_API const clast_assembly *clast_aggregate_assembly(const clast_aggregate *aggregate);
+
+/// One row for the core and one for each particle. `history` must be empty.
+CLAST_API clast_status clast_aggregate_history(const clast_aggregate *aggregate,
+                                               clast_table *history);
+
+CLAST_API clast_aggregate_result clast_aggregate_now(const clast_aggregate *aggregate);
+
+/// Goes on from what an earlier run had placed: the same particles follow, to the last bit.
+///
+/// @param placed   its assembly    @param history  its rows of this repeat
+/// @return CLAST_E_FORMAT when they do not belong to this configuration
+CLAST_API clast_status clast_aggregate_restore(const clast_aggregate_config *config,
+                                               const clast_aggregate_input *input, int32_t repeat,
+                                               const clast_assembly *placed,
+                                               const clast_table *history,
+                                               clast_aggregate **aggregate);

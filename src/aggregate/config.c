@@ -1,0 +1,296 @@
+// The option table of an aggregation, and the combinations that no single range can see.
+#include "aggregate/config.h"
+
+#include "math/vec3.h"
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIELD(type, name) #name, offsetof(clast_aggregate_config, name), CLAST_FIELD_##type
+#define TEXT(name, value, help)                                                                    \
+    {                                                                                              \
+        FIELD(TEXT, name), 0, 0, 0, "-", help, value                                               \
+    }
+#define NUMBER(name, value, low, high, unit, help)                                                 \
+    {                                                                                              \
+        FIELD(F64, name), value, low, high, unit, help, NULL                                       \
+    }
+#define COUNT(name, value, low, high, help)                                                        \
+    {                                                                                              \
+        FIELD(I32, name), value, low, high, "-", help, NULL                                        \
+    }
+#define CHOICE(name, value, words, help)                                                           \
+    {                                                                                              \
+        FIELD(CHOICE, name), value, 0, 0, "-", help, words                                         \
+    }
+#define LIST(name, low, high, unit, value, help)                                                   \
+    {                                                                                              \
+        FIELD(F64_LIST, name), 0, low, high, unit, help, value                                     \
+    }
+#define TEXTS(name, value, help)                                                                   \
+    {                                                                                              \
+        FIELD(TEXT_LIST, name), 0, 0, 0, "-", help, value                                          \
+    }
+#define FLAG(name, help)                                                                           \
+    {                                                                                              \
+        FIELD(BOOL, name), 0, 0, 1, "-", help, NULL                                                \
+    }
+
+const clast_field clast_aggregate_fields[] = {
+    CHOICE(mode, 0, "core|cluster",
+           "grow on a core, or merge a population of grains cluster by cluster"),
+    TEXT(core, "", "core: surface file, state.h5, sphere, or ellipsoid:a,b,c"),
+    NUMBER(core_size, 0, 0, 1e6, "m", "size of the core; 0: as its file says"),
+    CHOICE(core_meaning, 0, "length|volume|mean_diameter", "what core_size measures"),
+    NUMBER(core_density, 2500, 1e-6, 1e6, "kg/m^3", "density of the core"),
+    TEXTS(coat, "", "coating shape: as core"),
+    LIST(coat_weight, 0, DBL_MAX, "-", "", "chance of each coating shape; none: all equal"),
+    LIST(class_limit, 0, 1e6, "m", "",
+         "sizes up to the k-th limit take the k-th coating shape, larger ones the last"),
+    LIST(coat_density, 1e-6, 1e6, "kg/m^3", "2500", "density: one for all shapes, or one each"),
+    TEXT(core_spheres, "", "sphere composite of the core (CSV x,y,z,r); none: filled"),
+    TEXTS(coat_spheres, "", "sphere composite of each coating shape"),
+    COUNT(fill_spheres, 100, 1, 1e6, "spheres of each composite that is filled here"),
+    TEXT(unit, "", "length unit of coordinates in surface files"),
+
+    TEXT(sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts"),
+    TEXT(size_column, "", "its column; none: the first"),
+    TEXT(size_unit, "", "its unit, um, mm, m or phi; none: from the column's name"),
+    LIST(size, 1e-12, 1e6, "m", "", "a size, instead of a file"),
+    CHOICE(size_law, 0, "list|uniform|loguniform|normal|lognormal|weibull",
+           "sizes from the list, or drawn from a law"),
+    NUMBER(size_mean, 0, 0, 1e6, "m", "mean (normal), median (lognormal), scale (weibull)"),
+    NUMBER(size_deviation, 0, 0, 1e6, "m",
+           "standard deviation (normal); for lognormal and weibull see size_shape"),
+    NUMBER(size_shape, 0, 0, 100, "-",
+           "lognormal: standard deviation of ln size; weibull: exponent"),
+    NUMBER(size_low, 0, 0, 1e6, "m", "smallest size of a law"),
+    NUMBER(size_high, 0, 0, 1e6, "m", "greatest size of a law; 0: none"),
+    COUNT(n_particle, 0, 0, 1e8, "particles to place; 0: the whole list"),
+    FLAG(size_draw, "draw n_particle sizes from the histogram at random"),
+    FLAG(size_by_mass, "the histogram's counts are masses, not numbers"),
+    COUNT(replicate, 1, 1, 1e6, "how often the list is used (N_A of the paper)"),
+    CHOICE(size_meaning, 0, "length|volume|mean_diameter",
+           "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters"),
+    CHOICE(order, 0, "given|shuffled|descending", "order of placement"),
+
+    NUMBER(cone, CLAST_PI / 180.0, 0, CLAST_PI, "rad", "half-angle of the cone of rays"),
+    COUNT(rays, 1, 1, 1e6, "rays tried for each particle (N_r)"),
+    COUNT(orientations, 1, 1, 1e6, "orientations tried on each ray (N_o)"),
+    TEXT(axis, "random", "axis of the cone: random, or a fixed x,y,z"),
+    CHOICE(origin, 0, "auto|core|mass|grain|sphere",
+           "where rays start: core's centre, centre of mass, a random placed grain or sphere"),
+    CHOICE(target, 0, "core|mass",
+           "the kept trial ends nearest to the core's centre, or to the "
+           "centre of mass"),
+    NUMBER(start, 0, 0, 1e6, "-",
+           "start, in particle sizes beyond the ray's last hit; 0: from outside of everything"),
+    COUNT(max_tries, 100, 1, 1e6, "new axes tried when every ray misses the aggregate"),
+
+    CHOICE(contact, 0, "exact|spheres|march",
+           "first touch of true surfaces, of sphere composites, "
+           "or the published march"),
+    CHOICE(flavour, 0, "release|figures", "the published engine that march repeats"),
+    NUMBER(march_coarse, 0, 0, 10, "-", "coarse step constant; 0: release 0.05, figures 0.01"),
+    NUMBER(march_fine, 0.0005, 1e-9, 10, "-", "fine step constant"),
+    COUNT(march_steps, 1000, 1, 1e9, "steps allowed to each move of the march"),
+    COUNT(march_vertices, 1000, 2, 1e9, "vertices that the march measures a length from"),
+
+    TEXTS(envelope, "surface_hull",
+          "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, ..."),
+    COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
+    COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
+    NUMBER(envelope_length, 0, 0, 1e6, "m", "length of alpha and wrap envelopes"),
+
+    NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never"),
+    NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),
+    NUMBER(stop_porosity, 0, 0, 1, "-", "stop when the porosity reaches this; 0: never"),
+
+    CHOICE(pick, 0, "random|mass|brownian", "cluster mode: how two clusters are chosen"),
+    COUNT(n_final, 1, 1, 1e8, "cluster mode: clusters left at the end"),
+
+    COUNT(repeats, 1, 1, 1e6, "independent aggregates"),
+    NUMBER(confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
+    {FIELD(U64, seed), 1, 0, 0, "-", "seed of every random number", NULL},
+    COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints"),
+    TEXT(resume, "", "run folder to go on with; all other options come from it"),
+    {0},
+};
+
+clast_status clx_numbers_parse(const char *text, int32_t n, double *number)
+{
+    const char *at = text;
+    for (int32_t k = 0; k < n; ++k) {
+        char *end = NULL;
+        number[k] = strtod(at, &end);
+        const char wanted = k + 1 < n ? ',' : '\0';
+        if (end == at || *end != wanted || !isfinite(number[k])) {
+            return clx_fail(CLAST_E_CONFIG, "'%s' is not %d numbers with commas between", text, n);
+        }
+        at = end + 1;
+    }
+    return CLAST_OK;
+}
+
+clast_status clx_aggregate_axis(const clast_aggregate_config *config, bool *is_random,
+                                double axis[3])
+{
+    double given[3] = {0.0, 0.0, 0.0};
+    *is_random = strcmp(config->axis, "random") == 0;
+    if (*is_random) {
+        return CLAST_OK;
+    }
+    if (clx_numbers_parse(config->axis, 3, given) != CLAST_OK || !v3_unit(axis, given)) {
+        return clx_fail(CLAST_E_CONFIG,
+                        "axis: '%s' is neither 'random' nor three numbers x,y,z that are not all 0",
+                        config->axis);
+    }
+    return CLAST_OK;
+}
+
+/// One value, or as many as there are coating shapes.
+static clast_status check_count(const char *name, int32_t n, int32_t n_coat)
+{
+    return n == n_coat
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG, "%s: %d given for %d coating shapes", name, n, n_coat);
+}
+
+static clast_status check_weights(const clast_f64_list *weight)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < weight->n; ++i) {
+        sum += weight->item[i];
+    }
+    return weight->n == 0 || sum > 0.0 ? CLAST_OK
+                                       : clx_fail(CLAST_E_CONFIG, "coat_weight: all weights are 0");
+}
+
+static clast_status check_classes(const clast_aggregate_config *c)
+{
+    const clast_f64_list *limit = &c->class_limit;
+    if (limit->n > 0 && limit->n != c->coat.n - 1) {
+        return clx_fail(CLAST_E_CONFIG, "class_limit: %d limits for %d coating shapes; give %d",
+                        limit->n, c->coat.n, c->coat.n - 1);
+    }
+    if (limit->n > 0 && c->coat_weight.n > 0) {
+        return clx_fail(CLAST_E_CONFIG,
+                        "class_limit and coat_weight both choose the shape; keep one");
+    }
+    for (int32_t i = 1; i < limit->n; ++i) {
+        if (limit->item[i] <= limit->item[i - 1]) {
+            return clx_fail(CLAST_E_CONFIG,
+                            "class_limit: limit %d (%g m) is not above limit %d (%g m)", i + 1,
+                            limit->item[i], i, limit->item[i - 1]);
+        }
+    }
+    return CLAST_OK;
+}
+
+static clast_status check_counts(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    if (c->coat_weight.n > 0) {
+        CLX_TRY(check_count("coat_weight", c->coat_weight.n, c->coat.n));
+    }
+    if (c->coat_density.n != 1) {
+        CLX_TRY(check_count("coat_density", c->coat_density.n, c->coat.n));
+    }
+    if (c->coat_spheres.n > 0) {
+        CLX_TRY(check_count("coat_spheres", c->coat_spheres.n, c->coat.n));
+    }
+done:
+    return status;
+}
+
+static clast_status check_shapes(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(c->coat.n >= 1, CLAST_E_CONFIG, "coat: name at least one coating shape");
+    CLX_CHECK(c->mode != CLAST_AGGREGATE_CORE || c->core[0] != '\0', CLAST_E_CONFIG,
+              "core: name the core's shape");
+    CLX_TRY(check_counts(c));
+    CLX_TRY(check_weights(&c->coat_weight));
+    CLX_TRY(check_classes(c));
+done:
+    return status;
+}
+
+static clast_status check_list(const clast_aggregate_config *c)
+{
+    if (c->sizes[0] == '\0' && c->size.n == 0) {
+        return clx_fail(CLAST_E_CONFIG, "sizes: give a file of sizes, sizes, or a size_law");
+    }
+    if (c->sizes[0] != '\0' && c->size.n > 0) {
+        return clx_fail(CLAST_E_CONFIG, "sizes and size both give sizes; keep one");
+    }
+    if (c->size_draw && c->n_particle == 0) {
+        return clx_fail(CLAST_E_CONFIG, "size_draw: say how many with n_particle");
+    }
+    return CLAST_OK;
+}
+
+static clast_status need(const char *name, double value)
+{
+    return value > 0.0 ? CLAST_OK
+                       : clx_fail(CLAST_E_CONFIG, "%s: this size_law needs a value above 0", name);
+}
+
+/// What the chosen law is made of.
+static clast_status check_moments(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    const int32_t law = c->size_law;
+    if (law == CLAST_SIZE_UNIFORM || law == CLAST_SIZE_LOGUNIFORM) {
+        CLX_TRY(need("size_low", c->size_low));
+        return need("size_high", c->size_high);
+    }
+    CLX_TRY(need("size_mean", c->size_mean));
+    return law == CLAST_SIZE_NORMAL ? need("size_deviation", c->size_deviation)
+                                    : need("size_shape", c->size_shape);
+done:
+    return status;
+}
+
+static clast_status check_law(const clast_aggregate_config *c)
+{
+    if (c->sizes[0] != '\0' || c->size.n > 0) {
+        return clx_fail(CLAST_E_CONFIG,
+                        "size_law draws the sizes; drop sizes, or set size_law: list");
+    }
+    if (c->size_high != 0.0 && c->size_high < c->size_low) {
+        return clx_fail(CLAST_E_CONFIG, "size_high: %g m is below size_low, %g m", c->size_high,
+                        c->size_low);
+    }
+    const clast_status status = need("n_particle", c->n_particle);
+    return status != CLAST_OK ? status : check_moments(c);
+}
+
+static clast_status check_search(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    bool is_random = false;
+    double axis[3];
+    CLX_TRY(clx_aggregate_axis(c, &is_random, axis));
+    CLX_CHECK((int64_t)c->rays * c->orientations <= 100000000, CLAST_E_CONFIG,
+              "rays x orientations: %d x %d trials for each particle are more than 1e8", c->rays,
+              c->orientations);
+    CLX_CHECK(c->origin != CLAST_ORIGIN_SPHERE || c->contact != CLAST_CONTACT_EXACT, CLAST_E_CONFIG,
+              "origin: sphere needs sphere composites; use grain, or contact: spheres");
+    CLX_CHECK(c->mode == CLAST_AGGREGATE_CORE || c->contact != CLAST_CONTACT_MARCH, CLAST_E_CONFIG,
+              "mode: the published march has no cluster mode; use contact: exact or spheres");
+    CLX_CHECK(c->envelope.n >= 1, CLAST_E_CONFIG, "envelope: name at least one");
+done:
+    return status;
+}
+
+clast_status clast_aggregate_config_check(const clast_aggregate_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(check_shapes(config));
+    CLX_TRY(config->size_law == CLAST_SIZE_LIST ? check_list(config) : check_law(config));
+    CLX_TRY(check_search(config));
+done:
+    return status;
+}

@@ -1,0 +1,167 @@
+// Shapes and groups made ready to be thrown.
+#include "aggregate/kit.h"
+
+#include "aggregate/form.h"
+#include "base/alloc.h"
+#include "math/vec3.h"
+
+void clx_kit_free(clx_kit *kit)
+{
+    for (int32_t i = 0; i < kit->n_shape; ++i) {
+        (void)i;
+    }
+    for (int32_t g = 0; g < kit->n_group; ++g) {
+        clx_free(kit->group[g].part);
+    }
+    clx_free(kit->shape);
+    clx_free(kit->group);
+    *kit = (clx_kit){0};
+}
+
+static clast_status composite(const clast_shape *shape, clx_kit_shape *made)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(shape->spheres.n > 0, CLAST_E_GEOMETRY,
+              "shape %s has no sphere composite; give coat_spheres or fill it", shape->name);
+    (void)made;
+    CLX_CHECK(false, CLAST_E_LIMIT, "shape %s: composites cannot be thrown yet", shape->name);
+done:
+    return status;
+}
+
+static clast_status true_surface(const clast_shape *shape, clx_kit_shape *made)
+{
+    clast_status status = CLAST_OK;
+    if (shape->kind == CLAST_SHAPE_SPHERE) {
+        made->body = clx_touch_body_sphere(shape->semi_axes[0]);
+    } else if (shape->kind == CLAST_SHAPE_ELLIPSOID) {
+        made->body = clx_touch_body_ellipsoid(shape->semi_axes);
+    } else if (shape->kind == CLAST_SHAPE_CLUMP) {
+        CLX_TRY(composite(shape, made));
+    } else {
+        CLX_CHECK(false, CLAST_E_LIMIT, "shape %s: surfaces cannot be thrown yet", shape->name);
+    }
+done:
+    return status;
+}
+
+static clast_status make_shape(int32_t contact, const clast_shape *shape, clx_kit_shape *made)
+{
+    double trace = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        trace += 0.5 * shape->inertia[k][k];
+    }
+    made->shape = shape;
+    made->inertia_trace = trace;
+    const bool round = shape->kind == CLAST_SHAPE_SPHERE && shape->spheres.n == 0;
+    return contact == CLAST_CONTACT_EXACT || round ? true_surface(shape, made)
+                                                   : composite(shape, made);
+}
+
+static clast_status make_parts(const clx_kit *kit, const clast_assembly *assembly,
+                               int32_t first_shape, clx_kit_group *group)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&group->part, assembly->n_grain, sizeof *group->part));
+    group->n_part = assembly->n_grain;
+    clast_assembly_centre(assembly, group->centre);
+    for (int32_t i = 0; i < group->n_part; ++i) {
+        clx_kit_part *part = &group->part[i];
+        const double s = assembly->scale[i];
+        part->shape = first_shape + assembly->shape_id[i];
+        v3_sub(part->position, assembly->position[i], group->centre);
+        for (int k = 0; k < 4; ++k) {
+            part->orientation[k] = assembly->orientation[i][k];
+        }
+        part->scale = s;
+        part->density = assembly->density[i];
+        const clast_shape *shape = kit->shape[part->shape].shape;
+        const double volume = shape->volume * s * s * s;
+        group->volume += volume;
+        group->mass += volume * part->density;
+        group->radius = fmax(group->radius, v3_norm(part->position) + s * shape->bounding_radius);
+    }
+    group->is_round =
+        group->n_part == 1 && kit->shape[group->part[0].shape].body.kind == CLX_TOUCH_SPHERE;
+done:
+    return status;
+}
+
+static clast_status make_group(const clx_kit *kit, const clast_assembly *assembly,
+                               int32_t first_shape, clx_kit_group *group)
+{
+    clast_status status = CLAST_OK;
+    double form[3];
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
+              "an aggregate of no grains cannot be thrown");
+    CLX_TRY(make_parts(kit, assembly, first_shape, group));
+    CLX_TRY(clx_form_dimensions(kit, group, form));
+    group->length = form[0];
+    group->mean_diameter = cbrt(form[0] * form[1] * form[2]);
+done:
+    return status;
+}
+
+/// Shapes and group of one assembly; an absent one leaves the group empty.
+static clast_status add_group(int32_t contact, const clast_assembly *assembly, clx_kit *kit)
+{
+    clast_status status = CLAST_OK;
+    const int32_t first_shape = kit->n_shape;
+    clx_kit_group *group = &kit->group[kit->n_group++];
+    for (int32_t i = 0; assembly != NULL && i < assembly->n_shape; ++i) {
+        CLX_TRY(make_shape(contact, &assembly->shape[i], &kit->shape[kit->n_shape++]));
+    }
+    if (assembly != NULL) {
+        CLX_TRY(make_group(kit, assembly, first_shape, group));
+    }
+done:
+    return status;
+}
+
+clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggregate_input *input,
+                          clx_kit *kit)
+{
+    clast_status status = CLAST_OK;
+    clx_kit made = {0};
+    int64_t n_shape = input->core != NULL ? input->core->n_shape : 0;
+    for (int32_t k = 0; k < input->n_coat; ++k) {
+        n_shape += input->coat[k].n_shape;
+    }
+    CLX_TRY(clx_alloc(&made.shape, n_shape, sizeof *made.shape));
+    CLX_TRY(clx_alloc(&made.group, 1 + input->n_coat, sizeof *made.group));
+    CLX_TRY(add_group(config->contact, input->core, &made)); // none in cluster mode
+    for (int32_t k = 0; k < input->n_coat; ++k) {
+        CLX_TRY(add_group(config->contact, &input->coat[k], &made));
+    }
+    *kit = made;
+    made = (clx_kit){0};
+done:
+    clx_kit_free(&made);
+    return status;
+}
+
+double clx_kit_size(const clx_kit_group *group, int32_t meaning)
+{
+    switch (meaning) {
+    case CLAST_SIZE_LENGTH:
+        return group->length;
+    case CLAST_SIZE_VOLUME:
+        return cbrt(6.0 * group->volume / CLAST_PI);
+    default:
+        return group->mean_diameter;
+    }
+}
+
+void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
+                  const double orientation[4], double scale, clx_kit_part *placed)
+{
+    const clx_kit_part *p = &group->part[part];
+    double arm[3];
+    q_rotate(arm, orientation, p->position);
+    v3_axpy(placed->position, centre, scale, arm);
+    q_mul(placed->orientation, orientation, p->orientation);
+    q_unit(placed->orientation);
+    placed->shape = p->shape;
+    placed->scale = scale * p->scale;
+    placed->density = p->density;
+}

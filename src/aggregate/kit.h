@@ -1,0 +1,54 @@
+#pragma once
+// Everything that can be thrown, made ready once: shapes with their trees, groups with their sizes.
+#include "contact/touch_body.h"
+#include <clast/aggregate.h>
+
+/// A distinct shape of the run.
+typedef struct clx_kit_shape {
+    const clast_shape *shape; ///< borrowed
+    clx_touch_body body;      ///< as contact sees it: at the origin, scale 1
+    double inertia_trace;     ///< half the trace of the inertia: integral of r2 about the centroid
+} clx_kit_shape;
+
+/// One placed shape of a rigid group, relative to the group's centre of mass.
+typedef struct clx_kit_part {
+    int32_t shape; ///< in the kit
+    double position[3];
+    double orientation[4];
+    double scale;
+    double density;
+} clx_kit_part;
+
+/// A core or a coating "shape": one grain, or an aggregate that is thrown as one.
+typedef struct clx_kit_group {
+    int32_t n_part;
+    clx_kit_part *part; ///< [n_part] owned
+    double centre[3];   ///< centre of mass in the coordinates of its assembly
+    double volume;      ///< sum of its parts'
+    double mass;
+    double length;        ///< greatest distance of two of its points
+    double mean_diameter; ///< (L I S)^(1/3)
+    double radius;        ///< everything lies within this distance of the centre of mass
+    bool is_round;        ///< one sphere: turning it changes nothing
+} clx_kit_group;
+
+typedef struct clx_kit {
+    int32_t n_shape;
+    clx_kit_shape *shape; ///< [n_shape]
+    int32_t n_group;
+    clx_kit_group *group; ///< [n_group] 0 the core (in cluster mode empty), 1 + k coating shape k
+} clx_kit;
+
+/// Shapes and groups of this input for this kind of contact.
+///
+/// @return CLAST_E_GEOMETRY for a shape without the composite that the contact needs
+clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggregate_input *input,
+                          clx_kit *kit);
+void clx_kit_free(clx_kit *kit);
+
+/// Size of a group at scale 1 by one of the meanings.
+double clx_kit_size(const clx_kit_group *group, int32_t meaning);
+
+/// Part `part` of a group whose centre of mass is at `centre`, turned and scaled.
+void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
+                  const double orientation[4], double scale, clx_kit_part *placed);

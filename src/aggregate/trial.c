@@ -1,0 +1,248 @@
+// One particle's search.
+//
+// A trial is a ray and an orientation; its outcome is a pure function of (seed, particle, trial).
+// Trials run in any order on any number of threads. The best distance so far is shared only to cut
+// short trials that are certainly worse: a trial is abandoned when it must end more than ROUNDING
+// beyond the best, so the winner, with ties to the lower trial number, is always the same.
+#include "aggregate/trial.h"
+
+#include "base/parallel.h"
+#include "math/rng.h"
+#include "math/vec3.h"
+#include <math.h>
+#include <stdatomic.h>
+
+enum { TRIAL_BLOCK = 4 };
+
+/// Margin of the bound, in units of the numbers it is made of.
+static const double ROUNDING = 1e-9;
+
+typedef struct {
+    const clx_search *search;
+    atomic_flag lock; ///< of best
+    clx_landing best;
+    _Atomic double bound; ///< best distance so far, readable without the lock
+} race;
+
+typedef struct {
+    int64_t number;
+    double origin[3], direction[3];
+    double t_low;
+} ray;
+
+static uint64_t item(const clx_search *s, int64_t number, int64_t per_attempt)
+{
+    const uint64_t high = (uint64_t)(number + s->attempt * per_attempt);
+    return (uint64_t)s->particle | (high << 32);
+}
+
+static void draw_axis(const clx_search *s, double axis[3])
+{
+    v3_copy(axis, s->axis);
+    if (s->random_axis) {
+        clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_AXIS, item(s, 0, 1));
+        clx_rng_direction(&rng, axis);
+    }
+}
+
+/// Centre of the k-th sphere of all composites, in the world.
+static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
+{
+    const clast_assembly *a = s->assembly;
+    int32_t low = 0;
+    int32_t high = a->n_grain - 1;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (s->sphere_end[middle] > k) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    const clast_shape *shape = &a->shape[a->shape_id[low]];
+    const int64_t local = k - (low > 0 ? s->sphere_end[low - 1] : 0);
+    double arm[3] = {0.0, 0.0, 0.0};
+    if (shape->spheres.n > 0) {
+        q_rotate(arm, a->orientation[low], shape->spheres.centre[local]);
+    }
+    v3_axpy(centre, a->position[low], a->scale[low], arm);
+}
+
+static void draw_origin(const clx_search *s, int64_t number, double origin[3])
+{
+    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_ORIGIN, item(s, number, s->n_ray));
+    if (s->origin == CLAST_ORIGIN_GRAIN) {
+        v3_copy(origin, s->assembly->position[clx_rng_below(&rng, s->assembly->n_grain)]);
+    } else if (s->origin == CLAST_ORIGIN_SPHERE) {
+        const int64_t n = s->sphere_end[s->assembly->n_grain - 1];
+        sphere_centre(s, clx_rng_below(&rng, n), origin);
+    } else {
+        v3_copy(origin, s->centre);
+    }
+}
+
+/// Start of the move: at `start` sizes beyond the last hit of the ray, or from outside of all.
+static double start_of(const clx_search *s, const clx_touch_path *path, const double origin[3])
+{
+    if (!(s->start > 0.0)) {
+        return -HUGE_VAL;
+    }
+    clx_touch hit;
+    clx_touch_body point = clx_touch_body_sphere(ROUNDING * s->size);
+    clx_touch_body_place(&point, origin, (const double[4]){1.0, 0.0, 0.0, 0.0}, 1.0);
+    return clx_touch_scene_first(s->scene, &point, path, &hit) ? hit.t - s->start * s->size
+                                                               : -HUGE_VAL;
+}
+
+static void make_ray(const clx_search *s, int64_t number, ray *r)
+{
+    double axis[3], back[3];
+    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_RAY, item(s, number, s->n_ray));
+    draw_axis(s, axis);
+    r->number = number;
+    clx_rng_cone(&rng, axis, s->cone, r->direction);
+    (void)v3_unit(r->direction, r->direction);
+    draw_origin(s, number, r->origin);
+    v3_scale(back, -1.0, r->direction);
+    const clx_touch_path path = clx_touch_path_along(back);
+    r->t_low = start_of(s, &path, r->origin);
+}
+
+/// Where along the ray the particle certainly loses: distance to the target is
+/// sqrt(h2 + (s - b)^2), so s beyond b + sqrt(best^2 - h2) is worse than the best.
+static double losing_place(const clx_search *s, const ray *r, double best)
+{
+    double to[3];
+    v3_sub(to, s->target, r->origin);
+    const double b = v3_dot(to, r->direction);
+    const double h2 = fmax(0.0, v3_norm2(to) - b * b);
+    const double margin = ROUNDING * (s->scale * s->group->radius + best);
+    const double reach = best + margin;
+    return isfinite(best) ? b + sqrt(fmax(0.0, reach * reach - h2)) + margin : HUGE_VAL;
+}
+
+/// First touch of all parts of the group; false if none touches or the trial is beaten.
+static bool fly(const clx_search *s, const double origin[3], const double orientation[4],
+                const clx_touch_path *path, clx_landing *landing)
+{
+    clx_touch_path rest = *path;
+    bool found = false;
+    for (int32_t i = 0; i < s->group->n_part; ++i) {
+        clx_kit_part placed;
+        clx_touch touch;
+        clx_kit_pose(s->group, i, origin, orientation, s->scale, &placed);
+        clx_touch_body body = s->kit->shape[placed.shape].body;
+        clx_touch_body_place(&body, placed.position, placed.orientation, placed.scale);
+        if (!clx_touch_scene_first(s->scene, &body, &rest, &touch)) {
+            continue;
+        }
+        if (touch.beaten) {
+            return false;
+        }
+        if (!found || touch.t < landing->touch.t) {
+            found = true;
+            landing->touch = touch;
+            landing->part = i;
+            rest.t_high = touch.t;
+        }
+    }
+    return found;
+}
+
+static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, double bound,
+                          clx_landing *landing)
+{
+    double back[3];
+    v3_scale(back, -1.0, r->direction);
+    clx_touch_path path = clx_touch_path_along(back);
+    const int64_t n_trial = (int64_t)s->n_ray * s->n_orientation;
+    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_ORIENTATION, item(s, trial, n_trial));
+    clx_rng_orientation(&rng, landing->orientation);
+    q_unit(landing->orientation);
+    path.t_low = r->t_low;
+    path.t_enough = -losing_place(s, r, bound);
+    bool found = fly(s, r->origin, landing->orientation, &path, landing);
+    if (found && landing->touch.overlap) {
+        path.t_low = -HUGE_VAL; // the start lies inside a side branch: come from outside of all
+        found = fly(s, r->origin, landing->orientation, &path, landing);
+    }
+    landing->found = found;
+    landing->trial = trial;
+    if (found) {
+        landing->along = -landing->touch.t;
+        v3_copy(landing->origin, r->origin);
+        v3_copy(landing->direction, r->direction);
+        v3_axpy(landing->centre, r->origin, landing->along, r->direction);
+        landing->distance = v3_distance(landing->centre, s->target);
+    }
+    return found;
+}
+
+static bool is_better(const clx_landing *a, const clx_landing *b)
+{
+    if (!a->found || !b->found) {
+        return a->found;
+    }
+    return a->distance < b->distance || (a->distance == b->distance && a->trial < b->trial);
+}
+
+/// Keeps the better of two landings; a total order, so the last one standing is always the same.
+static void keep(race *all, const clx_landing *landing)
+{
+    while (atomic_flag_test_and_set_explicit(&all->lock, memory_order_acquire)) {
+    }
+    if (is_better(landing, &all->best)) {
+        all->best = *landing;
+        atomic_store_explicit(&all->bound, landing->distance, memory_order_relaxed);
+    }
+    atomic_flag_clear_explicit(&all->lock, memory_order_release);
+}
+
+static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    (void)worker;
+    race *all = context;
+    const clx_search *s = all->search;
+    const int64_t n_orientation = s->group->is_round ? 1 : s->n_orientation;
+    ray r = {.number = -1};
+    for (int64_t i = begin; i < end; ++i) {
+        clx_landing landing = {0};
+        if (r.number != i / n_orientation) {
+            make_ray(s, i / n_orientation, &r);
+        }
+        const int64_t trial = r.number * s->n_orientation + i % n_orientation;
+        const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
+        if (attempt_trial(s, &r, trial, bound, &landing) && landing.distance <= bound) {
+            keep(all, &landing);
+        }
+    }
+}
+
+void clx_search_run(const clx_search *search, clx_landing *best)
+{
+    race all = {.search = search, .lock = ATOMIC_FLAG_INIT};
+    atomic_init(&all.bound, HUGE_VAL);
+    const int64_t n_orientation = search->group->is_round ? 1 : search->n_orientation;
+    clx_parallel_for(search->n_ray * n_orientation, TRIAL_BLOCK, run_trials, &all);
+    *best = all.best;
+}
+
+double clx_search_overlap(const clx_search *search, const clx_landing *landing)
+{
+    double back[3];
+    const double size = search->scale * search->group->radius;
+    v3_scale(back, -1.0, landing->direction);
+    clx_touch_path path = clx_touch_path_along(back);
+    clx_landing again;
+    double step = 0.0;
+    while (step < 4.0 * size) {
+        path.t_low = -(landing->along + step);
+        path.t_high = path.t_low;
+        if (!fly(search, landing->origin, landing->orientation, &path, &again) ||
+            !again.touch.overlap) {
+            return step;
+        }
+        step = step > 0.0 ? 4.0 * step : 1e-15 * size;
+    }
+    return HUGE_VAL;
+}

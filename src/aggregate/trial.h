@@ -1,0 +1,48 @@
+#pragma once
+// One particle's search: rays in a cone, orientations on each ray, the landing nearest the target.
+#include "aggregate/kit.h"
+#include "contact/touch_scene.h"
+
+/// What is thrown at what, and from where.
+typedef struct clx_search {
+    const clx_kit *kit;
+    const clx_kit_group *group;
+    double scale;
+    double size; ///< as the sizes mean it; the unit of `start` [m]
+
+    const clx_touch_scene *scene;
+    const clast_assembly *assembly; ///< grains of the scene, in its order
+    const int64_t *sphere_end;      ///< [n_grain] running count of composite spheres, for SPHERE
+    int32_t origin;                 ///< clast_ray_origin, but never AUTO
+    double centre[3];               ///< rays' origin for CORE and MASS
+    double target[3];
+
+    uint64_t seed;
+    int64_t particle;
+    int32_t attempt; ///< 0, 1, ... : a new axis each
+    bool random_axis;
+    double axis[3];
+    double cone;
+    int32_t n_ray, n_orientation;
+    double start; ///< sizes beyond the ray's last hit, 0: from outside of all
+} clx_search;
+
+/// Where a particle came to rest.
+typedef struct clx_landing {
+    bool found;
+    int64_t trial;
+    double distance; ///< centre of mass to target
+    double along;    ///< centre = origin + along * direction
+    double origin[3], direction[3];
+    double centre[3];
+    double orientation[4];
+    int32_t part; ///< of the group, that touches
+    clx_touch touch;
+} clx_landing;
+
+/// The best of all trials; ties go to the lower trial number, so threads do not matter.
+void clx_search_run(const clx_search *search, clx_landing *best);
+
+/// Distance that the landed particle must step back along its ray until nothing overlaps; 0 when
+/// it touches within rounding. Checks the answer by another way than the one that found it.
+double clx_search_overlap(const clx_search *search, const clx_landing *landing);

@@ -1,0 +1,5 @@
+#pragma once
+// Time that passes, for reports; no result depends on it.
+
+/// Seconds since some fixed moment; never goes back.
+double clx_clock(void);

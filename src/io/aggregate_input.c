@@ -1,0 +1,160 @@
+// Loads what an aggregation's configuration names: shapes by name or file, composites, sizes.
+#include <clast/aggregate_file.h>
+
+#include "aggregate/config.h"
+#include "base/alloc.h"
+#include <clast/mesh_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double NOWHERE[3] = {0.0, 0.0, 0.0};
+static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
+
+/// "ellipsoid:a,b,c" with full axes.
+static clast_status read_ellipsoid(const char *text, clast_shape *shape)
+{
+    double axes[3];
+    if (clx_numbers_parse(text + strlen("ellipsoid:"), 3, axes) != CLAST_OK ||
+        fmin(axes[0], fmin(axes[1], axes[2])) <= 0.0) {
+        return clx_fail(CLAST_E_CONFIG, "'%s': write ellipsoid:a,b,c with three axes above 0",
+                        text);
+    }
+    for (int k = 0; k < 3; ++k) {
+        axes[k] *= 0.5;
+    }
+    return clast_shape_ellipsoid(text, axes, shape);
+}
+
+/// File name without folders and extension.
+static void stem(const char *path, char *name, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    const char *base = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(base, '.');
+    const int n = dot != NULL && dot != base ? (int)(dot - base) : (int)strlen(base);
+    (void)snprintf(name, size, "%.*s", n, base);
+}
+
+static clast_status read_surface(const char *path, double factor, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh mesh = {0};
+    char name[200];
+    stem(path, name, sizeof name);
+    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    clast_mesh_transform(&mesh, factor, UNTURNED, NOWHERE);
+    CLX_TRY(clast_shape_mesh(name, &mesh, shape));
+done:
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static bool is_ellipsoid(const char *text)
+{
+    return strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0;
+}
+
+static clast_status read_shape(const char *text, double factor, clast_shape *shape)
+{
+    if (strcmp(text, "sphere") == 0) {
+        return clast_shape_sphere(text, 0.5, shape);
+    }
+    return is_ellipsoid(text) ? read_ellipsoid(text, shape) : read_surface(text, factor, shape);
+}
+
+static clast_status load_shape(const clast_aggregate_config *config, const char *text,
+                               double density, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    clast_shape shape = {0};
+    double factor = 1.0;
+    const bool is_file = strcmp(text, "sphere") != 0 && !is_ellipsoid(text);
+    const bool has_unit = is_file && config->unit[0] != '\0';
+    if (has_unit) {
+        CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
+    }
+    CLX_TRY(read_shape(text, factor, &shape));
+    CLX_TRY(clast_assembly_add_shape(assembly, &shape, NULL));
+    CLX_TRY(clast_assembly_add_grain(assembly, 0, NOWHERE, UNTURNED, 1.0, density));
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", has_unit ? "m" : "model");
+done:
+    clast_shape_free(&shape);
+    return status;
+}
+
+static clast_status load_named(const char *role, const clast_aggregate_config *config,
+                               const char *text, double density, clast_assembly *assembly)
+{
+    const clast_status status = load_shape(config, text, density, assembly);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", role);
+    }
+    return status;
+}
+
+static clast_status load_sizes(const clast_aggregate_config *config, clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    if (config->sizes[0] != '\0') {
+        return clast_sizes_read(config->sizes, config->size_column, config->size_unit, sizes);
+    }
+    CLX_TRY(clast_sizes_alloc(config->size.n, sizes));
+    for (int32_t i = 0; i < config->size.n; ++i) {
+        sizes->low[i] = config->size.item[i];
+        sizes->high[i] = config->size.item[i];
+        sizes->count[i] = 1.0;
+    }
+done:
+    return status;
+}
+
+void clast_aggregate_unload(clast_aggregate_source *source)
+{
+    clast_assembly_free(&source->core);
+    for (int32_t i = 0; i < source->n_coat; ++i) {
+        clast_assembly_free(&source->coat[i]);
+    }
+    clx_free(source->coat);
+    clast_sizes_free(&source->sizes);
+    *source = (clast_aggregate_source){0};
+}
+
+static clast_status load_shapes(const clast_aggregate_config *config, clast_aggregate_source *made)
+{
+    clast_status status = CLAST_OK;
+    if (config->core[0] != '\0') {
+        CLX_TRY(load_named("core", config, config->core, config->core_density, &made->core));
+    }
+    CLX_TRY(clx_alloc(&made->coat, config->coat.n, sizeof *made->coat));
+    made->n_coat = config->coat.n;
+    for (int32_t i = 0; i < config->coat.n; ++i) {
+        const int32_t k = config->coat_density.n > 1 ? i : 0;
+        CLX_TRY(load_named("coat", config, config->coat.item[i], config->coat_density.item[k],
+                           &made->coat[i]));
+    }
+done:
+    return status;
+}
+
+clast_status clast_aggregate_load(const clast_aggregate_config *config,
+                                  clast_aggregate_source *source)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_source made = {0};
+    CLX_TRY(clast_aggregate_config_check(config));
+    CLX_TRY(load_shapes(config, &made));
+    if (config->size_law == CLAST_SIZE_LIST) {
+        CLX_TRY(load_sizes(config, &made.sizes));
+    }
+    *source = made;
+    made = (clast_aggregate_source){0};
+    source->input = (clast_aggregate_input){
+        .core = config->core[0] != '\0' ? &source->core : NULL,
+        .n_coat = source->n_coat,
+        .coat = source->coat,
+        .sizes = config->size_law == CLAST_SIZE_LIST ? &source->sizes : NULL};
+done:
+    clast_aggregate_unload(&made);
+    return status;
+}

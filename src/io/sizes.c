@@ -1,0 +1,292 @@
+// Size lists and histograms from delimited text.
+#include <clast/aggregate_file.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/field.h>
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMN_LIMIT = 64, WORD_LIMIT = 128 };
+static const int64_t BYTE_LIMIT = (int64_t)1 << 30;
+
+typedef struct {
+    const char *name; ///< of the file, for messages
+    int64_t line;
+    int32_t n_word;
+    char word[COLUMN_LIMIT][WORD_LIMIT];
+    int32_t low, high, count; ///< columns; high = low for plain sizes, count -1 for none
+    int32_t n_column;
+    char unit[16];
+    bool is_phi;
+    double factor;
+    clast_sizes sizes; ///< as far as read
+    int64_t low_room, high_room, count_room;
+} reader;
+
+static bool is_separator(char c)
+{
+    return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r';
+}
+
+/// Cuts [at, end) into words: runs of blanks are one separator, commas and semicolons each one.
+static clast_status split(reader *r, const char *at, const char *end)
+{
+    clast_status status = CLAST_OK;
+    r->n_word = 0;
+    while (at < end) {
+        while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
+            ++at;
+        }
+        if (at == end || *at == '#') {
+            break;
+        }
+        const char *word = at;
+        while (at < end && !is_separator(*at) && *at != '#') {
+            ++at;
+        }
+        CLX_CHECK(r->n_word < COLUMN_LIMIT && at - word < WORD_LIMIT, CLAST_E_FORMAT,
+                  "%s:%lld: more than %d columns, or a word of more than %d letters", r->name,
+                  (long long)r->line, COLUMN_LIMIT, WORD_LIMIT - 1);
+        (void)snprintf(r->word[r->n_word++], WORD_LIMIT, "%.*s", (int)(at - word), word);
+        while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
+            ++at;
+        }
+        at += at < end && (*at == ',' || *at == ';') ? 1 : 0;
+    }
+done:
+    return status;
+}
+
+static bool is_number(const char *word)
+{
+    char *end = NULL;
+    (void)strtod(word, &end);
+    return end != word && *end == '\0';
+}
+
+static bool begins(const char *word, const char *with)
+{
+    for (; *with != '\0'; ++word, ++with) {
+        if (tolower((unsigned char)*word) != *with) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_count_name(const char *word)
+{
+    static const char *const names[] = {"count", "n", "number", "weight", "mass", NULL};
+    for (const char *const *name = names; *name != NULL; ++name) {
+        if (begins(word, *name) && strlen(word) == strlen(*name)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int32_t find_word(const reader *r, const char *with, bool whole)
+{
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        if (whole ? strcmp(r->word[i], with) == 0 : begins(r->word[i], with)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/// The unit that a column's name ends in, "" for none.
+static const char *unit_of(const char *column)
+{
+    const char *bar = strrchr(column, '_');
+    double factor = 0.0;
+    if (bar == NULL) {
+        return "";
+    }
+    return strcmp(bar + 1, "phi") == 0 || clast_unit_factor(bar + 1, "m", &factor) == CLAST_OK
+               ? bar + 1
+               : "";
+}
+
+static clast_status read_header(reader *r, const char *column)
+{
+    clast_status status = CLAST_OK;
+    r->count = -1;
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        r->count = r->count < 0 && is_count_name(r->word[i]) ? i : r->count;
+    }
+    r->low = find_word(r, "low", false);
+    r->high = find_word(r, "high", false);
+    if (column[0] != '\0') {
+        r->low = find_word(r, column, true);
+        CLX_CHECK(r->low >= 0, CLAST_E_FORMAT, "%s:%lld: no column is called %s (the first is %s)",
+                  r->name, (long long)r->line, column, r->word[0]);
+        r->high = r->low;
+    } else if (r->low < 0 || r->high < 0) {
+        r->low = r->count == 0 && r->n_word > 1 ? 1 : 0;
+        r->high = r->low;
+    }
+    CLX_CHECK(r->low != r->count, CLAST_E_FORMAT, "%s:%lld: column %s cannot be size and count",
+              r->name, (long long)r->line, r->word[r->low]);
+    if (r->unit[0] == '\0') {
+        (void)snprintf(r->unit, sizeof r->unit, "%s", unit_of(r->word[r->low]));
+    }
+done:
+    return status;
+}
+
+static clast_status begin(reader *r, const char *column, bool *is_header)
+{
+    clast_status status = CLAST_OK;
+    *is_header = !is_number(r->word[0]) && !begins(r->word[0], "nan");
+    r->n_column = r->n_word;
+    if (*is_header) {
+        CLX_TRY(read_header(r, column));
+    } else {
+        CLX_CHECK(column[0] == '\0', CLAST_E_FORMAT,
+                  "%s:%lld: no names of columns; %s is not found", r->name, (long long)r->line,
+                  column);
+        r->count = r->n_word > 1 ? 1 : -1;
+    }
+    CLX_CHECK(r->unit[0] != '\0', CLAST_E_CONFIG,
+              "%s: the unit of the sizes is not known; give size_unit (um, mm, m or phi)", r->name);
+    r->is_phi = strcmp(r->unit, "phi") == 0;
+    if (!r->is_phi) {
+        CLX_TRY(clast_unit_factor(r->unit, "m", &r->factor));
+    }
+done:
+    return status;
+}
+
+static clast_status size_at(const reader *r, int32_t column, double *size)
+{
+    clast_status status = CLAST_OK;
+    const char *word = r->word[column];
+    CLX_CHECK(is_number(word), CLAST_E_FORMAT, "%s:%lld: '%s' is not a number", r->name,
+              (long long)r->line, word);
+    const double number = strtod(word, NULL);
+    CLX_CHECK(isfinite(number), CLAST_E_FORMAT, "%s:%lld: the size '%s' is not finite", r->name,
+              (long long)r->line, word);
+    *size = r->is_phi ? 1e-3 * exp2(-number) : number * r->factor;
+    CLX_CHECK(*size > 0.0 && isfinite(*size), CLAST_E_FORMAT, "%s:%lld: the size %s is not above 0",
+              r->name, (long long)r->line, word);
+done:
+    return status;
+}
+
+static clast_status count_at(const reader *r, double *count)
+{
+    const char *word = r->word[r->count];
+    *count = strtod(word, NULL);
+    if (!is_number(word) || !isfinite(*count) || *count < 0.0) {
+        return clx_fail(CLAST_E_FORMAT, "%s:%lld: the count '%s' is not a number from 0 up",
+                        r->name, (long long)r->line, word);
+    }
+    return CLAST_OK;
+}
+
+static clast_status add_row(reader *r, double low, double high, double count)
+{
+    clast_status status = CLAST_OK;
+    clast_sizes *s = &r->sizes;
+    CLX_TRY(clx_grow(&s->low, &r->low_room, s->n + 1, sizeof *s->low));
+    CLX_TRY(clx_grow(&s->high, &r->high_room, s->n + 1, sizeof *s->high));
+    CLX_TRY(clx_grow(&s->count, &r->count_room, s->n + 1, sizeof *s->count));
+    s->low[s->n] = fmin(low, high);
+    s->high[s->n] = fmax(low, high);
+    s->count[s->n] = count;
+    ++s->n;
+done:
+    return status;
+}
+
+static clast_status read_row(reader *r)
+{
+    clast_status status = CLAST_OK;
+    double low = 0.0;
+    double high = 0.0;
+    double count = 1.0;
+    CLX_CHECK(r->n_word == r->n_column, CLAST_E_FORMAT, "%s:%lld: %d columns, expected %d", r->name,
+              (long long)r->line, r->n_word, r->n_column);
+    CLX_TRY(size_at(r, r->low, &low));
+    CLX_TRY(size_at(r, r->high, &high));
+    if (r->count >= 0) {
+        CLX_TRY(count_at(r, &count));
+    }
+    CLX_TRY(add_row(r, low, high, count));
+done:
+    return status;
+}
+
+/// One line; the first that is not empty may be the header.
+static clast_status read_line(reader *r, const char *column, bool *begun)
+{
+    clast_status status = CLAST_OK;
+    bool is_header = false;
+    if (!*begun) {
+        *begun = true;
+        CLX_TRY(begin(r, column, &is_header));
+    }
+    if (!is_header) {
+        CLX_TRY(read_row(r));
+    }
+done:
+    return status;
+}
+
+static clast_status read_lines(reader *r, const char *text, const char *column)
+{
+    clast_status status = CLAST_OK;
+    bool begun = false;
+    while (*text != '\0') {
+        const char *end = text + strcspn(text, "\n");
+        ++r->line;
+        CLX_TRY(split(r, text, end));
+        if (r->n_word > 0) {
+            CLX_TRY(read_line(r, column, &begun));
+        }
+        text = *end == '\0' ? end : end + 1;
+    }
+done:
+    return status;
+}
+
+clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
+                               const char *unit, clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    reader *r = NULL;
+    const bool marked = strncmp(text, "\xef\xbb\xbf", 3) == 0; // byte-order mark of spreadsheets
+    CLX_TRY(clx_alloc(&r, 1, sizeof *r));
+    r->name = name;
+    (void)snprintf(r->unit, sizeof r->unit, "%s", unit);
+    CLX_TRY(read_lines(r, text + (marked ? 3 : 0), column));
+    CLX_CHECK(r->sizes.n > 0, CLAST_E_FORMAT, "%s: no sizes in it", name);
+    *sizes = r->sizes;
+    r->sizes = (clast_sizes){0};
+done:
+    if (r != NULL) {
+        clast_sizes_free(&r->sizes);
+    }
+    clx_free(r);
+    return status;
+}
+
+clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
+                              clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
+    CLX_CHECK(strlen(bytes) == (size_t)n, CLAST_E_FORMAT, "%s: a zero byte at %zu; not a text",
+              path, strlen(bytes));
+    CLX_TRY(clast_sizes_parse(path, bytes, column, unit, sizes));
+done:
+    clx_free(bytes);
+    return status;
+}

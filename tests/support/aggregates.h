@@ -1,0 +1,20 @@
+#pragma once
+// Small aggregates for tests, from built-in shapes.
+#include "support.h"
+
+/// A core and coating shapes with their sizes and options; one for each test.
+typedef struct support_aggregate {
+    clast_aggregate_config config;
+    clast_assembly core;
+    clast_assembly coat[4];
+    clast_aggregate_input input;
+} support_aggregate;
+
+/// Sphere core, n coating shapes that are spheres or the given ellipsoids [n][3] full axes, all
+/// sizes 1 m unless `sizes` (options as "key=value;key=value").
+void support_aggregate_make(support_aggregate *s, const double (*axes)[3], int32_t n_coat,
+                            const char *options);
+void support_aggregate_free(support_aggregate *s);
+
+/// Runs repeat `repeat` to its end.
+clast_aggregate *support_aggregate_run(support_aggregate *s, int32_t repeat);
