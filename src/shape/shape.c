@@ -1,4 +1,5 @@
-// Shapes in their own frame: sphere, ellipsoid, closed surface; volume, inertia, length, bounds.
+// Shapes in their own frame: sphere, ellipsoid, closed surface, clump; volume, inertia, length,
+// bounds.
 //
 // A shape's centroid is its origin, so a pose's position is always the grain's centroid.
 #include "shape/shape.h"
@@ -141,6 +142,36 @@ clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh, clast_sh
     made.volume = mass.volume;
     CLX_TRY(clast_mesh_length(&made.mesh, &made.length));
     made.bounding_radius = radius_of(&made.mesh);
+    v3_copy(made.source_origin, mass.centroid);
+    for (int i = 0; i < 3; ++i) {
+        v3_copy(made.inertia[i], mass.inertia[i]);
+    }
+    *shape = made;
+    made = (clast_shape){0};
+done:
+    clast_shape_free(&made);
+    if (status != CLAST_OK && name != NULL && name[0] != '\0') {
+        clx_fail_prefix("%s", name);
+    }
+    return status;
+}
+
+clast_status clast_shape_clump(const char *name, const clast_spheres *spheres, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_shape made = {.kind = CLAST_SHAPE_CLUMP};
+    clast_mass mass = {0};
+    CLX_TRY(clx_spheres_union_mass(spheres, &mass));
+    CLX_TRY(clx_axes_from_inertia(mass.volume, mass.inertia, made.semi_axes));
+    CLX_TRY(name_shape(name, &made));
+    CLX_TRY(clast_spheres_copy(spheres, &made.spheres));
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        double *centre = made.spheres.centre[i];
+        v3_sub(centre, centre, mass.centroid);
+        made.bounding_radius = fmax(made.bounding_radius, v3_norm(centre) + spheres->radius[i]);
+    }
+    made.volume = mass.volume;
+    made.length = clx_spheres_length(spheres);
     v3_copy(made.source_origin, mass.centroid);
     for (int i = 0; i < 3; ++i) {
         v3_copy(made.inertia[i], mass.inertia[i]);

@@ -9,7 +9,11 @@
 /// @return CLAST_E_GEOMETRY if the moments break the triangle inequality (no solid has them)
 clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double semi_axes[3]);
 
-/// Volume, centroid and inertia of a union of spheres.
+/// Volume, centroid and inertia at unit density of a union of spheres, overlaps counted once:
+/// within 1e-11 (relative), exact sums when none overlap. [docs/theory/union-of-spheres.md]
+///
+/// @return CLAST_E_GEOMETRY if there is no sphere or one is not positive and finite
+/// @note O(n^2 + sum over spheres of (spheres that cut it)^2)
 clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *mass);
 
 /// Greatest distance between two points of a union of spheres.
