@@ -12,7 +12,11 @@
 static const struct {
     clast_mesh_format format;
     const char *name;
-} names[] = {{CLAST_MESH_STL, "stl"}};
+} names[] = {{CLAST_MESH_STL, "stl"},
+             {CLAST_MESH_OBJ, "obj"},
+             {CLAST_MESH_PLY, "ply"},
+             {CLAST_MESH_OFF, "off"},
+             {CLAST_MESH_3MF, "3mf"}};
 
 enum { N_NAME = sizeof names / sizeof names[0] };
 
@@ -52,21 +56,38 @@ void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
 static clast_status parse(const void *bytes, size_t n, clast_mesh_format format, clast_mesh *mesh,
                           clast_mesh_read_report *report)
 {
+    clast_status status = CLAST_OK;
+    CLX_CHECK(n > 0, CLAST_E_FORMAT, "the file is empty (0 bytes)");
+    CLX_CHECK(!clx_text_is_utf16(bytes, n), CLAST_E_FORMAT,
+              "byte 0: this is UTF-16 text; save it as UTF-8 or ASCII");
     switch (format) {
     case CLAST_MESH_STL:
         return clx_stl_parse(bytes, n, mesh, report);
+    case CLAST_MESH_OBJ:
+        return clx_obj_parse(bytes, n, mesh, report);
+    case CLAST_MESH_PLY:
+        return clx_ply_parse(bytes, n, mesh, report);
+    case CLAST_MESH_OFF:
+        return clx_off_parse(bytes, n, mesh, report);
+    case CLAST_MESH_3MF:
+        return clx_fail(CLAST_E_FORMAT, "this is a 3MF or ZIP file: 3MF is written only; STL, OBJ, "
+                                        "PLY and OFF are read");
     default:
         return clx_fail(CLAST_E_FORMAT, "neither content nor name say that this is a surface; STL, "
                                         "OBJ, PLY and OFF are read");
     }
+done:
+    return status;
 }
 
 clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                               clast_mesh *mesh, clast_mesh_read_report *report)
 {
     clast_mesh made = {0};
-    clast_mesh_read_report found = {.format = format, .n_byte = (int64_t)n};
-    const clast_status status = parse(bytes, n, format, &made, &found);
+    const clast_mesh_format by_content = clx_mesh_detect(bytes, n);
+    clast_mesh_read_report found = {.format = format != CLAST_MESH_ANY ? format : by_content,
+                                    .n_byte = (int64_t)n};
+    const clast_status status = parse(bytes, n, found.format, &made, &found);
     if (status == CLAST_OK) {
         *mesh = made;
         if (report != NULL) {
@@ -81,10 +102,22 @@ clast_status clast_mesh_read(const char *path, clast_mesh *mesh, clast_mesh_read
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
+    clast_mesh_read_report found = {0};
+    const clast_mesh_format by_name = clast_mesh_format_of_path(path);
     CLX_TRY(clx_file_read_all(path, INT64_MAX, &bytes, &n));
-    status = clast_mesh_parse(bytes, (size_t)n, clast_mesh_format_of_path(path), mesh, report);
+    const clast_mesh_format by_content = clx_mesh_detect(bytes, (size_t)n);
+    status = clast_mesh_parse(bytes, (size_t)n, by_content != CLAST_MESH_ANY ? by_content : by_name,
+                              mesh, &found);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", path);
+        goto done;
+    }
+    if (by_name != CLAST_MESH_ANY && by_name != found.format) {
+        clx_report_warn(&found, "the content is %s although the name says %s",
+                        clast_mesh_format_name(found.format), clast_mesh_format_name(by_name));
+    }
+    if (report != NULL) {
+        *report = found;
     }
 done:
     clx_free(bytes);

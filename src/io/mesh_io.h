@@ -8,12 +8,27 @@
 void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/// True when the bytes are laid out as a binary STL, whatever the header's text says.
-bool clx_stl_is_binary(const void *bytes, size_t n);
+/// True when the size is that of a binary STL with the count at byte 80, to the byte.
+bool clx_stl_is_exact(const void *bytes, size_t n);
+
+/// True for text of two or four bytes a letter, which no reader here takes.
+bool clx_text_is_utf16(const void *bytes, size_t n);
+
+/// True when the first word of the text is OFF, COFF, NOFF, STOFF, ...
+bool clx_off_is_magic(const char *text, size_t n);
 
 /// Readers: `mesh` is empty before; `report` is never NULL.
 clast_status clx_stl_parse(const void *bytes, size_t n, clast_mesh *mesh,
                            clast_mesh_read_report *report);
+clast_status clx_obj_parse(const void *bytes, size_t n, clast_mesh *mesh,
+                           clast_mesh_read_report *report);
+clast_status clx_ply_parse(const void *bytes, size_t n, clast_mesh *mesh,
+                           clast_mesh_read_report *report);
+clast_status clx_off_parse(const void *bytes, size_t n, clast_mesh *mesh,
+                           clast_mesh_read_report *report);
+
+/// Which format the bytes themselves show, or CLAST_MESH_ANY.
+clast_mesh_format clx_mesh_detect(const void *bytes, size_t n);
 
 /// Writers: append the whole file.
 clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,

@@ -142,12 +142,14 @@ static bool has_binary_bytes(const uint8_t *bytes, size_t n)
     return false;
 }
 
-bool clx_stl_is_binary(const void *bytes, size_t n)
+bool clx_stl_is_exact(const void *bytes, size_t n)
 {
-    if (n < BODY_START) {
-        return !says_solid(bytes, n);
-    }
-    return binary_size(bytes) == (int64_t)n || !says_solid(bytes, n) || has_binary_bytes(bytes, n);
+    return n >= BODY_START && binary_size(bytes) == (int64_t)n;
+}
+
+static bool is_binary(const void *bytes, size_t n)
+{
+    return clx_stl_is_exact(bytes, n) || !says_solid(bytes, n) || has_binary_bytes(bytes, n);
 }
 
 static clast_status check_finite(double p[3][3], int64_t facet, int64_t byte)
@@ -328,7 +330,7 @@ clast_status clx_stl_parse(const void *bytes, size_t n, clast_mesh *mesh,
 {
     gather g = {.report = report};
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_stl_is_binary(bytes, n) ? parse_binary(bytes, n, &g) : parse_ascii(bytes, n, &g));
+    CLX_TRY(is_binary(bytes, n) ? parse_binary(bytes, n, &g) : parse_ascii(bytes, n, &g));
     CLX_TRY(finish(&g, mesh));
 done:
     gather_free(&g);
