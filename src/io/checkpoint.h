@@ -1,0 +1,22 @@
+#pragma once
+// Checkpoints of a run: FOLDER/checkpoint-NNNNNNNNNNNN.h5, the last two kept.
+#include "io/h5.h"
+
+enum { CLX_CHECKPOINT_KEEP = 2 };
+
+/// Writes a state as the checkpoint of this step, then removes all but the newest two. A failure
+/// leaves every older checkpoint in place. The folder is made if needed.
+///
+/// @param step  0 .. 10^12 - 1, rising through a run
+clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
+
+/// Newest checkpoint that is whole: its path (clx_free it) and step; damaged ones are passed over
+/// and counted.
+///
+/// @param n_damaged  checkpoints newer than it that are damaged; may be NULL
+/// @return CLAST_E_IO if the folder cannot be read or holds no whole checkpoint
+clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
+                                   int32_t *n_damaged);
+
+/// Removes all checkpoints of a finished run.
+clast_status clx_checkpoint_clear(const char *folder);
