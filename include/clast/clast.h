@@ -10,7 +10,9 @@
 #include <clast/field.h>
 #include <clast/hull.h>
 #include <clast/mesh.h>
+#include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
+#include <clast/mesh_repair.h>
 #include <clast/monitor.h>
 #include <clast/parallel.h>
 #include <clast/printable.h>

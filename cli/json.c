@@ -1,0 +1,36 @@
+// JSON on stdout.
+#include "json.h"
+
+#include <math.h>
+#include <stdio.h>
+
+clast_status cli_print_json(json_t *object)
+{
+    if (object == NULL) {
+        return CLAST_E_MEMORY;
+    }
+    const int failed = json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    (void)putchar('\n');
+    json_decref(object);
+    return failed != 0 ? CLAST_E_DISK : CLAST_OK;
+}
+
+void cli_json_number(json_t *object, const char *key, double value)
+{
+    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+void cli_json_count(json_t *object, const char *key, int64_t value)
+{
+    (void)json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+void cli_json_bool(json_t *object, const char *key, bool value)
+{
+    (void)json_object_set_new(object, key, json_boolean(value));
+}
+
+void cli_json_text(json_t *object, const char *key, const char *value)
+{
+    (void)json_object_set_new(object, key, json_string(value));
+}

@@ -1,0 +1,14 @@
+#pragma once
+// One JSON object on stdout, numbers with 17 digits.
+#include <clast/status.h>
+#include <jansson.h>
+
+/// Prints the object and a newline, and drops the caller's reference. NULL (an object that could
+/// not be made) gives CLAST_E_MEMORY.
+clast_status cli_print_json(json_t *object);
+
+/// As json_object_set_new, but a number that is not finite becomes null.
+void cli_json_number(json_t *object, const char *key, double value);
+void cli_json_count(json_t *object, const char *key, int64_t value);
+void cli_json_bool(json_t *object, const char *key, bool value);
+void cli_json_text(json_t *object, const char *key, const char *value);

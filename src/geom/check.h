@@ -1,0 +1,21 @@
+#pragma once
+// The steps of clast_mesh_check, one file each.
+#include "geom/topology.h"
+#include <clast/mesh_check.h>
+
+/// True when the three corners are on one line, exactly.
+bool clx_is_flat(const clast_mesh *mesh, int32_t t);
+
+/// Marks [n_tri] triangles whose three corners, in any order, an earlier triangle has; collapsed
+/// ones are left out.
+clast_status clx_find_duplicates(const clast_mesh *mesh, bool *duplicate, int32_t *n_duplicate);
+
+/// Parts with their counts, measures, genus and nesting.
+clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
+                             clast_mesh_check_result *result);
+
+/// Volumes and areas, each in two ways.
+void clx_check_measures(const clast_mesh *mesh, clast_mesh_check_result *result);
+
+/// The findings in words.
+void clx_check_words(clast_mesh_check_result *result);

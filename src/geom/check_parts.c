@@ -1,0 +1,216 @@
+// Connected parts of a surface: counts, genus, volume, and which lies in which.
+#include "geom/check.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include <stdlib.h>
+
+static void add_triangles(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)
+{
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        double u[3];
+        double v[3];
+        double n[3];
+        if (part[t] < 0) {
+            continue;
+        }
+        clast_mesh_part *p = &list[part[t]];
+        const double *a = mesh->vert[mesh->tri[t][0]];
+        if (p->n_triangle++ == 0) {
+            v3_copy(p->low, a);
+            v3_copy(p->high, a);
+        }
+        for (int k = 0; k < 9; ++k) {
+            const double x = mesh->vert[mesh->tri[t][k / 3]][k % 3];
+            p->low[k % 3] = fmin(p->low[k % 3], x);
+            p->high[k % 3] = fmax(p->high[k % 3], x);
+        }
+        v3_sub(u, mesh->vert[mesh->tri[t][1]], a);
+        v3_sub(v, mesh->vert[mesh->tri[t][2]], a);
+        v3_cross(n, u, v);
+        p->area += 0.5 * v3_norm(n);
+    }
+}
+
+/// Signed tetrahedra about the middle of each part's box.
+static void add_volumes(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)
+{
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        double corner[3][3];
+        double middle[3];
+        double n[3];
+        if (part[t] < 0) {
+            continue;
+        }
+        clast_mesh_part *p = &list[part[t]];
+        v3_add(middle, p->low, p->high);
+        v3_scale(middle, 0.5, middle);
+        for (int k = 0; k < 3; ++k) {
+            v3_sub(corner[k], mesh->vert[mesh->tri[t][k]], middle);
+        }
+        v3_cross(n, corner[1], corner[2]);
+        p->volume += v3_dot(corner[0], n) / 6.0;
+    }
+}
+
+static void add_edges(const clast_mesh *mesh, const clx_topology *topology, const int32_t *part,
+                      clast_mesh_part *list)
+{
+    for (int32_t e = 0; e < topology->n_edge; ++e) {
+        clast_mesh_part *p = &list[part[topology->half[topology->begin[e]] / 3]];
+        const int32_t use = clx_edge_use(topology, e);
+        p->n_open_edge += use == 1;
+        p->closed = p->closed && use % 2 == 0;
+        p->manifold = p->manifold && use <= 2;
+        p->oriented = p->oriented && abs(clx_edge_balance(mesh, topology, e)) <= use % 2;
+        --p->genus; // Euler's number gathers here first
+    }
+}
+
+/// Genus from Euler's number, a fan counted as a vertex (so that parts that touch in a vertex do
+/// not count it twice).
+static clast_status add_genus(const clast_mesh *mesh, const clx_topology *topology,
+                              const int32_t *part, int32_t n_part, clast_mesh_part *list)
+{
+    clast_status status = CLAST_OK;
+    int32_t *corner_fan = NULL;
+    int32_t *n_fan = NULL;
+    CLX_TRY(clx_alloc(&corner_fan, 3 * (int64_t)mesh->n_tri, sizeof *corner_fan));
+    CLX_TRY(clx_alloc(&n_fan, mesh->n_vert, sizeof *n_fan));
+    clx_topology_fans(mesh, topology, corner_fan, n_fan);
+    for (int32_t c = 0; c < 3 * mesh->n_tri; ++c) {
+        if (corner_fan[c] == c) {
+            ++list[part[c / 3]].genus;
+        }
+    }
+    for (int32_t i = 0; i < n_part; ++i) {
+        const int32_t euler = list[i].genus + list[i].n_triangle;
+        const bool known = list[i].closed && list[i].oriented && list[i].manifold;
+        list[i].genus = known ? (2 - euler) / 2 : -1;
+    }
+done:
+    clx_free(corner_fan);
+    clx_free(n_fan);
+    return status;
+}
+
+static bool box_in_box(const clast_mesh_part *inner, const clast_mesh_part *outer)
+{
+    for (int k = 0; k < 3; ++k) {
+        if (inner->low[k] < outer->low[k] || inner->high[k] > outer->high[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Solid angle of triangle (a, b, c) seen from p, with sign. [VanOosterom1983 eq. 8]
+static double solid_angle(const double p[3], const double a[3], const double b[3],
+                          const double c[3])
+{
+    double u[3];
+    double v[3];
+    double w[3];
+    double n[3];
+    v3_sub(u, a, p);
+    v3_sub(v, b, p);
+    v3_sub(w, c, p);
+    v3_cross(n, v, w);
+    const double lu = v3_norm(u);
+    const double lv = v3_norm(v);
+    const double lw = v3_norm(w);
+    const double below = lu * lv * lw + v3_dot(u, v) * lw + v3_dot(u, w) * lv + v3_dot(v, w) * lu;
+    return 2.0 * atan2(v3_dot(u, n), below);
+}
+
+typedef struct {
+    const clast_mesh *mesh;
+    const int32_t *first; ///< [n_part + 1] triangles of each part
+    const int32_t *tri;
+} part_lists;
+
+/// Does the part wind around the point? Its winding number is 0 outside and +-1 inside.
+static bool winds_around(const part_lists *lists, int32_t part, const double point[3])
+{
+    const clast_mesh *mesh = lists->mesh;
+    double sum = 0.0;
+    for (int32_t i = lists->first[part]; i < lists->first[part + 1]; ++i) {
+        const int32_t *c = mesh->tri[lists->tri[i]];
+        sum += solid_angle(point, mesh->vert[c[0]], mesh->vert[c[1]], mesh->vert[c[2]]);
+    }
+    return fabs(sum) > 2.0 * CLAST_PI;
+}
+
+/// Middles of three triangles vote, so that one contact point does not decide.
+static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
+{
+    int votes = 0;
+    const int32_t n = lists->first[inner + 1] - lists->first[inner];
+    for (int i = 0; i < 3; ++i) {
+        const int32_t t = lists->tri[lists->first[inner] + (int32_t)((int64_t)i * (n - 1) / 2)];
+        double middle[3] = {0};
+        for (int k = 0; k < 3; ++k) {
+            v3_axpy(middle, middle, 1.0 / 3.0, lists->mesh->vert[lists->mesh->tri[t][k]]);
+        }
+        votes += winds_around(lists, outer, middle);
+    }
+    return votes >= 2;
+}
+
+static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int32_t n_part,
+                                clast_mesh_part *list)
+{
+    clast_status status = CLAST_OK;
+    int32_t *first = NULL;
+    int32_t *tri = NULL;
+    CLX_TRY(clx_alloc(&first, (int64_t)n_part + 2, sizeof *first));
+    CLX_TRY(clx_alloc(&tri, mesh->n_tri, sizeof *tri));
+    for (int32_t i = 0; i < n_part; ++i) {
+        first[i + 2] = first[i + 1] + list[i].n_triangle;
+    }
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        if (part[t] >= 0) {
+            tri[first[part[t] + 1]++] = t;
+        }
+    }
+    const part_lists lists = {mesh, first, tri};
+    for (int32_t inner = 0; inner < n_part; ++inner) {
+        for (int32_t outer = 0; outer < n_part; ++outer) {
+            const bool may = inner != outer && list[inner].closed && list[outer].closed &&
+                             list[outer].oriented && box_in_box(&list[inner], &list[outer]);
+            list[inner].depth += may && lies_in(&lists, inner, outer);
+        }
+    }
+done:
+    clx_free(first);
+    clx_free(tri);
+    return status;
+}
+
+clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,
+                             clast_mesh_check_result *result)
+{
+    clast_status status = CLAST_OK;
+    int32_t *part = NULL;
+    CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
+    CLX_TRY(clx_topology_parts(topology, mesh->n_tri, part, &result->n_part));
+    CLX_TRY(clx_alloc(&result->part, result->n_part, sizeof *result->part));
+    for (int32_t i = 0; i < result->n_part; ++i) {
+        result->part[i] = (clast_mesh_part){.closed = true, .oriented = true, .manifold = true};
+    }
+    add_triangles(mesh, part, result->part);
+    add_volumes(mesh, part, result->part);
+    add_edges(mesh, topology, part, result->part);
+    CLX_TRY(add_genus(mesh, topology, part, result->n_part, result->part));
+    CLX_TRY(find_depths(mesh, part, result->n_part, result->part));
+    for (int32_t i = 0; i < result->n_part; ++i) {
+        clast_mesh_part *p = &result->part[i];
+        p->inside_out = p->closed && p->oriented && p->depth == 0 && p->volume < 0.0;
+        result->n_inside_out += p->inside_out;
+        result->n_nested += p->closed && p->depth > 0;
+        result->genus += p->genus > 0 ? p->genus : 0;
+    }
+done:
+    clx_free(part);
+    return status;
+}

@@ -1,0 +1,146 @@
+// The findings of clast_mesh_check in words, with numbers and what to run.
+#include "geom/check.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+__attribute__((format(printf, 4, 5))) static void
+add(clast_mesh_check_result *result, bool blocking, const char *code, const char *format, ...)
+{
+    va_list args;
+    if (result->n_fault >= CLAST_MESH_MAX_FAULT) {
+        return;
+    }
+    clast_mesh_fault *fault = &result->fault[result->n_fault++];
+    fault->blocking = blocking;
+    (void)snprintf(fault->code, sizeof fault->code, "%s", code);
+    va_start(args, format);
+    (void)vsnprintf(fault->text, sizeof fault->text, format, args);
+    va_end(args);
+}
+
+static const char *s(int64_t n)
+{
+    return n == 1 ? "" : "s";
+}
+
+static void open_words(clast_mesh_check_result *r)
+{
+    char advice[160] = "merging near vertices does not help; `clast mesh repair` fills holes";
+    if (r->weld_tolerance > 0.0) {
+        char left[48] = "close";
+        if (r->n_open_after_weld > 0) {
+            (void)snprintf(left, sizeof left, "fall to %d", r->n_open_after_weld);
+        }
+        (void)snprintf(advice, sizeof advice,
+                       "they %s when vertices within %.3g (%.2g of the extent) are merged: run "
+                       "`clast mesh repair`",
+                       left, r->weld_tolerance, r->weld_tolerance / r->extent);
+    }
+    add(r, true, "open_edges",
+        "%d open edge%s in %d loop%s, the largest %.4g across (extent %.4g); %s", r->n_open_edge,
+        s(r->n_open_edge), r->n_open_loop, s(r->n_open_loop), r->largest_hole, r->extent, advice);
+    if (r->volume_spread > 1e-9 * fabs(r->volume)) {
+        add(r, false, "volume_uncertain",
+            "the volume of an open surface depends on the origin: four ways to sum it differ by "
+            "%.3g (%.2g of %.6g)",
+            r->volume_spread, r->volume_spread / fabs(r->volume), r->volume);
+    }
+}
+
+static void edge_words(clast_mesh_check_result *r)
+{
+    if (r->n_nonmanifold_edge > 0) {
+        add(r, true, "nonmanifold_edges",
+            "%d edge%s with more than two triangles: bodies touch along an edge or facets are "
+            "doubled; `clast mesh repair` drops doubled facets",
+            r->n_nonmanifold_edge, s(r->n_nonmanifold_edge));
+    }
+    if (r->n_nonmanifold_vertex > 0) {
+        add(r, true, "nonmanifold_vertices",
+            "%d vertex number%s where several surfaces touch in a point; `clast mesh repair` gives "
+            "each surface its own vertex",
+            r->n_nonmanifold_vertex, s(r->n_nonmanifold_vertex));
+    }
+    if (r->n_misoriented_edge > 0) {
+        add(r, true, "misoriented_edges",
+            "%d edge%s whose triangles run the same way round: windings are mixed; run `clast mesh "
+            "repair`",
+            r->n_misoriented_edge, s(r->n_misoriented_edge));
+    }
+}
+
+static void part_words(clast_mesh_check_result *r)
+{
+    if (r->n_inside_out > 0) {
+        add(r, true, "inside_out",
+            "%d of %d parts %s inside out (negative volume); run `clast mesh repair`",
+            r->n_inside_out, r->n_part, r->n_inside_out == 1 ? "is" : "are");
+    }
+    if (r->n_nested > 0) {
+        int32_t n_cavity = 0;
+        for (int32_t i = 0; i < r->n_part; ++i) {
+            const clast_mesh_part *p = &r->part[i];
+            n_cavity += p->closed && p->depth > 0 && p->volume < 0.0;
+        }
+        add(r, false, "nested_parts",
+            "%d of %d parts lie%s inside another: %d wound inward (cavities), %d outward (their "
+            "volume counts twice)",
+            r->n_nested, r->n_part, r->n_nested == 1 ? "s" : "", n_cavity, r->n_nested - n_cavity);
+    }
+}
+
+static void facet_words(clast_mesh_check_result *r)
+{
+    if (r->n_degenerate > 0) {
+        add(r, false, "degenerate",
+            "%d of %d triangles have no area (repeated or collinear corners); `clast mesh repair` "
+            "drops them",
+            r->n_degenerate, r->n_triangle);
+    }
+    if (r->n_duplicate > 0) {
+        add(r, false, "duplicate",
+            "%d triangle%s repeat%s the corners of another; `clast mesh repair` drops them",
+            r->n_duplicate, s(r->n_duplicate), r->n_duplicate == 1 ? "s" : "");
+    }
+    if (r->n_unused_vertex > 0) {
+        add(r, false, "unused_vertices", "%d of %d vertices belong to no triangle",
+            r->n_unused_vertex, r->n_vertex);
+    }
+    if (r->n_touch > 0) {
+        add(r, false, "touching",
+            "%lld pair%s of triangles touch away from common corners and edges: T-junctions, or "
+            "bodies in contact",
+            (long long)r->n_touch, s(r->n_touch));
+    }
+    if (!r->intersection_complete && r->n_intersection == 0) {
+        add(r, false, "self_intersection",
+            "not looked for: the triangles overlap so densely that it would take minutes");
+    }
+    if (r->n_intersection > 0) {
+        add(r, false, "self_intersection",
+            "%s%lld pair%s of triangles cut each other (first: %d and %d); measures count overlaps "
+            "twice",
+            r->intersection_complete ? "" : "at least ", (long long)r->n_intersection,
+            s(r->n_intersection), r->intersection[0], r->intersection[1]);
+    }
+}
+
+void clx_check_words(clast_mesh_check_result *result)
+{
+    if (result->n_edge == 0) {
+        add(result, true, "no_surface", "%d vertices and %d triangles: there is no surface",
+            result->n_vertex, result->n_triangle);
+    } else if (!result->closed) {
+        open_words(result);
+    }
+    edge_words(result);
+    part_words(result);
+    facet_words(result);
+    if (result->n_edge > 0 && result->hull_volume == 0.0) {
+        add(result, true, "flat", "all %d vertices lie in one plane: there is no volume",
+            result->n_vertex);
+    }
+}

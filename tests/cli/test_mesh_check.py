@@ -1,0 +1,66 @@
+"""CLI: clast mesh check says what is wrong, in words, numbers and exit codes."""
+import unittest
+
+from clitest import ROOT, Case, clast, shared
+
+DATA = ROOT / "data"
+KEYS = ["file", "n_vertex", "n_triangle", "closed", "oriented", "manifold", "n_part", "euler", "volume", "area",
+        "hull_volume", "n_open_edge", "n_degenerate", "faults"]
+
+
+class MeshCheck(Case):
+    def test_json_has_the_stable_keys(self):
+        result = clast("mesh", "check", DATA / "scarlet/stl/27sk21_shape_fine.stl", "--json")
+        self.assertEqual(result.code, 0)
+        for key in KEYS:
+            self.assertIn(key, result.json)
+        self.assertEqual(result.json["n_triangle"], 650)
+        self.assertEqual(result.json["faults"], [])
+        self.assertAlmostEqual(result.json["volume"], 3903.69956, places=4)
+
+    def test_open_surface_names_the_cure(self):
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--json")
+        self.assertEqual(result.code, 1)
+        self.assertEqual(result.err, "")
+        self.assertFalse(result.json["closed"])
+        self.assertEqual(result.json["n_open_edge"], 32)
+        fault = result.json["faults"][0]
+        self.assertEqual(fault["code"], "open_edges")
+        self.assertIn("they close when vertices within", fault["text"])
+        self.assertIn("clast mesh repair", fault["text"])
+
+    def test_weld_closes_what_its_tolerance_allows(self):
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "1e-6", "--json")
+        self.assertEqual(result.code, 0)
+        self.assertTrue(result.json["closed"])
+        self.assertEqual(result.json["n_merged"], 8)
+
+    def test_words_hold_the_same_numbers(self):
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl")
+        self.assertEqual(result.code, 1)
+        for text in ["NOT a solid", "closed NO", "triangles 9996", "FAULT open_edges: 32 open edges in 8 loops"]:
+            self.assertIn(text, result.out)
+
+    def test_pyramid_has_55_shells(self):
+        path = shared("scarlet/stl/pyramid.stl")
+        if path:
+            self.assertEqual(clast("mesh", "check", path, "--json").json["n_part"], 55)
+
+    def test_inside_out_is_not_oriented(self):
+        path = shared("broken-meshes/admesh-block/normal-directions-good.stl")
+        if path:
+            result = clast("mesh", "check", path, "--json")
+            self.assertEqual((result.code, result.json["closed"], result.json["oriented"]), (1, True, False))
+            self.assertEqual(result.json["faults"][0]["code"], "inside_out")
+
+    def test_no_triangles_is_an_answer(self):
+        result = clast("mesh", "check", DATA / "broken-meshes/trimesh/empty.stl", "--json")
+        self.assertEqual((result.code, result.json["closed"], result.json["n_triangle"]), (1, False, 0))
+
+    def test_unreadable_is_code_3(self):
+        self.assert_fails(3, "mesh", "check", self.folder / "absent.stl", says=["absent.stl"])
+        self.assert_fails(3, "mesh", "check", DATA / "broken-meshes/draco/inf_nan.obj", says=["inf_nan.obj"])
+
+
+if __name__ == "__main__":
+    unittest.main()
