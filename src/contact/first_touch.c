@@ -3,6 +3,7 @@
 
 #include "contact/touch_ellipsoid.h"
 #include "contact/touch_frame.h"
+#include "contact/touch_pair.h"
 
 clx_touch_path clx_touch_path_along(const double direction[3])
 {
@@ -71,5 +72,11 @@ static bool touch_convex(const clx_touch_body *moving, const clx_touch_body *lyi
 bool clx_first_touch(const clx_touch_body *moving, const clx_touch_body *lying,
                      const clx_touch_path *path, clx_touch *touch)
 {
+    if (moving->tree != NULL && lying->tree != NULL) {
+        return clx_touch_trees(moving, lying, path, touch);
+    }
+    if (moving->tree != NULL || lying->tree != NULL) {
+        return clx_touch_round(moving, lying, path, touch);
+    }
     return touch_convex(moving, lying, path, touch);
 }

@@ -2,6 +2,7 @@
 #include "contact/touch_body.h"
 
 #include "contact/touch_frame.h"
+#include "contact/touch_tree.h"
 #include <string.h>
 
 static clx_touch_body at_origin(clx_touch_body body)
@@ -22,6 +23,29 @@ clx_touch_body clx_touch_body_ellipsoid(const double semi_axes[3])
 {
     return at_origin((clx_touch_body){.kind = CLX_TOUCH_ELLIPSOID,
                                       .semi_axes = {semi_axes[0], semi_axes[1], semi_axes[2]}});
+}
+
+clx_touch_body clx_touch_body_tree(const clx_touch_tree *tree)
+{
+    return at_origin((clx_touch_body){.kind = tree->kind, .tree = tree});
+}
+
+/// Box of the turned box of the tree.
+static void place_tree(clx_touch_body *body)
+{
+    const clx_touch_tree *tree = body->tree;
+    for (int i = 0; i < 3; ++i) {
+        const double *row = body->rotation + (ptrdiff_t)3 * i;
+        double middle = 0.0;
+        double half = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            middle += row[k] * 0.5 * (tree->high[k] + tree->low[k]);
+            half += fabs(row[k]) * 0.5 * (tree->high[k] - tree->low[k]);
+        }
+        body->low[i] = body->scale * fmax(middle - half, -tree->radius);
+        body->high[i] = body->scale * fmin(middle + half, tree->radius);
+    }
+    body->radius = body->scale * tree->radius;
 }
 
 /// matrix = R diag((scale a)^2) R^T
@@ -53,7 +77,11 @@ void clx_touch_body_set(clx_touch_body *body, const double position[3], const do
     v3_copy(body->position, position);
     memcpy(body->rotation, rotation, sizeof body->rotation);
     body->scale = scale;
-    place_ellipsoid(body);
+    if (body->tree != NULL) {
+        place_tree(body);
+    } else {
+        place_ellipsoid(body);
+    }
 }
 
 void clx_touch_body_place(clx_touch_body *body, const double position[3],

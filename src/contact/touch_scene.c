@@ -267,7 +267,7 @@ static void try_body(const clx_touch_scene *scene, int32_t i, const clx_touch_bo
     clx_touch touch;
     if (may_touch(moving, &scene->body[i], rest) &&
         clx_first_touch(moving, &scene->body[i], rest, &touch) &&
-        (touch.t < best->t || i < best->body)) {
+        (touch.t < best->t || (touch.t == best->t && i < best->body))) {
         *best = touch;
         best->body = i;
         rest->t_high = touch.t;
