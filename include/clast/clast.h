@@ -19,3 +19,4 @@
 #include <clast/shape.h>
 #include <clast/status.h>
 #include <clast/table.h>
+#include <clast/table_file.h>

@@ -47,8 +47,8 @@ static clast_status fail_file(clx_file *file, const char *doing)
         file->error = errno != 0 ? errno : EIO;
         file->doing = doing;
     }
-    return clx_fail(CLAST_E_DISK, "cannot write %s: %s: %s", file->path, file->doing,
-                    strerror(file->error));
+    return clx_fail(file->error == ENOMEM ? CLAST_E_MEMORY : CLAST_E_DISK,
+                    "cannot write %s: %s: %s", file->path, file->doing, strerror(file->error));
 }
 
 static void forget(clx_file *file)
@@ -213,7 +213,10 @@ clast_status clx_file_print(clx_file *file, const char *format, ...)
     if ((size_t)n < sizeof text) {
         return clx_file_write(file, text, (size_t)n);
     }
-    CLX_TRY(clx_alloc(&longer, (int64_t)n + 1, 1));
+    if (clx_alloc(&longer, (int64_t)n + 1, 1) != CLAST_OK) {
+        errno = ENOMEM; // sticky, like the disk's errors
+        return fail_file(file, "long text");
+    }
     va_start(args, format);
     (void)vsnprintf(longer, (size_t)n + 1, format, args);
     va_end(args);

@@ -1,0 +1,516 @@
+// Delimited text to tables: RFC 4180 and the dialects that instruments and spreadsheets write.
+//
+// Two passes over the bytes: the first checks the shape and finds which columns hold numbers, the
+// second fills the table, so memory is taken only for cells that exist.
+#include <clast/table_file.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "base/number.h"
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { COLUMN_LIMIT = 65536 };
+#define BYTE_LIMIT (INT64_C(16) << 30)
+
+typedef struct {
+    const char *text; ///< first byte, without blanks around or the opening quote
+    int64_t n;        ///< bytes, "" still doubled in a quoted cell
+    bool quoted;
+} cell;
+
+typedef struct {
+    const char *name; ///< for messages
+    const char *at, *end;
+    int64_t line; ///< of `at`, from 1
+    char separator, comment;
+    bool has_comment;
+    int64_t n_comment, n_blank;
+} cursor;
+
+/// What the first pass learns.
+typedef struct {
+    int32_t n_column;
+    int64_t n_row; ///< without the header
+    bool has_header;
+    uint8_t *seen; ///< [n_column] SEEN_* of the data rows
+    int64_t capacity;
+    int64_t ragged_line, ragged_cells, n_ragged;
+} outline;
+
+enum { SEEN_NUMBER = 1, SEEN_TEXT = 2 }; // a column without any text holds numbers
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+static bool is_line_end(char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+static bool separates(const cursor *c, char x)
+{
+    return x == c->separator || (c->separator == ' ' && x == '\t');
+}
+
+/// Skips blanks that are not the separator.
+static void skip_blanks(cursor *c)
+{
+    while (c->at < c->end && is_blank(*c->at) && (c->separator == ' ' || *c->at != c->separator)) {
+        ++c->at;
+    }
+}
+
+static void skip_line_end(cursor *c)
+{
+    if (c->at < c->end) {
+        c->at += *c->at == '\r' && c->at + 1 < c->end && c->at[1] == '\n' ? 2 : 1;
+        ++c->line;
+    }
+}
+
+/// Goes to the next line that holds cells; false at the end. A line of separators alone holds
+/// cells.
+static bool begin_row(cursor *c)
+{
+    while (c->at < c->end) {
+        const char *start = c->at;
+        skip_blanks(c);
+        const bool comment = c->at < c->end && c->has_comment && *c->at == c->comment;
+        if (c->at < c->end && !is_line_end(*c->at) && !comment) {
+            c->at = c->separator == ' ' ? c->at : start;
+            return true;
+        }
+        c->n_comment += comment;
+        c->n_blank += !comment;
+        while (c->at < c->end && !is_line_end(*c->at)) {
+            ++c->at;
+        }
+        skip_line_end(c);
+    }
+    return false;
+}
+
+static clast_status quoted_cell(cursor *c, cell *out)
+{
+    const int64_t opened = c->line;
+    out->quoted = true;
+    out->text = ++c->at;
+    for (; c->at < c->end; ++c->at) {
+        if (*c->at == '"' && c->at + 1 < c->end && c->at[1] == '"') {
+            ++c->at;
+        } else if (*c->at == '"') {
+            out->n = c->at - out->text;
+            ++c->at;
+            skip_blanks(c);
+            return CLAST_OK;
+        } else if (*c->at == '\n' ||
+                   (*c->at == '\r' && (c->at + 1 == c->end || c->at[1] != '\n'))) {
+            ++c->line;
+        }
+    }
+    return clx_fail(CLAST_E_FORMAT, "%s:%" PRId64 ": a quote is opened and never closed", c->name,
+                    opened);
+}
+
+static void plain_cell(cursor *c, cell *out)
+{
+    out->quoted = false;
+    out->text = c->at;
+    while (c->at < c->end && !is_line_end(*c->at) && !separates(c, *c->at)) {
+        ++c->at;
+    }
+    const char *last = c->at;
+    while (last > out->text && is_blank(last[-1])) {
+        --last;
+    }
+    out->n = last - out->text;
+}
+
+/// Next cell of the row; *more is false after the row's last one, whose line end is then passed.
+static clast_status next_cell(cursor *c, cell *out, bool *more)
+{
+    skip_blanks(c);
+    if (c->at < c->end && *c->at == '"') {
+        const clast_status status = quoted_cell(c, out);
+        if (status != CLAST_OK) {
+            return status;
+        }
+        // with blanks as separators the blanks just skipped were one
+        if (c->at < c->end && !is_line_end(*c->at) && !separates(c, *c->at) &&
+            !(c->separator == ' ' && is_blank(c->at[-1]))) {
+            return clx_fail(CLAST_E_FORMAT, "%s:%" PRId64 ": '%c' after a closing quote", c->name,
+                            c->line, *c->at >= ' ' && *c->at < 127 ? *c->at : '?');
+        }
+    } else {
+        plain_cell(c, out);
+    }
+    if (c->separator == ' ') {
+        skip_blanks(c);
+    }
+    *more = c->at < c->end && !is_line_end(*c->at);
+    if (*more && c->separator != ' ') {
+        ++c->at;
+    } else if (!*more) {
+        skip_line_end(c);
+    }
+    return CLAST_OK;
+}
+
+static bool is_word(const cell *x, const char *word)
+{
+    const size_t n = strlen(word);
+    if ((int64_t)n != x->n) {
+        return false;
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const char low =
+            (char)(x->text[i] >= 'A' && x->text[i] <= 'Z' ? x->text[i] + 32 : x->text[i]);
+        if (low != word[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_missing(const cell *x)
+{
+    return x->n == 0 || is_word(x, "na") || is_word(x, "n/a");
+}
+
+/// A cell as a number: true with the value; NaN for an empty cell or NA.
+static bool to_number(const cell *x, double *value)
+{
+    static const struct {
+        const char *word;
+        double value;
+    } words[] = {
+        {"nan", NAN},        {"-nan", NAN},          {"inf", INFINITY},       {"+inf", INFINITY},
+        {"-inf", -INFINITY}, {"infinity", INFINITY}, {"-infinity", -INFINITY}};
+    if (is_missing(x)) {
+        *value = NAN;
+        return true;
+    }
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
+        if (is_word(x, words[i].word)) {
+            *value = words[i].value;
+            return true;
+        }
+    }
+    return clx_number_parse(x->text, x->text + x->n, value) == x->text + x->n;
+}
+
+static const char separators[] = "\t;, ";
+
+/// Counts each candidate outside quotes in one line; blanks count once between two words.
+static void count_separators(cursor *c, int64_t found[4])
+{
+    bool in_quotes = false;
+    bool in_word = false;
+    bool any_word = false;
+    for (; c->at < c->end && (in_quotes || !is_line_end(*c->at)); ++c->at) {
+        const bool blank = is_blank(*c->at) && !in_quotes;
+        in_quotes = in_quotes != (*c->at == '"');
+        for (int k = 0; k < 3 && !in_quotes; ++k) {
+            found[k] += *c->at == separators[k];
+        }
+        found[3] += !blank && !in_word && any_word;
+        in_word = !blank;
+        any_word = any_word || in_word;
+    }
+    skip_line_end(c);
+}
+
+/// Separator that both of the first two rows hold: tab, then ';', ',', then blanks.
+static char guess_separator(cursor c)
+{
+    int64_t count[4] = {0};
+    c.separator = '\n'; // every row is one cell
+    for (int row = 0; row < 2 && begin_row(&c); ++row) {
+        int64_t found[4] = {0};
+        count_separators(&c, found);
+        for (int k = 0; k < 4; ++k) {
+            count[k] = row == 0 || found[k] < count[k] ? found[k] : count[k];
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        if (count[k] > 0) {
+            return separators[k];
+        }
+    }
+    return ',';
+}
+
+static clast_status grow_columns(outline *o, int64_t n)
+{
+    const int64_t old = o->capacity;
+    const clast_status status = clx_grow(&o->seen, &o->capacity, n, 1);
+    if (status == CLAST_OK && o->capacity > old) {
+        memset(o->seen + old, 0, (size_t)(o->capacity - old));
+    }
+    return status;
+}
+
+/// Looks at one row; the first fixes the number of columns. `judge`: its cells count as data.
+static clast_status survey_row(cursor *c, outline *o, bool first, bool judge, bool *all_numbers)
+{
+    clast_status status = CLAST_OK;
+    const int64_t line = c->line;
+    int64_t n = 0;
+    bool more = true;
+    *all_numbers = true;
+    while (more) {
+        cell x;
+        double value = 0.0;
+        CLX_TRY(next_cell(c, &x, &more));
+        const bool number = to_number(&x, &value);
+        *all_numbers = *all_numbers && number;
+        CLX_CHECK(!first || n < COLUMN_LIMIT, CLAST_E_LIMIT, "%s:%" PRId64 ": more than %d columns",
+                  c->name, line, COLUMN_LIMIT);
+        if (first) {
+            CLX_TRY(grow_columns(o, n + 1));
+        }
+        if (judge && n < o->capacity && !is_missing(&x)) {
+            o->seen[n] |= number ? SEEN_NUMBER : SEEN_TEXT;
+        }
+        ++n;
+    }
+    if (first) {
+        o->n_column = (int32_t)n;
+    } else if (n != o->n_column && o->n_ragged++ == 0) {
+        o->ragged_line = line;
+        o->ragged_cells = n;
+    }
+done:
+    return status;
+}
+
+static clast_status survey(cursor c, int header, outline *o, cursor *end)
+{
+    clast_status status = CLAST_OK;
+    bool numbers = false;
+    const cursor start = c;
+    CLX_CHECK(begin_row(&c), CLAST_E_FORMAT, "%s holds no table: it has no row", c.name);
+    CLX_TRY(survey_row(&c, o, true, false, &numbers));
+    o->has_header = header > 0 || (header == 0 && !numbers);
+    if (!o->has_header) {
+        c = start;
+    }
+    while (begin_row(&c)) {
+        CLX_TRY(survey_row(&c, o, false, true, &numbers));
+        ++o->n_row;
+    }
+    CLX_CHECK(o->n_ragged == 0, CLAST_E_FORMAT,
+              "%s:%" PRId64 ": %" PRId64 " cells where the first row has %d; %" PRId64
+              " such rows in all",
+              c.name, o->ragged_line, o->ragged_cells, o->n_column, o->n_ragged);
+    *end = c;
+done:
+    return status;
+}
+
+/// Copy of a cell's text with doubled quotes made single.
+static clast_status cell_text(const cell *x, char **text)
+{
+    char *made = NULL;
+    const clast_status status = clx_alloc(&made, x->n + 1, 1);
+    if (status == CLAST_OK) {
+        char *out = made;
+        for (int64_t i = 0; i < x->n; ++i) {
+            *out++ = x->text[i];
+            i += x->quoted && x->text[i] == '"'; // the second of a pair
+        }
+        *text = made;
+    }
+    return status;
+}
+
+static bool is_unit(const char *name, size_t n, char unit[32])
+{
+    static const char *const known[] = {
+        "m",    "cm",     "mm",    "um",     "\xc2\xb5m", "\xce\xbcm", "nm",   "km",   "rad",
+        "deg",  "kg",     "g",     "mg",     "t",         "s",         "ms",   "us",   "min",
+        "h",    "kg/m^3", "kg/m3", "g/cm^3", "g/cm3",     "m/s",       "cm/s", "mm/s", "m/s^2",
+        "m/s2", "Pa",     "kPa",   "MPa",    "GPa",       "Pa*s",      "K",    "J",    "N",
+        "N/m",  "%",      "-",     "phi",    "1/s",       "m^2",       "m2",   "m^3",  "m3",
+        "mm^3", "mm3",    "um^3",  "um3",    "mm2",       "um2"};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
+        if (strlen(known[i]) == n && memcmp(known[i], name, n) == 0) {
+            (void)snprintf(unit, 32, "%s", known[i]);
+            return true;
+        }
+    }
+    return false;
+}
+
+/// "diameter_m", "diameter (um)" and "rho [kg/m^3]" tell their unit; "-" when there is none.
+static void unit_of(const char *name, char unit[32])
+{
+    const size_t n = strlen(name);
+    (void)snprintf(unit, 32, "-");
+    if (n > 2 && (name[n - 1] == ')' || name[n - 1] == ']')) {
+        const char *open = strrchr(name, name[n - 1] == ')' ? '(' : '[');
+        if (open != NULL) {
+            (void)is_unit(open + 1, (size_t)(name + n - 1 - (open + 1)), unit);
+        }
+        return;
+    }
+    const char *bar = strrchr(name, '_');
+    if (bar != NULL && bar > name) {
+        (void)is_unit(bar + 1, strlen(bar + 1), unit);
+    }
+}
+
+/// Adds column k under its own name, or a free one when that is empty or taken.
+static clast_status add_column(clast_table *table, const char *wanted, int32_t k, bool is_text,
+                               clast_csv_report *report)
+{
+    clast_status status = CLAST_OK;
+    char unit[32];
+    char *name = NULL;
+    const size_t size = strlen(wanted) + 32;
+    CLX_TRY(clx_alloc(&name, (int64_t)size, 1));
+    (void)snprintf(name, size, "%s", wanted);
+    if (wanted[0] == '\0') {
+        (void)snprintf(name, size, "column_%d", k + 1);
+    }
+    if (clast_table_find(table, name) >= 0) {
+        (void)snprintf(name, size, "%s_column_%d", wanted, k + 1);
+    }
+    for (int32_t i = 2; clast_table_find(table, name) >= 0; ++i) {
+        (void)snprintf(name, size, "column_%d_%d", k + 1, i);
+    }
+    report->n_renamed += strcmp(name, wanted) != 0;
+    unit_of(wanted, unit);
+    if (is_text) {
+        CLX_TRY(clast_table_add_text(table, name));
+    } else {
+        CLX_TRY(clast_table_add_number(table, name, unit, NULL));
+    }
+done:
+    clx_free(name);
+    return status;
+}
+
+static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
+                                clast_csv_report *report)
+{
+    clast_status status = CLAST_OK;
+    char *wanted = NULL;
+    bool more = true;
+    if (o->has_header) {
+        (void)begin_row(c);
+    }
+    for (int32_t k = 0; k < o->n_column; ++k) {
+        if (o->has_header) {
+            cell x;
+            CLX_TRY(next_cell(c, &x, &more));
+            CLX_TRY(cell_text(&x, &wanted));
+        }
+        const bool is_text = (o->seen[k] & SEEN_TEXT) != 0;
+        CLX_TRY(add_column(table, wanted != NULL ? wanted : "", k, is_text, report));
+        clx_free(wanted);
+        wanted = NULL;
+    }
+done:
+    clx_free(wanted);
+    return status;
+}
+
+static clast_status fill(cursor *c, clast_table *table, clast_csv_report *report)
+{
+    clast_status status = CLAST_OK;
+    char *text = NULL;
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        (void)begin_row(c);
+        for (int32_t k = 0; k < table->n_column; ++k) {
+            clast_column *column = &table->column[k];
+            cell x;
+            bool more = true;
+            CLX_TRY(next_cell(c, &x, &more));
+            if (column->number != NULL) {
+                (void)to_number(&x, &column->number[row]);
+                report->n_missing += is_missing(&x);
+            } else {
+                CLX_TRY(cell_text(&x, &text));
+                clx_free(column->text[row]);
+                column->text[row] = text;
+                text = NULL;
+            }
+        }
+    }
+done:
+    clx_free(text);
+    return status;
+}
+
+/// Refuses what is no text in UTF-8 (or an older one-byte code), and passes a byte-order mark.
+static clast_status check_bytes(cursor *c, const char *bytes, size_t n)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK((int64_t)n <= BYTE_LIMIT, CLAST_E_LIMIT, "%s: %zu bytes is too large for a table",
+              c->name, n);
+    CLX_CHECK(n < 2 || (memcmp(bytes, "\xff\xfe", 2) != 0 && memcmp(bytes, "\xfe\xff", 2) != 0),
+              CLAST_E_FORMAT, "%s is UTF-16; save it as UTF-8", c->name);
+    const char *zero = n > 0 ? memchr(bytes, '\0', n) : NULL;
+    CLX_CHECK(zero == NULL, CLAST_E_FORMAT, "%s is not a text: byte %td is 0", c->name,
+              zero - bytes);
+    c->at = bytes + (n >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
+    c->end = bytes + n;
+done:
+    return status;
+}
+
+clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n,
+                                   const clast_csv_options *options, clast_table *table,
+                                   clast_csv_report *report)
+{
+    static const clast_csv_options guess = {0};
+    clast_status status = CLAST_OK;
+    const clast_csv_options *wish = options != NULL ? options : &guess;
+    clast_table made = {0};
+    clast_csv_report found = {0};
+    outline o = {0};
+    cursor end;
+    cursor c = {.name = name,
+                .line = 1,
+                .comment = wish->comment != 0 ? wish->comment : '#',
+                .has_comment = !wish->no_comment};
+    CLX_TRY(check_bytes(&c, n > 0 ? bytes : "", n));
+    c.separator = wish->separator != 0 ? wish->separator : guess_separator(c);
+    CLX_TRY(survey(c, wish->header, &o, &end));
+    CLX_TRY(clast_table_init(&made, name, o.n_row));
+    CLX_TRY(add_columns(&c, &o, &made, &found));
+    CLX_TRY(fill(&c, &made, &found));
+    *table = made;
+    made = (clast_table){0};
+    if (report != NULL) {
+        found.separator = c.separator;
+        found.has_header = o.has_header;
+        found.n_line = end.line - 1 + (end.at > (const char *)bytes && !is_line_end(end.at[-1]));
+        found.n_comment = end.n_comment;
+        found.n_blank = end.n_blank;
+        *report = found;
+    }
+done:
+    clast_table_free(&made);
+    clx_free(o.seen);
+    return status;
+}
+
+clast_status clast_table_read_csv(const char *path, const clast_csv_options *options,
+                                  clast_table *table, clast_csv_report *report)
+{
+    char *bytes = NULL;
+    int64_t n = 0;
+    clast_status status = clx_file_read_all(path, BYTE_LIMIT, &bytes, &n);
+    if (status == CLAST_OK) {
+        status = clast_table_parse_csv(path, bytes, (size_t)n, options, table, report);
+    }
+    clx_free(bytes);
+    return status;
+}

@@ -1,0 +1,63 @@
+// Pieces of JSON: texts and numbers. Jansson is for reading and for the commands' summaries; tables
+// and manifests are written without a tree in memory.                                   [RFC 8259]
+#include "io/json.h"
+
+#include "base/number.h"
+#include <math.h>
+#include <string.h>
+
+/// Bytes of the UTF-8 character at `c`, or 0 if there is none (overlong, surrogate, cut short).
+static size_t utf8_length(const unsigned char *c)
+{
+    size_t n = 0;
+    uint32_t point = 0;
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (c[0] < 0x80) {
+        return 1;
+    }
+    n = c[0] >= 0xf0 && c[0] < 0xf5 ? 4 : c[0] >= 0xe0 ? 3 : c[0] >= 0xc2 ? 2 : 0;
+    if (n == 0 || c[0] >= 0xf5) {
+        return 0;
+    }
+    point = c[0] & (0xffu >> (n + 1));
+    for (size_t i = 1; i < n; ++i) {
+        if ((c[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+        point = point << 6 | (c[i] & 0x3fu);
+    }
+    return point < least[n] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) ? 0 : n;
+}
+
+void clx_json_text(clx_file *file, const char *text)
+{
+    (void)clx_file_write(file, "\"", 1);
+    for (const char *c = text; *c != '\0';) {
+        const size_t n = utf8_length((const unsigned char *)c);
+        if (n == 0) {
+            (void)clx_file_write(file, "\xef\xbf\xbd", 3);
+            ++c;
+            continue;
+        }
+        if (*c == '"' || *c == '\\') {
+            (void)clx_file_print(file, "\\%c", *c);
+        } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
+            (void)clx_file_print(file, "\\u%04x", (unsigned)(unsigned char)*c);
+        } else {
+            (void)clx_file_write(file, c, n);
+        }
+        c += n;
+    }
+    (void)clx_file_write(file, "\"", 1);
+}
+
+void clx_json_number(clx_file *file, double value)
+{
+    char text[CLX_NUMBER_SIZE];
+    if (isfinite(value)) {
+        const int n = clx_number_format(value, text);
+        (void)clx_file_write(file, text, (size_t)n);
+    } else {
+        (void)clx_file_write(file, "null", 4);
+    }
+}

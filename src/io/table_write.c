@@ -1,0 +1,112 @@
+// Tables to delimited text (RFC 4180) and JSON.
+#include <clast/table_file.h>
+
+#include "base/file.h"
+#include "base/number.h"
+#include "io/json.h"
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+static void put_cell(clx_file *file, const char *text)
+{
+    const size_t n = strlen(text);
+    const bool quote = n == 0 || text[0] == '#' || text[0] == ' ' || text[n - 1] == ' ' ||
+                       text[0] == '\t' || text[n - 1] == '\t' || strpbrk(text, ",\"\r\n") != NULL;
+    if (!quote) {
+        (void)clx_file_write(file, text, n);
+        return;
+    }
+    (void)clx_file_write(file, "\"", 1);
+    for (const char *c = text; *c != '\0'; ++c) {
+        (void)clx_file_write(file, c, 1);
+        if (*c == '"') {
+            (void)clx_file_write(file, "\"", 1);
+        }
+    }
+    (void)clx_file_write(file, "\"", 1);
+}
+
+static void put_number(clx_file *file, double value)
+{
+    char text[CLX_NUMBER_SIZE];
+    const int n = clx_number_format(value, text);
+    if (isnan(value)) {
+        (void)clx_file_write(file, "nan", 3); // whatever the sign bit
+    } else {
+        (void)clx_file_write(file, text, (size_t)n);
+    }
+}
+
+static void put_separator(clx_file *file, int32_t k)
+{
+    if (k > 0) {
+        (void)clx_file_write(file, ",", 1);
+    }
+}
+
+clast_status clast_table_write_csv(const clast_table *table, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        put_separator(&file, k);
+        put_cell(&file, table->column[k].name);
+    }
+    (void)clx_file_write(&file, "\n", 1);
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        for (int32_t k = 0; k < table->n_column; ++k) {
+            const clast_column *column = &table->column[k];
+            put_separator(&file, k);
+            if (column->number != NULL) {
+                put_number(&file, column->number[row]);
+            } else {
+                put_cell(&file, column->text[row]);
+            }
+        }
+        CLX_TRY(clx_file_write(&file, "\n", 1));
+    }
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}
+
+static void put_values(clx_file *file, const clast_table *table, const clast_column *column)
+{
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        if (row > 0) {
+            (void)clx_file_write(file, ",", 1);
+        }
+        if (column->number == NULL) {
+            clx_json_text(file, column->text[row]);
+        } else {
+            clx_json_number(file, column->number[row]);
+        }
+    }
+}
+
+clast_status clast_table_write_json(const clast_table *table, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    (void)clx_file_print(&file, "{\"name\":");
+    clx_json_text(&file, table->name);
+    (void)clx_file_print(&file, ",\"n_row\":%" PRId64 ",\"columns\":[", table->n_row);
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        (void)clx_file_print(&file, "%s\n{\"name\":", k > 0 ? "," : "");
+        clx_json_text(&file, table->column[k].name);
+        (void)clx_file_print(&file, ",\"unit\":");
+        clx_json_text(&file, table->column[k].unit);
+        (void)clx_file_print(&file, ",\"values\":[");
+        put_values(&file, table, &table->column[k]);
+        (void)clx_file_print(&file, "]}");
+    }
+    (void)clx_file_print(&file, "\n]}\n");
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}
