@@ -1,0 +1,152 @@
+// Symmetric, centred and star discrepancies: constants, one-point sums, statistics of Liang et al.
+#include <clast/uniformity.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "cloud/pair_sums.h"
+#include "math/special.h"
+#include <math.h>
+
+enum { EXACT_LIMIT = 20000, POINTS_A_BLOCK = 65536 };
+
+/// Constants per coordinate.  [docs/theory/uniformity.md table 1]
+typedef struct {
+    double kappa2; ///< factor kappa^2 of the one-point terms (unused in the statistics, kept for
+                   ///< the table)
+    double mean;   ///< M
+    double second; ///< M^2 + kappa^4 int mu^2
+    double pair_second; ///< E kappa^2
+} constants;
+
+static const constants table[CLAST_N_DISCREPANCY] = {{4.0, 4.0 / 3.0, 9.0 / 5.0, 2.0},
+                                                     {1.0, 13.0 / 12.0, 47.0 / 40.0, 19.0 / 16.0},
+                                                     {1.0, 4.0 / 3.0, 9.0 / 5.0, 11.0 / 6.0}};
+
+static void one_point(double x, double factor[CLAST_N_DISCREPANCY])
+{
+    const double c = fabs(x - 0.5);
+    factor[CLAST_DISCREPANCY_SYMMETRIC] = 1.0 + 2.0 * x - 2.0 * x * x;
+    factor[CLAST_DISCREPANCY_CENTRED] = 1.0 + 0.5 * c - 0.5 * c * c;
+    factor[CLAST_DISCREPANCY_STAR] = 0.5 * (3.0 - x * x);
+}
+
+static void diagonal(double x, double factor[CLAST_N_DISCREPANCY])
+{
+    factor[CLAST_DISCREPANCY_SYMMETRIC] = 2.0;
+    factor[CLAST_DISCREPANCY_CENTRED] = 1.0 + fabs(x - 0.5);
+    factor[CLAST_DISCREPANCY_STAR] = 2.0 - x;
+}
+
+typedef struct {
+    double one[CLAST_N_DISCREPANCY], diagonal[CLAST_N_DISCREPANCY];
+} sums;
+
+typedef struct {
+    const double *u;
+    int32_t d;
+    sums *block; ///< one per block of points, added in order
+} sum_context;
+
+static void sum_points(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const sum_context *c = context;
+    sums total = {{0}, {0}};
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        double one[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
+        double own[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
+        for (int32_t j = 0; j < c->d; ++j) {
+            double f[CLAST_N_DISCREPANCY];
+            double g[CLAST_N_DISCREPANCY];
+            one_point(c->u[i * c->d + j], f);
+            diagonal(c->u[i * c->d + j], g);
+            for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+                one[k] *= f[k];
+                own[k] *= g[k];
+            }
+        }
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            total.one[k] += one[k];
+            total.diagonal[k] += own[k];
+        }
+    }
+    c->block[begin / POINTS_A_BLOCK] = total;
+}
+
+static clast_status point_sums(const double *u, int64_t n, int32_t d, sums *total)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_block = (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK;
+    sum_context context = {u, d, NULL};
+    CLX_TRY(clx_alloc(&context.block, n_block, sizeof *context.block));
+    clx_parallel_for(n, POINTS_A_BLOCK, sum_points, &context);
+    *total = (sums){{0}, {0}};
+    for (int64_t b = 0; b < n_block; ++b) {
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            total->one[k] += context.block[b].one[k];
+            total->diagonal[k] += context.block[b].diagonal[k];
+        }
+    }
+done:
+    clx_free(context.block);
+    return status;
+}
+
+/// Liang's T = n v' S^-1 v with the exact covariance of v = (U1 - M^d, U2 - M^d).
+static double liang(double v1, double v2, double n, double xi, double zeta2)
+{
+    const double s11 = xi;
+    const double s12 = 2.0 * xi;
+    const double s22 = 4.0 * xi * (n - 2.0) / (n - 1.0) + 2.0 * zeta2 / (n - 1.0);
+    const double det = s11 * s22 - s12 * s12;
+    return n * (s22 * v1 * v1 - 2.0 * s12 * v1 * v2 + s11 * v2 * v2) / det;
+}
+
+static void statistics(const constants *c, int64_t n_point, int32_t d, clast_discrepancy *r)
+{
+    const double n = (double)n_point;
+    const double mean = pow(c->mean, d);
+    const double v1 = r->U1 - mean;
+    const double v2 = r->U2 - mean;
+    r->M = c->mean;
+    r->xi = pow(c->second, d) - pow(c->mean, 2 * d);
+    r->zeta2 = pow(c->pair_second, d) - pow(c->mean, 2 * d);
+    r->A = sqrt(n) * (v1 + 2.0 * v2) / (5.0 * sqrt(r->xi));
+    r->variance =
+        (9.0 * r->xi + 16.0 * r->xi * (n - 2.0) / (n - 1.0) + 8.0 * r->zeta2 / (n - 1.0)) /
+        (25.0 * r->xi);
+    r->A_standard = r->A / sqrt(r->variance);
+    r->p = 2.0 * clx_normal_sf(fabs(r->A_standard));
+    r->p_asymptotic = 2.0 * clx_normal_sf(fabs(r->A));
+    r->p_paper = clx_normal_sf(fabs(r->A));
+    r->T = liang(v1, v2, n, r->xi, r->zeta2);
+    r->p_T = clx_chi2_sf(r->T, 2.0);
+}
+
+clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d, clast_sums method,
+                                    clast_discrepancy *result)
+{
+    clast_status status = CLAST_OK;
+    sums total;
+    double pair[CLAST_N_DISCREPANCY];
+    CLX_CHECK(n >= 2 && d >= 1 && d <= 3, CLAST_E_USAGE,
+              "a discrepancy needs at least 2 points in 1 to 3 dimensions, not %lld in %d",
+              (long long)n, d);
+    CLX_TRY(point_sums(u, n, d, &total));
+    if (method == CLAST_SUMS_EXACT || (method == CLAST_SUMS_AUTO && n <= EXACT_LIMIT)) {
+        CLX_TRY(clx_pair_sums_exact(u, n, d, pair));
+    } else {
+        CLX_TRY(clx_pair_sums_binned(u, n, d, pair));
+    }
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        clast_discrepancy *r = &result[k];
+        const double count = (double)n;
+        r->U1 = total.one[k] / count;
+        r->U2 = pair[k] / (count * (count - 1.0));
+        r->D2 = pow(table[k].mean, d) - 2.0 * r->U1 + (count - 1.0) * r->U2 / count +
+                total.diagonal[k] / (count * count);
+        statistics(&table[k], n, d, r);
+    }
+done:
+    return status;
+}

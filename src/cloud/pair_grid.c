@@ -1,0 +1,206 @@
+// Binned pair sums: per cell of a regular grid the multilinear moments prod_j {1, y_j}, and along
+// each axis the pair factors as a matrix on those moments that prefix sums apply in one pass.
+//
+// Exact for pairs in different slabs of every axis (with an even grid |y - 1/2| is linear in a
+// slab); inside a slab |x - y| is replaced by its mean h/3. [docs/theory/uniformity.md]
+#include "cloud/pair_sums.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include <math.h>
+#include <string.h>
+
+enum { N_CHUNK = 8 }; // fixed, so that sums have one order for any thread count
+
+static int32_t cells_an_axis(int32_t d)
+{
+    return d == 1 ? 65536 : d == 2 ? 512 : 64;
+}
+
+typedef struct {
+    const double *u;
+    int64_t n, size; ///< points; moments in the tensor, (2 G)^d
+    int32_t d, g;
+    double *moment[N_CHUNK]; ///< [size] each; index axis-major, (cell, power) along each axis
+    double own[N_CHUNK][CLAST_N_DISCREPANCY]; ///< sum over points of the product of in-slab factors
+                                              ///< with themselves
+} tensor;
+
+/// Pair factor of x with a y of its own slab: coefficients of (1, y).
+static void slab_coefficients(double x, int32_t g, double c[CLAST_N_DISCREPANCY][2])
+{
+    const double third = 1.0 / (3.0 * g);
+    const double side = x < 0.5 ? -1.0 : 1.0; // |y - 1/2| = side (y - 1/2) in this slab
+    c[CLAST_DISCREPANCY_SYMMETRIC][0] = 2.0 - 2.0 * third;
+    c[CLAST_DISCREPANCY_SYMMETRIC][1] = 0.0;
+    c[CLAST_DISCREPANCY_CENTRED][0] = 1.0 + 0.5 * fabs(x - 0.5) - 0.25 * side - 0.5 * third;
+    c[CLAST_DISCREPANCY_CENTRED][1] = 0.5 * side;
+    c[CLAST_DISCREPANCY_STAR][0] = 2.0 - 0.5 * (x + third); // max = (x + y + |x - y|) / 2
+    c[CLAST_DISCREPANCY_STAR][1] = -0.5;
+}
+
+static int32_t cell_of(double x, int32_t g)
+{
+    const int32_t cell = (int32_t)(x * g);
+    return cell < g ? cell : g - 1;
+}
+
+static void add_point(tensor *t, int32_t chunk, const double *x)
+{
+    double weight[8] = {1.0};
+    int64_t place[8] = {0};
+    double own[CLAST_N_DISCREPANCY] = {1.0, 1.0, 1.0};
+    int filled = 1;
+    for (int32_t j = 0; j < t->d; ++j) {
+        double c[CLAST_N_DISCREPANCY][2];
+        const int32_t cell = cell_of(x[j], t->g);
+        for (int m = 0; m < filled; ++m) {
+            place[filled + m] = place[m] * 2 * t->g + 2 * cell + 1;
+            place[m] = place[m] * 2 * t->g + 2 * cell;
+            weight[filled + m] = weight[m] * x[j];
+        }
+        filled *= 2;
+        slab_coefficients(x[j], t->g, c);
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            own[k] *= c[k][0] + c[k][1] * x[j];
+        }
+    }
+    for (int m = 0; m < filled; ++m) {
+        t->moment[chunk][place[m]] += weight[m];
+    }
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        t->own[chunk][k] += own[k];
+    }
+}
+
+static void add_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    tensor *t = context;
+    (void)worker;
+    for (int64_t chunk = begin; chunk < end; ++chunk) {
+        for (int64_t i = t->n * chunk / N_CHUNK; i < t->n * (chunk + 1) / N_CHUNK; ++i) {
+            add_point(t, (int32_t)chunk, t->u + i * t->d);
+        }
+    }
+}
+
+/// Applies the pair factor of discrepancy k to one line of 2 G moments: out(cell, power) such that
+/// the sum over both moments of x in its cell times out is the sum over y. Linear functions of x:
+/// out[0] + out[1] x.
+static void apply_line(int k, int32_t g, const double *in, double *out, int64_t stride)
+{
+    // Above and below x, the factor is (a0 + a1 x) + (b0 + b1 y) with |x - 1/2| linear in the slab
+    // of x.
+    double below0 = 0.0;
+    double below1 = 0.0;
+    double total0 = 0.0;
+    double total1 = 0.0;
+    double far_total = 0.0;
+    for (int32_t i = 0; i < g; ++i) {
+        const double s = 2 * i < g ? -1.0 : 1.0;
+        total0 += in[2 * i * stride];
+        total1 += in[(2 * i + 1) * stride];
+        far_total += s * (in[(2 * i + 1) * stride] - 0.5 * in[2 * i * stride]);
+    }
+    const double third = 1.0 / (3.0 * g);
+    for (int32_t i = 0; i < g; ++i) {
+        const double m0 = in[2 * i * stride];
+        const double m1 = in[(2 * i + 1) * stride];
+        const double s = 2 * i < g ? -1.0 : 1.0;
+        const double above0 = total0 - below0 - m0;
+        const double above1 = total1 - below1 - m1;
+        double c0 = 0.0;
+        double c1 = 0.0;
+        if (k == CLAST_DISCREPANCY_SYMMETRIC) {
+            c0 = 2.0 * (total0 + below1 - above1) - 2.0 * third * m0;
+            c1 = 2.0 * (above0 - below0);
+        } else if (k == CLAST_DISCREPANCY_CENTRED) {
+            c0 = total0 - 0.25 * s * total0 + 0.5 * (below1 - above1) + 0.5 * far_total -
+                 0.5 * third * m0;
+            c1 = 0.5 * s * total0 + 0.5 * (above0 - below0);
+        } else {
+            c0 = 2.0 * total0 - above1 - 0.5 * m1 - 0.5 * third * m0;
+            c1 = -below0 - 0.5 * m0;
+        }
+        out[2 * i * stride] = c0;
+        out[(2 * i + 1) * stride] = c1;
+        below0 += m0;
+        below1 += m1;
+    }
+}
+
+typedef struct {
+    int k;
+    int32_t g;
+    int64_t stride; ///< between neighbours along the axis
+    const double *in;
+    double *out;
+} axis_context;
+
+/// Lines along one axis, numbered by the other indices.
+static void apply_lines(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const axis_context *c = context;
+    (void)worker;
+    for (int64_t line = begin; line < end; ++line) {
+        const int64_t start = line / c->stride * c->stride * 2 * c->g + line % c->stride;
+        apply_line(c->k, c->g, c->in + start, c->out + start, c->stride);
+    }
+}
+
+static double contract(const tensor *t, int k, const double *moment, double *a, double *b)
+{
+    const double *from = moment;
+    double *to = a;
+    int64_t stride = 1;
+    for (int32_t j = 0; j < t->d; ++j) {
+        axis_context context = {k, t->g, stride, from, to};
+        clx_parallel_for(t->size / (2 * t->g), 256, apply_lines, &context);
+        from = to;
+        to = to == a ? b : a;
+        stride *= 2 * t->g;
+    }
+    double sum = 0.0;
+    for (int64_t i = 0; i < t->size; ++i) {
+        sum += moment[i] * from[i];
+    }
+    return sum;
+}
+
+static clast_status fill_tensor(tensor *t)
+{
+    clast_status status = CLAST_OK;
+    for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
+        CLX_TRY(clx_alloc(&t->moment[chunk], t->size, sizeof *t->moment[chunk]));
+    }
+    clx_parallel_for(N_CHUNK, 1, add_chunk, t);
+    for (int chunk = 1; chunk < N_CHUNK; ++chunk) {
+        for (int64_t i = 0; i < t->size; ++i) {
+            t->moment[0][i] += t->moment[chunk][i];
+        }
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            t->own[0][k] += t->own[chunk][k];
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clx_pair_sums_binned(const double *u, int64_t n, int32_t d,
+                                  double sum[CLAST_N_DISCREPANCY])
+{
+    clast_status status = CLAST_OK;
+    tensor t = {.u = u, .n = n, .d = d, .g = cells_an_axis(d), .size = 1};
+    for (int32_t j = 0; j < d; ++j) {
+        t.size *= 2 * t.g;
+    }
+    CLX_TRY(fill_tensor(&t));
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        sum[k] = contract(&t, k, t.moment[0], t.moment[1], t.moment[2]) - t.own[0][k];
+    }
+done:
+    for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
+        clx_free(t.moment[chunk]);
+    }
+    return status;
+}

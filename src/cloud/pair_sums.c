@@ -1,0 +1,263 @@
+// Exact pair sums in O(n log n) (1-D, 2-D) and O(n log^2 n) (3-D).
+#include "cloud/pair_sums.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <string.h>
+
+void clx_pair_coefficients(double x, int upper, double c[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS])
+{
+    const double s = upper != 0 ? 1.0 : -1.0;
+    const double far = fabs(x - 0.5);
+    const double symmetric[3] = {2.0 + s * 2.0 * x, -s * 2.0, 0.0};
+    const double centred[3] = {1.0 + 0.5 * far + s * 0.5 * x, -s * 0.5, 0.5};
+    const double star[3] = {upper != 0 ? 2.0 : 2.0 - x, upper != 0 ? -1.0 : 0.0, 0.0};
+    memcpy(c[CLAST_DISCREPANCY_SYMMETRIC], symmetric, sizeof symmetric);
+    memcpy(c[CLAST_DISCREPANCY_CENTRED], centred, sizeof centred);
+    memcpy(c[CLAST_DISCREPANCY_STAR], star, sizeof star);
+}
+
+enum { MAX_BASIS = 27 };
+
+typedef struct {
+    double value[MAX_BASIS];
+} basis;
+
+typedef struct {
+    const double *u;
+    int32_t d;
+    int32_t n_basis;  ///< 3^d
+    int64_t *order;   ///< points sorted by the first coordinate
+    int64_t *scratch; ///< as long
+    int64_t *rank;    ///< [n] rank of a point by its last coordinate (ties by index), from 1
+    basis *tree;      ///< Fenwick tree over ranks, [n + 1]
+    double sum[CLAST_N_DISCREPANCY];
+} work;
+
+static void basis_of(const work *w, int64_t point, basis *b)
+{
+    int32_t filled = 1;
+    b->value[0] = 1.0;
+    for (int32_t j = 0; j < w->d; ++j) {
+        const double y = w->u[point * w->d + j];
+        const double far = fabs(y - 0.5);
+        for (int32_t m = 0; m < filled; ++m) {
+            b->value[filled + m] = b->value[m] * y;
+            b->value[2 * filled + m] = b->value[m] * far;
+        }
+        filled *= 3;
+    }
+}
+
+static void add_to(basis *total, const basis *b, double sign, int32_t n_basis)
+{
+    for (int32_t m = 0; m < n_basis; ++m) {
+        total->value[m] += sign * b->value[m];
+    }
+}
+
+static void tree_add(work *w, int64_t n, int64_t rank, const basis *b, double sign)
+{
+    for (int64_t i = rank; i <= n; i += i & -i) {
+        add_to(&w->tree[i], b, sign, w->n_basis);
+    }
+}
+
+static void tree_prefix(const work *w, int64_t rank, basis *total)
+{
+    memset(total, 0, sizeof *total);
+    for (int64_t i = rank; i > 0; i -= i & -i) {
+        add_to(total, &w->tree[i], 1.0, w->n_basis);
+    }
+}
+
+/// Adds sum over basis of (product of x's coefficients) * s, where bit j of `upper` says on which
+/// side of x the points of s lie along axis j.
+static void contribute(work *w, int64_t x, unsigned upper, const basis *s)
+{
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        double reduced[MAX_BASIS];
+        int32_t left = w->n_basis;
+        memcpy(reduced, s->value, (size_t)left * sizeof *reduced);
+        for (int32_t j = w->d - 1; j >= 0; --j) { // the last axis is the slowest index
+            double c[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS];
+            left /= 3;
+            clx_pair_coefficients(w->u[x * w->d + j], (int)((upper >> j) & 1u), c);
+            for (int32_t m = 0; m < left; ++m) {
+                reduced[m] = c[k][0] * reduced[m] + c[k][1] * reduced[left + m] +
+                             c[k][2] * reduced[2 * left + m];
+            }
+        }
+        w->sum[k] += reduced[0];
+    }
+}
+
+typedef struct {
+    const double *u;
+    int32_t d, axis;
+} comparison;
+
+static bool before(const comparison *c, int64_t a, int64_t b)
+{
+    const double x = c->u[a * c->d + c->axis];
+    const double y = c->u[b * c->d + c->axis];
+    return x < y || (x == y && a < b);
+}
+
+/// Merge sort of point numbers by one coordinate, ties by number: the same order on every machine.
+static void sort_by(const comparison *c, int64_t *item, int64_t *scratch, int64_t n)
+{
+    for (int64_t width = 1; width < n; width *= 2) {
+        for (int64_t low = 0; low < n; low += 2 * width) {
+            const int64_t middle = low + width < n ? low + width : n;
+            const int64_t high = low + 2 * width < n ? low + 2 * width : n;
+            int64_t i = low;
+            int64_t j = middle;
+            for (int64_t k = low; k < high; ++k) {
+                const bool left = i < middle && (j >= high || !before(c, item[j], item[i]));
+                scratch[k] = left ? item[i++] : item[j++];
+            }
+        }
+        memcpy(item, scratch, (size_t)n * sizeof *item);
+    }
+}
+
+static void sum_line(work *w, int64_t n)
+{
+    basis total = {{0}};
+    for (int64_t i = 0; i < n; ++i) {
+        basis own;
+        contribute(w, w->order[i], 0, &total);
+        basis_of(w, w->order[i], &own);
+        add_to(&total, &own, 1.0, w->n_basis);
+    }
+}
+
+/// Points of `left` (all below along axis 0) against each of `right`, both sorted along the axis
+/// that is swept (descending when `upper_swept`), ranks along the last axis.
+typedef struct {
+    const int64_t *left, *right;
+    int64_t n_left, n_right;
+    bool upper_swept;
+} crossing;
+
+static void contribute_sides(work *w, int64_t x, unsigned swept_bit, const basis *all)
+{
+    basis lower;
+    basis higher = *all;
+    const unsigned last_bit = 1u << (w->d - 1);
+    tree_prefix(w, w->rank[x], &lower);
+    add_to(&higher, &lower, -1.0, w->n_basis);
+    contribute(w, x, swept_bit, &lower);
+    contribute(w, x, swept_bit | last_bit, &higher);
+}
+
+static void sum_square(work *w, int64_t n)
+{
+    basis all = {{0}};
+    for (int64_t i = 0; i < n; ++i) {
+        basis own;
+        const int64_t x = w->order[i];
+        contribute_sides(w, x, 0, &all);
+        basis_of(w, x, &own);
+        tree_add(w, n, w->rank[x], &own, 1.0);
+        add_to(&all, &own, 1.0, w->n_basis);
+    }
+}
+
+/// One sweep of the middle axis: bring in left points on the swept side of x, then ask.
+static void sweep(work *w, int64_t n, const crossing *c)
+{
+    const comparison by_middle = {w->u, w->d, 1};
+    basis all = {{0}};
+    int64_t in = 0;
+    for (int64_t i = 0; i < c->n_right; ++i) {
+        const int64_t x = c->upper_swept ? c->right[c->n_right - 1 - i] : c->right[i];
+        for (; in < c->n_left; ++in) {
+            basis own;
+            const int64_t y = c->upper_swept ? c->left[c->n_left - 1 - in] : c->left[in];
+            if (before(&by_middle, y, x) == c->upper_swept) {
+                break;
+            }
+            basis_of(w, y, &own);
+            tree_add(w, n, w->rank[y], &own, 1.0);
+            add_to(&all, &own, 1.0, w->n_basis);
+        }
+        contribute_sides(w, x, c->upper_swept ? 2u : 0u, &all);
+    }
+    for (int64_t k = 0; k < in; ++k) { // empty the tree again, exactly: zero the touched slots
+        const int64_t y = c->upper_swept ? c->left[c->n_left - 1 - k] : c->left[k];
+        for (int64_t s = w->rank[y]; s <= n; s += s & -s) {
+            memset(&w->tree[s], 0, sizeof w->tree[s]);
+        }
+    }
+}
+
+/// Pairs within order[low, high) (sorted along axis 0); leaves the range sorted along axis 1.
+static void divide(work *w, int64_t n, int64_t low, int64_t high)
+{
+    const comparison by_middle = {w->u, w->d, 1};
+    if (high - low < 2) {
+        return;
+    }
+    const int64_t middle = low + (high - low) / 2;
+    divide(w, n, low, middle);
+    divide(w, n, middle, high);
+    crossing c = {w->order + low, w->order + middle, middle - low, high - middle, false};
+    sweep(w, n, &c);
+    c.upper_swept = true;
+    sweep(w, n, &c);
+    int64_t i = low;
+    int64_t j = middle;
+    for (int64_t k = low; k < high; ++k) {
+        const bool left =
+            i < middle && (j >= high || !before(&by_middle, w->order[j], w->order[i]));
+        w->scratch[k] = left ? w->order[i++] : w->order[j++];
+    }
+    memcpy(w->order + low, w->scratch + low, (size_t)(high - low) * sizeof *w->order);
+}
+
+static clast_status prepare(work *w, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    const comparison by_last = {w->u, w->d, w->d - 1};
+    const comparison by_first = {w->u, w->d, 0};
+    CLX_TRY(clx_alloc(&w->order, n, sizeof *w->order));
+    CLX_TRY(clx_alloc(&w->scratch, n, sizeof *w->scratch));
+    CLX_TRY(clx_alloc(&w->rank, n, sizeof *w->rank));
+    CLX_TRY(clx_alloc(&w->tree, w->d > 1 ? n + 1 : 1, sizeof *w->tree));
+    for (int64_t i = 0; i < n; ++i) {
+        w->order[i] = i;
+    }
+    sort_by(&by_last, w->order, w->scratch, n);
+    for (int64_t i = 0; i < n; ++i) {
+        w->rank[w->order[i]] = i + 1;
+    }
+    sort_by(&by_first, w->order, w->scratch, n);
+done:
+    return status;
+}
+
+clast_status clx_pair_sums_exact(const double *u, int64_t n, int32_t d,
+                                 double sum[CLAST_N_DISCREPANCY])
+{
+    clast_status status = CLAST_OK;
+    work w = {.u = u, .d = d, .n_basis = d == 1 ? 3 : d == 2 ? 9 : 27};
+    CLX_TRY(prepare(&w, n));
+    if (d == 1) {
+        sum_line(&w, n);
+    } else if (d == 2) {
+        sum_square(&w, n);
+    } else {
+        divide(&w, n, 0, n);
+    }
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        sum[k] = 2.0 * w.sum[k]; // each unordered pair was met once
+    }
+done:
+    clx_free(w.order);
+    clx_free(w.scratch);
+    clx_free(w.rank);
+    clx_free(w.tree);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* Paper [Martinez2021 sec. 2]: every statistic of the uniformity tests equals the 40-digit
+ * reference. */
+#include "support.h"
+
+#include "cloud/pair_sums.h"
+#include "math/rng.h"
+#include "oracle.h"
+#include <clast/uniformity.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *const sets[] = {"u2_n5",   "u2_n50",  "u3_n50",  "edge2_n16",
+                                   "s2_n500", "f2_n500", "b3_n500", "h2_n5000"};
+enum { N_SET = 8 };
+
+static oracle_set points;
+
+/* The reference of h2_n5000 is plain double. */
+static double tolerance(int set)
+{
+    return set == 7 ? 1e-11 : 1e-12;
+}
+
+static void check(const char *set, const char *prefix, const char *name, double value, double tol)
+{
+    char quantity[64];
+    (void)snprintf(quantity, sizeof quantity, "%s%s", prefix, name);
+    double expected = 0.0;
+    if (!oracle_find(set, quantity, &expected)) {
+        assert_string_equal(set, "h2_n5000"); /* the large set lists fewer quantities */
+        return;
+    }
+    if (!(fabs(value - expected) <= tol * fmax(1.0, fabs(expected)))) {
+        fail_msg("%s %s = %.17g, expected %.17g", set, quantity, value, expected);
+    }
+}
+
+static void discrepancies_match_the_reference(void **state)
+{
+    (void)state;
+    const char *const prefix[] = {"sym.", "cen.", "star."};
+    for (int s = 0; s < N_SET; ++s) {
+        clast_discrepancy r[CLAST_N_DISCREPANCY];
+        oracle_points(sets[s], &points);
+        CHECK_OK(clast_discrepancy_test(points.u, points.n, points.d, CLAST_SUMS_EXACT, r));
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            const double tol = tolerance(s);
+            const double root = sqrt((double)points.n); /* A multiplies rounding of U by this */
+            check(sets[s], prefix[k], "M", r[k].M, tol);
+            check(sets[s], prefix[k], "xi", r[k].xi, tol);
+            check(sets[s], prefix[k], "zeta2", r[k].zeta2, tol);
+            check(sets[s], prefix[k], "U1", r[k].U1, tol);
+            check(sets[s], prefix[k], "U2", r[k].U2, tol);
+            check(sets[s], prefix[k], "D2", r[k].D2, tol);
+            check(sets[s], prefix[k], "A", r[k].A, root * tol);
+            check(sets[s], prefix[k], "varA", r[k].variance, tol);
+            check(sets[s], prefix[k], "A_std", r[k].A_standard, root * tol);
+            check(sets[s], prefix[k], "p_std", r[k].p, root * tol);
+            check(sets[s], prefix[k], "p_two", r[k].p_asymptotic, root * tol);
+            check(sets[s], prefix[k], "p_one", r[k].p_paper, root * tol);
+            check(sets[s], prefix[k], "T", r[k].T, (double)points.n * 10.0 * tol);
+            check(sets[s], prefix[k], "p_T", r[k].p_T, (double)points.n * 10.0 * tol);
+        }
+    }
+}
+
+static void correlations_match_the_reference(void **state)
+{
+    (void)state;
+    const char *const pair_r[] = {"r01", "r02", "r12"};
+    const char *const pair_p[] = {"p01", "p02", "p12"};
+    for (int s = 0; s < N_SET; ++s) {
+        clast_pearson r;
+        oracle_points(sets[s], &points);
+        CHECK_OK(clast_pearson_test(points.u, points.n, points.d, &r));
+        for (int32_t k = 0; k < r.n_pair; ++k) {
+            check(sets[s], "pearson.", pair_r[k], r.r[k], tolerance(s));
+            check(sets[s], "pearson.", pair_p[k], r.p[k], 10.0 * tolerance(s));
+        }
+        check(sets[s], "pearson.", "p_bonferroni", r.p_bonferroni, 10.0 * tolerance(s));
+    }
+}
+
+/* Brute force over all pairs, factors straight from the definition. */
+static void brute_force(const double *u, int64_t n, int32_t d, double sum[CLAST_N_DISCREPANCY])
+{
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        sum[k] = 0.0;
+    }
+    for (int64_t a = 0; a < n; ++a) {
+        for (int64_t b = 0; b < n; ++b) {
+            double f[3] = {1.0, 1.0, 1.0};
+            for (int32_t j = 0; j < d && a != b; ++j) {
+                const double x = u[a * d + j], y = u[b * d + j];
+                f[0] *= 2.0 * (1.0 - fabs(x - y));
+                f[1] *= 1.0 + 0.5 * (fabs(x - 0.5) + fabs(y - 0.5) - fabs(x - y));
+                f[2] *= 2.0 - fmax(x, y);
+            }
+            for (int k = 0; k < 3 && a != b; ++k) {
+                sum[k] += f[k];
+            }
+        }
+    }
+}
+
+static void fast_sums_equal_brute_force(void **state)
+{
+    (void)state;
+    for (int32_t d = 1; d <= 3; ++d) {
+        double exact[3], brute[3];
+        const int64_t n = 700;
+        clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, (uint64_t)d);
+        for (int64_t i = 0; i < n * d; ++i) { /* a tenth of the coordinates tie */
+            const double x = clx_rng_uniform(&rng);
+            points.u[i] = i % 10 == 0 ? floor(4.0 * x) / 3.0 : x;
+        }
+        CHECK_OK(clx_pair_sums_exact(points.u, n, d, exact));
+        brute_force(points.u, n, d, brute);
+        for (int k = 0; k < 3; ++k) {
+            CHECK_REL(exact[k], brute[k], 1e-12);
+        }
+    }
+}
+
+static void binned_A_is_within_its_stated_error(void **state)
+{
+    (void)state;
+    for (int s = 4; s < N_SET; ++s) {
+        clast_discrepancy exact[CLAST_N_DISCREPANCY], binned[CLAST_N_DISCREPANCY];
+        oracle_points(sets[s], &points);
+        CHECK_OK(clast_discrepancy_test(points.u, points.n, points.d, CLAST_SUMS_EXACT, exact));
+        CHECK_OK(clast_discrepancy_test(points.u, points.n, points.d, CLAST_SUMS_BINNED, binned));
+        for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+            CHECK_ABS(binned[k].A, exact[k].A, 5e-4);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(discrepancies_match_the_reference),
+        cmocka_unit_test(correlations_match_the_reference),
+        cmocka_unit_test(fast_sums_equal_brute_force),
+        cmocka_unit_test(binned_A_is_within_its_stated_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
