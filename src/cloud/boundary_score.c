@@ -1,0 +1,240 @@
+// Distance-to-boundary score: how far the distribution of depths is from that of uniform points.
+//
+// Depths of a uniform point in a box, over half the shortest side: H(z) = 1 - prod_j (1 - c_j z),
+// c_j = shortest side / side j. Between two order statistics G_n is constant and crosses H at most
+// once, and H is a polynomial: the integral of |G_n - H| is exact. Its expectation follows from de
+// Moivre's E|Bin(n, p)/n - p|.     [docs/theory/uniformity.md]
+#include "cloud/boundary_score.h"
+
+#include "base/alloc.h"
+#include "math/quadrature.h"
+#include "math/sort.h"
+#include "math/special.h"
+#include <math.h>
+
+clx_depth_law clx_depth_law_of_box(int32_t d, const double *side)
+{
+    clx_depth_law law = {.d = d};
+    double shortest = side[0];
+    for (int32_t j = 1; j < d; ++j) {
+        shortest = fmin(shortest, side[j]);
+    }
+    for (int32_t j = 0; j < d; ++j) {
+        law.c[j] = shortest / side[j];
+    }
+    return law;
+}
+
+double clx_depth_cdf(const clx_depth_law *law, double z)
+{
+    double outside = 1.0;
+    for (int32_t j = 0; j < law->d; ++j) {
+        outside *= 1.0 - law->c[j] * z;
+    }
+    return 1.0 - outside;
+}
+
+static double depth_density(const clx_depth_law *law, double z)
+{
+    double density = 0.0;
+    for (int32_t j = 0; j < law->d; ++j) {
+        double product = law->c[j];
+        for (int32_t i = 0; i < law->d; ++i) {
+            product *= i == j ? 1.0 : 1.0 - law->c[i] * z;
+        }
+        density += product;
+    }
+    return density;
+}
+
+/// Integral of H from 0 to z: H = z e1 - z^2 e2 + z^3 e3 with the elementary symmetric sums of c.
+static double depth_integral(const clx_depth_law *law, double z)
+{
+    const double *c = law->c;
+    const double e1 = c[0] + (law->d > 1 ? c[1] : 0.0) + (law->d > 2 ? c[2] : 0.0);
+    const double e2 =
+        law->d < 2 ? 0.0 : c[0] * c[1] + (law->d > 2 ? c[0] * c[2] + c[1] * c[2] : 0.0);
+    const double e3 = law->d < 3 ? 0.0 : c[0] * c[1] * c[2];
+    return z * z * (e1 / 2.0 - z * (e2 / 3.0 - z * e3 / 4.0));
+}
+
+double clx_depth_quantile(const clx_depth_law *law, double p)
+{
+    double low = 0.0;
+    double high = 1.0;
+    double z = p;
+    if (p <= 0.0 || p >= 1.0) {
+        return p <= 0.0 ? 0.0 : 1.0;
+    }
+    for (int i = 0; i < 100 && high - low > 1e-16; ++i) { // Newton inside a bracket
+        const double f = clx_depth_cdf(law, z) - p;
+        if (f > 0.0) {
+            high = z;
+        } else {
+            low = z;
+        }
+        const double slope = depth_density(law, z);
+        const double next = slope > 0.0 ? z - f / slope : low;
+        if (fabs(next - z) <= 1e-16) {
+            break;
+        }
+        z = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return z;
+}
+
+/// Integral of |g - H| over [a, b], g constant.
+static double constant_part(const clx_depth_law *law, double g, double a, double b)
+{
+    const double over = clx_depth_quantile(law, g);
+    const double cross = fmin(fmax(over, a), b);
+    const double below = g * (cross - a) - (depth_integral(law, cross) - depth_integral(law, a));
+    const double above = depth_integral(law, b) - depth_integral(law, cross) - g * (b - cross);
+    return below + above;
+}
+
+double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
+{
+    double sum = 0.0;
+    double from = 0.0;
+    for (int64_t k = 0; k <= n; ++k) {
+        const double to = k < n ? z[k] : 1.0;
+        if (to > from) {
+            sum += constant_part(law, (double)k / (double)n, from, to);
+            from = to;
+        }
+    }
+    return sum;
+}
+
+/// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
+static double trapezoid(const clx_depth_law *law, const double *z, int64_t n)
+{
+    double sum = 0.0;
+    double previous = fabs(1.0 / (double)n - clx_depth_cdf(law, z[0]));
+    for (int64_t k = 1; k < n; ++k) {
+        const double here = fabs((double)(k + 1) / (double)n - clx_depth_cdf(law, z[k]));
+        sum += 0.5 * (here + previous) * (z[k] - z[k - 1]);
+        previous = here;
+    }
+    return sum;
+}
+
+enum { KINK_LIMIT = 4096, KINK_EDGE = 512, N_PANEL = 64 };
+
+/// Integral of E|Bin(n, H)/n - H| over z between H = low/n and H = high/n: Gauss-Legendre between
+/// the kinks at k/n.
+static double ideal_by_kinks(const clx_depth_law *law, int64_t n, int64_t low, int64_t high)
+{
+    double sum = 0.0;
+    double a = clx_depth_quantile(law, (double)low / (double)n);
+    for (int64_t k = low + 1; k <= high; ++k) {
+        const double b = clx_depth_quantile(law, (double)k / (double)n);
+        for (int q = 0; q < CLX_GAUSS_N; ++q) {
+            const double z = a + (b - a) * clx_gauss_point(q);
+            sum += (b - a) * clx_gauss_weight(q) *
+                   clx_binomial_deviation((double)n, clx_depth_cdf(law, z));
+        }
+        a = b;
+    }
+    return sum;
+}
+
+/// E|Bin(n, p)/n - p| / sqrt(p (1 - p)), averaged over the kink that holds p: a smooth function of
+/// p.
+static double mean_ratio(double n, double p)
+{
+    const double first = floor(n * p);
+    double sum = 0.0;
+    for (int q = 0; q < CLX_GAUSS_N; ++q) {
+        const double x = (first + clx_gauss_point(q)) / n;
+        sum += clx_gauss_weight(q) * clx_binomial_deviation(n, x) / sqrt(x * (1.0 - x));
+    }
+    return sum;
+}
+
+/// s with s^2 (3 - 2 s) = z; this map flattens the square roots at both ends.
+static double flat_parameter(double z)
+{
+    return 0.5 - sin(asin(1.0 - 2.0 * z) / 3.0);
+}
+
+/// The middle of the integral for many points, kinks averaged out.
+static double ideal_smooth(const clx_depth_law *law, double n, double z_low, double z_high)
+{
+    const double s_low = flat_parameter(z_low);
+    const double s_high = flat_parameter(z_high);
+    double sum = 0.0;
+    for (int i = 0; i < N_PANEL * CLX_GAUSS_N; ++i) {
+        const int panel = i / CLX_GAUSS_N;
+        const double t = (panel + clx_gauss_point(i % CLX_GAUSS_N)) / N_PANEL;
+        const double s = s_low + (s_high - s_low) * t;
+        const double h = clx_depth_cdf(law, s * s * (3.0 - 2.0 * s));
+        sum += clx_gauss_weight(i % CLX_GAUSS_N) * 6.0 * s * (1.0 - s) * sqrt(h * (1.0 - h)) *
+               mean_ratio(n, h);
+    }
+    return sum * (s_high - s_low) / N_PANEL;
+}
+
+double clx_depth_ideal(const clx_depth_law *law, double n_point)
+{
+    const int64_t n = (int64_t)fmax(1.0, floor(n_point + 0.5));
+    if (n <= KINK_LIMIT) {
+        return ideal_by_kinks(law, n, 0, n);
+    }
+    const double edge = (double)KINK_EDGE / (double)n;
+    return ideal_by_kinks(law, n, 0, KINK_EDGE) + ideal_by_kinks(law, n, n - KINK_EDGE, n) +
+           ideal_smooth(law, (double)n, clx_depth_quantile(law, edge),
+                        clx_depth_quantile(law, 1.0 - edge));
+}
+
+double clast_boundary_score_ideal(double n, int32_t d, const double *side)
+{
+    const clx_depth_law law = clx_depth_law_of_box(d, side);
+    return clx_depth_ideal(&law, n);
+}
+
+double clx_depth_of(const clx_depth_law *law, const double *u)
+{
+    double depth = 1.0;
+    for (int32_t j = 0; j < law->d; ++j) {
+        depth = fmin(depth, 2.0 * fmin(u[j], 1.0 - u[j]) / law->c[j]);
+    }
+    return depth;
+}
+
+clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, const double *side,
+                                       clast_boundary_score *result)
+{
+    clast_status status = CLAST_OK;
+    clast_boundary_score made = {0};
+    double *z = NULL;
+    const clx_depth_law line = {.d = 1, .c = {1.0}};
+    CLX_CHECK(n >= 1 && d >= 1 && d <= 3, CLAST_E_USAGE,
+              "a boundary score needs points in 1 to 3 dimensions, not %lld in %d", (long long)n,
+              d);
+    for (int32_t j = 0; j < d; ++j) {
+        CLX_CHECK(side[j] > 0.0, CLAST_E_USAGE, "side %d of the domain is %g", j, side[j]);
+    }
+    CLX_TRY(clx_alloc(&z, n, sizeof *z));
+    const clx_depth_law law = clx_depth_law_of_box(d, side);
+    for (int64_t i = 0; i < n; ++i) {
+        z[i] = clx_depth_of(&law, u + i * d);
+    }
+    CLX_TRY(clx_sort_doubles(z, n));
+    made.score = clx_depth_distance(&law, z, n);
+    made.trapezoid = trapezoid(&law, z, n);
+    made.ideal = clx_depth_ideal(&law, (double)n);
+    for (int32_t j = 0; j < d; ++j) {
+        for (int64_t i = 0; i < n; ++i) {
+            z[i] = u[i * d + j];
+        }
+        CLX_TRY(clx_sort_doubles(z, n));
+        made.projected_axis[j] = clx_depth_distance(&line, z, n);
+        made.projected += made.projected_axis[j];
+    }
+    *result = made;
+done:
+    clx_free(z);
+    return status;
+}

@@ -1,0 +1,22 @@
+#pragma once
+// The law of depths in a box and the distance of a sample from it.
+#include <clast/uniformity.h>
+
+/// H(z) = 1 - prod (1 - c_j z) on [0, 1].
+typedef struct clx_depth_law {
+    int32_t d;
+    double c[3]; ///< shortest side / side j
+} clx_depth_law;
+
+clx_depth_law clx_depth_law_of_box(int32_t d, const double *side);
+double clx_depth_cdf(const clx_depth_law *law, double z);
+double clx_depth_quantile(const clx_depth_law *law, double p);
+
+/// Depth of a point of the unit cube over half the shortest side, in [0, 1].
+double clx_depth_of(const clx_depth_law *law, const double *u);
+
+/// Integral over [0, 1] of |G_n - H| for n sorted depths, exact.
+double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n);
+
+/// Its expectation for n uniform points.
+double clx_depth_ideal(const clx_depth_law *law, double n);
