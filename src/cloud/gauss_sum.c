@@ -1,0 +1,277 @@
+// Pair sums of a Gaussian: plain, and by splines on a grid.
+#include "cloud/gauss_sum.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    ROWS_A_BLOCK = 64,
+    HALF_WIDTH = 26, ///< kernel coefficients kept on each side
+    SYSTEM = 40,     ///< half-size of the system that finds them
+    GROUP = 8, ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
+    MARGIN = 2 ///< nodes beyond the outermost points
+};
+static const double SPACING = 1.0 / 3.0; ///< times 1 / beta
+
+typedef struct {
+    const double *y;
+    int64_t n;
+    int32_t d;
+    double half_beta2;
+    double *block;
+} pair_context;
+
+static void sum_rows(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const pair_context *c = context;
+    double sum = 0.0;
+    (void)worker;
+    for (int64_t k = begin; k < end; ++k) {
+        for (int64_t l = 0; l < k; ++l) {
+            double r2 = 0.0;
+            for (int32_t j = 0; j < c->d; ++j) {
+                const double r = c->y[k * c->d + j] - c->y[l * c->d + j];
+                r2 += r * r;
+            }
+            sum += exp(-c->half_beta2 * r2);
+        }
+    }
+    c->block[begin / ROWS_A_BLOCK] = sum;
+}
+
+clast_status clx_gauss_sum_exact(const double *y, int64_t n, int32_t d, double beta, double *sum)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_block = (n + ROWS_A_BLOCK - 1) / ROWS_A_BLOCK;
+    pair_context context = {y, n, d, 0.5 * beta * beta, NULL};
+    CLX_TRY(clx_alloc(&context.block, n_block, sizeof *context.block));
+    clx_parallel_for(n, ROWS_A_BLOCK, sum_rows, &context);
+    *sum = 0.0;
+    for (int64_t b = 0; b < n_block; ++b) {
+        *sum += context.block[b];
+    }
+    *sum = 2.0 * *sum + (double)n;
+done:
+    clx_free(context.block);
+    return status;
+}
+
+/// Coefficients c with sum_m c_m B7(i - m) = exp(-(spacing i)^2 / 2) at the nodes: Gaussian
+/// elimination on the banded system with the values of the septic B-spline, 2416, 1191, 120 and 1
+/// over 5040.
+static void kernel_coefficients(double kernel[HALF_WIDTH + 1])
+{
+    enum { N = 2 * SYSTEM + 1 };
+    static const double spline[4] = {2416.0 / 5040, 1191.0 / 5040, 120.0 / 5040, 1.0 / 5040};
+    double a[N][7];
+    double b[N];
+    for (int i = 0; i < N; ++i) {
+        for (int k = 0; k < 7; ++k) {
+            const int column = i + k - 3;
+            a[i][k] = column >= 0 && column < N ? spline[k < 3 ? 3 - k : k - 3] : 0.0;
+        }
+        b[i] = exp(-0.5 * SPACING * SPACING * (i - SYSTEM) * (i - SYSTEM));
+    }
+    for (int i = 0; i < N; ++i) {
+        for (int row = i + 1; row < N && row <= i + 3; ++row) {
+            const double factor = a[row][3 - (row - i)] / a[i][3];
+            for (int k = 3; k < 7; ++k) {
+                a[row][k - (row - i)] -= factor * a[i][k];
+            }
+            b[row] -= factor * b[i];
+        }
+    }
+    for (int i = N - 1; i >= 0; --i) {
+        for (int k = 1; k <= 3 && i + k < N; ++k) {
+            b[i] -= a[i][3 + k] * b[i + k];
+        }
+        b[i] /= a[i][3];
+    }
+    memcpy(kernel, b + SYSTEM, (HALF_WIDTH + 1) * sizeof *kernel);
+}
+
+typedef struct {
+    const double *y;
+    int64_t n;
+    int32_t d;
+    double h;
+    double low[3];    ///< of node 0
+    int64_t count[3]; ///< nodes, 1 beyond d
+    int64_t size;
+    double *node, *other; ///< [size]
+    int64_t *start;       ///< [count[0] + 1] points by slab of axis 0
+    int64_t *order;       ///< [n]
+    double kernel[HALF_WIDTH + 1];
+} grid;
+
+/// Cell of a coordinate and the four cubic B-spline weights of the nodes cell - 1 .. cell + 2.
+static int64_t spline_weights(const grid *g, double x, int32_t axis, double weight[4])
+{
+    const double at = (x - g->low[axis]) / g->h;
+    const double cell = floor(at);
+    const double t = at - cell;
+    const double s = 1.0 - t;
+    weight[0] = s * s * s / 6.0;
+    weight[1] = (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0;
+    weight[2] = (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0;
+    weight[3] = t * t * t / 6.0;
+    return (int64_t)cell;
+}
+
+static void spread_point(grid *g, const double *x)
+{
+    double w[3][4] = {{1.0}, {1.0}, {1.0}};
+    int64_t first[3] = {0, 0, 0};
+    int width[3] = {1, 1, 1};
+    for (int32_t j = 0; j < g->d; ++j) {
+        first[j] = spline_weights(g, x[j], j, w[j]) - 1;
+        width[j] = 4;
+    }
+    for (int a = 0; a < width[0]; ++a) {
+        for (int b = 0; b < width[1]; ++b) {
+            double *row =
+                g->node + ((first[0] + a) * g->count[1] + first[1] + b) * g->count[2] + first[2];
+            for (int c = 0; c < width[2]; ++c) {
+                row[c] += w[0][a] * w[1][b] * w[2][c];
+            }
+        }
+    }
+}
+
+typedef struct {
+    grid *g;
+    int parity; ///< groups 2 i + parity
+} colour;
+
+static void spread_groups(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const colour *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const int64_t slab = (2 * i + c->parity) * GROUP;
+        const int64_t last = slab + GROUP < c->g->count[0] ? slab + GROUP : c->g->count[0];
+        for (int64_t p = slab < last ? c->g->start[slab] : 0; slab < last && p < c->g->start[last];
+             ++p) {
+            spread_point(c->g, c->g->y + c->g->order[p] * c->g->d);
+        }
+    }
+}
+
+/// Points by slab, in index order within a slab.
+static void sort_by_slab(grid *g)
+{
+    double unused[4];
+    for (int64_t i = 0; i < g->n; ++i) {
+        ++g->start[spline_weights(g, g->y[i * g->d], 0, unused) + 1];
+    }
+    for (int64_t s = 0; s < g->count[0]; ++s) {
+        g->start[s + 1] += g->start[s];
+    }
+    for (int64_t i = 0; i < g->n; ++i) {
+        g->order[g->start[spline_weights(g, g->y[i * g->d], 0, unused)]++] = i;
+    }
+    for (int64_t s = g->count[0]; s > 0; --s) {
+        g->start[s] = g->start[s - 1];
+    }
+    g->start[0] = 0;
+}
+
+static clast_status lay_grid(grid *g)
+{
+    clast_status status = CLAST_OK;
+    g->size = 1;
+    for (int32_t j = 0; j < 3; ++j) {
+        double high = j < g->d ? g->y[j] : 0.0;
+        g->low[j] = high;
+        g->count[j] = 1;
+        for (int64_t i = 1; i < g->n && j < g->d; ++i) {
+            g->low[j] = fmin(g->low[j], g->y[i * g->d + j]);
+            high = fmax(high, g->y[i * g->d + j]);
+        }
+        if (j < g->d) {
+            g->low[j] -= MARGIN * g->h;
+            g->count[j] = (int64_t)ceil((high - g->low[j]) / g->h) + MARGIN + 1;
+        }
+        g->size *= g->count[j];
+        CLX_CHECK(g->size <= INT64_C(1) << 31, CLAST_E_LIMIT,
+                  "the grid of the Henze-Zirkler test needs more than 2^31 nodes");
+    }
+    CLX_TRY(clx_alloc(&g->node, g->size, sizeof *g->node));
+    CLX_TRY(clx_alloc(&g->other, g->size, sizeof *g->other));
+    CLX_TRY(clx_alloc(&g->start, g->count[0] + 1, sizeof *g->start));
+    CLX_TRY(clx_alloc(&g->order, g->n, sizeof *g->order));
+done:
+    return status;
+}
+
+typedef struct {
+    const grid *g;
+    const double *from;
+    double *to;
+    int64_t length, stride; ///< of a line along the axis
+} convolution;
+
+static void convolve_lines(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const convolution *c = context;
+    (void)worker;
+    for (int64_t line = begin; line < end; ++line) {
+        const int64_t start = line / c->stride * c->stride * c->length + line % c->stride;
+        for (int64_t i = 0; i < c->length; ++i) {
+            double sum = c->g->kernel[0] * c->from[start + i * c->stride];
+            for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
+                const double left = i >= m ? c->from[start + (i - m) * c->stride] : 0.0;
+                const double right = i + m < c->length ? c->from[start + (i + m) * c->stride] : 0.0;
+                sum += c->g->kernel[m] * (left + right);
+            }
+            c->to[start + i * c->stride] = sum;
+        }
+    }
+}
+
+/// (g, K g): one axis at a time; the last axis is needed only as a sum.
+static clast_status quadratic_form(grid *g, double *sum)
+{
+    clast_status status = CLAST_OK;
+    double *spare = NULL;
+    double *from = g->node;
+    double *to = g->other;
+    int64_t stride = g->size;
+    CLX_TRY(clx_alloc(&spare, g->d > 1 ? g->size : 1, sizeof *spare));
+    for (int32_t j = 0; j < g->d; ++j) {
+        stride /= g->count[j];
+        convolution c = {g, from, to, g->count[j], stride};
+        clx_parallel_for(g->size / g->count[j], 64, convolve_lines, &c);
+        from = to;
+        to = to == g->other ? spare : g->other;
+    }
+    *sum = 0.0;
+    for (int64_t i = 0; i < g->size; ++i) {
+        *sum += g->node[i] * from[i];
+    }
+done:
+    clx_free(spare);
+    return status;
+}
+
+clast_status clx_gauss_sum_gridded(const double *y, int64_t n, int32_t d, double beta, double *sum)
+{
+    clast_status status = CLAST_OK;
+    grid g = {.y = y, .n = n, .d = d, .h = SPACING / beta};
+    kernel_coefficients(g.kernel);
+    CLX_TRY(lay_grid(&g));
+    sort_by_slab(&g);
+    for (int parity = 0; parity < 2; ++parity) {
+        colour c = {&g, parity};
+        clx_parallel_for((g.count[0] + 2 * GROUP - 1) / (2 * GROUP), 1, spread_groups, &c);
+    }
+    CLX_TRY(quadratic_form(&g, sum));
+done:
+    clx_free(g.node);
+    clx_free(g.other);
+    clx_free(g.start);
+    clx_free(g.order);
+    return status;
+}
