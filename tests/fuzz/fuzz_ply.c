@@ -1,0 +1,7 @@
+// libFuzzer target of the PLY reader.
+#include "fuzz_mesh.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    return fuzz_mesh(data, size, CLAST_MESH_PLY);
+}
