@@ -228,7 +228,7 @@ static clast_status cut_ears(clx_polygon_cutter *c, int32_t n, int32_t (*tri)[3]
     for (int32_t t = 0; t < n - 2; ++t) {
         j = t + 1 < n - 2 ? find_ear(c, j, n - t) : j;
         CLX_CHECK(c->n_test <= CLX_POLYGON_N_TEST, CLAST_E_LIMIT,
-                  "a polygon of %d corners is too intricate to be cut; cut it before", n);
+                  "a polygon of %d corners is too intricate; cut it into triangles before", n);
         tri[t][0] = c->prev[j];
         tri[t][1] = j;
         tri[t][2] = c->next[j];

@@ -1,6 +1,8 @@
 // Surfaces from files and to files: which format, and the way there and back.
 #include <clast/mesh_file.h>
 
+#include <clast/field.h>
+
 #include "base/alloc.h"
 #include "io/mesh_io.h"
 #include <math.h>
@@ -137,15 +139,32 @@ static clast_status check_mesh(const clast_mesh *mesh)
     return CLAST_OK;
 }
 
+/// Units are told in headers: only those that the unit table knows, or "model".
+static clast_status check_unit(const char *unit)
+{
+    double factor = 0.0;
+    if (unit == NULL || strcmp(unit, "model") == 0) {
+        return CLAST_OK;
+    }
+    return clast_unit_factor(unit, "m", &factor) == CLAST_OK ? CLAST_OK : CLAST_E_USAGE;
+}
+
 static clast_status write_format(clast_mesh_format format, const clast_mesh *mesh,
                                  const clast_mesh_write_options *options, clx_file *file)
 {
     switch (format) {
     case CLAST_MESH_STL:
         return clx_stl_write(mesh, options, file);
+    case CLAST_MESH_OBJ:
+        return clx_obj_write(mesh, options, file);
+    case CLAST_MESH_PLY:
+        return clx_ply_write(mesh, options, file);
+    case CLAST_MESH_OFF:
+        return clx_off_write(mesh, options, file);
+    case CLAST_MESH_3MF:
+        return clx_threemf_write(mesh, options, file);
     default:
-        return clx_fail(CLAST_E_USAGE, "no surface format by that name; write .stl, .obj, .ply, "
-                                       ".off or .3mf");
+        return clx_fail(CLAST_E_USAGE, "no surface format has the number %d", (int)format);
     }
 }
 
@@ -157,6 +176,9 @@ clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
     const clast_mesh_write_options o = options != NULL ? *options : (clast_mesh_write_options){0};
     const clast_mesh_format format =
         o.format != CLAST_MESH_ANY ? o.format : clast_mesh_format_of_path(path);
+    CLX_CHECK(format != CLAST_MESH_ANY, CLAST_E_USAGE,
+              "no surface format by that name; write .stl, .obj, .ply, .off or .3mf");
+    CLX_TRY(check_unit(o.unit));
     CLX_TRY(check_mesh(mesh));
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(write_format(format, mesh, &o, &file));

@@ -33,3 +33,11 @@ clast_mesh_format clx_mesh_detect(const void *bytes, size_t n);
 /// Writers: append the whole file.
 clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
                            clx_file *file);
+clast_status clx_obj_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
+                           clx_file *file);
+clast_status clx_ply_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
+                           clx_file *file);
+clast_status clx_off_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
+                           clx_file *file);
+clast_status clx_threemf_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
+                               clx_file *file);

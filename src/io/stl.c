@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "geom/vertex_set.h"
+#include "io/bytes.h"
 #include "io/text.h"
 #include "math/vec3.h"
 #include <inttypes.h>
@@ -15,22 +16,9 @@
 
 enum { HEADER_SIZE = 80, BODY_START = 84, FACET_SIZE = 50 };
 
-static uint32_t load_u32(const uint8_t *p)
-{
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
-static void store_u32(uint8_t *p, uint32_t v)
-{
-    p[0] = (uint8_t)v;
-    p[1] = (uint8_t)(v >> 8);
-    p[2] = (uint8_t)(v >> 16);
-    p[3] = (uint8_t)(v >> 24);
-}
-
 static double load_f32(const uint8_t *p)
 {
-    const uint32_t bits = load_u32(p);
+    const uint32_t bits = clx_load_u32(p);
     float value = 0.0F;
     memcpy(&value, &bits, sizeof value);
     return (double)value;
@@ -41,7 +29,7 @@ static void store_f32(uint8_t *p, double value)
     const float single = (float)value;
     uint32_t bits = 0;
     memcpy(&bits, &single, sizeof bits);
-    store_u32(p, bits);
+    clx_store_u32(p, bits);
 }
 
 // ---- both forms: facets gathered into vertices and triangles
@@ -120,7 +108,7 @@ done:
 
 static int64_t binary_size(const uint8_t *bytes)
 {
-    return BODY_START + (int64_t)FACET_SIZE * load_u32(bytes + HEADER_SIZE);
+    return BODY_START + (int64_t)FACET_SIZE * clx_load_u32(bytes + HEADER_SIZE);
 }
 
 /// "solid" at the start, blanks before it allowed, in any case.
@@ -191,7 +179,7 @@ static clast_status parse_binary(const uint8_t *bytes, size_t n, gather *g)
               "byte %zu: the file ends here; a binary STL has at least %d bytes (and an ASCII one "
               "begins with 'solid')",
               n, BODY_START);
-    const int64_t n_facet = load_u32(bytes + HEADER_SIZE);
+    const int64_t n_facet = clx_load_u32(bytes + HEADER_SIZE);
     const int64_t size = binary_size(bytes);
     CLX_CHECK(size <= (int64_t)n, CLAST_E_FORMAT,
               "byte 80: the header promises %" PRId64 " facets (%" PRId64
@@ -362,7 +350,7 @@ static clast_status write_header(const clast_mesh_write_options *options, uint32
     (void)snprintf(header, HEADER_SIZE, "clast %s binary STL, unit %.15s%s%.30s", clast_version(),
                    options->unit != NULL ? options->unit : "not stated",
                    options->name != NULL ? ", " : "", options->name != NULL ? options->name : "");
-    store_u32((uint8_t *)header + HEADER_SIZE, n);
+    clx_store_u32((uint8_t *)header + HEADER_SIZE, n);
     return clx_file_write(file, header, sizeof header);
 }
 

@@ -1,0 +1,212 @@
+// clast mesh convert: a surface from one format to another, in another unit if wanted.
+#include "command.h"
+
+#include "base/status.h"
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    char *unit, *out_unit, *name;
+    double scale;
+} convert_config;
+
+#define FIELD(type, member) #member, offsetof(convert_config, member), type
+static const clast_field fields[] = {
+    {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-", "length unit of the input's coordinates", ""},
+    {FIELD(CLAST_FIELD_TEXT, out_unit), 0, 0, 0, "-",
+     "unit of the output's coordinates; that of the input when not given", ""},
+    {FIELD(CLAST_FIELD_F64, scale), 1.0, 1e-100, 1e100, "-", "factor on all lengths", NULL},
+    {FIELD(CLAST_FIELD_TEXT, name), 0, 0, 0, "-", "name of the part, told in the output", ""},
+    {0},
+};
+#undef FIELD
+
+typedef struct {
+    const char *input, *output;
+    const char *out_unit; ///< NULL: not known
+    clast_mesh mesh;
+    clast_mesh_read_report report;
+    clast_mesh_format out_format;
+    double factor;
+} job;
+
+/// Output coordinates per input coordinate.
+static clast_status find_factor(const convert_config *config, job *j)
+{
+    clast_status status = CLAST_OK;
+    double in = 1.0;
+    double out = 1.0;
+    const char *unit = config->unit[0] != '\0' ? config->unit : NULL;
+    j->out_unit = config->out_unit[0] != '\0' ? config->out_unit : unit;
+    j->factor = config->scale;
+    CLX_CHECK(unit != NULL || j->out_unit == NULL, CLAST_E_USAGE,
+              "--out-unit %s needs --unit, the unit of %s", config->out_unit, j->input);
+    CLX_CHECK(unit != NULL || j->out_format != CLAST_MESH_3MF, CLAST_E_USAGE,
+              "3MF is in millimetres: give --unit, the unit of %s", j->input);
+    if (unit != NULL) {
+        CLX_TRY(clast_unit_factor(unit, "m", &in));
+        CLX_TRY(clast_unit_factor(j->out_unit, "m", &out));
+        j->factor *= strcmp(unit, j->out_unit) == 0 ? 1.0 : in / out;
+    }
+done:
+    return status;
+}
+
+static clast_status check_job(const cli_common *common, job *j)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(common->output != NULL, CLAST_E_USAGE,
+              "where to? give -o NAME.stl (or .obj, .ply, .off, .3mf)");
+    j->input = common->argument[0];
+    j->output = common->output;
+    j->out_format = clast_mesh_format_of_path(j->output);
+    CLX_CHECK(j->out_format != CLAST_MESH_ANY, CLAST_E_USAGE,
+              "%s: no surface format by that name; write .stl, .obj, .ply, .off or .3mf",
+              j->output);
+done:
+    return status;
+}
+
+static clast_status check_surface(const job *j)
+{
+    const bool keeps_points =
+        j->out_format != CLAST_MESH_STL && j->out_format != CLAST_MESH_3MF && j->mesh.n_vert > 0;
+    if (j->mesh.n_tri > 0 || keeps_points) {
+        return CLAST_OK;
+    }
+    return clx_fail(CLAST_E_GEOMETRY, "%s has %d points and no triangles: nothing to write as %s",
+                    j->input, j->mesh.n_vert, clast_mesh_format_name(j->out_format));
+}
+
+/// Greatest change of a coordinate by the 24 bits that STL keeps, as a part of the extent.
+static double rounding(const clast_mesh *mesh)
+{
+    double worst = 0.0;
+    double extent = 0.0;
+    double low[3];
+    double high[3];
+    clast_mesh_bounds(mesh, low, high);
+    for (int k = 0; k < 3; ++k) {
+        extent = fmax(extent, high[k] - low[k]);
+    }
+    for (int32_t i = 0; i < mesh->n_vert; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double x = mesh->vert[i][k];
+            worst = fmax(worst, fabs(x - (double)(float)x));
+        }
+    }
+    return extent > 0.0 ? worst / extent : 0.0;
+}
+
+/// What the output loses, as one more warning.
+static void warn_of_loss(job *j)
+{
+    clast_mesh_read_report *r = &j->report;
+    const double part = j->out_format == CLAST_MESH_STL ? rounding(&j->mesh) : 0.0;
+    if (part > 1e-6 && r->n_warning < CLAST_MESH_N_WARNING) {
+        (void)snprintf(r->warning[r->n_warning++], CLAST_MESH_WARNING_SIZE,
+                       "STL keeps 24 bits: coordinates move by up to %.2g of the extent; move the "
+                       "surface near the origin or write PLY",
+                       part);
+    }
+}
+
+/// JSON text; bytes that are not UTF-8 become '?'.
+static json_t *text_of(const char *text)
+{
+    json_t *value = json_string(text);
+    if (value == NULL) {
+        char plain[4096];
+        (void)snprintf(plain, sizeof plain, "%s", text);
+        for (char *c = plain; *c != '\0'; ++c) {
+            *c = (unsigned char)*c < 0x80 ? *c : '?';
+        }
+        value = json_string(plain);
+    }
+    return value;
+}
+
+static clast_status print_json(const job *j)
+{
+    const clast_mesh_read_report *r = &j->report;
+    json_t *warnings = json_array();
+    for (int32_t i = 0; i < r->n_warning; ++i) {
+        (void)json_array_append_new(warnings, text_of(r->warning[i]));
+    }
+    json_t *object = json_pack(
+        "{s:o,s:s,s:b,s:i,s:i,s:i,s:I,s:i,s:i,s:i,s:i,s:f,s:o,s:s,s:o}", "file", text_of(j->input),
+        "format", clast_mesh_format_name(r->format), "binary", r->is_binary, "n_part", r->n_part,
+        "n_vertex", j->mesh.n_vert, "n_triangle", j->mesh.n_tri, "n_facet", (json_int_t)r->n_facet,
+        "n_polygon", r->n_polygon, "n_concave", r->n_concave, "n_wrong_normal", r->n_wrong_normal,
+        "n_zero_normal", r->n_zero_normal, "factor", j->factor, "output", text_of(j->output),
+        "output_format", clast_mesh_format_name(j->out_format), "warnings", warnings);
+    const int failed =
+        object == NULL || json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0;
+    json_decref(object);
+    (void)putchar('\n');
+    return failed ? clx_fail(CLAST_E_MEMORY, "no memory for the JSON text") : CLAST_OK;
+}
+
+static clast_status print_text(const job *j)
+{
+    const clast_mesh_read_report *r = &j->report;
+    (void)printf("%s: %s%s, %d vertices, %d triangles", j->input, r->is_binary ? "binary " : "",
+                 clast_mesh_format_name(r->format), j->mesh.n_vert, j->mesh.n_tri);
+    if (r->n_polygon > 0) {
+        (void)printf(" (from %lld faces, %d of them concave)", (long long)r->n_facet, r->n_concave);
+    }
+    (void)printf("\n%s: %s", j->output, clast_mesh_format_name(j->out_format));
+    if (j->out_unit != NULL) {
+        (void)printf(" in %s", j->out_format == CLAST_MESH_3MF ? "mm" : j->out_unit);
+    }
+    if (j->factor != 1.0) {
+        (void)printf(", lengths times %.9g", j->factor);
+    }
+    (void)putchar('\n');
+    for (int32_t i = 0; i < r->n_warning; ++i) {
+        (void)fprintf(stderr, "clast mesh convert: %s: %s\n", j->input, r->warning[i]);
+    }
+    return CLAST_OK;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    static const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    static const double unmoved[3] = {0.0, 0.0, 0.0};
+    const convert_config *config = context;
+    clast_status status = CLAST_OK;
+    job j = {0};
+    CLX_TRY(check_job(common, &j));
+    CLX_TRY(find_factor(config, &j));
+    CLX_TRY(clast_mesh_read(j.input, &j.mesh, &j.report));
+    CLX_TRY(check_surface(&j));
+    if (j.factor != 1.0) {
+        clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);
+    }
+    warn_of_loss(&j);
+    const clast_mesh_write_options options = {
+        .unit = j.out_unit, .name = config->name[0] != '\0' ? config->name : NULL};
+    CLX_TRY(clast_mesh_write(j.output, &j.mesh, &options));
+    CLX_TRY(common->json ? print_json(&j) : print_text(&j));
+done:
+    clast_mesh_free(&j.mesh);
+    return status;
+}
+
+const cli_command cli_mesh_convert = {
+    .name = "mesh convert",
+    .arguments = "FILE",
+    .summary = "read a surface (STL, OBJ, PLY, OFF) and write it (-o) as STL, OBJ, PLY, OFF or 3MF",
+    .details =
+        "The format of FILE is found by its content, that of the output by its name. STL is\n"
+        "written in binary with 24-bit coordinates; OBJ, PLY and OFF keep every bit; 3MF is\n"
+        "in millimetres and needs --unit. Vertices of an STL that are equal bit by bit are\n"
+        "one; nothing else is repaired: see clast mesh check and clast mesh repair.",
+    .fields = fields,
+    .config_size = sizeof(convert_config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};
