@@ -17,6 +17,7 @@
 #include <clast/parallel.h>
 #include <clast/printable.h>
 #include <clast/shape.h>
+#include <clast/state.h>
 #include <clast/status.h>
 #include <clast/table.h>
 #include <clast/table_file.h>

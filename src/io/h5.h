@@ -54,6 +54,9 @@ void clx_h5_close(clx_h5 *h5);
 /// Whether an array or folder of this name exists.
 bool clx_h5_has(clx_h5 *h5, const char *name);
 
+/// Whether an array or folder ("/" for the file) has an attribute.
+bool clx_h5_has_attribute(clx_h5 *h5, const char *object, const char *name);
+
 /// Sizes of an array of this type and rank into shape [rank].
 ///
 /// @return CLAST_E_FORMAT if it is missing, of another type or rank, filtered by anything but

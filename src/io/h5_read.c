@@ -129,6 +129,15 @@ bool clx_h5_has(clx_h5 *h5, const char *name)
     return has;
 }
 
+bool clx_h5_has_attribute(clx_h5 *h5, const char *object, const char *name)
+{
+    const clx_h5_session session = clx_h5_enter();
+    const bool has = (strcmp(object, "/") == 0 || is_inside(h5, object)) &&
+                     H5Aexists_by_name(h5->file, object, name, H5P_DEFAULT) > 0;
+    clx_h5_leave(&session);
+    return has;
+}
+
 static bool same_type(hid_t type, clx_h5_type wanted)
 {
     return H5Tequal(type, clx_h5_file_type(wanted)) > 0;
