@@ -9,6 +9,7 @@
 #include <clast/config.h>
 #include <clast/field.h>
 #include <clast/hull.h>
+#include <clast/manifest.h>
 #include <clast/mesh.h>
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>

@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /// Bytes of the UTF-8 character at `c`, or 0 if there is none (overlong, surrogate, cut short).
@@ -29,24 +30,35 @@ static size_t utf8_length(const unsigned char *c)
     return point < least[n] || point > 0x10ffff || (point >= 0xd800 && point < 0xe000) ? 0 : n;
 }
 
+const char *clx_json_next(const char *text, char out[CLX_JSON_STEP], size_t *n)
+{
+    const size_t length = utf8_length((const unsigned char *)text);
+    if (length == 0) {
+        memcpy(out, "\xef\xbf\xbd", 3);
+        *n = 3;
+        return text + 1;
+    }
+    if (*text == '"' || *text == '\\') {
+        out[0] = '\\';
+        out[1] = *text;
+        *n = 2;
+    } else if ((unsigned char)*text < 0x20 || *text == 0x7f) {
+        *n = (size_t)snprintf(out, CLX_JSON_STEP, "\\u%04x", (unsigned)(unsigned char)*text);
+    } else {
+        memcpy(out, text, length);
+        *n = length;
+    }
+    return text + length;
+}
+
 void clx_json_text(clx_file *file, const char *text)
 {
     (void)clx_file_write(file, "\"", 1);
-    for (const char *c = text; *c != '\0';) {
-        const size_t n = utf8_length((const unsigned char *)c);
-        if (n == 0) {
-            (void)clx_file_write(file, "\xef\xbf\xbd", 3);
-            ++c;
-            continue;
-        }
-        if (*c == '"' || *c == '\\') {
-            (void)clx_file_print(file, "\\%c", *c);
-        } else if ((unsigned char)*c < 0x20 || *c == 0x7f) {
-            (void)clx_file_print(file, "\\u%04x", (unsigned)(unsigned char)*c);
-        } else {
-            (void)clx_file_write(file, c, n);
-        }
-        c += n;
+    while (*text != '\0') {
+        char out[CLX_JSON_STEP];
+        size_t n = 0;
+        text = clx_json_next(text, out, &n);
+        (void)clx_file_write(file, out, n);
     }
     (void)clx_file_write(file, "\"", 1);
 }

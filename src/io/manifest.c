@@ -1,0 +1,312 @@
+// manifest.json: version, command line, configuration, seed, inputs' digests, host and times.
+#include <clast/manifest.h>
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/file.h"
+#include "io/json.h"
+#include "io/sha256.h"
+#include <clast/parallel.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+typedef struct {
+    char *role, *path;
+    char sha256[65];
+    int64_t n_byte;
+} input_file;
+
+typedef struct {
+    char *key, *text;
+} note;
+
+struct clast_manifest {
+    char *command;
+    int argc;
+    char **argv;  ///< [argc]
+    char *config; ///< JSON, or NULL
+    bool has_seed;
+    uint64_t seed;
+    int32_t n_input;
+    input_file *input; ///< [n_input]
+    int32_t n_note;
+    note *notes; ///< [n_note]
+    double begun;
+    time_t started;
+};
+
+void clast_text_free(char *text)
+{
+    clx_free(text);
+}
+
+void clast_manifest_destroy(clast_manifest *manifest)
+{
+    if (manifest == NULL) {
+        return;
+    }
+    for (int i = 0; i < manifest->argc; ++i) {
+        clx_free(manifest->argv[i]);
+    }
+    for (int32_t i = 0; i < manifest->n_input; ++i) {
+        clx_free(manifest->input[i].role);
+        clx_free(manifest->input[i].path);
+    }
+    for (int32_t i = 0; i < manifest->n_note; ++i) {
+        clx_free(manifest->notes[i].key);
+        clx_free(manifest->notes[i].text);
+    }
+    clx_free(manifest->argv);
+    clx_free(manifest->input);
+    clx_free(manifest->notes);
+    clx_free(manifest->command);
+    clx_free(manifest->config);
+    clx_free(manifest);
+}
+
+clast_status clast_manifest_create(const char *command, int argc, char *const *argv,
+                                   clast_manifest **manifest)
+{
+    clast_status status = CLAST_OK;
+    clast_manifest *made = NULL;
+    CLX_TRY(clx_alloc(&made, 1, sizeof *made));
+    made->begun = clx_clock();
+    made->started = time(NULL);
+    CLX_TRY(clx_alloc_text(&made->command, command));
+    CLX_TRY(clx_alloc(&made->argv, argc, sizeof *made->argv));
+    for (; made->argc < argc; ++made->argc) {
+        CLX_TRY(clx_alloc_text(&made->argv[made->argc], argv[made->argc]));
+    }
+    *manifest = made;
+    made = NULL;
+done:
+    clast_manifest_destroy(made);
+    return status;
+}
+
+clast_status clast_manifest_config(clast_manifest *manifest, const clast_field *fields,
+                                   const void *config)
+{
+    char *text = NULL;
+    const clast_status status = clast_config_json(fields, config, &text);
+    if (status == CLAST_OK) {
+        clx_free(manifest->config);
+        manifest->config = text;
+    }
+    return status;
+}
+
+void clast_manifest_seed(clast_manifest *manifest, uint64_t seed)
+{
+    manifest->has_seed = true;
+    manifest->seed = seed;
+}
+
+clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte)
+{
+    enum { BLOCK = 1 << 16 };
+    clast_status status = CLAST_OK;
+    char *block = NULL;
+    clx_sha256 sha = clx_sha256_begin();
+    FILE *file = fopen(path, "rb");
+    CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_TRY(clx_alloc(&block, BLOCK, 1));
+    for (size_t n = fread(block, 1, BLOCK, file); n > 0; n = fread(block, 1, BLOCK, file)) {
+        clx_sha256_add(&sha, block, n);
+    }
+    CLX_CHECK(ferror(file) == 0, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    if (n_byte != NULL) {
+        *n_byte = (int64_t)sha.n_byte;
+    }
+    clx_sha256_end(&sha, hex);
+done:
+    if (file != NULL) {
+        (void)fclose(file);
+    }
+    clx_free(block);
+    return status;
+}
+
+clast_status clast_manifest_input(clast_manifest *manifest, const char *role, const char *path)
+{
+    clast_status status = CLAST_OK;
+    input_file made = {0};
+    CLX_TRY(clast_sha256_file(path, made.sha256, &made.n_byte));
+    CLX_TRY(clx_alloc_text(&made.role, role));
+    CLX_TRY(clx_alloc_text(&made.path, path));
+    CLX_TRY(clx_realloc(&manifest->input, manifest->n_input + 1, sizeof *manifest->input));
+    manifest->input[manifest->n_input++] = made;
+    made = (input_file){0};
+done:
+    clx_free(made.role);
+    clx_free(made.path);
+    return status;
+}
+
+clast_status clast_manifest_note(clast_manifest *manifest, const char *key, const char *text)
+{
+    clast_status status = CLAST_OK;
+    note made = {0};
+    for (int32_t i = 0; i < manifest->n_note; ++i) {
+        CLX_CHECK(strcmp(manifest->notes[i].key, key) != 0, CLAST_E_USAGE,
+                  "the manifest has a note %s already", key);
+    }
+    CLX_TRY(clx_alloc_text(&made.key, key));
+    CLX_TRY(clx_alloc_text(&made.text, text));
+    CLX_TRY(clx_realloc(&manifest->notes, manifest->n_note + 1, sizeof *manifest->notes));
+    manifest->notes[manifest->n_note++] = made;
+    made = (note){0};
+done:
+    clx_free(made.key);
+    clx_free(made.text);
+    return status;
+}
+
+static void put_key(clx_file *file, const char *key)
+{
+    (void)clx_file_print(file, ",\n  ");
+    clx_json_text(file, key);
+    (void)clx_file_print(file, ": ");
+}
+
+static void put_text(clx_file *file, const char *key, const char *text)
+{
+    put_key(file, key);
+    clx_json_text(file, text);
+}
+
+static void put_number(clx_file *file, const char *key, double value)
+{
+    put_key(file, key);
+    clx_json_number(file, value);
+}
+
+/// First "model name" of /proc/cpuinfo, or "" where there is none.
+static void find_processor(char *name, size_t size)
+{
+    char line[256];
+    name[0] = '\0';
+    FILE *info = fopen("/proc/cpuinfo", "r");
+    while (info != NULL && fgets(line, sizeof line, info) != NULL) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon != NULL) {
+            (void)snprintf(name, size, "%.*s", (int)strcspn(colon + 1, "\n") - 1, colon + 2);
+            break;
+        }
+    }
+    if (info != NULL) {
+        (void)fclose(info);
+    }
+}
+
+/// The class of machine, not its name.
+static void put_host(clx_file *file)
+{
+    struct utsname system;
+    char processor[256];
+    const bool known = uname(&system) >= 0;
+    find_processor(processor, sizeof processor);
+    put_key(file, "host");
+    (void)clx_file_print(file, "{\"system\": ");
+    clx_json_text(file, known ? system.sysname : "");
+    (void)clx_file_print(file, ", \"machine\": ");
+    clx_json_text(file, known ? system.machine : "");
+    (void)clx_file_print(file, ", \"processor\": ");
+    clx_json_text(file, processor);
+    (void)clx_file_print(file, ", \"cores\": %ld, \"compiler\": ", sysconf(_SC_NPROCESSORS_ONLN));
+    clx_json_text(file, __VERSION__);
+    (void)clx_file_print(file, "}");
+}
+
+static void put_time(clx_file *file, const char *key, time_t when)
+{
+    struct tm utc;
+    char text[32] = "";
+    if (gmtime_r(&when, &utc) != NULL) {
+        (void)strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    }
+    put_text(file, key, text);
+}
+
+static void put_times(clx_file *file, const clast_manifest *m, bool is_over)
+{
+    struct rusage used;
+    put_time(file, "started", m->started);
+    if (is_over) {
+        put_time(file, "ended", time(NULL));
+    }
+    put_number(file, "wall_s", clx_clock() - m->begun);
+    if (getrusage(RUSAGE_SELF, &used) == 0) {
+        put_number(file, "cpu_s",
+                   (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                       1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
+        put_number(file, "peak_memory_bytes", 1024.0 * (double)used.ru_maxrss);
+    }
+}
+
+static void put_inputs(clx_file *file, const clast_manifest *m)
+{
+    put_key(file, "inputs");
+    (void)clx_file_print(file, "[");
+    for (int32_t i = 0; i < m->n_input; ++i) {
+        const input_file *input = &m->input[i];
+        (void)clx_file_print(file, "%s\n    {\"role\": ", i > 0 ? "," : "");
+        clx_json_text(file, input->role);
+        (void)clx_file_print(file, ", \"path\": ");
+        clx_json_text(file, input->path);
+        (void)clx_file_print(file, ", \"bytes\": %" PRId64 ", \"sha256\": \"%s\"}", input->n_byte,
+                             input->sha256);
+    }
+    (void)clx_file_print(file, "]");
+}
+
+static void put_words(clx_file *file, const clast_manifest *m)
+{
+    put_key(file, "command_line");
+    (void)clx_file_print(file, "[");
+    for (int i = 0; i < m->argc; ++i) {
+        (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
+        clx_json_text(file, m->argv[i]);
+    }
+    (void)clx_file_print(file, "]");
+}
+
+clast_status clast_manifest_write(const clast_manifest *manifest, const char *outcome,
+                                  const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    (void)clx_file_print(&file, "{\n  \"format\": \"clast manifest\"");
+    put_text(&file, "clast_version", clast_version());
+    put_text(&file, "command", manifest->command);
+    put_words(&file, manifest);
+    put_text(&file, "outcome", outcome);
+    if (manifest->has_seed) {
+        put_key(&file, "seed");
+        (void)clx_file_print(&file, "%" PRIu64, manifest->seed);
+    }
+    if (manifest->config != NULL) {
+        put_key(&file, "config");
+        (void)clx_file_write(&file, manifest->config, strlen(manifest->config));
+    }
+    put_inputs(&file, manifest);
+    for (int32_t i = 0; i < manifest->n_note; ++i) {
+        put_text(&file, manifest->notes[i].key, manifest->notes[i].text);
+    }
+    put_key(&file, "threads");
+    (void)clx_file_print(&file, "%d", clast_parallel_threads());
+    put_host(&file);
+    put_times(&file, manifest, strcmp(outcome, "running") != 0);
+    (void)clx_file_print(&file, "\n}\n");
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}
