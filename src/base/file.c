@@ -1,6 +1,5 @@
 // Outputs that appear at once or not at all: temporary file in the same folder, sync, rename, sync
 // of the folder [POSIX rename(2) is atomic within one file system]. And whole inputs with a limit.
-#define _XOPEN_SOURCE 700 // realpath
 #include "base/file.h"
 
 #include "base/alloc.h"
@@ -48,7 +47,8 @@ static clast_status fail_file(clx_file *file, const char *doing)
         file->doing = doing;
     }
     return clx_fail(file->error == ENOMEM ? CLAST_E_MEMORY : CLAST_E_DISK,
-                    "cannot write %s: %s: %s", file->path, file->doing, strerror(file->error));
+                    "cannot write %s: %s: %s", file->path, file->doing,
+                    clx_error_text(file->error));
 }
 
 static void forget(clx_file *file)
@@ -94,7 +94,7 @@ static clast_status find_target(const char *path, char **target, bool *is_plain)
     CLX_CHECK(!S_ISDIR(info.st_mode), CLAST_E_DISK, "cannot write %s: it is a folder", path);
     *is_plain = S_ISREG(info.st_mode);
     CLX_CHECK(!*is_plain || realpath(path, followed) != NULL, CLAST_E_DISK, "cannot write %s: %s",
-              path, strerror(errno));
+              path, clx_errno_text());
     CLX_TRY(clx_alloc_text(target, *is_plain ? followed : path));
 done:
     return status;
@@ -281,9 +281,9 @@ static clast_status open_input(const char *path, int *descriptor)
     clast_status status = CLAST_OK;
     struct stat info;
     *descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    CLX_CHECK(*descriptor >= 0, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(*descriptor >= 0, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_CHECK(fstat(*descriptor, &info) == 0, CLAST_E_IO, "cannot read %s: %s", path,
-              strerror(errno));
+              clx_errno_text());
     CLX_CHECK(!S_ISDIR(info.st_mode), CLAST_E_IO, "cannot read %s: it is a folder", path);
 done:
     return status;
@@ -307,7 +307,7 @@ clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes, in
         CLX_TRY(clx_grow(&block, &capacity, used + 2, 1));
         const ssize_t got = read(descriptor, block + used, (size_t)(capacity - used - 1));
         CLX_CHECK(got >= 0 || errno == EINTR, CLAST_E_IO, "cannot read %s: %s", path,
-                  strerror(errno));
+                  clx_errno_text());
         if (got == 0) {
             break;
         }
@@ -339,7 +339,7 @@ static clast_status make_one(const char *path)
                    ? CLAST_OK
                    : clx_fail(CLAST_E_DISK, "cannot make folder %s: a file has that name", path);
     }
-    return clx_fail(CLAST_E_DISK, "cannot make folder %s: %s", path, strerror(error));
+    return clx_fail(CLAST_E_DISK, "cannot make folder %s: %s", path, clx_error_text(error));
 }
 
 clast_status clx_folder_make(const char *path)

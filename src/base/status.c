@@ -61,11 +61,16 @@ void clx_fail_prefix(const char *format, ...)
     }
 }
 
-const char *clx_errno_text(void)
+const char *clx_error_text(int error)
 {
     static _Thread_local char text[128];
-    if (strerror_r(errno, text, sizeof text) != 0) {
-        (void)snprintf(text, sizeof text, "error %d", errno);
+    if (strerror_r(error, text, sizeof text) != 0) {
+        (void)snprintf(text, sizeof text, "error %d", error);
     }
     return text;
+}
+
+const char *clx_errno_text(void)
+{
+    return clx_error_text(errno);
 }

@@ -9,8 +9,10 @@ clast_status clx_fail(clast_status status, const char *format, ...)
 /// Puts "prefix: " before the thread's error text, to name a file or an item further out.
 void clx_fail_prefix(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/// Text of errno for messages; lives until the thread's next call.
+/// Text of errno, or of an errno kept from before, for messages; lives until the thread's next
+/// call.
 const char *clx_errno_text(void);
+const char *clx_error_text(int error);
 
 #define CLX_CHECK(condition, code, ...)                                                            \
     do {                                                                                           \

@@ -37,6 +37,7 @@ typedef struct {
 static void basis_of(const work *w, int64_t point, basis *b)
 {
     int32_t filled = 1;
+    memset(b, 0, sizeof *b);
     b->value[0] = 1.0;
     for (int32_t j = 0; j < w->d; ++j) {
         const double y = w->u[point * w->d + j];
@@ -75,6 +76,7 @@ static void tree_prefix(const work *w, int64_t rank, basis *total)
 /// side of x the points of s lie along axis j.
 static void contribute(work *w, int64_t x, unsigned upper, const basis *s)
 {
+    CLAST_ASSERT(w->d >= 1 && w->d <= 3);
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
         double reduced[MAX_BASIS];
         int32_t left = w->n_basis;
@@ -82,7 +84,7 @@ static void contribute(work *w, int64_t x, unsigned upper, const basis *s)
         for (int32_t j = w->d - 1; j >= 0; --j) { // the last axis is the slowest index
             double c[CLAST_N_DISCREPANCY][CLX_PAIR_BASIS];
             left /= 3;
-            clx_pair_coefficients(w->u[x * w->d + j], (int)((upper >> j) & 1u), c);
+            clx_pair_coefficients(w->u[x * w->d + j], (upper & (1u << j)) != 0 ? 1 : 0, c);
             for (int32_t m = 0; m < left; ++m) {
                 reduced[m] = c[k][0] * reduced[m] + c[k][1] * reduced[left + m] +
                              c[k][2] * reduced[2 * left + m];

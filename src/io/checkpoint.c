@@ -44,7 +44,8 @@ static clast_status list_steps(const char *folder, listing *list)
 {
     clast_status status = CLAST_OK;
     DIR *open = opendir(folder);
-    CLX_CHECK(open != NULL, CLAST_E_IO, "cannot read folder %s: %s", folder, strerror(errno));
+    CLX_CHECK(open != NULL, CLAST_E_IO, "cannot read folder %s: %s", folder, clx_errno_text());
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): a stream of our own is safe in POSIX 2024 and in glibc
     for (const struct dirent *entry = readdir(open); entry != NULL; entry = readdir(open)) {
         int64_t step = 0;
         if (parse_name(entry->d_name, &step)) {
@@ -82,7 +83,7 @@ static clast_status prune(const char *folder, int64_t keep)
     for (int64_t i = keep; i < list.n; ++i) {
         CLX_TRY(path_of(folder, list.step[i], &path));
         CLX_CHECK(unlink(path) == 0 || errno == ENOENT, CLAST_E_DISK, "cannot remove %s: %s", path,
-                  strerror(errno));
+                  clx_errno_text());
         clx_free(path);
         path = NULL;
     }

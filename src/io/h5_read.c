@@ -63,7 +63,7 @@ clast_status clx_h5_verify(const char *path)
     uint32_t expected = 0;
     uint32_t crc = 0;
     FILE *file = fopen(path, "rb");
-    CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_TRY(read_trailer(file, path, &n, &expected));
     CLX_TRY(crc_of(file, path, n, &crc));
     CLX_CHECK(crc == expected, CLAST_E_FORMAT,
@@ -80,7 +80,7 @@ clast_status clx_h5_open_foreign(const char *path, clx_h5 **h5)
 {
     clast_status status = CLAST_OK;
     clx_h5 *made = NULL;
-    CLX_CHECK(access(path, R_OK) == 0, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(access(path, R_OK) == 0, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     (void)snprintf(made->label, sizeof made->label, "%s", path);
     const clx_h5_session session = clx_h5_enter();
