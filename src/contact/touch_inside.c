@@ -119,6 +119,12 @@ static bool lies_within(const clx_touch_body *around, const clx_touch_body *body
     return false;
 }
 
+bool clx_touch_one_inside(const clx_touch_body *a, const clx_touch_body *b)
+{
+    const double still[3] = {0.0, 0.0, 0.0};
+    return lies_within(a, b, still) || lies_within(b, a, still);
+}
+
 bool clx_touch_starts_inside(const clx_touch_body *moving, const clx_touch_body *lying,
                              const clx_touch_path *path)
 {

@@ -10,5 +10,8 @@ bool clx_touch_tree_inside(const clx_touch_tree *tree, const double point[3]);
 bool clx_touch_starts_inside(const clx_touch_body *moving, const clx_touch_body *lying,
                              const clx_touch_path *path);
 
+/// With the surfaces apart: one solid lies within the other where they stand.
+bool clx_touch_one_inside(const clx_touch_body *a, const clx_touch_body *b);
+
 /// Fills the answer for bodies that overlap at t_low; returns true.
 bool clx_touch_at_start(const clx_touch_path *path, clx_touch *touch);

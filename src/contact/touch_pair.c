@@ -34,15 +34,6 @@ typedef struct {
     int32_t lying, moving;
 } job;
 
-/// Support of a ball between planes along a unit direction at this cosine and sine to its axis.
-static inline double slab_reach(const touch_bound *b, double cosine, double sine)
-{
-    if (cosine * b->radius <= b->half) {
-        return b->radius;
-    }
-    return cosine * b->half + sine * sqrt(b->radius * b->radius - b->half * b->half);
-}
-
 /// When the two bounds overlap; an empty span (enter > leave) if never.
 static touch_span overlap_of(const touch_bound *a, const touch_bound *b, double slack)
 {
@@ -59,11 +50,11 @@ static touch_span overlap_of(const touch_bound *a, const touch_bound *b, double 
     const double sine = sqrt(1.0 - cosine * cosine);
     if (a->half < a->radius) {
         touch_narrow(&s, v3_dot(a->axis, d), a->axis[2],
-                     a->half + slab_reach(b, cosine, sine) + slack);
+                     a->half + touch_slab_reach(b, cosine, sine) + slack);
     }
     if (b->half < b->radius) {
         touch_narrow(&s, v3_dot(b->axis, d), b->axis[2],
-                     b->half + slab_reach(a, cosine, sine) + slack);
+                     b->half + touch_slab_reach(a, cosine, sine) + slack);
     }
     return s;
 }

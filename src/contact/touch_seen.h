@@ -77,6 +77,15 @@ static inline void touch_see_node(const touch_view *view, const clx_touch_node *
     bound->half = view->scale * node->half;
 }
 
+/// Support of a ball between planes along a unit direction at this cosine and sine to its axis.
+static inline double touch_slab_reach(const touch_bound *b, double cosine, double sine)
+{
+    if (cosine * b->radius <= b->half) {
+        return b->radius;
+    }
+    return cosine * b->half + sine * sqrt(b->radius * b->radius - b->half * b->half);
+}
+
 /// A span of time in which two bounds overlap; empty if enter > leave.
 typedef struct touch_span {
     double enter, leave;

@@ -253,6 +253,22 @@ done:
     return status;
 }
 
+/// Corners and boxes of the triangles in input order; the greatest distance from the origin.
+static double gather_triangles(const clast_mesh *mesh, double (*corner)[9], clx_tree_box *box)
+{
+    double radius = 0.0;
+    for (int32_t i = 0; i < mesh->n_tri; ++i) {
+        box[i] = empty_box(i);
+        for (int k = 0; k < 3; ++k) {
+            const double *v = mesh->vert[mesh->tri[i][k]];
+            v3_copy(corner[i] + (ptrdiff_t)3 * k, v);
+            grow_box(&box[i], v, 0.0);
+            radius = fmax(radius, v3_norm(v));
+        }
+    }
+    return radius;
+}
+
 clast_status clx_touch_tree_mesh(const clast_mesh *mesh, clx_touch_tree **tree)
 {
     clast_status status = CLAST_OK;
@@ -266,15 +282,7 @@ clast_status clx_touch_tree_mesh(const clast_mesh *mesh, clx_touch_tree **tree)
     CLX_TRY(clx_alloc(&made->corner, mesh->n_tri, sizeof *made->corner));
     CLX_TRY(clx_alloc(&corner, mesh->n_tri, sizeof *corner));
     CLX_TRY(clx_alloc(&box, mesh->n_tri, sizeof *box));
-    for (int32_t i = 0; i < mesh->n_tri; ++i) {
-        box[i] = empty_box(i);
-        for (int k = 0; k < 3; ++k) {
-            const double *v = mesh->vert[mesh->tri[i][k]];
-            v3_copy(corner[i] + (ptrdiff_t)3 * k, v);
-            grow_box(&box[i], v, 0.0);
-            made->radius = fmax(made->radius, v3_norm(v));
-        }
-    }
+    made->radius = gather_triangles(mesh, corner, box);
     CLX_TRY(find_parts(mesh, made));
     CLX_TRY(finish(made, box, corner[0], 9));
     *tree = made;
@@ -286,6 +294,18 @@ done:
     return status;
 }
 
+static clast_status check_spheres(int32_t n, double (*centre)[3], const double *radius)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(n >= 1, CLAST_E_GEOMETRY, "a composite of %d spheres; it needs at least one", n);
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_CHECK(isfinite(v3_norm(centre[i]) + radius[i]) && radius[i] > 0.0, CLAST_E_GEOMETRY,
+                  "sphere %d of %d is not finite or has radius %g", i, n, radius[i]);
+    }
+done:
+    return status;
+}
+
 clast_status clx_touch_tree_spheres(int32_t n, double (*centre)[3], const double *radius,
                                     clx_touch_tree **tree)
 {
@@ -293,7 +313,7 @@ clast_status clx_touch_tree_spheres(int32_t n, double (*centre)[3], const double
     clx_touch_tree *made = NULL;
     clx_tree_box *box = NULL;
     double(*ball)[4] = NULL;
-    CLX_CHECK(n >= 1, CLAST_E_GEOMETRY, "a composite of %d spheres; it needs at least one", n);
+    CLX_TRY(check_spheres(n, centre, radius));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->kind = CLX_TOUCH_SPHERES;
     made->n_item = n;
@@ -303,15 +323,12 @@ clast_status clx_touch_tree_spheres(int32_t n, double (*centre)[3], const double
     CLX_TRY(clx_alloc(&ball, n, sizeof *ball));
     CLX_TRY(clx_alloc(&box, n, sizeof *box));
     for (int32_t i = 0; i < n; ++i) {
-        const double reach = v3_norm(centre[i]) + radius[i];
-        CLX_CHECK(isfinite(reach) && radius[i] > 0.0, CLAST_E_GEOMETRY,
-                  "sphere %d of %d is not finite or has radius %g", i, n, radius[i]);
         box[i] = empty_box(i);
         grow_box(&box[i], centre[i], radius[i]);
         v3_copy(made->probe[i], centre[i]);
         v3_copy(ball[i], centre[i]);
         ball[i][3] = radius[i];
-        made->radius = fmax(made->radius, reach);
+        made->radius = fmax(made->radius, v3_norm(centre[i]) + radius[i]);
     }
     CLX_TRY(finish(made, box, ball[0], 4));
     *tree = made;
