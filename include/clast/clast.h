@@ -7,6 +7,7 @@
 #include <clast/chart.h>
 #include <clast/cloud.h>
 #include <clast/config.h>
+#include <clast/envelope.h>
 #include <clast/field.h>
 #include <clast/hull.h>
 #include <clast/manifest.h>

@@ -122,8 +122,11 @@ static int32_t new_facet(clx_hull_inc *hull, int32_t a, int32_t b, int32_t c)
 {
     const int32_t f =
         hull->n_free_facet > 0 ? hull->free_facet[--hull->n_free_facet] : hull->facet_end++;
-    hull->facet[f] =
-        (clx_hull_facet){.vert = {a, b, c}, .adj = {-1, -1, -1}, .outside = -1, .owner = -1};
+    hull->facet[f] = (clx_hull_facet){.vert = {a, b, c},
+                                      .adj = {-1, -1, -1},
+                                      .outside = -1,
+                                      .serial = hull->n_made++,
+                                      .owner = -1};
     for (int k = 0; k < 3; ++k) {
         ++hull->vert[hull->facet[f].vert[k]].degree;
     }
@@ -544,22 +547,21 @@ clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*poin
     return hull->is_solid ? insert_batch(hull, n, point, tag) : add_flat(hull, n, point, tag);
 }
 
-clast_status clx_hull_inc_add_seen(clx_hull_inc *hull, int32_t n, const double (*point)[3],
-                                   const int32_t *tag, const int32_t *facet)
+clast_status clx_hull_inc_insert(clx_hull_inc *hull, const double point[3], int32_t tag,
+                                 int32_t facet, bool *done)
 {
     clast_status status = CLAST_OK;
-    CLAST_ASSERT(hull->is_solid);
-    if (n == 0) {
-        return CLAST_OK;
+    CLAST_ASSERT(hull->is_solid && hull->facet[facet].vert[0] >= 0);
+    *done = false;
+    CLX_TRY(check_finite(1, (const double(*)[3])point));
+    extend_box(hull, 1, (const double(*)[3])point);
+    if (clx_hull_inc_sees(hull, &hull->facet[facet], point)) {
+        CLX_TRY(clx_grow(&hull->next, &hull->next_room, 1, sizeof *hull->next));
+        hull->next[0] = -1;
+        hull->facet[facet].outside = 0;
+        CLX_TRY(insert_farthest(hull, facet, (const double(*)[3])point, &tag));
+        *done = true;
     }
-    CLX_TRY(check_finite(n, point));
-    extend_box(hull, n, point);
-    CLX_TRY(clx_grow(&hull->next, &hull->next_room, n, sizeof *hull->next));
-    hull->n_work = 0;
-    for (int32_t i = 0; i < n; ++i) {
-        CLX_TRY(assign(hull, i, point[i], 1, &facet[i]));
-    }
-    CLX_TRY(insert_listed(hull, point, tag));
 done:
     if (status != CLAST_OK) {
         clear_lists(hull);

@@ -11,8 +11,10 @@ typedef struct clx_hull_facet {
     double tolerance; ///< error of a distance to this facet, as a share of the hull's reach
     int32_t outside;  ///< batch: first point known to see this facet, or -1
     int64_t stamp;    ///< search: twice its number, plus one when seen not to be visible
+    int64_t serial;   ///< differs from facet to facet, also in one slot
     int32_t owner;    ///< the caller's; -1 at birth
     double excess;    ///< the caller's; 0 at birth
+    double gap;       ///< the caller's; 0 at birth
 } clx_hull_facet;
 
 typedef struct clx_hull_vertex {
@@ -67,6 +69,7 @@ typedef struct clx_hull_inc {
     int32_t *fresh; ///< [n_horizon] new facets
     int64_t fresh_room;
     int64_t stamp;
+    int64_t n_made; ///< facets ever
 } clx_hull_inc;
 
 void clx_hull_inc_free(clx_hull_inc *hull);
@@ -81,10 +84,13 @@ void clx_hull_inc_free(clx_hull_inc *hull);
 clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
                               const int32_t *tag);
 
-/// As clx_hull_inc_add on a solid hull, with a live facet that each point is thought to see: a
-/// point that does not see it is passed over, and no search is made.
-clast_status clx_hull_inc_add_seen(clx_hull_inc *hull, int32_t n, const double (*point)[3],
-                                   const int32_t *tag, const int32_t *facet);
+/// Inserts one point that is thought to see a live facet of a solid hull; *done tells whether it
+/// did.
+///
+/// Until the next call, hull->visible [n_visible] are the slots of the facets it replaced (their
+/// fields `owner`, `excess` and `gap` still readable) and hull->fresh [n_horizon] the new ones.
+clast_status clx_hull_inc_insert(clx_hull_inc *hull, const double point[3], int32_t tag,
+                                 int32_t facet, bool *done);
 
 /// Volume of the hull; 0 while all points are coplanar. O(1): the sum of what each insertion added,
 /// all terms positive, with compensation.

@@ -1,4 +1,5 @@
-// Refining a polytope inside the hull of smooth bodies by touch points along facet normals.
+// Refining a polytope inside the hull of smooth bodies by touch points along facet normals, the
+// widest gap first.
 //
 // A body is forgotten when no facet's plane leaves it outside: it is then inside the polytope, for
 // good. What remains is surveyed once per new facet, the facet's own bodies first, so that most
@@ -8,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 
-enum { MAX_POINTS = 1000000, MAX_PASSES = 200, PRUNE_STEP = 24 };
+enum { MAX_POINTS = 1000000, PRUNE_STEP = 24 };
 
 void clx_smooth_hull_free(clx_smooth_hull *hull)
 {
@@ -17,16 +18,15 @@ void clx_smooth_hull_free(clx_smooth_hull *hull)
     clx_free(hull->exposed);
     clx_free(hull->touch);
     clx_free(hull->touch_tag);
-    clx_free(hull->touch_facet);
+    clx_free(hull->wait);
     *hull = (clx_smooth_hull){0};
 }
 
-static clast_status reserve_touch(clx_smooth_hull *hull, int64_t n)
+clast_status clx_smooth_hull_reserve(clx_smooth_hull *hull, int64_t n)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&hull->touch, &hull->touch_room, n, sizeof *hull->touch));
     CLX_TRY(clx_grow(&hull->touch_tag, &hull->touch_tag_room, n, sizeof *hull->touch_tag));
-    CLX_TRY(clx_grow(&hull->touch_facet, &hull->touch_facet_room, n, sizeof *hull->touch_facet));
 done:
     return status;
 }
@@ -49,27 +49,149 @@ static void look(clx_smooth_hull *hull, clx_hull_facet *facet, double offset, in
     }
 }
 
-void clx_smooth_hull_survey(clx_smooth_hull *hull)
+/// Looks from a facet at all bodies, its own first.
+static void survey_facet(clx_smooth_hull *hull, clx_hull_facet *facet)
 {
-    enum { NOBODY = -2 };
-    clx_hull_inc *inner = &hull->inner;
-    for (int32_t f = 0; f < inner->facet_end; ++f) {
-        clx_hull_facet *facet = &inner->facet[f];
-        if (facet->vert[0] < 0 || facet->owner != -1) {
-            continue;
-        }
-        const double offset = facet_offset(inner, facet);
-        facet->owner = NOBODY;
-        for (int k = 0; k < 3; ++k) {
-            const int32_t tag = inner->vert[facet->vert[k]].tag;
-            if (tag >= 0) {
-                look(hull, facet, offset, tag);
-            }
-        }
-        for (int32_t i = 0; i < hull->n_exposed; ++i) {
-            look(hull, facet, offset, hull->exposed[i]);
+    const clx_hull_inc *inner = &hull->inner;
+    const double offset = facet_offset(inner, facet);
+    facet->owner = -1;
+    facet->excess = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const int32_t tag = inner->vert[facet->vert[k]].tag;
+        if (tag >= 0) {
+            look(hull, facet, offset, tag);
         }
     }
+    for (int32_t i = 0; i < hull->n_exposed; ++i) {
+        look(hull, facet, offset, hull->exposed[i]);
+    }
+}
+
+/// Most volume of the hull beyond this facet, within its cone from the centre:
+///     A d / 3 ((1 + e/d)^3 - 1) = A e (1 + e/d + (e/d)^2 / 3)
+static double facet_gap(const clx_smooth_hull *hull, const clx_hull_facet *facet)
+{
+    const clx_hull_inc *inner = &hull->inner;
+    double a[3];
+    double u[3];
+    double v[3];
+    double n[3];
+    if (!(facet->excess > 0.0)) {
+        return 0.0;
+    }
+    v3_sub(a, inner->vert[facet->vert[0]].point, hull->centre);
+    v3_sub(u, inner->vert[facet->vert[1]].point, inner->vert[facet->vert[0]].point);
+    v3_sub(v, inner->vert[facet->vert[2]].point, inner->vert[facet->vert[0]].point);
+    v3_cross(n, u, v);
+    const double share = facet->excess / v3_dot(facet->normal, a);
+    return 0.5 * v3_norm(n) * facet->excess * (1.0 + share + share * share / 3.0);
+}
+
+static bool waits_longer(const clx_hull_wait *a, const clx_hull_wait *b)
+{
+    return a->gap < b->gap || (a->gap == b->gap && a->serial > b->serial);
+}
+
+/// Puts a facet into the heap.
+static clast_status push_wait(clx_smooth_hull *hull, int32_t f)
+{
+    const clx_hull_facet *facet = &hull->inner.facet[f];
+    const clx_hull_wait item = {facet->gap, f, facet->serial};
+    const clast_status status =
+        clx_grow(&hull->wait, &hull->wait_room, hull->n_wait + 1, sizeof *hull->wait);
+    if (status == CLAST_OK) {
+        int64_t i = hull->n_wait++;
+        for (; i > 0 && waits_longer(&hull->wait[(i - 1) / 2], &item); i = (i - 1) / 2) {
+            hull->wait[i] = hull->wait[(i - 1) / 2];
+        }
+        hull->wait[i] = item;
+    }
+    return status;
+}
+
+static clx_hull_wait pop_wait(clx_smooth_hull *hull)
+{
+    const clx_hull_wait top = hull->wait[0];
+    const clx_hull_wait last = hull->wait[--hull->n_wait];
+    int64_t i = 0;
+    for (int64_t child = 1; child < hull->n_wait; child = 2 * i + 1) {
+        if (child + 1 < hull->n_wait && waits_longer(&hull->wait[child], &hull->wait[child + 1])) {
+            ++child;
+        }
+        if (!waits_longer(&last, &hull->wait[child])) {
+            break;
+        }
+        hull->wait[i] = hull->wait[child];
+        i = child;
+    }
+    hull->wait[i] = last;
+    return top;
+}
+
+/// Takes a facet's new excess into the total and the heap.
+static clast_status weigh_facet(clx_smooth_hull *hull, int32_t f)
+{
+    clx_hull_facet *facet = &hull->inner.facet[f];
+    hull->gap -= facet->gap;
+    facet->gap = facet_gap(hull, facet);
+    hull->gap += facet->gap;
+    return facet->gap > 0.0 ? push_wait(hull, f) : CLAST_OK;
+}
+
+/// Centroid of the inner hull, for the cones of the gaps.
+static void set_centre(clx_smooth_hull *hull)
+{
+    const clx_hull_inc *inner = &hull->inner;
+    double o[3];
+    double sum[3] = {0.0, 0.0, 0.0};
+    double six = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        o[k] = 0.5 * (inner->low[k] + inner->high[k]);
+    }
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        const int32_t *v = inner->facet[f].vert;
+        double a[3];
+        double b[3];
+        double c[3];
+        double n[3];
+        if (v[0] < 0) {
+            continue;
+        }
+        v3_sub(a, inner->vert[v[0]].point, o);
+        v3_sub(b, inner->vert[v[1]].point, o);
+        v3_sub(c, inner->vert[v[2]].point, o);
+        v3_cross(n, b, c);
+        const double w = v3_dot(a, n);
+        six += w;
+        for (int k = 0; k < 3; ++k) {
+            sum[k] += w * (a[k] + b[k] + c[k]) / 4.0;
+        }
+    }
+    v3_axpy(hull->centre, o, 1.0 / six, sum);
+    hull->centre_volume = clx_hull_inc_volume(inner);
+}
+
+clast_status clx_smooth_hull_survey(clx_smooth_hull *hull)
+{
+    clast_status status = CLAST_OK;
+    clx_hull_inc *inner = &hull->inner;
+    hull->is_surveyed = false;
+    hull->gap = 0.0;
+    hull->n_wait = 0;
+    if (!inner->is_solid) {
+        return CLAST_OK;
+    }
+    set_centre(hull);
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        if (inner->facet[f].vert[0] >= 0) {
+            inner->facet[f].gap = 0.0;
+            survey_facet(hull, &inner->facet[f]);
+            CLX_TRY(weigh_facet(hull, f));
+        }
+    }
+    hull->is_surveyed = true;
+done:
+    return status;
 }
 
 double clx_smooth_hull_support(const clx_smooth_hull *hull, const double u[3], int32_t *body)
@@ -92,12 +214,13 @@ double clx_smooth_hull_support(const clx_smooth_hull *hull, const double u[3], i
 clast_status clx_smooth_hull_add_points(clx_smooth_hull *hull, int32_t n, const double (*point)[3])
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(reserve_touch(hull, n));
+    CLX_TRY(clx_smooth_hull_reserve(hull, n));
     for (int32_t i = 0; i < n; ++i) {
         hull->touch_tag[i] = -1 - (hull->n_point + i);
     }
     CLX_TRY(clx_hull_inc_add(&hull->inner, n, point, hull->touch_tag));
     hull->n_point += n;
+    hull->is_surveyed = false;
 done:
     return status;
 }
@@ -109,7 +232,7 @@ static clast_status seed(clx_smooth_hull *hull, int32_t b)
     clast_status status = CLAST_OK;
     double u[3];
     double y[3];
-    CLX_TRY(reserve_touch(hull, 12));
+    CLX_TRY(clx_smooth_hull_reserve(hull, 12));
     for (int i = 0; i < 12; ++i) {
         const int k = i / 4;
         u[k] = 0.0;
@@ -141,7 +264,7 @@ static bool sticks_out(const clx_smooth_hull *hull, int32_t b)
     return false;
 }
 
-static void prune(clx_smooth_hull *hull)
+void clx_smooth_hull_prune(clx_smooth_hull *hull)
 {
     int32_t n = 0;
     for (int32_t i = 0; i < hull->n_exposed; ++i) {
@@ -153,91 +276,123 @@ static void prune(clx_smooth_hull *hull)
     hull->n_pruned = n;
 }
 
-clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *body)
+bool clx_smooth_hull_hides(const clx_smooth_hull *hull, const double centre[3], double radius)
+{
+    const clx_hull_inc *inner = &hull->inner;
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        const clx_hull_facet *facet = &inner->facet[f];
+        if (facet->vert[0] >= 0 &&
+            v3_dot(facet->normal, centre) + radius >= facet_offset(inner, facet)) {
+            return false;
+        }
+    }
+    return inner->is_solid;
+}
+
+/// Looks from every facet at a new body; *shows when its ball reaches beyond one.
+static clast_status look_at_new(clx_smooth_hull *hull, int32_t b, bool *shows)
 {
     clast_status status = CLAST_OK;
     clx_hull_inc *inner = &hull->inner;
-    const int32_t b = hull->n_body;
-    bool shows = !inner->is_solid;
-    CLX_TRY(clx_grow(&hull->body, &hull->body_room, (int64_t)b + 1, sizeof *hull->body));
-    CLX_TRY(clx_grow(&hull->exposed, &hull->exposed_room, (int64_t)hull->n_exposed + 1,
-                     sizeof *hull->exposed));
-    hull->body[b] = *body;
-    if (!inner->is_solid) {
-        CLX_TRY(seed(hull, b));
-    } else {
-        for (int32_t f = 0; f < inner->facet_end; ++f) {
-            clx_hull_facet *facet = &inner->facet[f];
-            if (facet->vert[0] >= 0) {
-                const double offset = facet_offset(inner, facet);
-                if (facet->owner != -1) { // the others are surveyed later, b among all
-                    look(hull, facet, offset, b);
-                }
-                shows = shows || v3_dot(facet->normal, body->centre) + body->radius > offset;
+    const clx_body *body = &hull->body[b];
+    *shows = false;
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        clx_hull_facet *facet = &inner->facet[f];
+        if (facet->vert[0] < 0) {
+            continue;
+        }
+        const double offset = facet_offset(inner, facet);
+        if (v3_dot(facet->normal, body->centre) + body->radius > offset) {
+            const double before = facet->excess;
+            *shows = true;
+            look(hull, facet, offset, b);
+            if (facet->excess > before && hull->is_surveyed) {
+                CLX_TRY(weigh_facet(hull, f));
             }
         }
-    }
-    hull->n_body = b + 1;
-    if (shows) {
-        hull->exposed[hull->n_exposed++] = b;
-    }
-    if (inner->is_solid && hull->n_exposed > hull->n_pruned + PRUNE_STEP) {
-        prune(hull);
     }
 done:
     return status;
 }
 
-/// Centroid of the inner hull, for the cones of the gap.
-static void set_centre(clx_smooth_hull *hull)
+clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *body)
 {
-    const clx_hull_inc *inner = &hull->inner;
-    double o[3];
-    double sum[3] = {0.0, 0.0, 0.0};
-    double six = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        o[k] = 0.5 * (inner->low[k] + inner->high[k]);
+    clast_status status = CLAST_OK;
+    const int32_t b = hull->n_body;
+    bool shows = true;
+    CLX_TRY(clx_grow(&hull->body, &hull->body_room, (int64_t)b + 1, sizeof *hull->body));
+    CLX_TRY(clx_grow(&hull->exposed, &hull->exposed_room, (int64_t)hull->n_exposed + 1,
+                     sizeof *hull->exposed));
+    hull->body[b] = *body;
+    if (hull->inner.is_solid) {
+        CLX_TRY(look_at_new(hull, b, &shows));
+    } else {
+        CLX_TRY(seed(hull, b));
     }
-    for (int32_t f = 0; f < inner->facet_end; ++f) {
-        const int32_t *v = inner->facet[f].vert;
-        double a[3];
-        double b[3];
-        double c[3];
-        double n[3];
-        if (v[0] < 0) {
-            continue;
-        }
-        v3_sub(a, inner->vert[v[0]].point, o);
-        v3_sub(b, inner->vert[v[1]].point, o);
-        v3_sub(c, inner->vert[v[2]].point, o);
-        v3_cross(n, b, c);
-        const double w = v3_dot(a, n);
-        six += w;
-        for (int k = 0; k < 3; ++k) {
-            sum[k] += w * (a[k] + b[k] + c[k]) / 4.0;
-        }
+    hull->n_body = b + 1;
+    if (shows) {
+        hull->exposed[hull->n_exposed++] = b;
     }
-    v3_axpy(hull->centre, o, 1.0 / six, sum);
+    if (hull->n_exposed > hull->n_pruned + PRUNE_STEP) {
+        clx_smooth_hull_prune(hull);
+    }
+done:
+    if (status != CLAST_OK) {
+        hull->is_surveyed = false;
+    }
+    return status;
 }
 
-/// Most volume of the hull beyond this facet, within its cone from the centre:
-///     A d / 3 ((1 + e/d)^3 - 1) = A e (1 + e/d + (e/d)^2 / 3)
-static double facet_gap(const clx_smooth_hull *hull, const clx_hull_facet *facet)
+/// Inserts the touch point over the facet with the widest gap.
+static clast_status refine_once(clx_smooth_hull *hull)
 {
-    const clx_hull_inc *inner = &hull->inner;
-    double a[3];
-    double u[3];
-    double v[3];
-    double n[3];
-    if (!(facet->excess > 0.0)) {
-        return 0.0;
+    clast_status status = CLAST_OK;
+    clx_hull_inc *inner = &hull->inner;
+    const clx_hull_wait top = pop_wait(hull);
+    clx_hull_facet *facet = &inner->facet[top.facet];
+    double x[3];
+    double y[3];
+    bool moved = false;
+    if (facet->vert[0] < 0 || facet->serial != top.serial || facet->gap != top.gap) {
+        return CLAST_OK; // replaced or weighed anew since
     }
-    v3_sub(a, inner->vert[facet->vert[0]].point, hull->centre);
-    v3_sub(u, inner->vert[facet->vert[1]].point, inner->vert[facet->vert[0]].point);
-    v3_sub(v, inner->vert[facet->vert[2]].point, inner->vert[facet->vert[0]].point);
-    v3_cross(n, u, v);
-    const double share = facet->excess / v3_dot(facet->normal, a);
-    return 0.5 * v3_norm(n) * facet->excess * (1.0 + share + share * share / 3.0);
+    clx_body_touch(&hull->body[facet->owner], facet->normal, x, y);
+    CLX_TRY(clx_hull_inc_insert(inner, x, facet->owner, top.facet, &moved));
+    if (!moved) {
+        return CLAST_OK; // the gap is rounding: it stays in the sum and leaves the heap
+    }
+    for (int32_t i = 0; i < inner->n_visible; ++i) {
+        hull->gap -= inner->facet[inner->visible[i]].gap;
+    }
+    for (int32_t i = 0; i < inner->n_horizon; ++i) {
+        survey_facet(hull, &inner->facet[inner->fresh[i]]);
+        CLX_TRY(weigh_facet(hull, inner->fresh[i]));
+    }
+done:
+    return status;
+}
+
+clast_status clx_smooth_hull_refine(clx_smooth_hull *hull, double tolerance)
+{
+    clast_status status = CLAST_OK;
+    clx_hull_inc *inner = &hull->inner;
+    CLX_CHECK(inner->is_solid || inner->n_pending == 0, CLAST_E_GEOMETRY,
+              "hull: all points lie in one plane");
+    // a centre left behind by growth makes the cones flat and the bounds loose
+    if (!hull->is_surveyed || clx_hull_inc_volume(inner) > 2.0 * hull->centre_volume) {
+        CLX_TRY(clx_smooth_hull_survey(hull));
+    }
+    while (hull->gap > tolerance * clx_hull_inc_volume(inner)) {
+        CLX_CHECK(inner->n_vert <= MAX_POINTS && hull->n_wait > 0, CLAST_E_CONVERGE,
+                  "hull: gap %.3g of the volume after %d points, wanted %.3g",
+                  hull->gap / clx_hull_inc_volume(inner), inner->n_vert, tolerance);
+        CLX_TRY(refine_once(hull));
+    }
+done:
+    if (status != CLAST_OK) {
+        hull->is_surveyed = false;
+    }
+    return status;
 }
 
 /// Share of a facet's gap that is hull: exact in the limit of small facets on a sphere (3/4, for
@@ -251,79 +406,18 @@ static double facet_share(const clx_hull_inc *inner, const clx_hull_facet *facet
     return n_pair == 3 ? 0.75 : n_pair == 1 ? 2.0 / 3.0 : 0.5;
 }
 
-static int32_t sum_gap(clx_smooth_hull *hull)
-{
-    const clx_hull_inc *inner = &hull->inner;
-    int32_t n = 0;
-    hull->gap = 0.0;
-    hull->excess_part = 0.0;
-    for (int32_t f = 0; f < inner->facet_end; ++f) {
-        const clx_hull_facet *facet = &inner->facet[f];
-        if (facet->vert[0] >= 0) {
-            const double gap = facet_gap(hull, facet);
-            hull->gap += gap;
-            hull->excess_part += gap * facet_share(inner, facet);
-            n += gap > 0.0;
-        }
-    }
-    return n;
-}
-
-/// Inserts the touch point over every facet whose gap is above the threshold.
-static clast_status refine_once(clx_smooth_hull *hull, double threshold, bool *moved)
-{
-    clast_status status = CLAST_OK;
-    clx_hull_inc *inner = &hull->inner;
-    const int64_t before = inner->n_inserted;
-    double y[3];
-    int32_t n = 0;
-    CLX_TRY(reserve_touch(hull, inner->n_facet));
-    for (int32_t f = 0; f < inner->facet_end; ++f) {
-        const clx_hull_facet *facet = &inner->facet[f];
-        if (facet->vert[0] >= 0 && facet->owner >= 0 && facet_gap(hull, facet) > threshold) {
-            clx_body_touch(&hull->body[facet->owner], facet->normal, hull->touch[n], y);
-            hull->touch_tag[n] = facet->owner;
-            hull->touch_facet[n++] = f;
-        }
-    }
-    CLX_TRY(clx_hull_inc_add_seen(inner, n, (const double(*)[3])hull->touch, hull->touch_tag,
-                                  hull->touch_facet));
-    *moved = inner->n_inserted > before;
-done:
-    return status;
-}
-
-clast_status clx_smooth_hull_refine(clx_smooth_hull *hull, double tolerance)
-{
-    clast_status status = CLAST_OK;
-    clx_hull_inc *inner = &hull->inner;
-    CLX_CHECK(inner->is_solid || inner->n_pending == 0, CLAST_E_GEOMETRY,
-              "hull: all points lie in one plane");
-    for (int pass = 0; inner->is_solid; ++pass) {
-        bool moved = false;
-        set_centre(hull);
-        clx_smooth_hull_survey(hull);
-        const int32_t n = sum_gap(hull);
-        if (hull->gap <= tolerance * clx_hull_inc_volume(inner)) {
-            break;
-        }
-        CLX_CHECK(inner->n_vert <= MAX_POINTS && pass < MAX_PASSES, CLAST_E_CONVERGE,
-                  "hull: gap %.3g of the volume after %d points, wanted %.3g",
-                  hull->gap / clx_hull_inc_volume(inner), inner->n_vert, tolerance);
-        CLX_TRY(refine_once(hull, 0.5 * hull->gap / n, &moved));
-        CLX_CHECK(moved, CLAST_E_CONVERGE, "hull: gap %.3g of the volume is at rounding",
-                  hull->gap / clx_hull_inc_volume(inner));
-    }
-done:
-    return status;
-}
-
 void clx_smooth_hull_volume(const clx_smooth_hull *hull, clx_hull_volume *volume)
 {
-    const double inner = clx_hull_inc_volume(&hull->inner);
-    volume->low = inner;
-    volume->high = inner + hull->gap;
-    volume->value = inner + hull->excess_part;
-    volume->error = 0.2 * hull->gap;
-    volume->is_exact = hull->gap <= 0.0;
+    const clx_hull_inc *inner = &hull->inner;
+    const double low = clx_hull_inc_volume(inner);
+    double gap = 0.0;
+    double part = 0.0;
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        const clx_hull_facet *facet = &inner->facet[f];
+        if (facet->vert[0] >= 0 && facet->gap > 0.0) {
+            gap += facet->gap;
+            part += facet->gap * facet_share(inner, facet);
+        }
+    }
+    *volume = (clx_hull_volume){low, low + gap, low + part, 0.2 * gap, gap <= 0.0};
 }

@@ -16,7 +16,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 
-enum { N_POLE = 14, N_NODE = 5, MAX_ROUNDS = 30 };
+enum { N_POLE = 14, N_NODE = 5, MAX_ROUNDS = 30, MAX_GROWTH = 4 };
 
 /// One polytope edge between two bodies: its strip runs from facet `left` to facet `right`.
 typedef struct seam {
@@ -33,6 +33,8 @@ typedef struct patch {
     double vector[3]; ///< 1/2 oint x x dx
     bool shows;       ///< has a vertex
     bool bounded;     ///< has a seam
+    double beyond;    ///< most that the body was found beyond a face
+    double from[3];   ///< and in which direction
 } patch;
 
 typedef struct scratch {
@@ -40,9 +42,11 @@ typedef struct scratch {
     seam *seam;        ///< [n_seam]
     double (*dual)[3]; ///< [facet_end] exact direction of a facet on two or three bodies
     patch *patch;      ///< [n_body]
-    double size;       ///< of the hull, for tolerances
-    int32_t n_new;     ///< touch points found beyond a face
-    double sum;        ///< 3 V
+    bool *is_bad;      ///< [facet_end] its face cannot be solved for, or has a body beyond it
+    bool any_bad;
+    double size;   ///< of the hull, for tolerances
+    int32_t n_new; ///< touch points that are to be inserted
+    double sum;    ///< 3 V
 } scratch;
 
 /// A point of a seam on one body, and how it moves along the seam.
@@ -56,6 +60,7 @@ static void scratch_free(scratch *s)
     clx_free(s->seam);
     clx_free(s->dual);
     clx_free(s->patch);
+    clx_free(s->is_bad);
     *s = (scratch){0};
 }
 
@@ -65,6 +70,7 @@ static clast_status scratch_alloc(const clx_smooth_hull *hull, scratch *s)
     CLX_TRY(clx_alloc(&s->seam, (int64_t)hull->inner.n_facet * 3 / 2, sizeof *s->seam));
     CLX_TRY(clx_alloc(&s->dual, hull->inner.facet_end, sizeof *s->dual));
     CLX_TRY(clx_alloc(&s->patch, hull->n_body, sizeof *s->patch));
+    CLX_TRY(clx_alloc(&s->is_bad, hull->inner.facet_end, sizeof *s->is_bad));
     s->size = hull->inner.reach;
 done:
     return status;
@@ -214,39 +220,52 @@ static double facet_angle(clx_smooth_hull *hull, const clx_hull_facet *facet)
     return triangle_angle(y[0], y[1], y[2]);
 }
 
-/// Exact directions of the facets on two or three bodies; false when one cannot be solved for.
-static bool solve_duals(clx_smooth_hull *hull, scratch *s)
+/// Exact direction of the face that a facet on two or three bodies stands for; false when none is
+/// found within a radian of its normal.
+static bool solve_dual(clx_smooth_hull *hull, scratch *s, int32_t f)
+{
+    const clx_hull_inc *inner = &hull->inner;
+    const int32_t *v = inner->facet[f].vert;
+    const bool ab = same_body(inner, v[0], v[1]);
+    const bool bc = same_body(inner, v[1], v[2]);
+    const bool ca = same_body(inner, v[2], v[0]);
+    clx_body body[3];
+    double *u = s->dual[f];
+    bool solved = true;
+    for (int k = 0; k < 3; ++k) {
+        body_of(hull, v[k], &body[k]);
+    }
+    v3_copy(u, inner->facet[f].normal);
+    if (!ab && !bc && !ca) {
+        const bool is_flat = body[0].radius + body[1].radius + body[2].radius <= 0.0;
+        solved = is_flat || solve_plane(body, s->size, u);
+    } else {
+        solved = solve_strip(&body[ab ? 1 : 0], &body[ab ? 2 : 1], s->size, NULL, 0.0, u);
+    }
+    return solved && v3_dot(u, inner->facet[f].normal) > 0.5;
+}
+
+static void solve_duals(clx_smooth_hull *hull, scratch *s)
 {
     const clx_hull_inc *inner = &hull->inner;
     for (int32_t f = 0; f < inner->facet_end; ++f) {
         const clx_hull_facet *facet = &inner->facet[f];
         const int32_t *v = facet->vert;
-        clx_body body[3];
         if (v[0] < 0) {
             continue;
         }
         for (int k = 0; k < 3; ++k) {
-            body_of(hull, v[k], &body[k]);
             if (inner->vert[v[k]].tag >= 0) {
                 s->patch[inner->vert[v[k]].tag].shows = true;
             }
         }
-        const bool ab = same_body(inner, v[0], v[1]);
-        const bool bc = same_body(inner, v[1], v[2]);
-        v3_copy(s->dual[f], facet->normal);
-        if (ab && bc) {
+        if (same_body(inner, v[0], v[1]) && same_body(inner, v[1], v[2])) {
             s->patch[inner->vert[v[0]].tag].coarse += facet_angle(hull, facet);
-        } else if (!ab && !bc && !same_body(inner, v[2], v[0])) {
-            const bool flat = body[0].radius + body[1].radius + body[2].radius <= 0.0;
-            if (!flat && !solve_plane(body, s->size, s->dual[f])) {
-                return false;
-            }
-        } else if (!solve_strip(&body[ab ? 1 : 0], &body[ab ? 2 : 1], s->size, NULL, 0.0,
-                                s->dual[f])) {
-            return false;
+        } else if (!solve_dual(hull, s, f)) {
+            s->is_bad[f] = true;
+            s->any_bad = true;
         }
     }
-    return true;
 }
 
 static void collect_seams(const clx_smooth_hull *hull, scratch *s)
@@ -444,22 +463,9 @@ static void add_patches(const clx_smooth_hull *hull, scratch *s)
     }
 }
 
-/// Keeps a touch point of a body found beyond a face by more than rounding.
-static clast_status note_beyond(clx_smooth_hull *hull, scratch *s, int32_t b, const double u[3])
-{
-    clast_status status = CLAST_OK;
-    double y[3];
-    const int64_t need = (int64_t)s->n_new + 1;
-    CLX_TRY(clx_grow(&hull->touch, &hull->touch_room, need, sizeof *hull->touch));
-    CLX_TRY(clx_grow(&hull->touch_tag, &hull->touch_tag_room, need, sizeof *hull->touch_tag));
-    clx_body_touch(&hull->body[b], u, hull->touch[s->n_new], y);
-    hull->touch_tag[s->n_new++] = b;
-done:
-    return status;
-}
-
-/// A body found beyond this facet's face and the direction it was seen in, or -1.
-static int32_t seen_beyond(clx_smooth_hull *hull, const scratch *s, int32_t f, double u[3])
+/// A body found beyond this facet's face by `excess` in the direction u, or -1.
+static int32_t seen_beyond(clx_smooth_hull *hull, const scratch *s, int32_t f, double u[3],
+                           double *excess)
 {
     const clx_hull_inc *inner = &hull->inner;
     const clx_hull_facet *facet = &inner->facet[f];
@@ -468,12 +474,14 @@ static int32_t seen_beyond(clx_smooth_hull *hull, const scratch *s, int32_t f, d
     int32_t b = facet->owner;
     if (same_body(inner, v[0], v[1]) && same_body(inner, v[1], v[2])) { // by the survey
         v3_copy(u, facet->normal);
+        *excess = facet->excess;
         return b >= 0 && b != inner->vert[v[0]].tag && facet->excess > least ? b : -1;
     }
     clx_body own;
     body_of(hull, v[0], &own);
     v3_copy(u, s->dual[f]);
-    if (clx_smooth_hull_support(hull, u, &b) <= clx_body_support(&own, u) + least) {
+    *excess = clx_smooth_hull_support(hull, u, &b) - clx_body_support(&own, u);
+    if (*excess <= least) {
         return -1;
     }
     for (int k = 0; k < 3; ++k) {
@@ -484,38 +492,95 @@ static int32_t seen_beyond(clx_smooth_hull *hull, const scratch *s, int32_t f, d
     return b;
 }
 
-/// Looks beyond every solved plane and strip, and at what the survey saw over patches.
-static clast_status look_beyond(clx_smooth_hull *hull, scratch *s)
+/// Looks beyond every solved face, and at what the survey saw over patches.
+static void look_beyond(clx_smooth_hull *hull, scratch *s)
+{
+    double u[3];
+    double excess = 0.0;
+    for (int32_t f = 0; f < hull->inner.facet_end; ++f) {
+        if (hull->inner.facet[f].vert[0] < 0 || s->is_bad[f]) {
+            continue;
+        }
+        const int32_t b = seen_beyond(hull, s, f, u, &excess);
+        if (b >= 0) {
+            s->is_bad[f] = true;
+            s->any_bad = true;
+            if (excess > s->patch[b].beyond) {
+                s->patch[b].beyond = excess;
+                v3_copy(s->patch[b].from, u);
+            }
+        }
+    }
+}
+
+/// Collects what bad facets need: the farthest touch point of each body found beyond one, and the
+/// touch points over the facets themselves.
+static clast_status collect_touch(clx_smooth_hull *hull, scratch *s)
 {
     clast_status status = CLAST_OK;
-    double u[3];
-    for (int32_t f = 0; f < hull->inner.facet_end; ++f) {
-        const int32_t b = hull->inner.facet[f].vert[0] >= 0 ? seen_beyond(hull, s, f, u) : -1;
-        if (b >= 0) {
-            CLX_TRY(note_beyond(hull, s, b, u));
+    const clx_hull_inc *inner = &hull->inner;
+    double y[3];
+    CLX_TRY(clx_smooth_hull_reserve(hull, (int64_t)hull->n_body + inner->n_facet));
+    for (int32_t b = 0; b < hull->n_body; ++b) {
+        if (s->patch[b].beyond > 0.0) {
+            clx_body_touch(&hull->body[b], s->patch[b].from, hull->touch[s->n_new], y);
+            hull->touch_tag[s->n_new++] = b;
+        }
+    }
+    for (int32_t f = 0; f < inner->facet_end; ++f) {
+        const clx_hull_facet *facet = &inner->facet[f];
+        if (s->is_bad[f] && facet->owner >= 0 && facet->excess > 1e-13 * s->size) {
+            clx_body_touch(&hull->body[facet->owner], facet->normal, hull->touch[s->n_new], y);
+            hull->touch_tag[s->n_new++] = facet->owner;
         }
     }
 done:
     return status;
 }
 
-/// One pass over the faces as they are; *solved false when one has no solution.
-static clast_status sum_faces(clx_smooth_hull *hull, scratch *s, bool *solved)
+/// Sums over strips, planes and patches; a strip that cannot be followed makes its facets bad.
+static void sum_faces(clx_smooth_hull *hull, scratch *s)
+{
+    collect_seams(hull, s);
+    measure_poles(hull, s);
+    for (int32_t i = 0; i < s->n_seam; ++i) {
+        if (!add_seam(hull, s, &s->seam[i])) {
+            s->is_bad[s->seam[i].left] = true;
+            s->is_bad[s->seam[i].right] = true;
+            s->any_bad = true;
+        }
+    }
+    add_planes(hull, s);
+    add_patches(hull, s);
+}
+
+/// Sums over the faces, with finer facets where they fail, until none does; 3 V, or < 0 when that
+/// cannot be had.
+static clast_status settle_faces(clx_smooth_hull *hull, scratch *s, double *sum)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(scratch_alloc(hull, s));
-    *solved = solve_duals(hull, s);
-    if (*solved) {
-        CLX_TRY(look_beyond(hull, s));
-    }
-    if (*solved && s->n_new == 0) {
-        collect_seams(hull, s);
-        measure_poles(hull, s);
-        for (int32_t i = 0; i < s->n_seam && *solved; ++i) {
-            *solved = add_seam(hull, s, &s->seam[i]);
+    const int64_t most = MAX_GROWTH * (int64_t)hull->inner.n_facet;
+    *sum = -1.0;
+    for (int round = 0; round < MAX_ROUNDS && hull->inner.n_facet <= most; ++round) {
+        const int64_t before = hull->inner.n_inserted;
+        scratch_free(s);
+        CLX_TRY(scratch_alloc(hull, s));
+        solve_duals(hull, s);
+        look_beyond(hull, s);
+        if (!s->any_bad) {
+            sum_faces(hull, s);
         }
-        add_planes(hull, s);
-        add_patches(hull, s);
+        if (!s->any_bad) {
+            *sum = s->sum;
+            break;
+        }
+        CLX_TRY(collect_touch(hull, s));
+        CLX_TRY(clx_hull_inc_add(&hull->inner, s->n_new, (const double(*)[3])hull->touch,
+                                 hull->touch_tag));
+        if (hull->inner.n_inserted == before) {
+            break;
+        }
+        CLX_TRY(clx_smooth_hull_survey(hull));
     }
 done:
     return status;
@@ -525,22 +590,11 @@ clast_status clx_smooth_hull_exact(clx_smooth_hull *hull, clx_hull_volume *volum
 {
     clast_status status = CLAST_OK;
     scratch s = {0};
-    bool solved = hull->inner.is_solid;
-    bool again = solved && hull->n_exposed > 0;
     double sum = -1.0;
-    for (int round = 0; again && round < MAX_ROUNDS; ++round) {
-        scratch_free(&s);
-        CLX_TRY(sum_faces(hull, &s, &solved));
-        again = solved && s.n_new > 0;
-        sum = solved && !again ? s.sum : -1.0;
-        if (again) {
-            CLX_TRY(clx_hull_inc_add(&hull->inner, s.n_new, (const double(*)[3])hull->touch,
-                                     hull->touch_tag));
-            clx_smooth_hull_survey(hull);
-        }
+    CLX_TRY(clx_smooth_hull_refine(hull, INFINITY)); // what is out of date is surveyed
+    if (hull->inner.is_solid && hull->n_exposed > 0) {
+        CLX_TRY(settle_faces(hull, &s, &sum));
     }
-    // the points found on the way have raised the inner volume: take the bounds anew
-    CLX_TRY(clx_smooth_hull_refine(hull, INFINITY));
     clx_smooth_hull_volume(hull, volume);
     if (!volume->is_exact && sum / 3.0 >= volume->low * (1.0 - 1e-12) &&
         sum / 3.0 <= volume->high * (1.0 + 1e-12)) {

@@ -1,0 +1,8 @@
+#pragma once
+// The published envelope: hull of the outermost hits of rays on the sphere composites.
+#include <clast/envelope.h>
+
+/// sphere_rays of clast_assembly_envelope.
+clast_status clx_envelope_sphere_rays(const clast_assembly *assembly,
+                                      const clast_envelope_options *options,
+                                      clast_envelope *envelope);

@@ -1,0 +1,228 @@
+/* Unit: envelopes of assemblies against closed forms and published values. */
+#include "support.h"
+
+#include "aggregate/envelope.h"
+#include "math/rng.h"
+#include "math/vec3.h"
+#include <string.h>
+
+static const double no_turn[4] = {1.0, 0.0, 0.0, 0.0};
+
+static double volume_of(const clast_assembly *a, clast_envelope_kind kind)
+{
+    const clast_envelope_options options = clast_envelope_options_default();
+    clast_envelope e = {0};
+    CHECK_OK(clast_assembly_envelope(a, kind, &options, &e));
+    assert_int_equal(e.kind, kind);
+    assert_true(e.low <= e.volume && e.volume <= e.high && e.error >= 0.0);
+    return e.volume;
+}
+
+static void two_spheres(double q, clast_assembly *a)
+{
+    clast_shape sphere = {0};
+    const double at[3] = {0.48 * (1.0 + q), -0.6 * (1.0 + q), 0.64 * (1.0 + q)};
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &sphere));
+    CHECK_OK(clast_assembly_add_shape(a, &sphere, NULL));
+    CHECK_OK(clast_assembly_add_grain(a, 0, (double[3]){0, 0, 0}, no_turn, q, 1.0));
+    CHECK_OK(clast_assembly_add_grain(a, 0, at, no_turn, 1.0, 1.0));
+    clast_shape_free(&sphere);
+}
+
+static void tangent_spheres_have_every_envelope(void **state)
+{
+    (void)state;
+    const double qs[] = {1.0, 2.0, 5.0, 10.0};
+    const double wanted[] = {0.2, 0.129032, 0.0320102, 0.00900009}; /* as printed */
+    for (int i = 0; i < 4; ++i) {
+        const double q = qs[i];
+        clast_assembly a = {0};
+        two_spheres(q, &a);
+        const double solid = clast_assembly_volume(&a);
+        const double phi = 1.0 - solid / volume_of(&a, CLAST_ENVELOPE_SURFACE_HULL);
+        CHECK_ABS(phi, q * q / (1.0 + q + q * q + q * q * q + q * q * q * q), 1e-12);
+        CHECK_ABS(phi, wanted[i], 1e-6);
+        CHECK_REL(volume_of(&a, CLAST_ENVELOPE_SPHERE_HULL), solid / (1.0 - phi), 1e-12);
+        CHECK_REL(volume_of(&a, CLAST_ENVELOPE_ENCLOSING_SPHERE),
+                  4.0 / 3.0 * CLAST_PI * pow(1.0 + q, 3.0), 1e-11);
+        /* 10000 rays lie inside, by less than 2 % here */
+        const double rays = volume_of(&a, CLAST_ENVELOPE_SPHERE_RAYS);
+        assert_true(rays < solid / (1.0 - phi) && rays > 0.98 * solid / (1.0 - phi));
+        clast_assembly_free(&a);
+    }
+}
+
+/* Two equal balls a distance d apart: Rg^2 = 3/5 r^2 + d^2 / 4. */
+static void gyration_counts_the_grains_own_extent(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    two_spheres(1.0, &a);
+    CHECK_REL(clast_assembly_radius_of_gyration(&a), sqrt(0.6 + 1.0), 1e-15);
+    CHECK_REL(volume_of(&a, CLAST_ENVELOPE_GYRATION_SPHERE),
+              4.0 / 3.0 * CLAST_PI * pow(1.6 * 5.0 / 3.0, 1.5), 1e-14);
+    clast_assembly_free(&a);
+    clast_mesh box = {0};
+    clast_shape shape = {0};
+    CHECK_OK(clast_mesh_box(1.0, 2.0, 3.0, &box));
+    CHECK_OK(clast_shape_mesh("box", &box, &shape));
+    CHECK_OK(clast_assembly_add_shape(&a, &shape, NULL));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){5, 6, 7}, (double[4]){0.5, 0.5, 0.5, 0.5},
+                                      2.0, 2600.0));
+    CHECK_REL(clast_assembly_radius_of_gyration(&a), 2.0 * sqrt(14.0 / 12.0), 1e-14);
+    CHECK_REL(volume_of(&a, CLAST_ENVELOPE_SURFACE_HULL), 48.0, 1e-13);
+    CHECK_REL(volume_of(&a, CLAST_ENVELOPE_ENCLOSING_SPHERE), 4.0 / 3.0 * CLAST_PI * pow(14.0, 1.5),
+              1e-11);
+    clast_shape_free(&shape);
+    clast_mesh_free(&box);
+    clast_assembly_free(&a);
+}
+
+static void ellipsoid_is_its_own_hull_and_fits_its_long_axis(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_shape shape = {0};
+    CHECK_OK(clast_shape_ellipsoid("e", (double[3]){3.0, 2.0, 0.5}, &shape));
+    CHECK_OK(clast_assembly_add_shape(&a, &shape, NULL));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){5, 6, 7}, (double[4]){0.8, 0.0, 0.6, 0.0},
+                                      2.0, 2600.0));
+    CHECK_REL(volume_of(&a, CLAST_ENVELOPE_SURFACE_HULL), 4.0 / 3.0 * CLAST_PI * 24.0, 1e-12);
+    CHECK_REL(volume_of(&a, CLAST_ENVELOPE_ENCLOSING_SPHERE), 4.0 / 3.0 * CLAST_PI * 216.0, 1e-11);
+    clast_shape_free(&shape);
+    clast_assembly_free(&a);
+}
+
+static void spheres_are_asked_for_by_name(void **state)
+{
+    (void)state;
+    const clast_envelope_options options = clast_envelope_options_default();
+    clast_assembly a = {0};
+    clast_shape shape = {0};
+    clast_envelope e = {0};
+    clast_envelope_kind kind = CLAST_ENVELOPE_SURFACE_HULL;
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_SURFACE_HULL, &options, &e),
+                 CLAST_E_USAGE);
+    CHECK_OK(clast_shape_ellipsoid("egg", (double[3]){3.0, 2.0, 1.0}, &shape));
+    CHECK_OK(clast_assembly_add_shape(&a, &shape, NULL));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){0, 0, 0}, no_turn, 1.0, 1.0));
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_SPHERE_RAYS, &options, &e),
+                 CLAST_E_USAGE);
+    assert_non_null(strstr(clast_error_detail(), "egg"));
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_SPHERE_HULL, &options, &e),
+                 CLAST_E_USAGE);
+    for (int k = 0; k < CLAST_N_ENVELOPE; ++k) {
+        CHECK_OK(clast_envelope_parse(clast_envelope_name((clast_envelope_kind)k), &kind));
+        assert_int_equal(kind, k);
+    }
+    CHECK_STATUS(clast_envelope_parse("hull", &kind), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "surface_hull"));
+    clast_shape_free(&shape);
+    clast_assembly_free(&a);
+}
+
+/* A loose heap of n ellipsoids: directions and turns at random, distances that grow. */
+static void heap_of(int n, clast_shape_kind kind, clast_assembly *a)
+{
+    clast_shape shape = {0};
+    clast_mesh mesh = {0};
+    clx_rng rng = clx_rng_at(4, CLX_STREAM_TEST, 4);
+    if (kind == CLAST_SHAPE_MESH) {
+        CHECK_OK(clast_mesh_ellipsoid((double[3]){1.0, 0.7, 0.5}, 2, &mesh));
+        CHECK_OK(clast_shape_mesh("grain", &mesh, &shape));
+    } else {
+        CHECK_OK(clast_shape_ellipsoid("grain", (double[3]){1.0, 0.7, 0.5}, &shape));
+    }
+    CHECK_OK(clast_assembly_add_shape(a, &shape, NULL));
+    for (int i = 0; i < n; ++i) {
+        double u[3], q[4];
+        clx_rng_direction(&rng, u);
+        clx_rng_orientation(&rng, q);
+        v3_scale(u, 2.0 * cbrt(i) * (0.5 + 0.5 * clx_rng_uniform(&rng)), u);
+        CHECK_OK(clast_assembly_add_grain(a, 0, u, q, 0.5 + clx_rng_uniform(&rng), 1.0));
+    }
+    clast_shape_free(&shape);
+    clast_mesh_free(&mesh);
+}
+
+/* What is tracked grain by grain is what is measured from scratch, within the stated error. */
+static void tracker_agrees_with_the_assembly(void **state)
+{
+    (void)state;
+    const clast_envelope_kind kinds[2] = {CLAST_ENVELOPE_SURFACE_HULL,
+                                          CLAST_ENVELOPE_GYRATION_SPHERE};
+    for (int k = 0; k < 2; ++k) {
+        clast_assembly all = {0};
+        clast_assembly grown = {0};
+        clast_envelope now[2];
+        clx_envelope_tracker *tracker = NULL;
+        clast_envelope_options options = clast_envelope_options_default();
+        options.tolerance = 5e-3;
+        heap_of(40, k == 0 ? CLAST_SHAPE_ELLIPSOID : CLAST_SHAPE_MESH, &all);
+        CHECK_OK(clast_assembly_add_shape(&grown, &all.shape[0], NULL));
+        CHECK_OK(clx_envelope_tracker_create(2, kinds, &options, &tracker));
+        double before = 0.0;
+        for (int32_t i = 0; i < all.n_grain; ++i) {
+            CHECK_OK(clast_assembly_add_grain(&grown, 0, all.position[i], all.orientation[i],
+                                              all.scale[i], 1.0));
+            CHECK_OK(clx_envelope_tracker_add(tracker, &grown, i));
+            CHECK_OK(clx_envelope_tracker_now(tracker, &grown, now));
+            assert_true(now[0].low >= before); /* a hull never shrinks */
+            before = now[0].low;
+            if (i % 13 == 0 || i == 39) {
+                const double exact = volume_of(&grown, CLAST_ENVELOPE_SURFACE_HULL);
+                assert_true(now[0].low <= exact * (1.0 + 1e-12));
+                assert_true(exact <= now[0].high * (1.0 + 1e-12));
+                assert_true(fabs(now[0].volume - exact) <= now[0].error + 1e-12 * exact);
+                CHECK_REL(now[1].volume, volume_of(&grown, CLAST_ENVELOPE_GYRATION_SPHERE), 1e-15);
+            }
+        }
+        clx_envelope_tracker_destroy(tracker);
+        clast_assembly_free(&grown);
+        clast_assembly_free(&all);
+    }
+}
+
+static clast_status make_envelopes(void *context)
+{
+    const clast_assembly *a = context;
+    clast_envelope_options options = clast_envelope_options_default();
+    clast_status status = CLAST_OK;
+    clx_envelope_tracker *tracker = NULL;
+    const clast_envelope_kind kinds[3] = {CLAST_ENVELOPE_SURFACE_HULL, CLAST_ENVELOPE_SPHERE_RAYS,
+                                          CLAST_ENVELOPE_ENCLOSING_SPHERE};
+    clast_envelope e[3];
+    options.n_ray = 50;
+    options.tolerance = 0.05;
+    status = clx_envelope_tracker_create(3, kinds, &options, &tracker);
+    for (int32_t i = 0; i < a->n_grain && status == CLAST_OK; ++i) {
+        status = clx_envelope_tracker_add(tracker, a, i);
+    }
+    if (status == CLAST_OK) {
+        status = clx_envelope_tracker_now(tracker, a, e);
+    }
+    clx_envelope_tracker_destroy(tracker);
+    return status;
+}
+
+static void envelopes_survive_refused_memory(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    two_spheres(2.0, &a);
+    support_refuse_each_allocation(make_envelopes, &a);
+    clast_assembly_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tangent_spheres_have_every_envelope),
+        cmocka_unit_test(gyration_counts_the_grains_own_extent),
+        cmocka_unit_test(ellipsoid_is_its_own_hull_and_fits_its_long_axis),
+        cmocka_unit_test(spheres_are_asked_for_by_name),
+        cmocka_unit_test(tracker_agrees_with_the_assembly),
+        cmocka_unit_test(envelopes_survive_refused_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
