@@ -60,7 +60,7 @@ static clast_status parse(const void *bytes, size_t n, clast_mesh_format format,
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(n > 0, CLAST_E_FORMAT, "the file is empty (0 bytes)");
-    CLX_CHECK(!clx_text_is_utf16(bytes, n), CLAST_E_FORMAT,
+    CLX_CHECK(clx_stl_is_exact(bytes, n) || !clx_text_is_utf16(bytes, n), CLAST_E_FORMAT,
               "byte 0: this is UTF-16 text; save it as UTF-8 or ASCII");
     switch (format) {
     case CLAST_MESH_STL:

@@ -81,13 +81,14 @@ static clast_status corner_index(const obj *o, clx_word word, int64_t *index)
               clx_word_show(word, shown));
     CLX_CHECK(number != 0, CLAST_E_FORMAT,
               "line %" PRId64 ": face corner 0: OBJ counts vertices from 1", o->text.line);
-    const int64_t place = number > 0 ? number - 1 : o->n_before + number;
-    CLX_CHECK(place >= 0 &&
-                      place<n_vert, CLAST_E_FORMAT,
-                            "line %" PRId64 ": face corner %" PRId64 " of %" PRId64 " vertices",
-                            o->text.line, number, number> 0
-                  ? n_vert
-                  : o->n_before);
+    const int64_t known = number > 0 ? n_vert : o->n_before;
+    const int64_t place = number > 0 ? number - 1 : known + number;
+    CLX_CHECK(place >= 0, CLAST_E_FORMAT,
+              "line %" PRId64 ": face corner %" PRId64 " with %" PRId64 " vertices above it",
+              o->text.line, number, known);
+    CLX_CHECK(place < known, CLAST_E_FORMAT,
+              "line %" PRId64 ": face corner %" PRId64 " of %" PRId64 " vertices", o->text.line,
+              number, known);
     *index = place;
 done:
     return status;

@@ -137,6 +137,7 @@ clast_status clx_off_parse(const void *bytes, size_t n, clast_mesh *mesh,
     clx_mesh_build build = {.report = report};
     clx_text text = clx_text_begin(bytes, n, '#', false);
     clx_word word;
+    char shown[CLX_WORD_SHOWN];
     int64_t n_vert = 0;
     int64_t n_face = 0;
     CLX_TRY(read_magic(&text));
@@ -144,8 +145,10 @@ clast_status clx_off_parse(const void *bytes, size_t n, clast_mesh *mesh,
     CLX_TRY(clx_build_reserve(&build, n_vert, n_face));
     CLX_TRY(read_vertices(&text, n_vert, &build));
     CLX_TRY(read_faces(&text, n_face, &build));
+    CLX_CHECK(!clx_text_any_word(&text, &word), CLAST_E_FORMAT,
+              "line %" PRId64 ": '%s' follows the last of %" PRId64 " faces: the counts are wrong",
+              text.line, clx_word_show(word, shown), n_face);
     report->n_part = 1;
-    report->n_trailing = clx_text_any_word(&text, &word) ? text.end - word.text : 0;
     CLX_TRY(clx_build_finish(&build, mesh));
 done:
     clx_build_free(&build);

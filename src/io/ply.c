@@ -11,7 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PLACE_SIZE = 32 };
+enum {
+    PLACE_SIZE = 32,
+    LEAST_TRIANGLE = 13 ///< bytes: a length and three 32-bit numbers
+};
 
 typedef struct {
     const clx_ply *ply;
@@ -410,16 +413,29 @@ done:
     return status;
 }
 
-static void report_rest(body *b, clast_mesh_read_report *report)
+/// A line end or so behind a binary body is no harm; what could be a face means wrong counts.
+static clast_status check_rest(body *b)
 {
+    clast_status status = CLAST_OK;
     clx_word word;
+    char shown[CLX_WORD_SHOWN];
+    const bool more = b->ply->is_ascii && clx_text_any_word(&b->text, &word);
+    CLX_CHECK(!more, CLAST_E_FORMAT,
+              "line %" PRId64 ": '%s' follows the last row: the counts are wrong", b->text.line,
+              clx_word_show(word, shown));
+    b->build->report->n_trailing = b->ply->is_ascii ? 0 : b->end - b->at;
+    CLX_CHECK(b->build->report->n_trailing < LEAST_TRIANGLE, CLAST_E_FORMAT,
+              "byte %" PRId64 ": %" PRId64 " bytes follow the last row: the counts are wrong",
+              (int64_t)(b->at - b->begin), b->build->report->n_trailing);
+done:
+    return status;
+}
+
+static void report_rest(const body *b, clast_mesh_read_report *report)
+{
     report->is_binary = !b->ply->is_ascii;
     report->is_big_endian = b->ply->is_big_endian;
     report->n_part = 1;
-    report->n_trailing = b->end - b->at;
-    if (b->ply->is_ascii) {
-        report->n_trailing = clx_text_any_word(&b->text, &word) ? b->text.end - word.text : 0;
-    }
     if (report->n_ignored > 0) {
         clx_report_warn(report, "%" PRId64 " rows of other elements passed over",
                         report->n_ignored);
@@ -453,6 +469,7 @@ clast_status clx_ply_parse(const void *bytes, size_t n, clast_mesh *mesh,
     b.end = b.begin + n;
     CLX_TRY(reserve(&b));
     CLX_TRY(read_body(&b));
+    CLX_TRY(check_rest(&b));
     report_rest(&b, report);
     CLX_TRY(clx_build_finish(&build, mesh));
 done:

@@ -186,6 +186,10 @@ static clast_status parse_binary(const uint8_t *bytes, size_t n, gather *g)
               " bytes) but the file has %zu bytes, room for %" PRId64
               "; it is cut off or not an STL",
               n_facet, size, n, ((int64_t)n - BODY_START) / FACET_SIZE);
+    CLX_CHECK((int64_t)n - size < FACET_SIZE, CLAST_E_FORMAT,
+              "byte 80: the header promises %" PRId64 " facets but %" PRId64
+              " bytes follow them, room for %" PRId64 " more: the count is wrong",
+              n_facet, (int64_t)n - size, ((int64_t)n - size) / FACET_SIZE);
     CLX_CHECK(n_facet <= INT32_MAX / 3, CLAST_E_LIMIT,
               "%" PRId64 " facets are more than the %d that one mesh holds", n_facet,
               INT32_MAX / 3);
@@ -281,7 +285,7 @@ done:
 
 static clast_status parse_item(ascii *a, clx_word word)
 {
-    if (clx_word_is(word, "facet")) {
+    if (clx_word_is(word, "facet") && a->in_solid) {
         return parse_facet(a);
     }
     if (clx_word_is(word, "endsolid")) {

@@ -56,7 +56,8 @@ static void obj_errors_name_the_line(void **state)
                   "decimal point");
     check_refused("v 0 0 1e999\n", CLAST_MESH_OBJ, "line 1: vertex coordinate z '1e999'");
     check_refused("v 0 0 0\n\nf 1 x 1\n", CLAST_MESH_OBJ, "line 3: face corner 'x'");
-    check_refused("v 0 0 0\nf 1 -2 1\n", CLAST_MESH_OBJ, "line 2: face corner -2 of 1 vertices");
+    check_refused("v 0 0 0\nf 1 -2 1\n", CLAST_MESH_OBJ,
+                  "line 2: face corner -2 with 1 vertices above it");
     check_refused("v 0 0 0\nf 1 1 99999999999999999999\n", CLAST_MESH_OBJ,
                   "is not a vertex number");
     check_refused("hello world\n", CLAST_MESH_OBJ, "not an OBJ");
@@ -94,12 +95,14 @@ static void off_errors_name_the_line(void **state)
     check_refused("OFF BINARY\n", CLAST_MESH_OFF, "binary OFF is not read");
     check_refused("OFF\n", CLAST_MESH_OFF, "ends before its counts");
     check_refused("OFF\n-1 0 0\n", CLAST_MESH_OFF, "line 2: vertex count -1 is outside");
-    check_refused("OFF\n3 99 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", CLAST_MESH_OFF,
-                  "99 faces are promised but only");
+    check_refused("OFF\n3 20 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", CLAST_MESH_OFF,
+                  "20 faces are promised but only");
     check_refused("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", CLAST_MESH_OFF,
                   "ends at face 2 of 2");
     check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", CLAST_MESH_OFF,
                   "line 6: vertex number 3 is outside 0 .. 2");
+    check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n", CLAST_MESH_OFF,
+                  "line 7: '3' follows the last of 1 faces");
     check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", CLAST_MESH_OFF,
                   "line 6: vertex number is missing");
 }
@@ -165,7 +168,7 @@ static void ply_errors_name_the_line(void **state)
 static void binary_ply_names_the_byte(void **state)
 {
     (void)state;
-    char file[512];
+    char file[512] = "";
     const char *header = "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\n"
                          "property float y\nproperty float z\nend_header\n";
     const size_t n = strlen(header);
@@ -175,11 +178,42 @@ static void binary_ply_names_the_byte(void **state)
     CHECK_OK(parse_bytes(file, n + 12, CLAST_MESH_PLY, &mesh, NULL));
     clast_mesh_free(&mesh);
     CHECK_STATUS(parse_bytes(file, n + 11, CLAST_MESH_PLY, &mesh, NULL), CLAST_E_FORMAT);
+    CHECK_STATUS(parse_bytes(file, n + 25, CLAST_MESH_PLY, &mesh, NULL), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "13 bytes follow the last row"));
     memcpy(file + n + 4, "\x7f\xc0\x00\x00", 4);
     CHECK_STATUS(parse_bytes(file, n + 12, CLAST_MESH_PLY, &mesh, NULL), CLAST_E_FORMAT);
     char words[64];
     (void)snprintf(words, sizeof words, "byte %zu: vertex coordinate y of row 1 is nan", n + 4);
     assert_non_null(strstr(clast_error_detail(), words));
+}
+
+/* The body begins right after end_header's line end, whatever its first byte looks like. */
+static void body_may_begin_with_a_line_end(void **state)
+{
+    static const char *const line_ends[] = {"\n", "\r", "\r\n"};
+    static const char *const lines[] = {"ply",
+                                        "format binary_big_endian 1.0",
+                                        "element vertex 1",
+                                        "property float x",
+                                        "property uchar y",
+                                        "property uchar z",
+                                        "end_header"};
+    (void)state;
+    for (int e = 0; e < 3; ++e) {
+        for (int first = 0; first < 2; ++first) {
+            char file[256] = "";
+            clast_mesh mesh = {0};
+            for (int i = 0; i < 7; ++i) {
+                const size_t n = strlen(file);
+                (void)snprintf(file + n, sizeof file - n, "%s%s", lines[i], line_ends[e]);
+            }
+            const size_t n = strlen(file);
+            memcpy(file + n, first == 0 ? "\n\0\0\0\2\3" : "\r\n\0\0\2\3", 6);
+            CHECK_OK(parse_bytes(file, n + 6, CLAST_MESH_PLY, &mesh, NULL));
+            assert_true(mesh.vert[0][1] == 2.0 && mesh.vert[0][2] == 3.0);
+            clast_mesh_free(&mesh);
+        }
+    }
 }
 
 static void content_decides_before_the_name(void **state)
@@ -214,6 +248,9 @@ static void other_files_are_refused_in_words(void **state)
 {
     (void)state;
     clast_mesh mesh = {0};
+    CHECK_STATUS(clast_mesh_parse("v\0 \0001\0 \0002\0 \0003\0\n", 17, CLAST_MESH_OBJ, &mesh, NULL),
+                 CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "UTF-16"));
     check_refused("PK\3\4....", CLAST_MESH_ANY, "3MF is written only");
     check_refused("hello", CLAST_MESH_ANY, "neither content nor name");
     CHECK_STATUS(clast_mesh_read(support_scratch(), &mesh, NULL), CLAST_E_IO);
@@ -232,6 +269,7 @@ int main(void)
         cmocka_unit_test(ply_variants_are_understood),
         cmocka_unit_test(ply_errors_name_the_line),
         cmocka_unit_test(binary_ply_names_the_byte),
+        cmocka_unit_test(body_may_begin_with_a_line_end),
         cmocka_unit_test(content_decides_before_the_name),
         cmocka_unit_test(other_files_are_refused_in_words),
     };

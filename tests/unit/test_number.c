@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "math/rng.h"
+#include <clast/mesh_file.h>
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,6 +103,21 @@ static void random_numbers_round_as_strtod(void **state)
     }
 }
 
+/* Nineteen digits times a small power of ten: the remainder of the division decides one in 4000. */
+static void long_integers_with_exponents_round_as_strtod(void **state)
+{
+    (void)state;
+    clx_rng rng = clx_rng_at(2, CLX_STREAM_TEST, 0);
+    for (int i = 0; i < 40000; ++i) {
+        char text[64];
+        const uint64_t digits =
+            1000000000000000000u + (((uint64_t)clx_rng_u32(&rng) << 32 | clx_rng_u32(&rng)) >> 2);
+        (void)snprintf(text, sizeof text, "%llue%d", (unsigned long long)digits,
+                       i % 2 == 0 ? -27 : i % 57 - 28);
+        same_as_strtod(text);
+    }
+}
+
 static void words_and_scraps_are_no_numbers(void **state)
 {
     static const char *const texts[] = {"", "-", "+", ".", "-.", "e5", "nan", "inf", "x1"};
@@ -115,28 +131,50 @@ static void words_and_scraps_are_no_numbers(void **state)
     assert_true(isinf(parse("1e999")));
 }
 
+/// Sets a locale with a decimal comma, made on the spot where none is installed.
+static bool set_comma_locale(void)
+{
+    static const char *const wanted[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
+    char command[400];
+    for (size_t i = 0; i < 4; ++i) {
+        if (setlocale(LC_NUMERIC, wanted[i]) != NULL) {
+            return true;
+        }
+    }
+    (void)snprintf(command, sizeof command,
+                   "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 > /dev/null 2>&1",
+                   support_scratch());
+    return system(command) == 0 && setenv("LOCPATH", support_scratch(), 1) == 0 &&
+           setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
+}
+
 /* Property: a host with a decimal comma reads and writes the same files. */
 static void decimal_comma_locale_changes_nothing(void **state)
 {
     (void)state;
-    static const char *const wanted[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
-    const char *got = NULL;
-    for (size_t i = 0; i < 4 && got == NULL; ++i) {
-        got = setlocale(LC_NUMERIC, wanted[i]);
-    }
-    if (got == NULL) {
-        print_message("SKIPPED LOUDLY: no locale with a decimal comma is installed\n");
+    if (!set_comma_locale()) {
+        print_message("SKIPPED LOUDLY: no locale with a decimal comma can be had here\n");
         skip();
     }
     char text[CLX_NUMBER_SIZE];
     char printed[16];
+    char path[400];
+    clast_mesh box = {0};
+    clast_mesh back = {0};
     (void)snprintf(printed, sizeof printed, "%g", 1.5);
-    assert_string_equal(printed, "1,5"); // the locale is what it says
     (void)clx_number_format(-1234.5625, text);
     const double value = parse("-1234.5625");
+    (void)snprintf(path, sizeof path, "%s/comma.obj", support_scratch());
+    CHECK_OK(clast_mesh_box(0.5, 1.25, 1e-3, &box));
+    CHECK_OK(clast_mesh_write(path, &box, NULL));
+    CHECK_OK(clast_mesh_read(path, &back, NULL));
     (void)setlocale(LC_NUMERIC, "C");
+    assert_string_equal(printed, "1,5"); // the locale is what it says
     assert_string_equal(text, "-1234.5625");
     assert_true(value == -1234.5625);
+    assert_memory_equal(back.vert, box.vert, 8 * sizeof *box.vert);
+    clast_mesh_free(&box);
+    clast_mesh_free(&back);
 }
 
 int main(void)
@@ -145,6 +183,7 @@ int main(void)
         cmocka_unit_test(hard_cases_round_as_strtod),
         cmocka_unit_test(half_way_between_doubles_is_decided_by_the_last_of_many_digits),
         cmocka_unit_test(random_numbers_round_as_strtod),
+        cmocka_unit_test(long_integers_with_exponents_round_as_strtod),
         cmocka_unit_test(words_and_scraps_are_no_numbers),
         cmocka_unit_test(decimal_comma_locale_changes_nothing),
     };

@@ -197,6 +197,12 @@ static void polygon_wound_twice_is_named_crossing(void **state)
     (void)state;
     polygon star = {0};
     polygon twice = {0};
+    polygon often = {0};
+    for (int i = 0; i < 200; ++i) {
+        put(&often, (i % 4 == 1 || i % 4 == 2) ? 1.0 : 0.0, i % 4 / 2);
+    }
+    cut(&often);
+    assert_int_equal(often.kind, CLX_POLYGON_CROSSING);
     for (int i = 0; i < 10; ++i) {
         if (i < 5) {
             put(&star, cos(0.8 * CLAST_PI * i), sin(0.8 * CLAST_PI * i));
