@@ -1,8 +1,7 @@
 // clast mesh convert: a surface from one format to another, in another unit if wanted.
 #include "command.h"
+#include "json.h"
 
-#include "base/status.h"
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,38 +34,44 @@ typedef struct {
 /// Output coordinates per input coordinate.
 static clast_status find_factor(const convert_config *config, job *j)
 {
-    clast_status status = CLAST_OK;
     double in = 1.0;
     double out = 1.0;
     const char *unit = config->unit[0] != '\0' ? config->unit : NULL;
     j->out_unit = config->out_unit[0] != '\0' ? config->out_unit : unit;
     j->factor = config->scale;
-    CLX_CHECK(unit != NULL || j->out_unit == NULL, CLAST_E_USAGE,
-              "--out-unit %s needs --unit, the unit of %s", config->out_unit, j->input);
-    CLX_CHECK(unit != NULL || j->out_format != CLAST_MESH_3MF, CLAST_E_USAGE,
-              "3MF is in millimetres: give --unit, the unit of %s", j->input);
+    if (unit == NULL && j->out_unit != NULL) {
+        return cli_fail(CLAST_E_USAGE, "--out-unit %s needs --unit, the unit of %s", j->out_unit,
+                        j->input);
+    }
+    if (unit == NULL && j->out_format == CLAST_MESH_3MF) {
+        return cli_fail(CLAST_E_USAGE, "3MF is in millimetres: give --unit, the unit of %s",
+                        j->input);
+    }
+    clast_status status = CLAST_OK;
     if (unit != NULL) {
-        CLX_TRY(clast_unit_factor(unit, "m", &in));
-        CLX_TRY(clast_unit_factor(j->out_unit, "m", &out));
+        status = clast_unit_factor(unit, "m", &in);
+    }
+    if (status == CLAST_OK && unit != NULL) {
+        status = clast_unit_factor(j->out_unit, "m", &out);
         j->factor *= strcmp(unit, j->out_unit) == 0 ? 1.0 : in / out;
     }
-done:
     return status;
 }
 
 static clast_status check_job(const cli_common *common, job *j)
 {
-    clast_status status = CLAST_OK;
-    CLX_CHECK(common->output != NULL, CLAST_E_USAGE,
-              "where to? give -o NAME.stl (or .obj, .ply, .off, .3mf)");
+    if (common->output == NULL) {
+        return cli_fail(CLAST_E_USAGE, "where to? give -o NAME.stl (or .obj, .ply, .off, .3mf)");
+    }
     j->input = common->argument[0];
     j->output = common->output;
     j->out_format = clast_mesh_format_of_path(j->output);
-    CLX_CHECK(j->out_format != CLAST_MESH_ANY, CLAST_E_USAGE,
-              "%s: no surface format by that name; write .stl, .obj, .ply, .off or .3mf",
-              j->output);
-done:
-    return status;
+    if (j->out_format == CLAST_MESH_ANY) {
+        return cli_fail(CLAST_E_USAGE,
+                        "%s: no surface format by that name; write .stl, .obj, .ply, .off or .3mf",
+                        j->output);
+    }
+    return CLAST_OK;
 }
 
 static clast_status check_surface(const job *j)
@@ -76,7 +81,7 @@ static clast_status check_surface(const job *j)
     if (j->mesh.n_tri > 0 || keeps_points) {
         return CLAST_OK;
     }
-    return clx_fail(CLAST_E_GEOMETRY, "%s has %d points and no triangles: nothing to write as %s",
+    return cli_fail(CLAST_E_GEOMETRY, "%s has %d points and no triangles: nothing to write as %s",
                     j->input, j->mesh.n_vert, clast_mesh_format_name(j->out_format));
 }
 
@@ -113,40 +118,30 @@ static void warn_of_loss(job *j)
     }
 }
 
-/// JSON text; bytes that are not UTF-8 become '?'.
-static json_t *text_of(const char *text)
-{
-    json_t *value = json_string(text);
-    if (value == NULL) {
-        char plain[4096];
-        (void)snprintf(plain, sizeof plain, "%s", text);
-        for (char *c = plain; *c != '\0'; ++c) {
-            *c = (unsigned char)*c < 0x80 ? *c : '?';
-        }
-        value = json_string(plain);
-    }
-    return value;
-}
-
 static clast_status print_json(const job *j)
 {
     const clast_mesh_read_report *r = &j->report;
+    json_t *o = json_object();
     json_t *warnings = json_array();
     for (int32_t i = 0; i < r->n_warning; ++i) {
-        (void)json_array_append_new(warnings, text_of(r->warning[i]));
+        (void)json_array_append_new(warnings, json_string(r->warning[i]));
     }
-    json_t *object = json_pack(
-        "{s:o,s:s,s:b,s:i,s:i,s:i,s:I,s:i,s:i,s:i,s:i,s:f,s:o,s:s,s:o}", "file", text_of(j->input),
-        "format", clast_mesh_format_name(r->format), "binary", r->is_binary, "n_part", r->n_part,
-        "n_vertex", j->mesh.n_vert, "n_triangle", j->mesh.n_tri, "n_facet", (json_int_t)r->n_facet,
-        "n_polygon", r->n_polygon, "n_concave", r->n_concave, "n_wrong_normal", r->n_wrong_normal,
-        "n_zero_normal", r->n_zero_normal, "factor", j->factor, "output", text_of(j->output),
-        "output_format", clast_mesh_format_name(j->out_format), "warnings", warnings);
-    const int failed =
-        object == NULL || json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0;
-    json_decref(object);
-    (void)putchar('\n');
-    return failed ? clx_fail(CLAST_E_MEMORY, "no memory for the JSON text") : CLAST_OK;
+    cli_json_text(o, "file", j->input);
+    cli_json_text(o, "format", clast_mesh_format_name(r->format));
+    cli_json_bool(o, "binary", r->is_binary);
+    cli_json_count(o, "n_part", r->n_part);
+    cli_json_count(o, "n_vertex", j->mesh.n_vert);
+    cli_json_count(o, "n_triangle", j->mesh.n_tri);
+    cli_json_count(o, "n_facet", r->n_facet);
+    cli_json_count(o, "n_polygon", r->n_polygon);
+    cli_json_count(o, "n_concave", r->n_concave);
+    cli_json_count(o, "n_zero_normal", r->n_zero_normal);
+    cli_json_count(o, "n_wrong_normal", r->n_wrong_normal);
+    cli_json_number(o, "factor", j->factor);
+    cli_json_text(o, "output", j->output);
+    cli_json_text(o, "output_format", clast_mesh_format_name(j->out_format));
+    (void)json_object_set_new(o, "warnings", warnings);
+    return cli_print_json(o);
 }
 
 static clast_status print_text(const job *j)
@@ -176,21 +171,30 @@ static clast_status run(const cli_common *common, void *context)
     static const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
     static const double unmoved[3] = {0.0, 0.0, 0.0};
     const convert_config *config = context;
-    clast_status status = CLAST_OK;
     job j = {0};
-    CLX_TRY(check_job(common, &j));
-    CLX_TRY(find_factor(config, &j));
-    CLX_TRY(clast_mesh_read(j.input, &j.mesh, &j.report));
-    CLX_TRY(check_surface(&j));
-    if (j.factor != 1.0) {
-        clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);
+    clast_status status = check_job(common, &j);
+    if (status == CLAST_OK) {
+        status = find_factor(config, &j);
     }
-    warn_of_loss(&j);
-    const clast_mesh_write_options options = {
-        .unit = j.out_unit, .name = config->name[0] != '\0' ? config->name : NULL};
-    CLX_TRY(clast_mesh_write(j.output, &j.mesh, &options));
-    CLX_TRY(common->json ? print_json(&j) : print_text(&j));
-done:
+    if (status == CLAST_OK) {
+        status = clast_mesh_read(j.input, &j.mesh, &j.report);
+    }
+    if (status == CLAST_OK) {
+        status = check_surface(&j);
+    }
+    if (status == CLAST_OK) {
+        if (j.factor != 1.0) {
+            clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);
+        }
+        warn_of_loss(&j);
+        status = clast_mesh_write(
+            j.output, &j.mesh,
+            &(clast_mesh_write_options){.unit = j.out_unit,
+                                        .name = config->name[0] != '\0' ? config->name : NULL});
+    }
+    if (status == CLAST_OK) {
+        status = common->json ? print_json(&j) : print_text(&j);
+    }
     clast_mesh_free(&j.mesh);
     return status;
 }

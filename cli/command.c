@@ -211,6 +211,26 @@ static int parse(parser *p, int argc, char **argv)
     return code;
 }
 
+static char refusal[1024];
+
+clast_status cli_fail(clast_status status, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    (void)vsnprintf(refusal, sizeof refusal, format, args);
+    va_end(args);
+    return status;
+}
+
+/// The line that says why: the command's own, else the library's, else the status in words.
+static const char *reason(clast_status status)
+{
+    if (refusal[0] != '\0') {
+        return refusal;
+    }
+    return clast_error_detail()[0] != '\0' ? clast_error_detail() : clast_status_text(status);
+}
+
 static int execute(parser *p)
 {
     const cli_command *c = p->command;
@@ -223,9 +243,7 @@ static int execute(parser *p)
     clast_parallel_set_threads(p->common.threads);
     const clast_status status = c->run(&p->common, p->config);
     if (status != CLAST_OK && status != CLAST_E_NO) {
-        (void)fprintf(stderr, "clast %s: %s\n", c->name,
-                      clast_error_detail()[0] != '\0' ? clast_error_detail()
-                                                      : clast_status_text(status));
+        (void)fprintf(stderr, "clast %s: %s\n", c->name, reason(status));
     }
     if (status == CLAST_E_STOPPED && cli_signal_code() != 0) {
         return cli_signal_code();

@@ -30,6 +30,10 @@ typedef struct cli_command {
 /// Parses argv and runs the command: returns the exit code; the error's one line goes to stderr.
 int cli_run(const cli_command *command, int argc, char **argv);
 
+/// A command's own refusal: keeps one line (printf style) for the frame to print, returns `status`.
+clast_status cli_fail(clast_status status, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /// Writes the help page of a command.
 void cli_help(const cli_command *command);
 
