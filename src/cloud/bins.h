@@ -1,0 +1,32 @@
+#pragma once
+// Freedman-Diaconis bins of the unit cube and their counts. [docs/theory/decompose.md]
+#include "base/status.h"
+
+/// Regular bins; bin index is row-major, the last coordinate fastest.
+typedef struct clx_bins {
+    int32_t d;
+    int32_t nb[3]; ///< 1 beyond d
+    int64_t n_bin;
+    int32_t *count; ///< [n_bin], or NULL before clx_bins_count
+} clx_bins;
+
+/// Quantile of type 5 (Hazen: interpolation at n p + 1/2) of coordinate `axis` for each of m
+/// probabilities.
+clast_status clx_quantiles(const double *u, int64_t n, int32_t d, int32_t axis, const double *p,
+                           int m, double *quantile);
+
+/// nb_j = max(1, floor(1 / h_j)), h_j = 2 IQR_j n^(-1/3); width[j] = h_j (0 when IQR is 0).
+///
+/// @return CLAST_E_LIMIT when there would be more than 2^30 bins
+clast_status clx_bins_choose(const double *u, int64_t n, int32_t d, double width[3],
+                             clx_bins *bins);
+
+/// Bin of a point: min(floor(u nb), nb - 1) along each axis.
+int64_t clx_bins_of(const clx_bins *bins, const double *u);
+
+/// Low corner and upper corner of a bin in the unit cube.
+void clx_bins_box(const clx_bins *bins, int64_t bin, double low[3], double high[3]);
+
+/// Counts the points; bin_of_point [n] is filled too unless NULL.
+clast_status clx_bins_count(clx_bins *bins, const double *u, int64_t n, int32_t *bin_of_point);
+void clx_bins_free(clx_bins *bins);

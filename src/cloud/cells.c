@@ -1,0 +1,163 @@
+// How bins of one label are joined into cells.
+#include "cloud/cells.h"
+
+#include "base/alloc.h"
+#include <string.h>
+
+static void box_of_each(const clx_bins *bins, int32_t *cell, int32_t *n_cell)
+{
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        cell[b] = (int32_t)b;
+    }
+    *n_cell = (int32_t)bins->n_bin;
+}
+
+static void strides(const clx_bins *bins, int64_t stride[3])
+{
+    int64_t product = 1;
+    for (int32_t j = bins->d - 1; j >= 0; --j) {
+        stride[j] = product;
+        product *= bins->nb[j];
+    }
+}
+
+/// True when every bin of the box corner + [0, size) along the axes is free and carries the tag.
+static bool is_free(const clx_bins *bins, const int64_t stride[3], const uint16_t *tag,
+                    const int32_t *cell, int64_t corner, const int64_t size[3])
+{
+    const uint16_t wanted = tag[corner];
+    const int64_t s1 = bins->d > 1 ? stride[1] : 0;
+    const int64_t s2 = bins->d > 2 ? stride[2] : 0;
+    for (int64_t i = 0; i < size[0]; ++i) {
+        for (int64_t j = 0; j < size[1]; ++j) {
+            for (int64_t k = 0; k < size[2]; ++k) {
+                const int64_t b = corner + i * stride[0] + j * s1 + k * s2;
+                if (cell[b] >= 0 || tag[b] != wanted) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static void claim(const clx_bins *bins, const int64_t stride[3], int32_t *cell, int64_t corner,
+                  const int64_t size[3], int32_t number)
+{
+    const int64_t s1 = bins->d > 1 ? stride[1] : 0;
+    const int64_t s2 = bins->d > 2 ? stride[2] : 0;
+    for (int64_t i = 0; i < size[0]; ++i) {
+        for (int64_t j = 0; j < size[1]; ++j) {
+            for (int64_t k = 0; k < size[2]; ++k) {
+                cell[corner + i * stride[0] + j * s1 + k * s2] = number;
+            }
+        }
+    }
+}
+
+/// Grows the box at `corner` along one axis, a layer at a time.
+static void grow_axis(const clx_bins *bins, const int64_t stride[3], const uint16_t *tag,
+                      const int32_t *cell, int64_t corner, int32_t axis, int64_t size[3])
+{
+    const int64_t at = corner / stride[axis] % bins->nb[axis];
+    while (at + size[axis] < bins->nb[axis]) {
+        int64_t layer[3] = {size[0], size[1], size[2]};
+        const int64_t next = corner + size[axis] * stride[axis];
+        layer[axis] = 1;
+        if (tag[next] != tag[corner] || !is_free(bins, stride, tag, cell, next, layer)) {
+            return;
+        }
+        ++size[axis];
+    }
+}
+
+static void boxes(const clx_bins *bins, const uint16_t *tag, int32_t *cell, int32_t *n_cell)
+{
+    int64_t stride[3] = {0};
+    strides(bins, stride);
+    memset(cell, 0xff, (size_t)bins->n_bin * sizeof *cell); // -1: free
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        if (cell[b] >= 0) {
+            continue;
+        }
+        int64_t size[3] = {1, 1, 1};
+        for (int32_t axis = bins->d - 1; axis >= 0; --axis) {
+            grow_axis(bins, stride, tag, cell, b, axis, size);
+        }
+        claim(bins, stride, cell, b, size, (*n_cell)++);
+    }
+}
+
+static int32_t root_of(int32_t *parent, int32_t b)
+{
+    while (parent[b] != b) {
+        parent[b] = parent[parent[b]];
+        b = parent[b];
+    }
+    return b;
+}
+
+/// Union-find over face neighbours; the lowest bin is the root, so numbers follow first bins.
+static clast_status components(const clx_bins *bins, const uint16_t *tag, int32_t *cell,
+                               int32_t *n_cell)
+{
+    clast_status status = CLAST_OK;
+    int64_t stride[3] = {0};
+    int32_t *parent = NULL;
+    strides(bins, stride);
+    CLX_TRY(clx_alloc(&parent, bins->n_bin, sizeof *parent));
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        parent[b] = (int32_t)b;
+        for (int32_t j = 0; j < bins->d; ++j) {
+            if (b / stride[j] % bins->nb[j] == 0 || tag[b - stride[j]] != tag[b]) {
+                continue;
+            }
+            const int32_t here = root_of(parent, (int32_t)b);
+            const int32_t there = root_of(parent, (int32_t)(b - stride[j]));
+            parent[here > there ? here : there] = here > there ? there : here;
+        }
+    }
+    for (int64_t b = 0; b < bins->n_bin; ++b) { // a root comes before its members
+        const int32_t root = root_of(parent, (int32_t)b);
+        cell[b] = root == (int32_t)b ? (*n_cell)++ : cell[root];
+    }
+done:
+    clx_free(parent);
+    return status;
+}
+
+static clast_status whole_labels(const clx_bins *bins, const uint16_t *tag, int32_t *cell,
+                                 int32_t *n_cell)
+{
+    clast_status status = CLAST_OK;
+    int32_t *number = NULL;
+    CLX_TRY(clx_alloc(&number, 65536, sizeof *number));
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        if (number[tag[b]] == 0) {
+            number[tag[b]] = ++*n_cell;
+        }
+        cell[b] = number[tag[b]] - 1;
+    }
+done:
+    clx_free(number);
+    return status;
+}
+
+clast_status clx_cells_make(const clx_bins *bins, clx_cells_kind kind, const uint16_t *tag,
+                            int32_t *cell, int32_t *n_cell)
+{
+    *n_cell = 0;
+    switch (kind) {
+    case CLX_CELLS_BOXES:
+        boxes(bins, tag, cell, n_cell);
+        return CLAST_OK;
+    case CLX_CELLS_COMPONENTS:
+        return components(bins, tag, cell, n_cell);
+    case CLX_CELLS_BINS:
+        box_of_each(bins, cell, n_cell);
+        return CLAST_OK;
+    case CLX_CELLS_LABELS:
+        break;
+    }
+    return whole_labels(bins, tag, cell, n_cell);
+}

@@ -1,0 +1,126 @@
+// The expected score of a synthetic sample, without sampling.
+#include "cloud/ghosts.h"
+
+#include "base/alloc.h"
+#include <math.h>
+
+clx_ghost_plan clx_ghosts_plan(const int32_t *count, const uint8_t *label, int64_t n_bin)
+{
+    clx_ghost_plan plan = {0};
+    for (int64_t b = 0; b < n_bin; ++b) {
+        if (label[b] == 0) {
+            ++plan.n_ambient;
+            plan.n_kept += count[b];
+        }
+    }
+    plan.n_replaced = n_bin - plan.n_ambient;
+    plan.per_bin = plan.n_ambient > 0 ? (double)plan.n_kept / (double)plan.n_ambient : 0.0;
+    plan.n_expected = (double)plan.n_kept + plan.per_bin * (double)plan.n_replaced;
+    return plan;
+}
+
+int32_t clx_ghosts_depth_class(const clx_depth_law *law, const double *u, int32_t n_grid)
+{
+    const double at = ceil(clx_depth_of(law, u) * n_grid - 0.5);
+    return at < 0.0 ? 0 : at > n_grid ? n_grid : (int32_t)at;
+}
+
+/// Depths between which the shell z cuts the bin: nothing of it is shallower than z_low, all of it
+/// than z_high.
+static void depth_range(const clx_depth_law *law, const double low[3], const double high[3],
+                        double range[2])
+{
+    range[0] = 1.0;
+    range[1] = 1.0;
+    for (int32_t j = 0; j < law->d; ++j) {
+        const double edge = 2.0 * fmin(low[j], 1.0 - high[j]) / law->c[j];
+        const double inner = low[j] < 0.5 && high[j] > 0.5 ? 0.5
+                             : low[j] >= 0.5               ? 1.0 - low[j]
+                                                           : high[j];
+        range[0] = fmin(range[0], edge);
+        range[1] = fmin(range[1], 2.0 * inner / law->c[j]);
+    }
+}
+
+/// Share of the bin that is shallower than z.
+static double shallower(const clx_depth_law *law, const double low[3], const double high[3],
+                        double z)
+{
+    double deeper = 1.0;
+    for (int32_t j = 0; j < law->d; ++j) {
+        const double margin = 0.5 * law->c[j] * z;
+        const double inside = fmin(high[j], 1.0 - margin) - fmax(low[j], margin);
+        deeper *= fmax(0.0, inside) / (high[j] - low[j]);
+    }
+    return 1.0 - deeper;
+}
+
+/// Adds one bin's p and p^2 to each grid depth; whole bins go into difference arrays.
+static void add_bin(const clx_bins *bins, int64_t bin, const clx_depth_law *law, int32_t n_grid,
+                    double *p, double *p2, int64_t *whole)
+{
+    double low[3];
+    double high[3];
+    double range[2];
+    clx_bins_box(bins, bin, low, high);
+    depth_range(law, low, high, range);
+    const int32_t first = (int32_t)fmax(0.0, ceil(range[0] * n_grid - 0.5));
+    const int32_t last =
+        (int32_t)fmin(n_grid, ceil(range[1] * n_grid - 0.5)); // z_last >= range[1]: all of it
+    for (int32_t k = first; k < last; ++k) {
+        const double share = shallower(law, low, high, (k + 0.5) / n_grid);
+        p[k] += share;
+        p2[k] += share * share;
+    }
+    if (last < n_grid) {
+        ++whole[last];
+    }
+}
+
+static double integrand(const clx_ghost_plan *plan, double m, double p, double p2, double g)
+{
+    const double f = plan->per_bin - floor(plan->per_bin);
+    const double n = (double)plan->n_replaced;
+    const double spread = plan->per_bin * (p - p2) + f * (1.0 - f) * (p2 - 2.0 * g * p + n * g * g);
+    const double s = sqrt(fmax(0.0, spread)) / plan->n_expected;
+    if (s <= 0.0) {
+        return fabs(m);
+    }
+    return s * sqrt(2.0 / CLAST_PI) * exp(-0.5 * m * m / (s * s)) +
+           fabs(m) * erf(fabs(m) / (s * sqrt(2.0)));
+}
+
+clast_status clx_ghosts_expected_score(const clx_bins *bins, const uint8_t *label,
+                                       const clx_depth_law *law, const clx_ghost_plan *plan,
+                                       const int64_t *depth_count, int32_t n_grid, double *score)
+{
+    clast_status status = CLAST_OK;
+    double *p = NULL;
+    double *p2 = NULL;
+    int64_t *whole = NULL;
+    double sum = 0.0;
+    int64_t kept = 0;
+    int64_t outside = 0;
+    CLX_TRY(clx_alloc(&p, n_grid, sizeof *p));
+    CLX_TRY(clx_alloc(&p2, n_grid, sizeof *p2));
+    CLX_TRY(clx_alloc(&whole, n_grid, sizeof *whole));
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        if (label[b] != 0) {
+            add_bin(bins, b, law, n_grid, p, p2, whole);
+        }
+    }
+    for (int32_t k = 0; k < n_grid; ++k) {
+        kept += depth_count[k];
+        outside += whole[k];
+        const double total = p[k] + (double)outside;
+        const double g = ((double)kept + plan->per_bin * total) / plan->n_expected;
+        const double h = clx_depth_cdf(law, (k + 0.5) / n_grid);
+        sum += integrand(plan, g - h, total, p2[k] + (double)outside, g);
+    }
+    *score = sum / n_grid;
+done:
+    clx_free(p);
+    clx_free(p2);
+    clx_free(whole);
+    return status;
+}
