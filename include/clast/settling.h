@@ -1,0 +1,57 @@
+#pragma once
+#include <clast/status.h>
+
+/// What a body falls through, and how it is pulled.
+typedef struct clast_fluid {
+    double density;   ///< kg/m3
+    double viscosity; ///< dynamic, Pa s
+    double gravity;   ///< m/s2
+} clast_fluid;
+
+/// Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m3, 1.7894e-5 Pa s;
+/// standard gravity 9.80665 m/s2.
+CLAST_API clast_fluid clast_fluid_air(void);
+
+/// Drag corrections of a body's form; 1 and 1 for a sphere.
+typedef struct clast_drag {
+    double stokes; ///< k_S
+    double newton; ///< k_N
+} clast_drag;
+
+/// Corrections from the form dimensions L >= I >= S and the volume-equivalent diameter d (all in
+/// one unit).
+///
+///     F_S = f e^1.3 d^3 / (L I S)     k_S = (F_S^(1/3) + F_S^(-1/3)) / 2
+///     F_N = f^2 e d^3 / (L I S)       k_N = 10^(0.45 (-log10 F_N)^0.99)
+///
+/// with elongation e = I / L and flatness f = S / I.  [Bagheri2016 eq. 19-29, for bodies in gases;
+/// docs/theory/settling.md]  F_N above 1 (bodies fuller than their ellipsoid) counts as 1, since
+/// the law knows no body with less drag than the sphere.
+/// @return CLAST_E_GEOMETRY unless L >= I >= S > 0 and d > 0
+CLAST_API clast_status clast_drag_of_form(double length, double intermediate, double shortest,
+                                          double diameter, clast_drag *drag);
+
+/// Drag coefficient at a Reynolds number > 0 by volume-equivalent diameter and area pi d^2 / 4:
+///
+///     C_D = 24 k_S / Re (1 + 0.125 (Re k_N / k_S)^(2/3)) + 0.46 k_N / (1 + 5330 / (Re k_N / k_S))
+///
+/// fitted for Re < 3e5. Orientation is averaged over.                            [Bagheri2016]
+CLAST_API double clast_drag_coefficient(double reynolds, const clast_drag *drag);
+
+/// How a body settles.
+typedef struct clast_settling {
+    double velocity;         ///< m/s, downwards
+    double reynolds;         ///< by the volume-equivalent diameter
+    double drag_coefficient; ///< -
+    bool in_range;           ///< Re < 3e5, where the law was fitted
+} clast_settling;
+
+/// Terminal velocity of a body of this volume-equivalent diameter and mean density.
+///
+/// Solves C_D(Re) Re^2 = 4/3 rho_f (rho - rho_f) g d^3 / mu^2, whose left side rises with Re, to
+/// rounding. A body lighter than the fluid rises: its velocity is negative.
+/// @return CLAST_E_USAGE for a diameter, density, fluid or correction that is not positive and
+///         finite
+CLAST_API clast_status clast_terminal_velocity(double diameter, double density,
+                                               const clast_drag *drag, const clast_fluid *fluid,
+                                               clast_settling *settling);

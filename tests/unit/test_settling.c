@@ -1,0 +1,93 @@
+/* Unit: the drag law at its limits, and numbers worked out by hand from its printed form. */
+#include "support.h"
+
+static const clast_drag sphere = {1.0, 1.0};
+
+/* w = (rho - rho_f) g d^2 / (18 mu k_S) when Re -> 0. */
+static void small_bodies_obey_stokes(void **state)
+{
+    (void)state;
+    const clast_fluid air = clast_fluid_air();
+    clast_settling s;
+    clast_drag drag;
+    CHECK_OK(clast_terminal_velocity(1e-8, 2500.0, &sphere, &air, &s));
+    const double stokes = (2500.0 - air.density) * air.gravity * 1e-16 / (18.0 * air.viscosity);
+    CHECK_REL(s.velocity, stokes, 1e-5);
+    CHECK_OK(clast_drag_of_form(4.0, 2.0, 1.0, 2.0, &drag));
+    CHECK_OK(clast_terminal_velocity(1e-8, 2500.0, &drag, &air, &s));
+    CHECK_REL(s.velocity, stokes / drag.stokes, 1e-5);
+    /* a bubble's mirror image: equal and opposite when densities are swapped round the fluid's */
+    const clast_fluid water = {1000.0, 1e-3, 9.81};
+    clast_settling down, up;
+    CHECK_OK(clast_terminal_velocity(1e-3, 1500.0, &sphere, &water, &down));
+    CHECK_OK(clast_terminal_velocity(1e-3, 500.0, &sphere, &water, &up));
+    assert_true(up.velocity == -down.velocity && down.velocity > 0.0);
+}
+
+/* F_S = 0.5 0.5^1.3 8/8, F_N = 0.25 0.5 8/8: worked out apart. */
+static void form_gives_the_printed_corrections(void **state)
+{
+    (void)state;
+    clast_drag drag;
+    CHECK_OK(clast_drag_of_form(1.0, 1.0, 1.0, 1.0, &drag));
+    assert_true(drag.stokes == 1.0 && drag.newton == 1.0);
+    CHECK_OK(clast_drag_of_form(4.0, 2.0, 1.0, 2.0, &drag));
+    const double fs = pow(2.0, -2.3);
+    CHECK_REL(drag.stokes, 0.5 * (pow(fs, 1.0 / 3.0) + pow(fs, -1.0 / 3.0)), 1e-14);
+    CHECK_REL(drag.stokes, 1.144554, 1e-6);
+    CHECK_REL(drag.newton, 2.551555, 1e-6); /* -log10(1/8) = 0.90309; 0.45 0.90309^0.99 = 0.40680 */
+    CHECK_OK(clast_drag_of_form(1.0, 1.0, 1.0, 1.2, &drag)); /* a cube's 1.24: fuller than a ball */
+    assert_true(drag.newton == 1.0);
+    CHECK_STATUS(clast_drag_of_form(1.0, 2.0, 1.0, 1.0, &drag), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_drag_of_form(1.0, 1.0, 0.0, 1.0, &drag), CLAST_E_GEOMETRY);
+}
+
+static void coefficient_has_its_limits(void **state)
+{
+    (void)state;
+    const clast_drag drag = {1.2, 3.0};
+    CHECK_REL(clast_drag_coefficient(1e-9, &drag), 24.0 * 1.2 / 1e-9, 1e-5);
+    /* Re = 100, sphere: 0.24 (1 + 0.125 21.5443) + 0.46 / 54.3 */
+    CHECK_REL(clast_drag_coefficient(100.0, &sphere),
+              0.24 * (1.0 + 0.125 * 21.544346900318837) + 0.46 / 54.3, 1e-13);
+    /* within 20 % of the standard drag curve of spheres (Clift and Gauvin) up to 1e5 */
+    for (double re = 0.01; re < 1e5; re *= 3.0) {
+        const double standard =
+            24.0 / re * (1.0 + 0.15 * pow(re, 0.687)) + 0.42 / (1.0 + 42500.0 * pow(re, -1.16));
+        CHECK_REL(clast_drag_coefficient(re, &sphere), standard, 0.20);
+    }
+}
+
+/* Whatever the body: drag equals weight less buoyancy at the answer. */
+static void forces_balance_at_terminal_velocity(void **state)
+{
+    (void)state;
+    const clast_fluid air = clast_fluid_air();
+    for (int k = 0; k < 40; ++k) {
+        const double d = 1e-7 * pow(10.0, 0.2 * k);
+        clast_drag drag;
+        clast_settling s;
+        CHECK_OK(clast_drag_of_form(1.0 + 0.1 * k, 1.0, 0.5, 0.9, &drag));
+        CHECK_OK(clast_terminal_velocity(d, 300.0 + 60.0 * k, &drag, &air, &s));
+        const double weight =
+            CLAST_PI / 6.0 * d * d * d * (300.0 + 60.0 * k - air.density) * air.gravity;
+        const double force = 0.5 * air.density * s.velocity * s.velocity * CLAST_PI / 4.0 * d * d *
+                             s.drag_coefficient;
+        CHECK_REL(force, weight, 1e-12);
+        assert_int_equal(s.in_range, s.reynolds < 3e5);
+    }
+    clast_settling s;
+    CHECK_STATUS(clast_terminal_velocity(0.0, 1.0, &sphere, &air, &s), CLAST_E_USAGE);
+    CHECK_STATUS(clast_terminal_velocity(1.0, -1.0, &sphere, &air, &s), CLAST_E_USAGE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_bodies_obey_stokes),
+        cmocka_unit_test(form_gives_the_printed_corrections),
+        cmocka_unit_test(coefficient_has_its_limits),
+        cmocka_unit_test(forces_balance_at_terminal_velocity),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
