@@ -18,6 +18,7 @@
 #include <clast/monitor.h>
 #include <clast/parallel.h>
 #include <clast/printable.h>
+#include <clast/render.h>
 #include <clast/settling.h>
 #include <clast/shape.h>
 #include <clast/state.h>

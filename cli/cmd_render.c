@@ -1,0 +1,216 @@
+// clast render: a picture of surfaces or of a run's assembly.
+#include "command.h"
+#include "json.h"
+
+#include "base/status.h"
+
+#include <clast/mesh_file.h>
+#include <clast/render.h>
+#include <clast/state.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+/// Last part of a path without its extension, made unique among the assembly's shapes.
+static void name_of(const char *path, const clast_assembly *assembly, char *name, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    (void)snprintf(name, size - 12, "%s", slash != NULL ? slash + 1 : path);
+    char *dot = strrchr(name, '.');
+    if (dot != NULL && dot != name) {
+        *dot = '\0';
+    }
+    const size_t n = strlen(name);
+    int copy = 1;
+    for (int32_t s = 0; s < assembly->n_shape; ++s) {
+        if (strcmp(assembly->shape[s].name, name) == 0) {
+            (void)snprintf(name + n, size - n, " %d", ++copy);
+            s = -1;
+        }
+    }
+}
+
+/// The shape of a surface: measured when it is a solid, else bare (open surfaces can be drawn too).
+static clast_status shape_of(char *name, clast_mesh *mesh, clast_shape *shape)
+{
+    const clast_status status = clast_shape_mesh(name, mesh, shape);
+    if (status != CLAST_E_GEOMETRY) {
+        return status;
+    }
+    const clast_shape bare = {.kind = CLAST_SHAPE_MESH, .name = name, .mesh = *mesh};
+    return clast_shape_copy(&bare, shape);
+}
+
+/// A surface at the place it has in its file.
+static clast_status add_surface(const char *path, clast_assembly *assembly)
+{
+    static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+    char name[256];
+    clast_mesh mesh = {0};
+    clast_shape shape = {0};
+    int32_t id = 0;
+    name_of(path, assembly, name, sizeof name);
+    clast_status status = clast_mesh_read(path, &mesh, NULL);
+    if (status == CLAST_OK) {
+        status = shape_of(name, &mesh, &shape);
+    }
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_shape(assembly, &shape, &id);
+    }
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_grain(assembly, id, shape.source_origin, upright, 1.0, 1.0);
+    }
+    clast_shape_free(&shape);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+/// A filling without an assembly: each sphere is a grain.
+static clast_status add_spheres(const clast_spheres *spheres, clast_assembly *assembly)
+{
+    static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+    clast_shape ball = {0};
+    int32_t id = 0;
+    clast_status status = clast_shape_sphere("sphere", 1.0, &ball);
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_shape(assembly, &ball, &id);
+    }
+    for (int32_t i = 0; i < spheres->n && status == CLAST_OK; ++i) {
+        status = clast_assembly_add_grain(assembly, id, spheres->centre[i], upright,
+                                          spheres->radius[i], 1.0);
+    }
+    clast_shape_free(&ball);
+    return status;
+}
+
+static clast_status load_state(const char *path, clast_assembly *assembly)
+{
+    clast_state state = {0};
+    clast_status status = clast_state_read(path, &state);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    if (state.assembly != NULL) {
+        status = clast_assembly_copy(state.assembly, assembly);
+    } else if (state.n_spheres > 0) {
+        memcpy(assembly->unit, state.unit, sizeof assembly->unit);
+        status = add_spheres(&state.spheres[0].spheres, assembly);
+    } else {
+        status = clx_fail(CLAST_E_FORMAT, "%s holds neither grains nor spheres", path);
+    }
+    clast_state_free(&state);
+    return status;
+}
+
+/// The state file that an input means: the file itself, or state.h5 of a run's folder; false for a
+/// surface.
+static bool state_path(const char *input, char *path, size_t size)
+{
+    struct stat about;
+    const char *dot = strrchr(input, '.');
+    if (stat(input, &about) == 0 && S_ISDIR(about.st_mode)) {
+        (void)snprintf(path, size, "%s/state.h5", input);
+        return true;
+    }
+    (void)snprintf(path, size, "%s", input);
+    return dot != NULL && strcmp(dot, ".h5") == 0;
+}
+
+static clast_status load(const cli_common *common, clast_assembly *assembly)
+{
+    char path[4096];
+    clast_status status = CLAST_OK;
+    (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
+    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
+        if (!state_path(common->argument[i], path, sizeof path)) {
+            status = add_surface(path, assembly);
+        } else if (common->n_argument == 1) {
+            status = load_state(path, assembly);
+        } else {
+            status = clx_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
+        }
+    }
+    return status;
+}
+
+static int64_t count_triangles(const clast_assembly *assembly)
+{
+    int64_t n = 0;
+    for (int32_t g = 0; g < assembly->n_grain; ++g) {
+        const clast_shape *shape = &assembly->shape[assembly->shape_id[g]];
+        n += shape->kind == CLAST_SHAPE_MESH ? shape->mesh.n_tri : 0;
+    }
+    return n;
+}
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static clast_status report(const cli_common *common, const clast_assembly *assembly,
+                           const clast_image *image, double wall)
+{
+    const int64_t n_triangle = count_triangles(assembly);
+    if (!common->json) {
+        (void)printf("%s: %d x %d pixels, %d grains, %lld triangles, %.2f s\n", common->output,
+                     image->width, image->height, assembly->n_grain, (long long)n_triangle, wall);
+        return CLAST_OK;
+    }
+    json_t *o = json_object();
+    cli_json_text(o, "output", common->output);
+    cli_json_count(o, "width", image->width);
+    cli_json_count(o, "height", image->height);
+    cli_json_count(o, "n_grain", assembly->n_grain);
+    cli_json_count(o, "n_triangle", n_triangle);
+    cli_json_number(o, "pixel_size", image->pixel_size);
+    cli_json_text(o, "unit", assembly->unit);
+    cli_json_number(o, "wall_s", wall);
+    return cli_print_json(o);
+}
+
+static clast_status run(const cli_common *common, void *config)
+{
+    clast_assembly assembly = {0};
+    clast_image image = {0};
+    const double start = now();
+    const clast_monitor monitor = cli_monitor(common);
+    if (common->output == NULL) {
+        return clx_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
+    }
+    clast_status status = load(common, &assembly);
+    if (status == CLAST_OK) {
+        status = clast_render_assembly(&assembly, config, &monitor, &image);
+    }
+    if (status == CLAST_OK) {
+        status = clast_image_write_png(&image, common->output);
+    }
+    if (status == CLAST_OK) {
+        status = report(common, &assembly, &image, now() - start);
+    }
+    clast_image_free(&image);
+    clast_assembly_free(&assembly);
+    return status;
+}
+
+const cli_command cli_render = {
+    .name = "render",
+    .arguments = "INPUT [INPUT...]",
+    .summary = "draw surfaces or a run's grains into a PNG picture",
+    .details =
+        "INPUT is a surface (STL, OBJ, PLY, OFF; several are drawn together, each at the place\n"
+        "that its file gives it), a run's folder, or a state.h5. The output is a PNG file.\n"
+        "Colours by size mean the diameter of the sphere of equal volume. The picture is\n"
+        "framed so that nothing is cut off, and equal runs give equal bytes.",
+    .fields = clast_render_fields,
+    .config_size = sizeof(clast_render_config),
+    .n_min = 1,
+    .n_max = 64,
+    .takes_config = false,
+    .run = run,
+};
