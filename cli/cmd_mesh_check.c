@@ -1,12 +1,9 @@
 // clast mesh check: what is this surface, and can it be trusted?
 #include "command.h"
-#include "json.h"
+#include "mesh_words.h"
 
-#include <clast/mesh_check.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 
-#include <math.h>
 #include <stdio.h>
 
 typedef struct {
@@ -18,108 +15,6 @@ static const clast_field fields[] = {
      "merge vertices nearer than this times the extent before checking", NULL},
     {0}};
 
-static json_t *fault_list(const clast_mesh_check_result *r)
-{
-    json_t *list = json_array();
-    for (int32_t i = 0; i < r->n_fault; ++i) {
-        json_t *fault = json_object();
-        cli_json_text(fault, "code", r->fault[i].code);
-        cli_json_text(fault, "text", r->fault[i].text);
-        cli_json_bool(fault, "blocking", r->fault[i].blocking);
-        (void)json_array_append_new(list, fault);
-    }
-    return list;
-}
-
-static json_t *part_list(const clast_mesh_check_result *r)
-{
-    json_t *list = json_array();
-    for (int32_t i = 0; i < r->n_part; ++i) {
-        const clast_mesh_part *p = &r->part[i];
-        json_t *part = json_object();
-        cli_json_count(part, "n_triangle", p->n_triangle);
-        cli_json_bool(part, "closed", p->closed);
-        cli_json_bool(part, "oriented", p->oriented && !p->inside_out);
-        cli_json_bool(part, "manifold", p->manifold);
-        cli_json_count(part, "genus", p->genus);
-        cli_json_count(part, "depth", p->depth);
-        cli_json_number(part, "volume", p->volume);
-        cli_json_number(part, "area", p->area);
-        (void)json_array_append_new(list, part);
-    }
-    return list;
-}
-
-static json_t *result_json(const char *file, const clast_mesh_check_result *r)
-{
-    json_t *o = json_object();
-    cli_json_text(o, "file", file);
-    cli_json_count(o, "n_vertex", r->n_vertex);
-    cli_json_count(o, "n_triangle", r->n_triangle);
-    cli_json_bool(o, "closed", r->closed);
-    cli_json_bool(o, "oriented", r->oriented);
-    cli_json_bool(o, "manifold", r->manifold);
-    cli_json_count(o, "n_part", r->n_part);
-    cli_json_count(o, "euler", r->euler);
-    cli_json_count(o, "genus", r->genus);
-    cli_json_number(o, "volume", r->volume);
-    cli_json_number(o, "volume_divergence", r->volume_divergence);
-    cli_json_number(o, "volume_spread", r->volume_spread);
-    cli_json_number(o, "area", r->area);
-    cli_json_number(o, "area_heron", r->area_heron);
-    cli_json_number(o, "hull_volume", r->hull_volume);
-    cli_json_number(o, "extent", r->extent);
-    cli_json_count(o, "n_edge", r->n_edge);
-    cli_json_count(o, "n_open_edge", r->n_open_edge);
-    cli_json_count(o, "n_open_loop", r->n_open_loop);
-    cli_json_number(o, "largest_hole", r->largest_hole);
-    cli_json_number(o, "weld_tolerance", r->weld_tolerance);
-    cli_json_count(o, "n_open_edge_after_weld", r->n_open_after_weld);
-    cli_json_count(o, "n_nonmanifold_edge", r->n_nonmanifold_edge);
-    cli_json_count(o, "n_nonmanifold_vertex", r->n_nonmanifold_vertex);
-    cli_json_count(o, "n_misoriented_edge", r->n_misoriented_edge);
-    cli_json_count(o, "n_inside_out", r->n_inside_out);
-    cli_json_count(o, "n_nested", r->n_nested);
-    cli_json_count(o, "n_degenerate", r->n_degenerate);
-    cli_json_count(o, "n_duplicate", r->n_duplicate);
-    cli_json_count(o, "n_unused_vertex", r->n_unused_vertex);
-    cli_json_count(o, "n_intersection", r->n_intersection);
-    cli_json_count(o, "n_touch", r->n_touch);
-    cli_json_bool(o, "intersection_complete", r->intersection_complete);
-    (void)json_object_set_new(o, "parts", part_list(r));
-    (void)json_object_set_new(o, "faults", fault_list(r));
-    return o;
-}
-
-static const char *yes(bool is)
-{
-    return is ? "yes" : "NO";
-}
-
-static void print_words(const char *file, const clast_mesh_check_result *r)
-{
-    (void)printf("%s: %s\n", file,
-                 clast_mesh_check_passed(r) ? "a solid: closed, oriented and manifold"
-                                            : "NOT a solid that can be measured");
-    (void)printf("  vertices %d, triangles %d, edges %d, parts %d, Euler number %lld, genus %d\n",
-                 r->n_vertex, r->n_triangle, r->n_edge, r->n_part, (long long)r->euler, r->genus);
-    (void)printf("  closed %s, oriented %s, manifold %s\n", yes(r->closed), yes(r->oriented),
-                 yes(r->manifold));
-    (void)printf("  extent       %.10g\n", r->extent);
-    (void)printf("  volume       %.10g (four sums differ by %.2g)\n", r->volume, r->volume_spread);
-    (void)printf("  area         %.10g (two sums differ by %.2g)\n", r->area,
-                 fabs(r->area - r->area_heron));
-    (void)printf("  hull volume  %.10g", r->hull_volume);
-    if (r->hull_volume > 0.0) {
-        (void)printf(" (volume / hull volume %.6g)", r->volume / r->hull_volume);
-    }
-    (void)printf("\n");
-    for (int32_t i = 0; i < r->n_fault; ++i) {
-        (void)printf("  %s %s: %s\n", r->fault[i].blocking ? "FAULT" : "note ", r->fault[i].code,
-                     r->fault[i].text);
-    }
-}
-
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const config *c = config_bytes;
@@ -128,7 +23,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_mesh welded = {0};
     clast_mesh_check_result result = {0};
     int32_t n_merged = 0;
-    clast_status status = clast_mesh_read(file, &mesh, NULL);
+    clast_status status = cli_mesh_input(common, &mesh);
     if (status == CLAST_OK) {
         status = c->weld > 0.0 ? clast_mesh_weld(&mesh, c->weld, &welded, &n_merged) : CLAST_OK;
     }
@@ -136,7 +31,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
         status = clast_mesh_check(c->weld > 0.0 ? &welded : &mesh, &result);
     }
     if (status == CLAST_OK && common->json) {
-        json_t *object = result_json(file, &result);
+        json_t *object = cli_check_json(file, &result);
         if (object != NULL) {
             cli_json_number(object, "weld", c->weld);
             cli_json_count(object, "n_merged", n_merged);
@@ -146,7 +41,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
         if (c->weld > 0.0) {
             (void)printf("merged %d vertices within %g of the extent\n", n_merged, c->weld);
         }
-        print_words(file, &result);
+        cli_check_words(file, &result);
     }
     if (status == CLAST_OK && !clast_mesh_check_passed(&result)) {
         status = CLAST_E_NO;

@@ -5,13 +5,14 @@
 typedef struct clast_mesh_part {
     int32_t n_triangle;
     int32_t n_open_edge;
-    bool closed;     ///< every edge has an even number of triangles
-    bool oriented;   ///< neighbours run the same way round
-    bool manifold;   ///< no edge has more than two triangles
-    bool inside_out; ///< closed, oriented, in no other part, and of negative volume
-    int32_t genus;   ///< handles of a closed, oriented manifold; -1 otherwise
-    int32_t depth;   ///< closed parts that this part lies in
-    double volume;   ///< signed, about a vertex of the part
+    bool closed;       ///< every edge has an even number of triangles
+    bool oriented;     ///< neighbours run the same way round
+    bool manifold;     ///< no edge has more than two triangles
+    bool inside_out;   ///< closed, oriented, in no other part, and of negative volume
+    int32_t genus;     ///< handles of a closed, oriented manifold; -1 otherwise
+    int32_t depth;     ///< closed parts that this part lies in
+    int32_t outermost; ///< the part that contains it and lies in no other itself, or -1
+    double volume;     ///< signed, about a vertex of the part
     double area;
     double low[3], high[3];
 } clast_mesh_part;
@@ -45,7 +46,7 @@ typedef struct clast_mesh_check_result {
     int32_t n_inside_out;         ///< parts
     int32_t n_nested;             ///< closed parts that lie in another closed part
     int32_t n_degenerate;         ///< triangles without area: a repeated or three collinear corners
-    int32_t n_duplicate;          ///< triangles whose three corners an earlier triangle has
+    int32_t n_duplicate;          ///< superfluous triangles with the same corners as others
     int32_t n_unused_vertex;
     int64_t n_intersection;     ///< pairs of triangles that cut each other
     int64_t n_touch;            ///< pairs that only touch, away from what they share

@@ -13,7 +13,11 @@
 
 bool clx_is_flat(const clast_mesh *mesh, int32_t t)
 {
-    const int32_t *tri = mesh->tri[t];
+    return clx_is_flat_at(mesh, mesh->tri[t]);
+}
+
+bool clx_is_flat_at(const clast_mesh *mesh, const int32_t tri[3])
+{
     if (clx_is_collapsed(tri)) {
         return true;
     }
@@ -62,7 +66,23 @@ static sorted_triangle sort_corners(const int32_t tri[3], int32_t t)
     return s;
 }
 
-clast_status clx_find_duplicates(const clast_mesh *mesh, bool *duplicate, int32_t *n_duplicate)
+static bool same_corners(const sorted_triangle *a, const sorted_triangle *b)
+{
+    return memcmp(a->corner, b->corner, sizeof a->corner) == 0;
+}
+
+/// Is the surface closed around a group of n triangles with these corners without any of them?
+static bool is_closed_without(const clx_topology *topology, int32_t t, int32_t n)
+{
+    bool even = true;
+    for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        even = even && (clx_edge_use(topology, topology->edge_of[h]) - n) % 2 == 0;
+    }
+    return even;
+}
+
+clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *topology,
+                                 bool *duplicate, int32_t *n_duplicate)
 {
     sorted_triangle *sorted = NULL;
     const clast_status status = clx_alloc(&sorted, mesh->n_tri, sizeof *sorted);
@@ -78,9 +98,13 @@ clast_status clx_find_duplicates(const clast_mesh *mesh, bool *duplicate, int32_
     }
     qsort(sorted, (size_t)n, sizeof *sorted, compare_sorted);
     *n_duplicate = 0;
-    for (int32_t i = 1; i < n; ++i) {
-        if (memcmp(sorted[i].corner, sorted[i - 1].corner, sizeof sorted[i].corner) == 0) {
-            duplicate[sorted[i].tri] = true;
+    for (int32_t i = 0, end = 0; i < n; i = end) {
+        while (end < n && same_corners(&sorted[i], &sorted[end])) {
+            ++end;
+        }
+        const bool none = end - i > 1 && is_closed_without(topology, sorted[i].tri, end - i);
+        for (int32_t k = none ? i : i + 1; k < end; ++k) {
+            duplicate[sorted[k].tri] = true;
             ++*n_duplicate;
         }
     }
@@ -88,12 +112,13 @@ clast_status clx_find_duplicates(const clast_mesh *mesh, bool *duplicate, int32_
     return CLAST_OK;
 }
 
-static clast_status count_facets(const clast_mesh *mesh, clast_mesh_check_result *result)
+static clast_status count_facets(const clast_mesh *mesh, const clx_topology *topology,
+                                 clast_mesh_check_result *result)
 {
     clast_status status = CLAST_OK;
     bool *mark = NULL;
     CLX_TRY(clx_alloc(&mark, (int64_t)mesh->n_tri + mesh->n_vert, sizeof *mark));
-    CLX_TRY(clx_find_duplicates(mesh, mark, &result->n_duplicate));
+    CLX_TRY(clx_find_duplicates(mesh, topology, mark, &result->n_duplicate));
     memset(mark, 0, (size_t)mesh->n_tri + (size_t)mesh->n_vert);
     result->n_unused_vertex = mesh->n_vert;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
@@ -214,7 +239,7 @@ clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *r
     CLX_TRY(check_finite(mesh));
     CLX_TRY(clx_topology_build(mesh, &topology));
     count_edges(mesh, &topology, &made);
-    CLX_TRY(count_facets(mesh, &made));
+    CLX_TRY(count_facets(mesh, &topology, &made));
     CLX_TRY(count_fans(mesh, &topology, &made));
     CLX_TRY(count_holes(mesh, &topology, &made));
     CLX_TRY(clx_check_parts(mesh, &topology, &made));

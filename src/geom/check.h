@@ -5,10 +5,13 @@
 
 /// True when the three corners are on one line, exactly.
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);
+bool clx_is_flat_at(const clast_mesh *mesh, const int32_t tri[3]);
 
-/// Marks [n_tri] triangles whose three corners, in any order, an earlier triangle has; collapsed
-/// ones are left out.
-clast_status clx_find_duplicates(const clast_mesh *mesh, bool *duplicate, int32_t *n_duplicate);
+/// Marks [n_tri] superfluous triangles among those with the same three corners: all but the first,
+/// or all of them where the surface is closed without (two bodies' common wall). Collapsed ones are
+/// left out.
+clast_status clx_find_duplicates(const clast_mesh *mesh, const clx_topology *topology,
+                                 bool *duplicate, int32_t *n_duplicate);
 
 /// Parts with their counts, measures, genus and nesting.
 clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topology,

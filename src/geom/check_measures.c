@@ -1,6 +1,8 @@
 // Volume and area, each by two methods that fail in different ways.
 #include "geom/check.h"
 
+#include "geom/repair.h"
+
 #include "math/vec3.h"
 #include <stdlib.h>
 
@@ -46,7 +48,7 @@ static void add_flux(const clast_mesh *mesh, const int32_t tri[3], const double 
 
 /// Signed tetrahedra about the mean of the vertices: a hole then costs its cone to the middle of
 /// the body, wherever the list of vertices begins.
-static double cone_volume(const clast_mesh *mesh)
+double clx_cone_volume(const clast_mesh *mesh)
 {
     double mean[3] = {0};
     double sum = 0.0;
@@ -82,7 +84,7 @@ void clx_check_measures(const clast_mesh *mesh, clast_mesh_check_result *result)
         result->area_heron += sides_area(mesh, mesh->tri[t]);
     }
     result->area = clast_mesh_area(mesh);
-    result->volume = cone_volume(mesh);
+    result->volume = clx_cone_volume(mesh);
     result->volume_divergence = (flux[0] + flux[1] + flux[2]) / 3.0;
     const double greatest = fmax(fmax(flux[0], flux[1]), fmax(flux[2], result->volume));
     const double least = fmin(fmin(flux[0], flux[1]), fmin(flux[2], result->volume));

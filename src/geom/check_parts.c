@@ -2,6 +2,7 @@
 #include "geom/check.h"
 
 #include "base/alloc.h"
+#include "geom/tree.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 
@@ -157,10 +158,71 @@ static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
     return votes >= 2;
 }
 
+/// Of all parts around one, the outermost has the largest volume.
+static void keep_outermost(clast_mesh_part *list, int32_t inner, int32_t outer)
+{
+    const int32_t known = list[inner].outermost;
+    if (known < 0 || fabs(list[outer].volume) > fabs(list[known].volume)) {
+        list[inner].outermost = outer;
+    }
+}
+
+/// Tree of the boxes of parts that can contain others.
+static clast_status build_tree(const clast_mesh_part *list, int32_t n_part, clx_tree *tree)
+{
+    clast_status status = CLAST_OK;
+    clx_tree_box *box = NULL;
+    int32_t n = 0;
+    CLX_TRY(clx_alloc(&box, n_part, sizeof *box));
+    for (int32_t i = 0; i < n_part; ++i) {
+        if (list[i].closed && list[i].oriented) {
+            v3_copy(box[n].low, list[i].low);
+            v3_copy(box[n].high, list[i].high);
+            box[n++].item = i;
+        }
+    }
+    if (n > 1) {
+        CLX_TRY(clx_tree_build(box, n, 4, tree));
+    }
+done:
+    clx_free(box);
+    return status;
+}
+
+/// Finds all parts around one.
+static void find_depth(const part_lists *lists, const clx_tree *tree, clast_mesh_part *list,
+                       int32_t inner)
+{
+    int32_t stack[CLX_TREE_DEPTH + 1] = {0};
+    int32_t n_stack = 1;
+    while (n_stack > 0) {
+        const int32_t number = stack[--n_stack];
+        const clx_tree_node *node = &tree->node[number];
+        const double *p = list[inner].low;
+        bool holds = true;
+        for (int k = 0; k < 3; ++k) {
+            holds = holds && node->low[k] <= p[k] && p[k] <= node->high[k];
+        }
+        if (holds && node->right != 0) {
+            stack[n_stack++] = node->right;
+            stack[n_stack++] = number + 1;
+        }
+        for (int32_t i = 0; holds && node->right == 0 && i < node->count; ++i) {
+            const int32_t outer = tree->item[node->first + i];
+            if (outer != inner && box_in_box(&list[inner], &list[outer]) &&
+                lies_in(lists, inner, outer)) {
+                ++list[inner].depth;
+                keep_outermost(list, inner, outer);
+            }
+        }
+    }
+}
+
 static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int32_t n_part,
                                 clast_mesh_part *list)
 {
     clast_status status = CLAST_OK;
+    clx_tree tree = {0};
     int32_t *first = NULL;
     int32_t *tri = NULL;
     CLX_TRY(clx_alloc(&first, (int64_t)n_part + 2, sizeof *first));
@@ -174,14 +236,14 @@ static clast_status find_depths(const clast_mesh *mesh, const int32_t *part, int
         }
     }
     const part_lists lists = {mesh, first, tri};
-    for (int32_t inner = 0; inner < n_part; ++inner) {
-        for (int32_t outer = 0; outer < n_part; ++outer) {
-            const bool may = inner != outer && list[inner].closed && list[outer].closed &&
-                             list[outer].oriented && box_in_box(&list[inner], &list[outer]);
-            list[inner].depth += may && lies_in(&lists, inner, outer);
+    CLX_TRY(build_tree(list, n_part, &tree));
+    for (int32_t inner = 0; inner < n_part && tree.n_node > 0; ++inner) {
+        if (list[inner].closed) {
+            find_depth(&lists, &tree, list, inner);
         }
     }
 done:
+    clx_tree_free(&tree);
     clx_free(first);
     clx_free(tri);
     return status;
@@ -196,7 +258,8 @@ clast_status clx_check_parts(const clast_mesh *mesh, const clx_topology *topolog
     CLX_TRY(clx_topology_parts(topology, mesh->n_tri, part, &result->n_part));
     CLX_TRY(clx_alloc(&result->part, result->n_part, sizeof *result->part));
     for (int32_t i = 0; i < result->n_part; ++i) {
-        result->part[i] = (clast_mesh_part){.closed = true, .oriented = true, .manifold = true};
+        result->part[i] =
+            (clast_mesh_part){.closed = true, .oriented = true, .manifold = true, .outermost = -1};
     }
     add_triangles(mesh, part, result->part);
     add_volumes(mesh, part, result->part);

@@ -102,8 +102,9 @@ static void facet_words(clast_mesh_check_result *r)
     }
     if (r->n_duplicate > 0) {
         add(r, false, "duplicate",
-            "%d triangle%s repeat%s the corners of another; `clast mesh repair` drops them",
-            r->n_duplicate, s(r->n_duplicate), r->n_duplicate == 1 ? "s" : "");
+            "%d superfluous triangle%s with the same corners as another; `clast mesh repair` drops "
+            "them",
+            r->n_duplicate, s(r->n_duplicate));
     }
     if (r->n_unused_vertex > 0) {
         add(r, false, "unused_vertices", "%d of %d vertices belong to no triangle",

@@ -17,15 +17,15 @@
 
 static const double RANK_TOLERANCE = 1e-13; // of the extent; doubles near 1 are spaced by 2e-16
 
-/// Index of the point farthest from the flat through the `rank` orthonormal axes at `origin`.
-static int64_t farthest(const double (*point)[3], int64_t n, const double origin[3],
-                        double axis[3][3], int rank, double *distance, double offset[3])
+/// Distance of the point farthest from the flat through `rank` orthonormal axes at point[0]; its
+/// offset at right angles to them goes to offset.
+static double farthest(const double (*point)[3], int64_t n, double axis[3][3], int rank,
+                       double offset[3])
 {
-    int64_t at = 0;
     double best = -1.0;
     for (int64_t i = 0; i < n; ++i) {
         double d[3];
-        v3_sub(d, point[i], origin);
+        v3_sub(d, point[i], point[0]);
         for (int pass = 0; pass < 2; ++pass) { // twice: the first leaves rounding of the long part
             for (int k = 0; k < rank; ++k) {
                 v3_axpy(d, d, -v3_dot(d, axis[k]), axis[k]);
@@ -34,12 +34,10 @@ static int64_t farthest(const double (*point)[3], int64_t n, const double origin
         const double norm2 = v3_norm2(d);
         if (norm2 > best) {
             best = norm2;
-            at = i;
             v3_copy(offset, d);
         }
     }
-    *distance = sqrt(best);
-    return at;
+    return sqrt(best);
 }
 
 int clx_points_rank(const double (*point)[3], int64_t n, double tolerance)
@@ -50,9 +48,8 @@ int clx_points_rank(const double (*point)[3], int64_t n, double tolerance)
         return -1;
     }
     for (int rank = 0; rank < 3; ++rank) {
-        double distance = 0.0;
         double offset[3] = {0};
-        (void)farthest(point, n, point[0], axis, rank, &distance, offset);
+        const double distance = farthest(point, n, axis, rank, offset);
         if (!(distance > tolerance * extent) || !v3_unit(axis[rank], offset)) {
             return rank;
         }

@@ -12,7 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double WELD_LIMIT = 0.05;         // of the extent, to close a surface
+enum {
+    MOST_SEEN = 64
+}; // kept vertices of a bucket that are looked at: bounds crowds that reach
+   // keeps from merging
+
 static const double WELD_LIMIT_PARTIAL = 1e-5; // of the extent, when open edges remain
 
 typedef struct {
@@ -59,7 +63,9 @@ static void cell_of(const weld_grid *grid, const double p[3], int64_t cell[3])
 static int32_t nearest_in(const weld_grid *grid, const int64_t cell[3], int32_t v, double *best2)
 {
     int32_t found = -1;
-    for (int32_t at = grid->head[bucket_of(grid, cell)]; at != 0; at = grid->next[at - 1]) {
+    int32_t n_seen = 0;
+    for (int32_t at = grid->head[bucket_of(grid, cell)]; at != 0 && n_seen < MOST_SEEN;
+         at = grid->next[at - 1], ++n_seen) {
         const int32_t kept = at - 1;
         const double d2 = v3_distance2(grid->mesh->vert[kept], grid->mesh->vert[v]);
         const double reach = grid->reach != NULL ? fmin(grid->reach[v], grid->reach[kept]) : 0.0;
@@ -303,7 +309,8 @@ static clast_status try_tolerances(const clast_mesh *mesh, weld_search *w, clx_w
     }
     CLX_TRY(count_bad(&w->rim, w->open, w->map, w->scratch, best));
     const int32_t n_over = best->n_over;
-    for (double step = 1e-9; w->n_order > 0 && step < WELD_LIMIT; step *= 2.0) {
+    for (int i = 0; i < 26 && w->n_order > 0; ++i) { // 1e-9 to 0.034 of the extent
+        const double step = ldexp(1e-9, i);
         const clx_weld_rule rule = {step * extent, w->order, w->n_order, w->reach};
         clx_weld_choice now = {.tolerance = rule.tolerance};
         CLX_TRY(clx_weld_map(mesh, &rule, w->map));

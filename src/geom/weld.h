@@ -12,8 +12,8 @@ typedef struct clx_weld_rule {
 /// map [n_vert]: the vertex that stands for each vertex. In order, a vertex goes to the nearest
 /// kept one within the tolerance or is kept itself; so kept vertices never move.
 ///
-/// @note O(n) for any input without reach: a cell of the grid holds a bounded number of kept
-///       vertices
+/// @note O(n): a cell of the grid holds a bounded number of kept vertices, and where reach keeps
+///       more of them apart, no more are looked at
 clast_status clx_weld_map(const clast_mesh *mesh, const clx_weld_rule *rule, int32_t *map);
 
 /// Renumbers by map, drops triangles that collapse and vertices that are no longer used.
@@ -29,7 +29,7 @@ typedef struct clx_weld_choice {
 
 /// Merges vertices of open edges, and no others, at the smallest tolerance that closes the surface.
 ///
-/// Tries 10^-9, 2 10^-9, ... 0.05 of the extent; no vertex goes farther than a quarter of its
+/// Tries 10^-9, 2 10^-9, ... 0.034 of the extent; no vertex goes farther than a quarter of its
 /// shortest edge. If none closes, takes the one up to 10^-5 that leaves fewest open and over-used
 /// edges. Of two vertices the one with more triangles stays.
 ///

@@ -33,6 +33,17 @@ void mesh_drop(clast_mesh *mesh, int32_t t)
     --mesh->n_tri;
 }
 
+void mesh_add_triangles(clast_mesh *mesh, const int32_t (*tri)[3], int32_t n_tri)
+{
+    clast_mesh more = {0};
+    CHECK_OK(clast_mesh_alloc(mesh->n_vert, mesh->n_tri + n_tri, &more));
+    memcpy(more.vert, mesh->vert, (size_t)mesh->n_vert * sizeof *mesh->vert);
+    memcpy(more.tri, mesh->tri, (size_t)mesh->n_tri * sizeof *mesh->tri);
+    memcpy(more.tri + mesh->n_tri, tri, (size_t)n_tri * sizeof *tri);
+    clast_mesh_free(mesh);
+    *mesh = more;
+}
+
 void mesh_add_box(clast_mesh *mesh, double edge, double x, double y, double z)
 {
     clast_mesh box = {0};

@@ -15,6 +15,9 @@ void mesh_flip_all(clast_mesh *mesh);
 /// Drops one triangle.
 void mesh_drop(clast_mesh *mesh, int32_t t);
 
+/// Appends triangles of the mesh's own vertices.
+void mesh_add_triangles(clast_mesh *mesh, const int32_t (*tri)[3], int32_t n_tri);
+
 /// Appends a box of these edges with its low corner at (x, y, z).
 void mesh_add_box(clast_mesh *mesh, double edge, double x, double y, double z);
 

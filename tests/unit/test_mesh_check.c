@@ -224,7 +224,7 @@ static void degenerate_and_repeated_triangles_are_counted(void **state)
     assert_int_equal(r.n_duplicate, 1);
     assert_int_equal(r.n_unused_vertex, 1);
     assert_true(has_fault(&r, "degenerate", "3 of 8"));
-    assert_true(has_fault(&r, "duplicate", "1 triangle repeats"));
+    assert_true(has_fault(&r, "duplicate", "1 superfluous triangle with"));
     clast_mesh_check_free(&r);
     clast_mesh_free(&mesh);
 }

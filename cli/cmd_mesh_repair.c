@@ -1,0 +1,149 @@
+// clast mesh repair: makes a surface closed, oriented and manifold, and tells every change.
+#include "command.h"
+#include "mesh_words.h"
+
+#include <clast/mesh_file.h>
+#include <clast/mesh_repair.h>
+
+#include <stdio.h>
+
+static json_t *report_json(const clast_mesh_repair_report *r)
+{
+    json_t *o = json_object();
+    cli_json_count(o, "n_merged", r->n_merged);
+    cli_json_number(o, "weld_distance", r->weld_distance);
+    cli_json_count(o, "n_collapsed", r->n_collapsed);
+    cli_json_count(o, "n_degenerate", r->n_degenerate);
+    cli_json_count(o, "n_duplicate", r->n_duplicate);
+    cli_json_count(o, "n_split", r->n_split);
+    cli_json_count(o, "n_loose", r->n_loose);
+    cli_json_count(o, "n_turned", r->n_turned);
+    cli_json_count(o, "n_conflict", r->n_conflict);
+    cli_json_count(o, "n_hole_filled", r->n_hole_filled);
+    cli_json_count(o, "n_fill_triangle", r->n_fill_triangle);
+    cli_json_count(o, "n_hole_left", r->n_hole_left);
+    cli_json_count(o, "n_separated", r->n_separated);
+    cli_json_count(o, "n_part_dropped", r->n_part_dropped);
+    cli_json_count(o, "n_triangle_before", r->n_triangle_before);
+    cli_json_count(o, "n_triangle_after", r->n_triangle_after);
+    cli_json_number(o, "volume_before", r->volume_before);
+    cli_json_number(o, "volume_after", r->volume_after);
+    cli_json_number(o, "area_before", r->area_before);
+    cli_json_number(o, "area_after", r->area_after);
+    return o;
+}
+
+/// One line for each step that changed something.
+static void print_changes(const clast_mesh_repair_report *r)
+{
+    const struct {
+        int32_t n;
+        const char *what;
+    } lines[] = {{r->n_merged, "vertices merged"},
+                 {r->n_collapsed, "triangles with a repeated corner dropped"},
+                 {r->n_degenerate, "triangles without area dropped"},
+                 {r->n_duplicate, "superfluous triangles with equal corners dropped"},
+                 {r->n_split, "triangles cut at T-junctions"},
+                 {r->n_loose, "loose triangles dropped"},
+                 {r->n_turned, "triangles turned over"},
+                 {r->n_conflict, "edges of a one-sided surface left"},
+                 {r->n_hole_filled, "holes filled"},
+                 {r->n_fill_triangle, "triangles made for them"},
+                 {r->n_hole_left, "larger holes left open"},
+                 {r->n_separated, "vertices doubled where surfaces touch"},
+                 {r->n_part_dropped, "parts dropped"}};
+    bool any = false;
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i) {
+        if (lines[i].n > 0) {
+            (void)printf("  %6d %s\n", lines[i].n, lines[i].what);
+            any = true;
+        }
+    }
+    if (!any) {
+        (void)printf("  nothing had to be changed\n");
+    }
+    if (r->n_merged > 0) {
+        (void)printf("  farthest merged vertex moved %.4g\n", r->weld_distance);
+    }
+    (void)printf("  triangles %d -> %d, volume %.10g -> %.10g (%+.3g), area %.10g -> %.10g\n",
+                 r->n_triangle_before, r->n_triangle_after, r->volume_before, r->volume_after,
+                 r->volume_after - r->volume_before, r->area_before, r->area_after);
+}
+
+/// STL names vertices by their place: what was parted grows together again when it is read.
+static void warn_format(const cli_common *common, const clast_mesh_repair_report *r)
+{
+    if (r->n_separated > 0 && clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
+        (void)fprintf(
+            stderr,
+            "clast mesh repair: an STL cannot keep %d doubled vertices apart; write .ply, "
+            ".obj or .off to keep touching surfaces separate\n",
+            r->n_separated);
+    }
+}
+
+static clast_status tell(const cli_common *common, const clast_mesh_repair_report *report,
+                         const clast_mesh_check_result *check)
+{
+    if (common->json) {
+        json_t *object = cli_check_json(common->output, check);
+        if (object != NULL) {
+            cli_json_text(object, "input", common->argument[0]);
+            (void)json_object_set_new(object, "changes", report_json(report));
+        }
+        return cli_print_json(object);
+    }
+    (void)printf("%s:\n", common->argument[0]);
+    print_changes(report);
+    cli_check_words(common->output, check);
+    return CLAST_OK;
+}
+
+static clast_status run(const cli_common *common, void *config)
+{
+    clast_mesh mesh = {0};
+    clast_mesh repaired = {0};
+    clast_mesh_repair_report report = {0};
+    clast_mesh_check_result check = {0};
+    clast_status status = cli_mesh_output(common);
+    if (status == CLAST_OK) {
+        status = cli_mesh_input(common, &mesh);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_repair(&mesh, config, &repaired, &report);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_write(common->output, &repaired, NULL);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_check(&repaired, &check);
+    }
+    if (status == CLAST_OK) {
+        warn_format(common, &report);
+        status = tell(common, &report, &check);
+    }
+    if (status == CLAST_OK && !clast_mesh_check_passed(&check)) {
+        status = CLAST_E_NO;
+    }
+    clast_mesh_check_free(&check);
+    clast_mesh_free(&repaired);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+const cli_command cli_mesh_repair = {
+    .name = "mesh repair",
+    .arguments = "FILE -o OUT",
+    .summary = "make a surface closed, oriented and manifold",
+    .details =
+        "Merges near vertices, drops triangles without area, repeated and loose ones, splits "
+        "edges at\nT-junctions, turns windings alike and outward, fills holes, parts "
+        "surfaces that touch; reports\neach change and the change of volume, then checks "
+        "the result. Vertices never move.\nExit code: 0 when the result is a solid, 1 when "
+        "not (it is written all the same), 3 when unreadable.",
+    .fields = clast_mesh_repair_fields,
+    .config_size = sizeof(clast_mesh_repair_config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};

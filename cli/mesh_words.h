@@ -1,0 +1,17 @@
+#pragma once
+// What the mesh commands say about a surface, shared by them.
+#include "command.h"
+#include "json.h"
+#include <clast/mesh_check.h>
+
+/// Everything of a check as a JSON object (DESIGN section 7).
+json_t *cli_check_json(const char *file, const clast_mesh_check_result *result);
+
+/// The same in words on stdout.
+void cli_check_words(const char *file, const clast_mesh_check_result *result);
+
+/// Refuses a missing or unknown output name before any work is done.
+clast_status cli_mesh_output(const cli_common *common);
+
+/// Reads the first argument; the reader's warnings go to stderr.
+clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh);

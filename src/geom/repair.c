@@ -1,0 +1,320 @@
+// clast_mesh_repair: the steps in their order, and what each changed.
+//
+// Order: merging first, since it decides what is open; triangles without area and repetitions next,
+// since they hide open edges; then T-junctions, which look like holes; then loose triangles; then
+// windings, which give holes their direction; then holes; then outward, which needs closed parts.
+#include "geom/repair.h"
+
+#include "base/alloc.h"
+#include "geom/check.h"
+#include "geom/weld.h"
+#include "math/vec3.h"
+#include <string.h>
+
+#define FIELD(type, name) #name, offsetof(clast_mesh_repair_config, name), CLAST_FIELD_##type
+const clast_field clast_mesh_repair_fields[] = {
+    {FIELD(CHOICE, weld), CLAST_WELD_AUTO, 0, 0, "-",
+     "merge near vertices: the smallest distance that closes the surface, not at all, or within "
+     "weld_tolerance",
+     "auto|off|within"},
+    {FIELD(F64, weld_tolerance), 1e-6, 0.0, 0.1, "-", "for weld within: times the extent", NULL},
+    {FIELD(BOOL, drop), 1.0, 0, 1, "-", "drop triangles without area or that repeat others", NULL},
+    {FIELD(BOOL, split), 1.0, 0, 1, "-", "split edges at vertices that lie on them (T-junctions)",
+     NULL},
+    {FIELD(F64, split_tolerance), 1e-6, 0.0, 0.01, "-",
+     "how far from the edge such a vertex may lie, times the extent", NULL},
+    {FIELD(BOOL, loose), 1.0, 0, 1, "-", "drop triangles that share no edge with others", NULL},
+    {FIELD(BOOL, orient), 1.0, 0, 1, "-", "turn neighbours alike and closed parts outward", NULL},
+    {FIELD(BOOL, fill), 1.0, 0, 1, "-", "fill holes with the triangles of least area", NULL},
+    {FIELD(F64, fill_size), 1.0, 0.0, 1.0, "-", "largest hole to fill, times the extent", NULL},
+    {FIELD(BOOL, separate), 1.0, 0, 1, "-",
+     "give surfaces that touch in an edge or vertex their own vertices", NULL},
+    {FIELD(CHOICE, keep), CLAST_KEEP_ALL, 0, 0, "-",
+     "parts to keep: all, or the one of the largest volume with its cavities", "all|largest"},
+    {0}};
+#undef FIELD
+
+int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark)
+{
+    int32_t n = 0;
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        if (!mark[t]) {
+            memmove(mesh->tri[n++], mesh->tri[t], sizeof *mesh->tri);
+        }
+    }
+    const int32_t n_dropped = mesh->n_tri - n;
+    mesh->n_tri = n;
+    return n_dropped;
+}
+
+/// Replaces the mesh by its vertices merged by map.
+static clast_status merge(clast_mesh *mesh, const int32_t *map, int32_t *n_collapsed)
+{
+    clast_mesh merged = {0};
+    const clast_status status = clx_weld_apply(mesh, map, &merged, n_collapsed);
+    if (status == CLAST_OK) {
+        clast_mesh_free(mesh);
+        *mesh = merged;
+    }
+    return status;
+}
+
+static clast_status weld(clast_mesh *mesh, const clast_mesh_repair_config *config,
+                         clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_weld_choice choice = {0};
+    int32_t *map = NULL;
+    if (config->weld == CLAST_WELD_OFF) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&map, mesh->n_vert, sizeof *map));
+    if (config->weld == CLAST_WELD_AUTO) {
+        CLX_TRY(clx_weld_search(mesh, &choice, map));
+    } else {
+        const clx_weld_rule rule = {.tolerance = config->weld_tolerance * clx_mesh_extent(mesh)};
+        CLX_TRY(clx_weld_map(mesh, &rule, map));
+    }
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        report->n_merged += map[v] != v;
+        report->weld_distance =
+            fmax(report->weld_distance, v3_distance(mesh->vert[v], mesh->vert[map[v]]));
+    }
+    if (report->n_merged > 0) {
+        CLX_TRY(merge(mesh, map, &report->n_collapsed));
+    }
+done:
+    clx_free(map);
+    return status;
+}
+
+static clast_status drop_bad(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    bool *mark = NULL;
+    int32_t n = 0;
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        mark[t] = clx_is_flat(mesh, t);
+    }
+    report->n_degenerate += clx_drop_marked(mesh, mark);
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_find_duplicates(mesh, &topology, mark, &n));
+    report->n_duplicate += clx_drop_marked(mesh, mark);
+done:
+    clx_topology_free(&topology);
+    clx_free(mark);
+    return status;
+}
+
+static clast_status drop_loose(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    bool *mark = NULL;
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        mark[t] = true;
+        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+            const int32_t e = topology.edge_of[h];
+            mark[t] = mark[t] && (e < 0 || clx_edge_use(&topology, e) == 1);
+        }
+    }
+    report->n_loose += clx_drop_marked(mesh, mark);
+done:
+    clx_topology_free(&topology);
+    clx_free(mark);
+    return status;
+}
+
+/// Keeps the part of the largest volume (area, where none is closed) and the cavities in it.
+static clast_status keep_largest(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    clast_mesh_check_result found = {0};
+    int32_t *part = NULL;
+    bool *mark = NULL;
+    int32_t n_part = 0;
+    int32_t best = 0;
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_check_parts(mesh, &topology, &found));
+    CLX_TRY(clx_alloc(&part, mesh->n_tri, sizeof *part));
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    CLX_TRY(clx_topology_parts(&topology, mesh->n_tri, part, &n_part));
+    for (int32_t i = 1; i < n_part; ++i) {
+        const clast_mesh_part *p = &found.part[i];
+        const clast_mesh_part *q = &found.part[best];
+        const bool larger = p->closed == q->closed
+                                ? (p->closed ? p->volume > q->volume : p->area > q->area)
+                                : p->closed;
+        best = larger ? i : best;
+    }
+    report->n_part_dropped = n_part;
+    for (int32_t i = 0; i < n_part; ++i) {
+        const clast_mesh_part *p = &found.part[i];
+        report->n_part_dropped -= i == best || (p->outermost == best && p->volume < 0.0);
+    }
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        const clast_mesh_part *p = part[t] >= 0 ? &found.part[part[t]] : NULL;
+        mark[t] = p == NULL || !(part[t] == best || (p->outermost == best && p->volume < 0.0));
+    }
+    (void)clx_drop_marked(mesh, mark);
+done:
+    clx_topology_free(&topology);
+    clast_mesh_check_free(&found);
+    clx_free(part);
+    clx_free(mark);
+    return status;
+}
+
+static clast_status check_input(const clast_mesh *mesh)
+{
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        for (int k = 0; k < 3; ++k) {
+            if (!isfinite(mesh->vert[v][k])) {
+                return clx_fail(CLAST_E_GEOMETRY, "vertex %d of %d is not finite", v, mesh->n_vert);
+            }
+        }
+    }
+    for (int32_t c = 0; c < 3 * mesh->n_tri; ++c) {
+        const int32_t v = mesh->tri[c / 3][c % 3];
+        if (v < 0 || v >= mesh->n_vert) {
+            return clx_fail(CLAST_E_GEOMETRY, "triangle %d has vertex number %d of %d", c / 3, v,
+                            mesh->n_vert);
+        }
+    }
+    return CLAST_OK;
+}
+
+/// Steps up to the point from which triangles keep their numbers.
+static clast_status take_first_steps(clast_mesh *mesh, const clast_mesh_repair_config *config,
+                                     double extent, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(weld(mesh, config, report));
+    if (config->drop) {
+        CLX_TRY(drop_bad(mesh, report));
+    }
+    if (config->split) {
+        CLX_TRY(clx_split_tjunctions(mesh, config->split_tolerance * extent, &report->n_split));
+    }
+    if (config->loose) {
+        CLX_TRY(drop_loose(mesh, report));
+    }
+done:
+    return status;
+}
+
+/// A triangle that stood on the surface by one edge is closed by filling to a fin without
+/// thickness: it goes, front and back.
+static clast_status drop_fins(clast_mesh *mesh, bool *turned, int32_t *n_known,
+                              const clast_mesh_repair_config *config,
+                              clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    bool *mark = NULL;
+    int32_t n = 0;
+    int32_t n_duplicate = 0;
+    if (!config->drop || report->n_fill_triangle == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&mark, mesh->n_tri, sizeof *mark));
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    CLX_TRY(clx_find_duplicates(mesh, &topology, mark, &n_duplicate));
+    for (int32_t t = 0; t < *n_known; ++t) {
+        turned[n] = turned[t];
+        n += !mark[t];
+    }
+    *n_known = n;
+    report->n_duplicate += clx_drop_marked(mesh, mark);
+done:
+    clx_topology_free(&topology);
+    clx_free(mark);
+    return status;
+}
+
+static clast_status take_steps(clast_mesh *mesh, const clast_mesh_repair_config *config,
+                               clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    bool *turned = NULL;
+    const double extent = clx_mesh_extent(mesh);
+    CLX_TRY(take_first_steps(mesh, config, extent, report));
+    int32_t n_known = mesh->n_tri;
+    CLX_TRY(clx_alloc(&turned, n_known, sizeof *turned));
+    if (config->orient) {
+        CLX_TRY(clx_orient_alike(mesh, turned, &report->n_conflict));
+    }
+    if (config->fill) {
+        CLX_TRY(clx_fill_holes(mesh, config->fill_size * extent, report));
+        CLX_TRY(drop_fins(mesh, turned, &n_known, config, report));
+    }
+    if (config->separate) {
+        CLX_TRY(clx_separate(mesh, &report->n_separated));
+    }
+    if (config->orient) {
+        CLX_TRY(clx_orient_outward(mesh, turned, n_known));
+    }
+    for (int32_t t = 0; t < n_known; ++t) {
+        report->n_turned += turned[t];
+    }
+    if (config->keep == CLAST_KEEP_LARGEST) {
+        CLX_TRY(keep_largest(mesh, report));
+    }
+done:
+    clx_free(turned);
+    return status;
+}
+
+/// Drops vertices that nothing uses, and what triangles with a repeated corner are left.
+static clast_status drop_unused(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    int32_t *map = NULL;
+    int32_t n_collapsed = 0;
+    CLX_TRY(clx_alloc(&map, mesh->n_vert, sizeof *map));
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        map[v] = v;
+    }
+    CLX_TRY(merge(mesh, map, &n_collapsed));
+    report->n_collapsed += n_collapsed;
+done:
+    clx_free(map);
+    return status;
+}
+
+clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_config *config,
+                               clast_mesh *out, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh made = {0};
+    clast_mesh_repair_config defaults;
+    clast_mesh_repair_report done_so_far = {.n_triangle_before = mesh->n_tri};
+    CLX_TRY(clast_fields_default(clast_mesh_repair_fields, &defaults));
+    CLX_TRY(check_input(mesh));
+    CLX_TRY(clast_mesh_copy(mesh, &made));
+    done_so_far.volume_before = clx_cone_volume(mesh);
+    done_so_far.area_before = clast_mesh_area(mesh);
+    CLX_TRY(take_steps(&made, config != NULL ? config : &defaults, &done_so_far));
+    CLX_CHECK(made.n_tri > 0, CLAST_E_GEOMETRY,
+              "nothing is left to repair: of %d triangles %d had no area, %d repeated others and "
+              "%d shared no edge with another",
+              mesh->n_tri, done_so_far.n_degenerate + done_so_far.n_collapsed,
+              done_so_far.n_duplicate, done_so_far.n_loose);
+    CLX_TRY(drop_unused(&made, &done_so_far));
+    done_so_far.n_triangle_after = made.n_tri;
+    done_so_far.volume_after = clx_cone_volume(&made);
+    done_so_far.area_after = clast_mesh_area(&made);
+    *out = made;
+    made = (clast_mesh){0};
+    if (report != NULL) {
+        *report = done_so_far;
+    }
+done:
+    clast_mesh_free(&made);
+    return status;
+}
