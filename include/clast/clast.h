@@ -16,6 +16,7 @@
 #include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/monitor.h>
+#include <clast/overlap.h>
 #include <clast/parallel.h>
 #include <clast/printable.h>
 #include <clast/render.h>

@@ -181,9 +181,11 @@ typedef struct {
 static bool visit_contact(int32_t body, void *context)
 {
     const contact_search *s = context;
-    clx_gap gap;
-    return !clx_touch_gap(s->body, clx_touch_scene_body(s->scene, body), s->distance, &gap) ||
-           s->visit(body, &gap, s->context);
+    const clx_touch_body *other = clx_touch_scene_body(s->scene, body);
+    clx_gap gap; // the centres, where one body is inside the other and no closest points are set
+    v3_copy(gap.point[0], s->body->position);
+    v3_copy(gap.point[1], other->position);
+    return !clx_touch_gap(s->body, other, s->distance, &gap) || s->visit(body, &gap, s->context);
 }
 
 bool clx_touch_scene_contacts(const clx_touch_scene *scene, const clx_touch_body *body,

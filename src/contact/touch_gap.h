@@ -25,7 +25,8 @@ bool clx_touch_overlap(const clx_touch_body *a, const clx_touch_body *b, double 
 /// Called for each body within reach; false ends the visit.
 typedef bool (*clx_gap_visit)(int32_t body, const clx_gap *gap, void *context);
 
-/// Visits all bodies of the scene within `distance` of a body (gap->point[0] is on that body); in
+/// Visits all bodies of the scene within `distance` of a body (gap->point[0] is on that body; where
+/// one body is inside the other the points are the centres); in
 /// no stated but repeatable order. False if the visitor ended it.
 bool clx_touch_scene_contacts(const clx_touch_scene *scene, const clx_touch_body *body,
                               double distance, clx_gap_visit visit, void *context);

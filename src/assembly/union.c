@@ -1,0 +1,405 @@
+// Volume of the union of placed grains, and by how much they overlap.
+//
+// Pairs come from the contact search; grains of no overlapping pair add their own volume. The
+// others are summed in closed form when all are spheres or clumps, else sampled: a point x drawn
+// uniformly in grain i counts 1/k(x), k the number of grains that hold it, so that every point of
+// the union counts 1 in all. Points are a lattice of irrational steps [the generalised golden
+// ratio], shifted at random eight times; the shifts' spread is the error. Where no point of a grain
+// is in another its term is exact, so the noise is that of the overlaps alone.
+#include <clast/overlap.h>
+
+#include "assembly/touch_set.h"
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "base/status.h"
+#include "contact/touch_gap.h"
+#include "contact/touch_inside.h"
+#include "contact/touch_tree.h"
+#include "math/rng.h"
+#include "math/vec3.h"
+#include "shape/shape.h"
+
+enum { N_SHIFT = 8, FIRST_POINTS = 256, BISECTIONS = 24 };
+static const double touching = 1e-9; // depth by radius that counts as a touch, not an overlap
+
+/// A grain of an overlapping pair.
+typedef struct member {
+    int32_t grain;
+    int32_t first, n;   ///< its partners in `partner`
+    double mean, error; ///< of 1 / k
+} member;
+
+typedef struct group {
+    const clast_assembly *assembly;
+    const clx_touch_set *set;
+    int32_t n;
+    member *member;   ///< [n] in rising order of grains
+    int32_t *partner; ///< grains
+    int32_t n_point;  ///< per shift
+    uint64_t seed;
+} group;
+
+clast_union_options clast_union_options_default(void)
+{
+    return (clast_union_options){.tolerance = 1e-4, .n_sample = 1 << 24, .seed = 1};
+}
+
+static double grain_volume(const clast_assembly *a, int32_t i)
+{
+    const double s = a->scale[i];
+    return s * s * s * a->shape[a->shape_id[i]].volume;
+}
+
+/// Radius of the sphere of equal volume.
+static double grain_radius(const clast_assembly *a, int32_t i)
+{
+    return cbrt(0.75 / CLAST_PI * grain_volume(a, i));
+}
+
+/// Point in the frame of a body: R^T (x - position) / scale.
+static void to_body(const clx_touch_body *body, const double x[3], double out[3])
+{
+    double d[3];
+    v3_sub(d, x, body->position);
+    for (int k = 0; k < 3; ++k) {
+        out[k] = (body->rotation[k] * d[0] + body->rotation[3 + k] * d[1] +
+                  body->rotation[6 + k] * d[2]) /
+                 body->scale;
+    }
+}
+
+static bool in_tree(const clx_touch_tree *tree, const double p[3])
+{
+    if (tree->kind == CLX_TOUCH_MESH) {
+        return clx_touch_tree_inside(tree, p);
+    }
+    for (int32_t k = 0; k < tree->n_item; ++k) {
+        if (v3_distance2(p, tree->ball[k]) <= tree->ball[k][3] * tree->ball[k][3]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool holds(const clx_touch_body *body, const double x[3])
+{
+    double p[3];
+    double q = 0.0;
+    if (v3_distance2(x, body->position) > body->radius * body->radius) {
+        return false;
+    }
+    to_body(body, x, p);
+    if (body->tree != NULL) {
+        return in_tree(body->tree, p);
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double a = body->kind == CLX_TOUCH_SPHERE ? body->semi_axes[0] : body->semi_axes[k];
+        q += p[k] / a * (p[k] / a);
+    }
+    return q <= 1.0;
+}
+
+/// Maps a point of the unit cube into the body's frame: onto the solid where that has a map, else
+/// into its box; false when the point is then outside.
+static bool place_point(const clx_touch_body *body, const double c[3], double p[3])
+{
+    if (body->tree == NULL) {
+        const double z = 2.0 * c[0] - 1.0;
+        const double r = cbrt(c[2]);
+        const double rho = r * sqrt(fmax(0.0, 1.0 - z * z));
+        const bool is_sphere = body->kind == CLX_TOUCH_SPHERE;
+        p[0] = body->semi_axes[0] * rho * cos(2.0 * CLAST_PI * c[1]);
+        p[1] = body->semi_axes[is_sphere ? 0 : 1] * rho * sin(2.0 * CLAST_PI * c[1]);
+        p[2] = body->semi_axes[is_sphere ? 0 : 2] * r * z;
+        return true;
+    }
+    for (int k = 0; k < 3; ++k) {
+        p[k] = body->tree->low[k] + c[k] * (body->tree->high[k] - body->tree->low[k]);
+    }
+    return in_tree(body->tree, p);
+}
+
+/// Mean of 1 / k over one shifted lattice of points in a grain.
+static double shifted_mean(const group *g, const member *m, int shift)
+{
+    // powers of 1/g, g^4 = g + 1: the lattice of irrational steps in three dimensions
+    static const double step[3] = {0.81917251339616443970, 0.67104360670378920842,
+                                   0.54970047790197026194};
+    const clx_touch_body *body = clx_touch_scene_body(g->set->scene, m->grain);
+    clx_rng rng =
+        clx_rng_at(g->seed, CLX_STREAM_UNION, (uint64_t)m->grain * N_SHIFT + (unsigned)shift);
+    double c[3] = {clx_rng_uniform(&rng), clx_rng_uniform(&rng), clx_rng_uniform(&rng)};
+    double sum = 0.0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < g->n_point; ++i) {
+        double p[3];
+        double x[3];
+        for (int k = 0; k < 3; ++k) {
+            c[k] += step[k];
+            c[k] -= floor(c[k]);
+        }
+        if (!place_point(body, c, p)) {
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            x[k] = body->position[k] + body->scale * v3_dot(&body->rotation[3 * k], p);
+        }
+        int32_t held = 1;
+        for (int32_t k = 0; k < m->n; ++k) {
+            held += holds(clx_touch_scene_body(g->set->scene, g->partner[m->first + k]), x);
+        }
+        sum += 1.0 / held;
+        ++n;
+    }
+    return n > 0 ? sum / n : 1.0;
+}
+
+static void sample_members(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    group *g = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        member *m = &g->member[i];
+        double sum = 0.0;
+        double squares = 0.0;
+        for (int shift = 0; shift < N_SHIFT; ++shift) {
+            const double mean = shifted_mean(g, m, shift);
+            sum += mean;
+            squares += mean * mean;
+        }
+        m->mean = sum / N_SHIFT;
+        m->error = sqrt(fmax(0.0, squares / N_SHIFT - m->mean * m->mean) / (N_SHIFT - 1));
+    }
+}
+
+/// Samples with twice the points each round until the error is small or the budget used up.
+static void sample_group(group *g, const clast_union_options *options, double rest, double *volume,
+                         double *error)
+{
+    for (g->n_point = FIRST_POINTS;; g->n_point *= 2) {
+        double sum = 0.0;
+        double variance = 0.0;
+        clx_parallel_for(g->n, 1, sample_members, g);
+        for (int32_t i = 0; i < g->n; ++i) {
+            const double v = grain_volume(g->assembly, g->member[i].grain);
+            sum += v * g->member[i].mean;
+            variance += v * g->member[i].error * v * g->member[i].error;
+        }
+        *volume = sum;
+        *error = sqrt(variance);
+        const int64_t next = (int64_t)g->n_point * 2 * N_SHIFT * g->n;
+        if (*error <= options->tolerance * (rest + sum) || next > options->n_sample ||
+            g->n_point > INT32_MAX / 4) {
+            break;
+        }
+    }
+}
+
+static bool is_of_spheres(const clast_assembly *a, int32_t i)
+{
+    const clast_shape_kind kind = a->shape[a->shape_id[i]].kind;
+    return kind == CLAST_SHAPE_SPHERE || kind == CLAST_SHAPE_CLUMP;
+}
+
+/// Union of a group of spheres and clumps in closed form.
+static clast_status sum_spheres(const group *g, double *volume)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres all = {0};
+    clast_mass mass;
+    const clast_assembly *a = g->assembly;
+    int32_t n = 0;
+    for (int32_t i = 0; i < g->n; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[g->member[i].grain]];
+        n += shape->kind == CLAST_SHAPE_SPHERE ? 1 : shape->spheres.n;
+    }
+    CLX_TRY(clast_spheres_alloc(n, &all));
+    n = 0;
+    for (int32_t i = 0; i < g->n; ++i) {
+        const int32_t grain = g->member[i].grain;
+        const clast_shape *shape = &a->shape[a->shape_id[grain]];
+        const bool one = shape->kind == CLAST_SHAPE_SPHERE;
+        for (int32_t k = 0; k < (one ? 1 : shape->spheres.n); ++k) {
+            static const double origin[3] = {0.0, 0.0, 0.0};
+            double at[3];
+            q_rotate(at, a->orientation[grain], one ? origin : shape->spheres.centre[k]);
+            v3_axpy(all.centre[n], a->position[grain], a->scale[grain], at);
+            all.radius[n++] =
+                a->scale[grain] * (one ? shape->semi_axes[0] : shape->spheres.radius[k]);
+        }
+    }
+    CLX_TRY(clx_spheres_union_mass(&all, &mass));
+    *volume = mass.volume;
+done:
+    clast_spheres_free(&all);
+    return status;
+}
+
+/// Depth of an overlap: exact for round pairs, else the least shift found, by halving.
+static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least)
+{
+    clx_gap gap;
+    if (!clx_touch_gap(a, b, 0.0, &gap)) {
+        return 0.0;
+    }
+    if (a->tree == NULL && b->tree == NULL) {
+        return -gap.distance;
+    }
+    if (!clx_touch_overlap(a, b, least, NULL)) {
+        return 0.0;
+    }
+    double low = least;
+    double high = a->radius + b->radius + v3_distance(a->position, b->position);
+    for (int i = 0; i < BISECTIONS && high > 1.001 * low; ++i) {
+        const double middle = low > 1e-3 * high ? 0.5 * (low + high) : sqrt(low * high);
+        *(clx_touch_overlap(a, b, middle, NULL) ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/// Keeps the pairs that overlap, and their depths.
+static void find_overlaps(const clast_assembly *assembly, const clx_touch_set *set,
+                          clx_pairs *pairs, clast_union *out)
+{
+    int32_t n = 0;
+    for (int32_t p = 0; p < pairs->n; ++p) {
+        const int32_t i = pairs->pair[p][0];
+        const int32_t j = pairs->pair[p][1];
+        const double radius = fmin(grain_radius(assembly, i), grain_radius(assembly, j));
+        const double depth = overlap_depth(clx_touch_scene_body(set->scene, i),
+                                           clx_touch_scene_body(set->scene, j), touching * radius);
+        if (depth > touching * radius) {
+            out->max_overlap = fmax(out->max_overlap, depth);
+            out->max_overlap_share = fmax(out->max_overlap_share, depth / radius);
+            pairs->pair[n][0] = i;
+            pairs->pair[n++][1] = j;
+        }
+    }
+    pairs->n = n;
+    out->n_overlap = n;
+}
+
+/// Lists each overlapping grain with its partners.
+static clast_status make_group(const clx_pairs *pairs, group *g)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_grain = g->assembly->n_grain;
+    int32_t *count = NULL;
+    int32_t total = 0;
+    CLX_TRY(clx_alloc(&count, n_grain, sizeof *count));
+    for (int32_t p = 0; p < pairs->n; ++p) {
+        ++count[pairs->pair[p][0]];
+        ++count[pairs->pair[p][1]];
+    }
+    for (int32_t i = 0; i < n_grain; ++i) {
+        g->n += count[i] > 0;
+    }
+    CLX_TRY(clx_alloc(&g->member, g->n, sizeof *g->member));
+    CLX_TRY(clx_alloc(&g->partner, 2 * (int64_t)pairs->n, sizeof *g->partner));
+    for (int32_t i = 0, m = 0; i < n_grain; ++i) {
+        if (count[i] > 0) {
+            g->member[m] = (member){.grain = i, .first = total};
+            total += count[i];
+            count[i] = m++;
+        }
+    }
+    for (int32_t p = 0; p < pairs->n; ++p) {
+        member *a = &g->member[count[pairs->pair[p][0]]];
+        member *b = &g->member[count[pairs->pair[p][1]]];
+        g->partner[a->first + a->n++] = b->grain;
+        g->partner[b->first + b->n++] = a->grain;
+    }
+done:
+    clx_free(count);
+    return status;
+}
+
+static void group_free(group *g)
+{
+    clx_free(g->member);
+    clx_free(g->partner);
+    *g = (group){0};
+}
+
+/// Adds the overlapping grains to the volume of the others.
+static clast_status add_group(group *g, const clast_union_options *options, clast_union *out)
+{
+    clast_status status = CLAST_OK;
+    double volume = 0.0;
+    bool all_spheres = true;
+    out->volume = out->sum;
+    for (int32_t i = 0; i < g->n; ++i) {
+        out->volume -= grain_volume(g->assembly, g->member[i].grain);
+        all_spheres = all_spheres && is_of_spheres(g->assembly, g->member[i].grain);
+    }
+    if (all_spheres) {
+        CLX_TRY(sum_spheres(g, &volume));
+    } else {
+        out->is_exact = false;
+        sample_group(g, options, out->volume, &volume, &out->error);
+    }
+    out->volume += volume;
+done:
+    return status;
+}
+
+clast_status clast_assembly_union(const clast_assembly *assembly,
+                                  const clast_union_options *options, clast_union *out)
+{
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    clx_pairs pairs = {0};
+    group g = {.assembly = assembly, .set = &set, .seed = options->seed};
+    clast_union made = {.is_exact = true};
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    CLX_TRY(clx_touch_set_near(&set, &pairs));
+    made.sum = clast_assembly_volume(assembly);
+    made.volume = made.sum;
+    find_overlaps(assembly, &set, &pairs, &made);
+    if (pairs.n > 0) {
+        CLX_TRY(make_group(&pairs, &g));
+        CLX_TRY(add_group(&g, options, &made));
+    }
+    *out = made;
+done:
+    group_free(&g);
+    clx_pairs_free(&pairs);
+    clx_touch_set_free(&set);
+    return status;
+}
+
+clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
+{
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    clx_pairs pairs = {0};
+    clast_assembly made = {.n_grain = assembly->n_grain}; // carries the contacts only
+    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE, "contacts: gap %g must not be negative",
+              gap);
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    CLX_TRY(clx_touch_set_within(&set, gap, &pairs));
+    for (int32_t p = 0; p < pairs.n; ++p) {
+        CLX_TRY(
+            clast_assembly_add_contact(&made, pairs.pair[p][0], pairs.pair[p][1], pairs.point[p]));
+    }
+    if (pairs.n == 0) { // known to be none
+        CLX_TRY(clx_alloc(&made.contact, 1, sizeof *made.contact));
+        CLX_TRY(clx_alloc(&made.contact_point, 1, sizeof *made.contact_point));
+        made.contact_capacity = 1;
+    }
+    clx_free(assembly->contact);
+    clx_free(assembly->contact_point);
+    assembly->contact = made.contact;
+    assembly->contact_point = made.contact_point;
+    assembly->n_contact = made.n_contact;
+    assembly->contact_capacity = made.contact_capacity;
+    made.contact = NULL;
+    made.contact_point = NULL;
+done:
+    clx_free(made.contact);
+    clx_free(made.contact_point);
+    clx_pairs_free(&pairs);
+    clx_touch_set_free(&set);
+    return status;
+}
