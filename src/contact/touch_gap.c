@@ -8,39 +8,52 @@
 
 enum { MAX_STEP = 100 };
 
-/// n c - h_A(n) - h_B(n), and the points of A and (mirrored) B that have this normal.
-static double support_gap(const double a[6], const double b[6], const double c[3],
-                          const double n[3], double x[2][3])
+/// A common normal on trial.
+typedef struct {
+    double n[3];
+    double gap;     ///< n c - h_A(n) - h_B(n)
+    double x[2][3]; ///< points of A and of (mirrored) B that have this normal
+} trial;
+
+/// Two ellipsoids by their matrices, b's centre seen from a's.
+typedef struct {
+    const double *a, *b;
+    double c[3];
+} round_pair;
+
+static trial try_normal(const round_pair *pair, const double n[3])
 {
-    sym_mul(x[0], a, n);
-    sym_mul(x[1], b, n);
-    const double ha = sqrt(v3_dot(x[0], n));
-    const double hb = sqrt(v3_dot(x[1], n));
-    v3_scale(x[0], 1.0 / ha, x[0]);
-    v3_scale(x[1], 1.0 / hb, x[1]);
-    return v3_dot(n, c) - ha - hb;
+    trial t;
+    v3_copy(t.n, n);
+    sym_mul(t.x[0], pair->a, n);
+    sym_mul(t.x[1], pair->b, n);
+    const double ha = sqrt(v3_dot(t.x[0], n));
+    const double hb = sqrt(v3_dot(t.x[1], n));
+    v3_scale(t.x[0], 1.0 / ha, t.x[0]);
+    v3_scale(t.x[1], 1.0 / hb, t.x[1]);
+    t.gap = v3_dot(n, pair->c) - ha - hb;
+    return t;
 }
 
-/// Newton's step in the tangent plane at n; false where the gap is already greatest.
-static bool newton_step(const double a[6], const double b[6], const double n[3], double gap,
-                        double x[2][3], const double c[3], double step[3])
+/// Newton's step in the tangent plane at the trial's normal; false where the gap is greatest.
+static bool newton_step(const round_pair *pair, const trial *t, double step[3])
 {
     double e[2][3];
     double slope[2];
     double h[2][2];
-    const double ha = v3_dot(x[0], n);
-    const double hb = v3_dot(x[1], n);
-    v3_frame(n, e[0], e[1]);
+    const double ha = v3_dot(t->x[0], t->n);
+    const double hb = v3_dot(t->x[1], t->n);
+    v3_frame(t->n, e[0], e[1]);
     for (int i = 0; i < 2; ++i) {
         double ax[3];
         double bx[3];
-        sym_mul(ax, a, e[i]);
-        sym_mul(bx, b, e[i]);
-        slope[i] = v3_dot(e[i], c) - v3_dot(e[i], x[0]) - v3_dot(e[i], x[1]);
+        sym_mul(ax, pair->a, e[i]);
+        sym_mul(bx, pair->b, e[i]);
+        slope[i] = v3_dot(e[i], pair->c) - v3_dot(e[i], t->x[0]) - v3_dot(e[i], t->x[1]);
         for (int j = 0; j < 2; ++j) {
-            h[i][j] = (v3_dot(ax, e[j]) - v3_dot(x[0], e[i]) * v3_dot(x[0], e[j])) / ha +
-                      (v3_dot(bx, e[j]) - v3_dot(x[1], e[i]) * v3_dot(x[1], e[j])) / hb +
-                      (i == j ? gap : 0.0);
+            h[i][j] = (v3_dot(ax, e[j]) - v3_dot(t->x[0], e[i]) * v3_dot(t->x[0], e[j])) / ha +
+                      (v3_dot(bx, e[j]) - v3_dot(t->x[1], e[i]) * v3_dot(t->x[1], e[j])) / hb +
+                      (i == j ? t->gap : 0.0);
         }
     }
     const double det = h[0][0] * h[1][1] - h[0][1] * h[1][0];
@@ -54,47 +67,43 @@ static bool newton_step(const double a[6], const double b[6], const double n[3],
     return v3_norm2(step) > 1e-32;
 }
 
-/// Greatest support gap: the distance, or minus the depth of the overlap.
-static double round_gap(const double a[6], const double b[6], const double c[3], double n[3],
-                        double x[2][3])
+/// Greatest support gap from a first normal on: the distance, or minus the depth of the overlap.
+static trial greatest_gap(const round_pair *pair, const double n[3])
 {
-    double gap = support_gap(a, b, c, n, x);
+    trial best = try_normal(pair, n);
     double step[3];
-    for (int i = 0; i < MAX_STEP && newton_step(a, b, n, gap, x, c, step); ++i) {
-        double share = 1.0;
-        double best = -INFINITY;
-        double tried[3];
-        double y[2][3];
-        for (int half = 0; half < 40 && !(best > gap); ++half, share *= 0.5) {
-            v3_axpy(tried, n, share, step);
+    bool rises = true;
+    for (int i = 0; i < MAX_STEP && rises && newton_step(pair, &best, step); ++i) {
+        rises = false;
+        for (int half = 0; half < 40 && !rises; ++half) {
+            double tried[3];
+            v3_add(tried, best.n, step);
             (void)v3_unit(tried, tried);
-            best = support_gap(a, b, c, tried, y);
+            const trial next = try_normal(pair, tried);
+            rises = next.gap > best.gap; // if not, halve; never: this is the top to rounding
+            best = rises ? next : best;
+            v3_scale(step, 0.5, step);
         }
-        if (!(best > gap)) {
-            break; // no rise to rounding
-        }
-        gap = best;
-        v3_copy(n, tried);
-        v3_copy(x[0], y[0]);
-        v3_copy(x[1], y[1]);
     }
-    return gap;
+    return best;
 }
 
-static bool gap_of_round(const clx_touch_body *a, const clx_touch_body *b, double limit,
-                         clx_gap *gap)
+/// The normal where b, coming along the line of centres, would touch a: the bodies are apart there
+/// if they are at all.
+static void first_normal(const clx_touch_body *a, const clx_touch_body *b, const double c[3],
+                         double n[3])
 {
-    double c[3];
-    double n[3] = {0.0, 0.0, 1.0};
-    double x[2][3];
-    v3_sub(c, b->position, a->position);
-    if (v3_unit(n, c) && (a->kind == CLX_TOUCH_ELLIPSOID || b->kind == CLX_TOUCH_ELLIPSOID)) {
-        // The normal where b, coming along the line of centres, would touch a: apart if it is.
-        double u[3];
+    v3_set(n, 0.0, 0.0, 1.0);
+    double u[3];
+    if (!v3_unit(u, c)) {
+        return;
+    }
+    v3_copy(n, u);
+    v3_scale(u, -1.0, u);
+    if (a->kind == CLX_TOUCH_ELLIPSOID || b->kind == CLX_TOUCH_ELLIPSOID) {
         double seen[3];
         double m[2][6];
         clx_entry entry;
-        v3_scale(u, -1.0, n);
         const clx_touch_path path = clx_touch_path_along(u);
         touch_to_frame(seen, &path, c);
         sym_to_frame(m[0], &path, a->matrix);
@@ -102,16 +111,23 @@ static bool gap_of_round(const clx_touch_body *a, const clx_touch_body *b, doubl
         if (clx_ellipsoid_entry(m[0], m[1], seen, &entry)) {
             touch_from_frame(n, &path, entry.normal);
         }
-    } else if (!(v3_norm2(n) > 0.0)) {
-        v3_set(n, 0.0, 0.0, 1.0);
     }
-    const double distance = round_gap(a->matrix, b->matrix, c, n, x);
-    if (!(distance <= limit)) {
+}
+
+static bool gap_of_round(const clx_touch_body *a, const clx_touch_body *b, double limit,
+                         clx_gap *gap)
+{
+    round_pair pair = {.a = a->matrix, .b = b->matrix};
+    double n[3];
+    v3_sub(pair.c, b->position, a->position);
+    first_normal(a, b, pair.c, n);
+    const trial best = greatest_gap(&pair, n);
+    if (!(best.gap <= limit)) {
         return false;
     }
-    gap->distance = distance;
-    v3_add(gap->point[0], a->position, x[0]);
-    v3_sub(gap->point[1], b->position, x[1]);
+    gap->distance = best.gap;
+    v3_add(gap->point[0], a->position, best.x[0]);
+    v3_sub(gap->point[1], b->position, best.x[1]);
     return true;
 }
 
