@@ -140,6 +140,7 @@ static double least_distance(const touch_bound *a, const touch_bound *b)
     return least;
 }
 
+/// Two slots that wait for their visit.
 typedef struct {
     double least;
     int32_t a, b;
@@ -151,23 +152,35 @@ static const clx_touch_path world = {.direction = {0.0, 0.0, 1.0},
 static job job_of(const touch_view *a, const touch_view *b, int32_t i, int32_t j)
 {
     touch_bound bound[2];
-    touch_see_node(a, &a->tree->node[i], &bound[0]);
-    touch_see_node(b, &b->tree->node[j], &bound[1]);
+    touch_see_slot(a, i, &bound[0]);
+    touch_see_slot(b, j, &bound[1]);
     return (job){least_distance(&bound[0], &bound[1]), i, j};
 }
 
-/// Pushes the pair's halves, the nearer one last; the new top.
+static double radius_of(const touch_view *view, int32_t slot)
+{
+    const clx_touch_node *node = &view->tree->node[slot / CLX_TOUCH_LANES];
+    return view->scale * node->radius[slot % CLX_TOUCH_LANES];
+}
+
+/// Opens the greater slot of a pair and pushes what comes of it, the nearest last; the new top.
 static int open_pair(const touch_view *a, const touch_view *b, job *stack, int top, job pair)
 {
-    const clx_touch_node *na = &a->tree->node[pair.a];
-    const clx_touch_node *nb = &b->tree->node[pair.b];
+    const int32_t below_a = clx_touch_child(a->tree, pair.a);
+    const int32_t below_b = clx_touch_child(b->tree, pair.b);
     const bool open_a =
-        na->right != 0 && (nb->right == 0 || na->radius * a->scale >= nb->radius * b->scale);
-    const job left = open_a ? job_of(a, b, pair.a + 1, pair.b) : job_of(a, b, pair.a, pair.b + 1);
-    const job right = open_a ? job_of(a, b, na->right, pair.b) : job_of(a, b, pair.a, nb->right);
-    const bool left_first = left.least <= right.least;
-    stack[top++] = left_first ? right : left;
-    stack[top++] = left_first ? left : right;
+        below_a > 0 && (below_b <= 0 || radius_of(a, pair.a) >= radius_of(b, pair.b));
+    const int32_t opened = open_a ? below_a : below_b;
+    const int first = top;
+    for (int32_t lane = 0; lane < (open_a ? a : b)->tree->node[opened].n; ++lane) {
+        const int32_t slot = clx_touch_slot(opened, lane);
+        const job next = open_a ? job_of(a, b, slot, pair.b) : job_of(a, b, pair.a, slot);
+        int i = top++;
+        for (; i > first && stack[i - 1].least < next.least; --i) {
+            stack[i] = stack[i - 1];
+        }
+        stack[i] = next;
+    }
     return top;
 }
 
@@ -192,7 +205,7 @@ bool clx_gap_trees(const clx_touch_body *a, const clx_touch_body *b, double limi
 {
     const double origin[3] = {0.0, 0.0, 0.0};
     double shift[3];
-    job stack[2 * CLX_TREE_DEPTH + 2];
+    job stack[2 * CLX_TOUCH_STACK];
     int top = 0;
     v3_sub(shift, b->position, a->position);
     const touch_view va = touch_view_of(a, &world, origin);
@@ -203,20 +216,20 @@ bool clx_gap_trees(const clx_touch_body *a, const clx_touch_body *b, double limi
     stack[top++] = job_of(&va, &vb, 0, 0);
     while (top > 0 && best.distance > 0.0) {
         const job pair = stack[--top];
-        const clx_touch_node *na = &va.tree->node[pair.a];
-        const clx_touch_node *nb = &vb.tree->node[pair.b];
+        const int32_t child_a = clx_touch_child(va.tree, pair.a);
+        const int32_t child_b = clx_touch_child(vb.tree, pair.b);
         if (pair.least >= best.distance) {
             continue;
         }
-        if (na->right != 0 || nb->right != 0) {
+        if (child_a > 0 || child_b > 0) {
             top = open_pair(&va, &vb, stack, top, pair);
             continue;
         }
         touch_item ia;
         touch_item ib;
         const double before = best.distance;
-        touch_see_item(&va, na->item, &ia);
-        touch_see_item(&vb, nb->item, &ib);
+        touch_see_item(&va, -child_a, &ia);
+        touch_see_item(&vb, -child_b, &ib);
         keep_items(&ia, &ib, &best);
         any = any || best.distance < before;
     }
@@ -344,12 +357,12 @@ typedef struct {
     nearest best;
 } round_search;
 
-/// No point of the node is closer to the round body than this.
-static double least_of_node(const round_search *s, int32_t i)
+/// No point below the slot is closer to the round body than this.
+static double least_of_slot(const round_search *s, int32_t slot)
 {
     touch_bound b;
     double out[3];
-    touch_see_node(&s->view, &s->view.tree->node[i], &b);
+    touch_see_slot(&s->view, slot, &b);
     for (int k = 0; k < 3; ++k) {
         out[k] = s->axes[k] * b.axis[k];
     }
@@ -383,7 +396,7 @@ bool clx_gap_round_tree(const clx_touch_body *round, const clx_touch_body *tree,
     clx_touch_path own; // the round body's frame
     double shift[3];
     double difference[3];
-    int32_t stack[CLX_TREE_DEPTH + 2];
+    int32_t stack[CLX_TOUCH_STACK];
     int top = 0;
     for (int k = 0; k < 3; ++k) {
         double *row = k < 2 ? own.side[k] : own.direction;
@@ -397,16 +410,17 @@ bool clx_gap_round_tree(const clx_touch_body *round, const clx_touch_body *tree,
     const double start = s.best.distance;
     stack[top++] = 0;
     while (top > 0 && s.best.distance > 0.0) {
-        const int32_t i = stack[--top];
-        const clx_touch_node *node = &tree->tree->node[i];
-        if (least_of_node(&s, i) >= s.best.distance) {
+        const int32_t slot = stack[--top];
+        const int32_t child = clx_touch_child(tree->tree, slot);
+        if (least_of_slot(&s, slot) >= s.best.distance) {
             continue;
         }
-        if (node->right == 0) {
-            keep_item(&s, node->item);
-        } else {
-            stack[top++] = node->right;
-            stack[top++] = i + 1;
+        if (child <= 0) {
+            keep_item(&s, -child);
+            continue;
+        }
+        for (int32_t lane = 0; lane < tree->tree->node[child].n; ++lane) {
+            stack[top++] = clx_touch_slot(child, lane);
         }
     }
     nearest best = {.distance = s.best.distance < start ? s.best.distance : HUGE_VAL};

@@ -35,33 +35,41 @@ static int cross_triangle(const double *corner, const double origin[3], const do
     return t > 0.0 ? CROSS : MISS;
 }
 
+/// The ray may cross what is in a lane.
+static bool may_cross(const clx_touch_node *node, int32_t lane, const double origin[3],
+                      const double u[3])
+{
+    const double d[3] = {node->centre[0][lane] - origin[0], node->centre[1][lane] - origin[1],
+                         node->centre[2][lane] - origin[2]};
+    const double along = v3_dot(d, u);
+    const double reach = node->radius[lane] * (1.0 + 1e-9);
+    return along >= -reach && v3_norm2(d) - along * along <= reach * reach + 1e-14 * v3_norm2(d);
+}
+
 /// Crossings of the ray with the surface; -1 if one of them is unsure.
 static int count_crossings(const clx_touch_tree *tree, const double origin[3], const double u[3])
 {
-    int32_t stack[CLX_TREE_DEPTH + 1];
+    int32_t stack[CLX_TOUCH_STACK];
     int top = 0;
     int n = 0;
     stack[top++] = 0;
     while (top > 0) {
-        const int32_t i = stack[--top];
-        const clx_touch_node *node = &tree->node[i];
-        double d[3];
-        v3_sub(d, node->centre, origin);
-        const double along = v3_dot(d, u);
-        const double reach = node->radius * (1.0 + 1e-9);
-        if (along < -reach || v3_norm2(d) - along * along > reach * reach + 1e-14 * v3_norm2(d)) {
-            continue;
+        const clx_touch_node *node = &tree->node[stack[--top]];
+        for (int32_t lane = 0; lane < node->n; ++lane) {
+            const int32_t child = node->child[lane];
+            if (!may_cross(node, lane, origin, u)) {
+                continue;
+            }
+            if (child > 0) {
+                stack[top++] = child;
+                continue;
+            }
+            const int how = cross_triangle(tree->corner[-child], origin, u);
+            if (how == UNSURE) {
+                return -1;
+            }
+            n += how == CROSS;
         }
-        if (node->right != 0) {
-            stack[top++] = node->right;
-            stack[top++] = i + 1;
-            continue;
-        }
-        const int how = cross_triangle(tree->corner[node->item], origin, u);
-        if (how == UNSURE) {
-            return -1;
-        }
-        n += how == CROSS;
     }
     return n;
 }

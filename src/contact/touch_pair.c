@@ -7,6 +7,7 @@
 
 #include "contact/touch_ellipsoid.h"
 #include "contact/touch_inside.h"
+#include "contact/touch_lanes.h"
 #include "contact/touch_seen.h"
 #include "contact/touch_triangle.h"
 
@@ -19,45 +20,19 @@ static const double SLACK = 1e-13;
 typedef struct {
     touch_view lying;
     touch_view moving;
-    double slack;
-    double t_low;
-    double t_high; ///< falls to the best touch so far
+    bool has_slabs;      ///< at least one tree is a surface
+    touch_wanted wanted; ///< t_high falls to the best touch so far
     double t_enough;
     clx_pass best;
     int32_t item[2]; ///< lying, moving: the items that touch; -1 if none yet
     bool overlap;
 } search;
 
-/// A pair of nodes that waits for its visit.
+/// A pair of slots that waits for its visit.
 typedef struct {
     double enter;
     int32_t lying, moving;
 } job;
-
-/// When the two bounds overlap; an empty span (enter > leave) if never.
-static touch_span overlap_of(const touch_bound *a, const touch_bound *b, double slack)
-{
-    double d[3];
-    v3_sub(d, b->centre, a->centre);
-    const double reach = a->radius + b->radius + slack;
-    const double under = reach * reach - d[0] * d[0] - d[1] * d[1];
-    if (!(under >= 0.0)) {
-        return (touch_span){INFINITY, -INFINITY};
-    }
-    const double root = sqrt(under);
-    touch_span s = {-d[2] - root, -d[2] + root};
-    const double cosine = fmin(fabs(v3_dot(a->axis, b->axis)), 1.0);
-    const double sine = sqrt(1.0 - cosine * cosine);
-    if (a->half < a->radius) {
-        touch_narrow(&s, v3_dot(a->axis, d), a->axis[2],
-                     a->half + touch_slab_reach(b, cosine, sine) + slack);
-    }
-    if (b->half < b->radius) {
-        touch_narrow(&s, v3_dot(b->axis, d), b->axis[2],
-                     b->half + touch_slab_reach(a, cosine, sine) + slack);
-    }
-    return s;
-}
 
 static bool pass_balls(const touch_item *a, const touch_item *b, clx_pass *pass)
 {
@@ -91,71 +66,89 @@ static void try_items(search *s, int32_t i, int32_t j)
     clx_pass pass;
     touch_see_item(&s->lying, i, &a);
     touch_see_item(&s->moving, j, &b);
-    if (!pass_items(&a, &b, s->slack, &pass) || pass.last < s->t_low || pass.first > s->t_high) {
+    if (!pass_items(&a, &b, s->wanted.slack, &pass) || pass.last < s->wanted.t_low ||
+        pass.first > s->wanted.t_high) {
         return;
     }
-    s->overlap = pass.first < s->t_low;
+    s->overlap = pass.first < s->wanted.t_low;
     if (s->overlap || s->item[0] < 0 || pass.first < s->best.first) {
         s->best = pass;
         s->item[0] = i;
         s->item[1] = j;
-        s->t_high = pass.first;
+        s->wanted.t_high = pass.first;
     }
 }
 
-static bool is_job(const search *s, const touch_bound *lying, const touch_bound *moving, job *next)
+static double radius_of(const touch_view *view, int32_t slot)
 {
-    const touch_span o = overlap_of(lying, moving, s->slack);
-    next->enter = o.enter;
-    return o.enter <= o.leave && o.enter <= s->t_high && o.leave >= s->t_low;
+    const clx_touch_node *node = &view->tree->node[slot / CLX_TOUCH_LANES];
+    return view->scale * node->radius[slot % CLX_TOUCH_LANES];
 }
 
-/// Replaces a pair on the stack by its halves: the greater node is opened. The new top.
+/// Places of the lanes in falling order of their beginnings, without branches (they would be
+/// guessed wrong); how many are not -INFINITY, which come last.
+static int rank_lanes(const double enter[CLX_TOUCH_LANES], int place[CLX_TOUCH_LANES])
+{
+    int n = 0;
+    for (int i = 0; i < CLX_TOUCH_LANES; ++i) {
+        place[i] = 0;
+        n += enter[i] > (double)-INFINITY;
+    }
+    for (int i = 0; i < CLX_TOUCH_LANES; ++i) {
+        for (int j = i + 1; j < CLX_TOUCH_LANES; ++j) {
+            const int is_later = enter[j] > enter[i];
+            place[i] += is_later;
+            place[j] += 1 - is_later;
+        }
+    }
+    return n;
+}
+
+/// Replaces a pair on the stack by what comes of opening its greater slot, the earliest on top. The
+/// new top.
 static int open_pair(const search *s, job *stack, int top, job pair)
 {
-    const clx_touch_node *lying = &s->lying.tree->node[pair.lying];
-    const clx_touch_node *moving = &s->moving.tree->node[pair.moving];
+    const int32_t below_lying = clx_touch_child(s->lying.tree, pair.lying);
+    const int32_t below_moving = clx_touch_child(s->moving.tree, pair.moving);
     const bool open_lying =
-        lying->right != 0 &&
-        (moving->right == 0 || lying->radius * s->lying.scale >= moving->radius * s->moving.scale);
+        below_lying > 0 && (below_moving <= 0 ||
+                            radius_of(&s->lying, pair.lying) >= radius_of(&s->moving, pair.moving));
     const touch_view *view = open_lying ? &s->lying : &s->moving;
-    const int32_t parent = open_lying ? pair.lying : pair.moving;
-    const int32_t child[2] = {parent + 1, view->tree->node[parent].right};
+    const int32_t opened = open_lying ? below_lying : below_moving;
+    const clx_touch_node *node = &view->tree->node[opened];
     touch_bound kept;
-    touch_bound opened;
-    job next[2] = {pair, pair};
-    bool is[2];
-    touch_see_node(open_lying ? &s->moving : &s->lying, open_lying ? moving : lying, &kept);
-    for (int i = 0; i < 2; ++i) {
-        touch_see_node(view, &view->tree->node[child[i]], &opened);
-        *(open_lying ? &next[i].lying : &next[i].moving) = child[i];
-        is[i] =
-            open_lying ? is_job(s, &opened, &kept, &next[i]) : is_job(s, &kept, &opened, &next[i]);
+    double enter[CLX_TOUCH_LANES];
+    touch_see_slot(open_lying ? &s->moving : &s->lying, open_lying ? pair.moving : pair.lying,
+                   &kept);
+    if (s->has_slabs) {
+        touch_lanes_slabs(view, node, &kept, open_lying, &s->wanted, enter);
+    } else {
+        touch_lanes_balls(view, node, &kept, open_lying, &s->wanted, enter);
     }
-    const int later = next[0].enter <= next[1].enter;
-    if (is[later]) {
-        stack[top++] = next[later];
+    int place[CLX_TOUCH_LANES];
+    const int n = rank_lanes(enter, place);
+    for (int lane = 0; lane < CLX_TOUCH_LANES; ++lane) {
+        const int32_t slot = clx_touch_slot(opened, lane);
+        stack[top + place[lane]] = open_lying ? (job){enter[lane], slot, pair.moving}
+                                              : (job){enter[lane], pair.lying, slot};
     }
-    if (is[!later]) {
-        stack[top++] = next[!later];
-    }
-    return top;
+    return top + n;
 }
 
 static void run_search(search *s)
 {
-    job stack[2 * CLX_TREE_DEPTH + 2];
+    job stack[2 * CLX_TOUCH_STACK];
     int top = 0;
     stack[top++] = (job){-INFINITY, 0, 0};
     while (top > 0 && !s->overlap && (s->item[0] < 0 || s->best.first > s->t_enough)) {
         const job pair = stack[--top];
-        const clx_touch_node *lying = &s->lying.tree->node[pair.lying];
-        const clx_touch_node *moving = &s->moving.tree->node[pair.moving];
-        if (pair.enter > s->t_high) {
+        const int32_t lying = clx_touch_child(s->lying.tree, pair.lying);
+        const int32_t moving = clx_touch_child(s->moving.tree, pair.moving);
+        if (pair.enter > s->wanted.t_high) {
             continue;
         }
-        if (lying->right == 0 && moving->right == 0) {
-            try_items(s, lying->item, moving->item);
+        if (lying <= 0 && moving <= 0) {
+            try_items(s, -lying, -moving);
         } else {
             top = open_pair(s, stack, top, pair);
         }
@@ -212,9 +205,8 @@ bool clx_touch_trees(const clx_touch_body *moving, const clx_touch_body *lying,
     c[2] += near.t;
     search s = {.lying = touch_view_of(lying, path, origin),
                 .moving = touch_view_of(moving, path, c),
-                .slack = slack,
-                .t_low = path->t_low - near.t,
-                .t_high = path->t_high - near.t + slack,
+                .has_slabs = lying->kind == CLX_TOUCH_MESH || moving->kind == CLX_TOUCH_MESH,
+                .wanted = {path->t_low - near.t, path->t_high - near.t + slack, slack},
                 .t_enough = path->t_enough - near.t,
                 .item = {-1, -1}};
     run_search(&s);

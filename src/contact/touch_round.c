@@ -28,9 +28,10 @@ typedef struct {
     bool overlap;
 } search;
 
+/// A slot that waits for its visit.
 typedef struct {
     double enter;
-    int32_t node;
+    int32_t slot;
 } job;
 
 /// When the round body and a ball of this radius overlap, or a little longer.
@@ -63,19 +64,18 @@ static touch_span near_ball(const search *s, const double c[3], double radius)
     return (touch_span){middle - half, middle + half};
 }
 
-static bool is_job(const search *s, int32_t i, job *next)
+static bool is_job(const search *s, int32_t slot, job *next)
 {
-    const clx_touch_node *node = &s->tree.tree->node[i];
     touch_bound b;
     double c[3];
-    touch_see_node(&s->tree, node, &b);
+    touch_see_slot(&s->tree, slot, &b);
     v3_sub(c, s->centre, b.centre);
     touch_span o = near_ball(s, c, b.radius + s->slack);
     if (o.enter <= o.leave && b.half < b.radius) {
         const double own = s->is_sphere ? s->radius : sqrt(sym_form(s->matrix, b.axis));
         touch_narrow(&o, v3_dot(b.axis, c), b.axis[2], b.half + own + s->slack);
     }
-    *next = (job){o.enter, i};
+    *next = (job){o.enter, slot};
     return o.enter <= o.leave && o.enter <= s->t_high && o.leave >= s->t_low;
 }
 
@@ -138,27 +138,30 @@ static void try_item(search *s, int32_t i)
 
 static void run_search(search *s)
 {
-    job stack[CLX_TREE_DEPTH + 2];
+    job stack[CLX_TOUCH_STACK];
     int top = 0;
     stack[top++] = (job){-INFINITY, 0};
     while (top > 0 && !s->overlap && (s->item < 0 || s->best.first > s->t_enough)) {
         const job at = stack[--top];
-        const clx_touch_node *node = &s->tree.tree->node[at.node];
+        const int32_t child = clx_touch_child(s->tree.tree, at.slot);
         if (at.enter > s->t_high) {
             continue;
         }
-        if (node->right == 0) {
-            try_item(s, node->item);
+        if (child <= 0) {
+            try_item(s, -child);
             continue;
         }
-        job next[2];
-        const bool is[2] = {is_job(s, at.node + 1, &next[0]), is_job(s, node->right, &next[1])};
-        const int later = next[0].enter <= next[1].enter;
-        if (is[later]) {
-            stack[top++] = next[later];
-        }
-        if (is[!later]) {
-            stack[top++] = next[!later];
+        const int first = top;
+        for (int32_t lane = 0; lane < s->tree.tree->node[child].n; ++lane) {
+            job next;
+            if (!is_job(s, clx_touch_slot(child, lane), &next)) {
+                continue;
+            }
+            int i = top++; // the earliest goes on top
+            for (; i > first && stack[i - 1].enter < next.enter; --i) {
+                stack[i] = stack[i - 1];
+            }
+            stack[i] = next;
         }
     }
 }

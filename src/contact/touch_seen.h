@@ -12,12 +12,13 @@ typedef struct touch_view {
     double shift[3];
 } touch_view;
 
-/// A node's bound in the frame of travel.
+/// A slot's bound in the frame of travel.
 typedef struct touch_bound {
     double centre[3];
     double axis[3];
     double radius;
     double half;
+    double rim;
 } touch_bound;
 
 static inline touch_view touch_view_of(const clx_touch_body *body, const clx_touch_path *path,
@@ -65,16 +66,20 @@ static inline void touch_see_item(const touch_view *view, int32_t i, touch_item 
     }
 }
 
-static inline void touch_see_node(const touch_view *view, const clx_touch_node *node,
-                                  touch_bound *bound)
+static inline void touch_see_slot(const touch_view *view, int32_t slot, touch_bound *bound)
 {
-    touch_see_point(view, node->centre, bound->centre);
+    const clx_touch_node *node = &view->tree->node[slot / CLX_TOUCH_LANES];
+    const int lane = slot % CLX_TOUCH_LANES;
+    const double centre[3] = {node->centre[0][lane], node->centre[1][lane], node->centre[2][lane]};
+    touch_see_point(view, centre, bound->centre);
     for (int i = 0; i < 3; ++i) {
-        bound->axis[i] = view->turn[i][0] * node->axis[0] + view->turn[i][1] * node->axis[1] +
-                         view->turn[i][2] * node->axis[2];
+        bound->axis[i] = view->turn[i][0] * node->axis[0][lane] +
+                         view->turn[i][1] * node->axis[1][lane] +
+                         view->turn[i][2] * node->axis[2][lane];
     }
-    bound->radius = view->scale * node->radius;
-    bound->half = view->scale * node->half;
+    bound->radius = view->scale * node->radius[lane];
+    bound->half = view->scale * node->half[lane];
+    bound->rim = view->scale * node->rim[lane];
 }
 
 /// Support of a ball between planes along a unit direction at this cosine and sine to its axis.
@@ -83,7 +88,7 @@ static inline double touch_slab_reach(const touch_bound *b, double cosine, doubl
     if (cosine * b->radius <= b->half) {
         return b->radius;
     }
-    return cosine * b->half + sine * sqrt(b->radius * b->radius - b->half * b->half);
+    return cosine * b->half + sine * b->rim;
 }
 
 /// A span of time in which two bounds overlap; empty if enter > leave.

@@ -1,5 +1,5 @@
-// Builds touch trees: topology by surface-area heuristic (geom/tree.h), then a ball and a slab per
-// node.
+// Builds touch trees: two-way topology by surface-area heuristic (geom/tree.h), a ball and a slab
+// per node, then every other level folded into its parent, so that a node has up to four children.
 //
 // The slab's normal is the direction in which a node's corners spread least; the ball's centre lies
 // in the slab's middle plane and comes from Badoiu and Clarkson's iteration: towards the farthest
@@ -12,6 +12,14 @@
 #include <string.h>
 
 enum { BALL_STEPS = 24 };
+
+/// A ball and a slab: one lane of a node to be.
+typedef struct {
+    double centre[3];
+    double axis[3];
+    double radius;
+    double half;
+} bound;
 
 /// What is bounded: n points (with radii, or NULL).
 typedef struct {
@@ -47,7 +55,7 @@ static int32_t farthest(const point_set *set, const double centre[3], double *di
 }
 
 /// Improves a ball's centre, moving it only across `axis` (0 for any direction).
-static void shrink_ball(const point_set *set, const double axis[3], clx_touch_node *node)
+static void shrink_ball(const point_set *set, const double axis[3], bound *node)
 {
     double centre[3];
     double distance = 0.0;
@@ -94,7 +102,7 @@ static void thin_direction(const point_set *set, double axis[3])
 }
 
 /// Ball and slab about points.
-static void bound_points(const point_set *set, clx_touch_node *node)
+static void bound_points(const point_set *set, bound *node)
 {
     double low = INFINITY;
     double high = -INFINITY;
@@ -126,7 +134,7 @@ static void bound_points(const point_set *set, clx_touch_node *node)
 }
 
 /// Ball about balls; no slab.
-static void bound_balls(const point_set *set, clx_touch_node *node)
+static void bound_balls(const point_set *set, bound *node)
 {
     const double free[3] = {0.0, 0.0, 0.0};
     v3_set(node->axis, 0.0, 0.0, 1.0);
@@ -143,9 +151,8 @@ static void bound_balls(const point_set *set, clx_touch_node *node)
     node->half = node->radius;
 }
 
-static void bound_node(const clx_touch_tree *tree, const clx_tree_node *from, clx_touch_node *node)
+static void bound_node(const clx_touch_tree *tree, const clx_tree_node *from, bound *node)
 {
-    *node = (clx_touch_node){.right = from->right, .item = from->first};
     if (tree->kind == CLX_TOUCH_MESH) {
         const point_set set = {tree->corner[from->first], NULL, 3 * from->count, 3};
         bound_points(&set, node);
@@ -156,25 +163,96 @@ static void bound_node(const clx_touch_tree *tree, const clx_tree_node *from, cl
     }
 }
 
+/// A node with no lane in use: their centres are no numbers, so that they overlap nothing.
+static int32_t new_node(clx_touch_tree *tree)
+{
+    clx_touch_node *node = &tree->node[tree->n_node];
+    for (int32_t i = 0; i < 3 * CLX_TOUCH_LANES; ++i) {
+        node->centre[i / CLX_TOUCH_LANES][i % CLX_TOUCH_LANES] = NAN;
+    }
+    return tree->n_node++;
+}
+
+/// Puts a bound into the next lane of a node.
+static void add_lane(clx_touch_node *node, const bound *b)
+{
+    const int32_t lane = node->n++;
+    for (int k = 0; k < 3; ++k) {
+        node->centre[k][lane] = b->centre[k];
+        node->axis[k][lane] = b->axis[k];
+    }
+    node->radius[lane] = b->radius;
+    node->half[lane] = b->half;
+    node->rim[lane] = sqrt(fmax(0.0, b->radius * b->radius - b->half * b->half));
+}
+
+/// The two-way nodes that become the lanes of the node over `parent`: its children, of which the
+/// greatest are replaced by theirs while there is room.
+static int32_t choose_lanes(const clx_tree *from, const bound *bounds, int32_t parent,
+                            int32_t lane[CLX_TOUCH_LANES])
+{
+    int32_t n = 2;
+    lane[0] = parent + 1;
+    lane[1] = from->node[parent].right;
+    while (n < CLX_TOUCH_LANES) {
+        int32_t best = -1;
+        for (int32_t i = 0; i < n; ++i) {
+            if (from->node[lane[i]].right != 0 &&
+                (best < 0 || bounds[lane[i]].radius > bounds[lane[best]].radius)) {
+                best = i;
+            }
+        }
+        if (best < 0) {
+            break;
+        }
+        const int32_t opened = lane[best];
+        lane[best] = opened + 1;
+        lane[n++] = from->node[opened].right;
+    }
+    return n;
+}
+
+/// Writes the nodes over two-way node `parent` and below; what a lane that holds it has as child.
+static int32_t fold(clx_touch_tree *tree, const clx_tree *from, const bound *bounds, int32_t parent)
+{
+    int32_t lane[CLX_TOUCH_LANES];
+    if (from->node[parent].right == 0) {
+        return -from->node[parent].first;
+    }
+    const int32_t self = new_node(tree);
+    const int32_t n = choose_lanes(from, bounds, parent, lane);
+    for (int32_t i = 0; i < n; ++i) {
+        add_lane(&tree->node[self], &bounds[lane[i]]);
+        tree->node[self].child[i] = fold(tree, from, bounds, lane[i]);
+    }
+    return self;
+}
+
 /// Nodes, box and radius of a tree whose items are known in input order as boxes; `box` is used up.
 static clast_status finish(clx_touch_tree *tree, clx_tree_box *box, const double *item, int n_value)
 {
     clast_status status = CLAST_OK;
     clx_tree nodes = {0};
+    bound *bounds = NULL;
     double *sorted = tree->kind == CLX_TOUCH_MESH ? tree->corner[0] : tree->ball[0];
     CLX_TRY(clx_tree_build(box, tree->n_item, 1, &nodes));
-    CLX_TRY(clx_alloc(&tree->node, nodes.n_node, sizeof *tree->node));
+    CLX_TRY(clx_alloc(&bounds, nodes.n_node, sizeof *bounds));
+    CLX_TRY(clx_alloc(&tree->node, (int64_t)tree->n_item + 1, sizeof *tree->node));
     for (int32_t i = 0; i < tree->n_item; ++i) {
         memcpy(sorted + (ptrdiff_t)i * n_value, item + (ptrdiff_t)nodes.item[i] * n_value,
                (size_t)n_value * sizeof *item);
     }
-    tree->n_node = nodes.n_node;
     for (int32_t i = 0; i < nodes.n_node; ++i) {
-        bound_node(tree, &nodes.node[i], &tree->node[i]);
+        bound_node(tree, &nodes.node[i], &bounds[i]);
     }
+    (void)new_node(tree);
+    add_lane(&tree->node[0], &bounds[0]);
+    tree->node[0].child[0] = fold(tree, &nodes, bounds, 0);
+    CLX_TRY(clx_realloc(&tree->node, tree->n_node, sizeof *tree->node));
     v3_copy(tree->low, nodes.node[0].low);
     v3_copy(tree->high, nodes.node[0].high);
 done:
+    clx_free(bounds);
     clx_tree_free(&nodes);
     return status;
 }

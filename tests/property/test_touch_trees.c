@@ -5,6 +5,7 @@
 #include "contact/touch_inside.h"
 #include "math/vec3.h"
 #include "ref_touch.h"
+#include "ref_touch_lanes.h"
 #include "touch_bodies.h"
 
 /// One tree of each kind, coarse enough for oracles of all pairs.
@@ -223,6 +224,38 @@ static void late_starts_find_overlaps(void **state)
     assert_true(n_overlap >= 8);
 }
 
+/// Whatever vectors this machine has, the four bounds are the bits of four bounds one by one.
+static void four_bounds_at_once_are_four_bounds(void **state)
+{
+    (void)state;
+    int n_kept = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const pair p = random_pair(i % BODY_SPHERES, i / 7 % BODY_SPHERES, (uint64_t)i);
+        const double origin[3] = {0.0, 0.0, 0.0};
+        clx_rng rng = clx_rng_at(17, CLX_STREAM_TEST, (uint64_t)i);
+        double shift[3];
+        clx_rng_direction(&rng, shift);
+        const touch_view a = touch_view_of(&p.lying, &p.path, origin);
+        const touch_view b = touch_view_of(&p.moving, &p.path, shift);
+        touch_bound kept;
+        const int32_t at = (int32_t)clx_rng_below(&rng, b.tree->n_node);
+        touch_see_slot(&b, clx_touch_slot(at, (int32_t)clx_rng_below(&rng, b.tree->node[at].n)),
+                       &kept);
+        const clx_touch_node *node = &a.tree->node[clx_rng_below(&rng, a.tree->n_node)];
+        const touch_wanted wanted = {i % 3 == 0 ? -1.0 : (double)-INFINITY,
+                                     2.0 * clx_rng_uniform(&rng), 1e-13};
+        double x[CLX_TOUCH_LANES];
+        double y[CLX_TOUCH_LANES];
+        touch_lanes_slabs(&a, node, &kept, i % 2 == 0, &wanted, x);
+        ref_lanes_slabs(&a, node, &kept, i % 2 == 0, &wanted, y);
+        for (int lane = 0; lane < CLX_TOUCH_LANES; ++lane) {
+            assert_true(x[lane] == y[lane]);
+            n_kept += isfinite(x[lane]);
+        }
+    }
+    assert_true(n_kept > 500);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +264,7 @@ int main(void)
         cmocka_unit_test(round_bodies_touch_surfaces_where_the_gap_closes),
         cmocka_unit_test(round_bodies_touch_composites_sphere_by_sphere),
         cmocka_unit_test(late_starts_find_overlaps),
+        cmocka_unit_test(four_bounds_at_once_are_four_bounds),
     };
     return cmocka_run_group_tests(tests, make_trees, destroy_trees);
 }
