@@ -14,9 +14,9 @@ static int32_t class_of(double x)
     return c < N_CLASS ? c : N_CLASS - 1;
 }
 
-/// The rank-th smallest value (from 0) of a strided array, given the counts of its classes.
-static clast_status order_statistic(const double *u, int64_t n, int32_t d, const int64_t *count,
-                                    int64_t rank, double *value)
+/// The rank-th smallest value (from 0) of a column, given the counts of its classes.
+static clast_status order_statistic(const clx_column *column, const int64_t *count, int64_t rank,
+                                    double *value)
 {
     clast_status status = CLAST_OK;
     double *held = NULL;
@@ -27,9 +27,10 @@ static clast_status order_statistic(const double *u, int64_t n, int32_t d, const
         below += count[c++];
     }
     CLX_TRY(clx_alloc(&held, count[c], sizeof *held));
-    for (int64_t i = 0; i < n; ++i) {
-        if (class_of(u[i * d]) == c) {
-            held[found++] = u[i * d];
+    for (int64_t i = 0; i < column->n; ++i) {
+        const double x = column->u[i * column->d + column->axis];
+        if (class_of(x) == c) {
+            held[found++] = x;
         }
     }
     CLX_TRY(clx_sort_doubles(held, found));
@@ -39,22 +40,22 @@ done:
     return status;
 }
 
-clast_status clx_quantiles(const double *u, int64_t n, int32_t d, int32_t axis, const double *p,
-                           int m, double *quantile)
+clast_status clx_quantiles(const clx_column *column, const double *p, int m, double *quantile)
 {
     clast_status status = CLAST_OK;
     int64_t *count = NULL;
+    const int64_t n = column->n;
     CLX_TRY(clx_alloc(&count, N_CLASS, sizeof *count));
     for (int64_t i = 0; i < n; ++i) {
-        ++count[class_of(u[i * d + axis])];
+        ++count[class_of(column->u[i * column->d + column->axis])];
     }
     for (int k = 0; k < m; ++k) {
         const double at = fmin(fmax((double)n * p[k] + 0.5, 1.0), (double)n);
         const int64_t rank = (int64_t)floor(at) - 1;
         double low = 0.0;
         double high = 0.0;
-        CLX_TRY(order_statistic(u + axis, n, d, count, rank, &low));
-        CLX_TRY(order_statistic(u + axis, n, d, count, rank + 1 < n ? rank + 1 : rank, &high));
+        CLX_TRY(order_statistic(column, count, rank, &low));
+        CLX_TRY(order_statistic(column, count, rank + 1 < n ? rank + 1 : rank, &high));
         quantile[k] = low + (at - floor(at)) * (high - low);
     }
 done:
@@ -69,7 +70,8 @@ clast_status clx_bins_choose(const double *u, int64_t n, int32_t d, double width
     clx_bins made = {.d = d, .nb = {1, 1, 1}, .n_bin = 1};
     for (int32_t j = 0; j < d; ++j) {
         double q[2];
-        CLX_TRY(clx_quantiles(u, n, d, j, quartile, 2, q));
+        const clx_column column = {u, n, d, j};
+        CLX_TRY(clx_quantiles(&column, quartile, 2, q));
         width[j] = 2.0 * (q[1] - q[0]) / cbrt((double)n);
         const double wanted = width[j] > 0.0 ? floor(1.0 / width[j]) : 1.0;
         CLX_CHECK(wanted * (double)made.n_bin <= 0x1p30, CLAST_E_LIMIT,

@@ -10,10 +10,15 @@ typedef struct clx_bins {
     int32_t *count; ///< [n_bin], or NULL before clx_bins_count
 } clx_bins;
 
-/// Quantile of type 5 (Hazen: interpolation at n p + 1/2) of coordinate `axis` for each of m
-/// probabilities.
-clast_status clx_quantiles(const double *u, int64_t n, int32_t d, int32_t axis, const double *p,
-                           int m, double *quantile);
+/// One coordinate of points u [n][d].
+typedef struct clx_column {
+    const double *u;
+    int64_t n;
+    int32_t d, axis;
+} clx_column;
+
+/// Quantile of type 5 (Hazen: interpolation at n p + 1/2) for each of m probabilities.
+clast_status clx_quantiles(const clx_column *column, const double *p, int m, double *quantile);
 
 /// nb_j = max(1, floor(1 / h_j)), h_j = 2 IQR_j n^(-1/3); width[j] = h_j (0 when IQR is 0).
 ///

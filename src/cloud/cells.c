@@ -12,6 +12,14 @@ static void box_of_each(const clx_bins *bins, int32_t *cell, int32_t *n_cell)
     *n_cell = (int32_t)bins->n_bin;
 }
 
+/// Bins being claimed by boxes.
+typedef struct {
+    const clx_bins *bins;
+    const uint16_t *tag;
+    int32_t *cell;     ///< -1 while free
+    int64_t stride[3]; ///< 0 beyond the dimension
+} claims;
+
 static void strides(const clx_bins *bins, int64_t stride[3])
 {
     int64_t product = 1;
@@ -21,18 +29,19 @@ static void strides(const clx_bins *bins, int64_t stride[3])
     }
 }
 
-/// True when every bin of the box corner + [0, size) along the axes is free and carries the tag.
-static bool is_free(const clx_bins *bins, const int64_t stride[3], const uint16_t *tag,
-                    const int32_t *cell, int64_t corner, const int64_t size[3])
+static int64_t bin_at(const claims *c, int64_t corner, int64_t i, int64_t j, int64_t k)
 {
-    const uint16_t wanted = tag[corner];
-    const int64_t s1 = bins->d > 1 ? stride[1] : 0;
-    const int64_t s2 = bins->d > 2 ? stride[2] : 0;
+    return corner + i * c->stride[0] + j * c->stride[1] + k * c->stride[2];
+}
+
+/// True when every bin of the box corner + [0, size) is free and carries the tag.
+static bool is_free(const claims *c, int64_t corner, const int64_t size[3], uint16_t tag)
+{
     for (int64_t i = 0; i < size[0]; ++i) {
         for (int64_t j = 0; j < size[1]; ++j) {
             for (int64_t k = 0; k < size[2]; ++k) {
-                const int64_t b = corner + i * stride[0] + j * s1 + k * s2;
-                if (cell[b] >= 0 || tag[b] != wanted) {
+                const int64_t b = bin_at(c, corner, i, j, k);
+                if (c->cell[b] >= 0 || c->tag[b] != tag) {
                     return false;
                 }
             }
@@ -41,30 +50,25 @@ static bool is_free(const clx_bins *bins, const int64_t stride[3], const uint16_
     return true;
 }
 
-static void claim(const clx_bins *bins, const int64_t stride[3], int32_t *cell, int64_t corner,
-                  const int64_t size[3], int32_t number)
+static void claim(claims *c, int64_t corner, const int64_t size[3], int32_t number)
 {
-    const int64_t s1 = bins->d > 1 ? stride[1] : 0;
-    const int64_t s2 = bins->d > 2 ? stride[2] : 0;
     for (int64_t i = 0; i < size[0]; ++i) {
         for (int64_t j = 0; j < size[1]; ++j) {
             for (int64_t k = 0; k < size[2]; ++k) {
-                cell[corner + i * stride[0] + j * s1 + k * s2] = number;
+                c->cell[bin_at(c, corner, i, j, k)] = number;
             }
         }
     }
 }
 
 /// Grows the box at `corner` along one axis, a layer at a time.
-static void grow_axis(const clx_bins *bins, const int64_t stride[3], const uint16_t *tag,
-                      const int32_t *cell, int64_t corner, int32_t axis, int64_t size[3])
+static void grow_axis(const claims *c, int64_t corner, int32_t axis, int64_t size[3])
 {
-    const int64_t at = corner / stride[axis] % bins->nb[axis];
-    while (at + size[axis] < bins->nb[axis]) {
+    const int64_t at = corner / c->stride[axis] % c->bins->nb[axis];
+    while (at + size[axis] < c->bins->nb[axis]) {
         int64_t layer[3] = {size[0], size[1], size[2]};
-        const int64_t next = corner + size[axis] * stride[axis];
         layer[axis] = 1;
-        if (tag[next] != tag[corner] || !is_free(bins, stride, tag, cell, next, layer)) {
+        if (!is_free(c, corner + size[axis] * c->stride[axis], layer, c->tag[corner])) {
             return;
         }
         ++size[axis];
@@ -73,8 +77,8 @@ static void grow_axis(const clx_bins *bins, const int64_t stride[3], const uint1
 
 static void boxes(const clx_bins *bins, const uint16_t *tag, int32_t *cell, int32_t *n_cell)
 {
-    int64_t stride[3] = {0};
-    strides(bins, stride);
+    claims c = {.bins = bins, .tag = tag, .cell = cell};
+    strides(bins, c.stride);
     memset(cell, 0xff, (size_t)bins->n_bin * sizeof *cell); // -1: free
     for (int64_t b = 0; b < bins->n_bin; ++b) {
         if (cell[b] >= 0) {
@@ -82,9 +86,9 @@ static void boxes(const clx_bins *bins, const uint16_t *tag, int32_t *cell, int3
         }
         int64_t size[3] = {1, 1, 1};
         for (int32_t axis = bins->d - 1; axis >= 0; --axis) {
-            grow_axis(bins, stride, tag, cell, b, axis, size);
+            grow_axis(&c, b, axis, size);
         }
-        claim(bins, stride, cell, b, size, (*n_cell)++);
+        claim(&c, b, size, (*n_cell)++);
     }
 }
 

@@ -55,25 +55,29 @@ static double shallower(const clx_depth_law *law, const double low[3], const dou
     return 1.0 - deeper;
 }
 
-/// Adds one bin's p and p^2 to each grid depth; whole bins go into difference arrays.
-static void add_bin(const clx_bins *bins, int64_t bin, const clx_depth_law *law, int32_t n_grid,
-                    double *p, double *p2, int64_t *whole)
+/// Sums over replaced bins at each grid depth; bins wholly shallower go into a difference array.
+typedef struct {
+    double *p, *p2; ///< [n_grid] sums of p_b and p_b^2 of bins that the shell cuts
+    int64_t *whole; ///< [n_grid] bins that are whole from this depth on
+} shell_sums;
+
+static void add_bin(const clx_ghost_sample *sample, int64_t bin, shell_sums *sums)
 {
+    const int32_t n_grid = sample->n_grid;
     double low[3];
     double high[3];
     double range[2];
-    clx_bins_box(bins, bin, low, high);
-    depth_range(law, low, high, range);
+    clx_bins_box(sample->bins, bin, low, high);
+    depth_range(sample->law, low, high, range);
     const int32_t first = (int32_t)fmax(0.0, ceil(range[0] * n_grid - 0.5));
-    const int32_t last =
-        (int32_t)fmin(n_grid, ceil(range[1] * n_grid - 0.5)); // z_last >= range[1]: all of it
+    const int32_t last = (int32_t)fmin(n_grid, ceil(range[1] * n_grid - 0.5)); // z_last >= range[1]
     for (int32_t k = first; k < last; ++k) {
-        const double share = shallower(law, low, high, (k + 0.5) / n_grid);
-        p[k] += share;
-        p2[k] += share * share;
+        const double share = shallower(sample->law, low, high, (k + 0.5) / n_grid);
+        sums->p[k] += share;
+        sums->p2[k] += share * share;
     }
     if (last < n_grid) {
-        ++whole[last];
+        ++sums->whole[last];
     }
 }
 
@@ -90,37 +94,35 @@ static double integrand(const clx_ghost_plan *plan, double m, double p, double p
            fabs(m) * erf(fabs(m) / (s * sqrt(2.0)));
 }
 
-clast_status clx_ghosts_expected_score(const clx_bins *bins, const uint8_t *label,
-                                       const clx_depth_law *law, const clx_ghost_plan *plan,
-                                       const int64_t *depth_count, int32_t n_grid, double *score)
+clast_status clx_ghosts_expected_score(const clx_ghost_sample *sample, double *score)
 {
     clast_status status = CLAST_OK;
-    double *p = NULL;
-    double *p2 = NULL;
-    int64_t *whole = NULL;
+    const clx_ghost_plan *plan = &sample->plan;
+    const int32_t n_grid = sample->n_grid;
+    shell_sums sums = {0};
     double sum = 0.0;
     int64_t kept = 0;
     int64_t outside = 0;
-    CLX_TRY(clx_alloc(&p, n_grid, sizeof *p));
-    CLX_TRY(clx_alloc(&p2, n_grid, sizeof *p2));
-    CLX_TRY(clx_alloc(&whole, n_grid, sizeof *whole));
-    for (int64_t b = 0; b < bins->n_bin; ++b) {
-        if (label[b] != 0) {
-            add_bin(bins, b, law, n_grid, p, p2, whole);
+    CLX_TRY(clx_alloc(&sums.p, n_grid, sizeof *sums.p));
+    CLX_TRY(clx_alloc(&sums.p2, n_grid, sizeof *sums.p2));
+    CLX_TRY(clx_alloc(&sums.whole, n_grid, sizeof *sums.whole));
+    for (int64_t b = 0; b < sample->bins->n_bin; ++b) {
+        if (sample->label[b] != 0) {
+            add_bin(sample, b, &sums);
         }
     }
     for (int32_t k = 0; k < n_grid; ++k) {
-        kept += depth_count[k];
-        outside += whole[k];
-        const double total = p[k] + (double)outside;
+        kept += sample->depth_count[k];
+        outside += sums.whole[k];
+        const double total = sums.p[k] + (double)outside;
         const double g = ((double)kept + plan->per_bin * total) / plan->n_expected;
-        const double h = clx_depth_cdf(law, (k + 0.5) / n_grid);
-        sum += integrand(plan, g - h, total, p2[k] + (double)outside, g);
+        const double h = clx_depth_cdf(sample->law, (k + 0.5) / n_grid);
+        sum += integrand(plan, g - h, total, sums.p2[k] + (double)outside, g);
     }
     *score = sum / n_grid;
 done:
-    clx_free(p);
-    clx_free(p2);
-    clx_free(whole);
+    clx_free(sums.p);
+    clx_free(sums.p2);
+    clx_free(sums.whole);
     return status;
 }

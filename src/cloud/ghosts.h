@@ -14,17 +14,23 @@ typedef struct clx_ghost_plan {
 
 clx_ghost_plan clx_ghosts_plan(const int32_t *count, const uint8_t *label, int64_t n_bin);
 
+/// What the expected score is made of.
+typedef struct clx_ghost_sample {
+    const clx_bins *bins;
+    const uint8_t *label; ///< [n_bin] not 0: replaced
+    const clx_depth_law *law;
+    clx_ghost_plan plan;
+    const int64_t *depth_count; ///< [n_grid + 1] kept points by depth: class k holds (z_(k-1),
+                                ///< z_k], z_k = (k + 1/2)/n_grid
+    int32_t n_grid;
+} clx_ghost_sample;
+
 /// Expected score over all ghost samples, normal approximation on a midpoint grid of n_grid depths:
 ///
 ///     m = (kept(z) + c sum p_b)/N - H,  s^2 = [c sum p_b (1-p_b) + f (1-f) sum (p_b - G)^2] / N^2,
 ///     <S> = int s sqrt(2/pi) exp(-m^2/2s^2) + |m| erf(|m| / (s sqrt 2)) dz
 ///     [docs/theory/decompose.md]
-///
-/// @param depth_count  [n_grid + 1] kept points by depth class: class k holds depths in (z_(k-1),
-/// z_k], z_k = (k + 1/2)/n_grid
-clast_status clx_ghosts_expected_score(const clx_bins *bins, const uint8_t *label,
-                                       const clx_depth_law *law, const clx_ghost_plan *plan,
-                                       const int64_t *depth_count, int32_t n_grid, double *score);
+clast_status clx_ghosts_expected_score(const clx_ghost_sample *sample, double *score);
 
 /// Depth class of a point for the above.
 int32_t clx_ghosts_depth_class(const clx_depth_law *law, const double *u, int32_t n_grid);

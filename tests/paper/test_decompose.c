@@ -27,7 +27,8 @@ static void quartiles_and_bins_match(void **state)
         CHECK_OK(clx_bins_choose(points.u, points.n, points.d, width, &bins));
         for (int32_t j = 0; j < points.d; ++j) {
             double q[3];
-            CHECK_OK(clx_quantiles(points.u, points.n, points.d, j, p, 3, q));
+            const clx_column column = {points.u, points.n, points.d, j};
+            CHECK_OK(clx_quantiles(&column, p, 3, q));
             for (int k = 0; k < 3; ++k) {
                 char name[64];
                 (void)snprintf(name, sizeof name, "quant.t5.q%.0f.x%d", 100.0 * p[k], j);
@@ -94,7 +95,8 @@ static void check_scores(const char *set, const clx_bins *bins, const clx_levels
                 ++depth[clx_ghosts_depth_class(&law, u, N_GRID)];
             }
         }
-        CHECK_OK(clx_ghosts_expected_score(bins, label, &law, &plan, depth, N_GRID, &score));
+        const clx_ghost_sample sample = {bins, label, &law, plan, depth, N_GRID};
+        CHECK_OK(clx_ghosts_expected_score(&sample, &score));
         (void)snprintf(name, sizeof name, "lambda%d.expected_score_semianalytic_6digits", t);
         CHECK_REL(score, oracle_value(set, name), 2e-5);
     }
