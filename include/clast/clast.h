@@ -7,6 +7,8 @@
 #include <clast/chart.h>
 #include <clast/cloud.h>
 #include <clast/config.h>
+#include <clast/decompose.h>
+#include <clast/domain.h>
 #include <clast/envelope.h>
 #include <clast/field.h>
 #include <clast/hull.h>
@@ -26,3 +28,4 @@
 #include <clast/status.h>
 #include <clast/table.h>
 #include <clast/table_file.h>
+#include <clast/uniformity.h>

@@ -1,0 +1,321 @@
+// clast decompose: uniformity tests, D2SD cells, events.
+#include "command.h"
+#include "json.h"
+
+#include <clast/decompose.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+typedef struct {
+    clast_decompose_config decompose; // first: the two tables share offsets
+    clast_text_list columns;
+    bool test_only;
+} config;
+
+enum { N_OWN = 2, MAX_FIELD = 32 };
+
+/// The library's fields and the command's own, in one table.
+static clast_field fields[MAX_FIELD];
+
+static const clast_field own[N_OWN] = {
+    {"columns", offsetof(config, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
+     "columns of the coordinates, as many as dimensions", "x,y,z"},
+    {"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
+     "run the uniformity tests alone", NULL}};
+
+__attribute__((constructor)) static void join_fields(void)
+{
+    int n = 0;
+    for (int k = 0; k < N_OWN; ++k) {
+        fields[n++] = own[k];
+    }
+    for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
+        fields[n++] = *f;
+    }
+}
+
+/// Coordinates by name; a list "x,y,z" given as one word is split. Missing trailing default names
+/// end the list.
+static clast_status take_points(const clast_table *table, const config *c, clast_cloud *cloud)
+{
+    double *column[3] = {NULL};
+    int32_t d = 0;
+    char names[256] = "";
+    for (int32_t k = 0; k < c->columns.n; ++k) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? "," : "",
+                       c->columns.item[k]);
+    }
+    const bool is_default = strcmp(names, "x,y,z") == 0;
+    char *rest = names;
+    for (char *name = strtok_r(rest, ",", &rest); name != NULL; name = strtok_r(rest, ",", &rest)) {
+        double *found = clast_table_numbers(table, name);
+        if (found == NULL && is_default && d > 0) {
+            break;
+        }
+        if (found == NULL || d == 3) {
+            return cli_fail(CLAST_E_FORMAT,
+                            found == NULL ? "%s has no column of numbers named '%s'"
+                                          : "%s: more than three coordinate columns, from '%s' on",
+                            table->name, name);
+        }
+        column[d++] = found;
+    }
+    const clast_status status = clast_cloud_alloc(table->n_row, d, cloud);
+    for (int64_t i = 0; i < table->n_row && status == CLAST_OK; ++i) {
+        for (int32_t j = 0; j < d; ++j) {
+            cloud->x[i * d + j] = column[j][i];
+        }
+    }
+    return status;
+}
+
+static json_t *json_tests(const clast_uniformity *u)
+{
+    json_t *list = json_array();
+    for (int32_t k = 0; k < u->n_test; ++k) {
+        json_t *test = json_object();
+        cli_json_text(test, "name", u->vote[k].name);
+        cli_json_number(test, "statistic", u->vote[k].statistic);
+        cli_json_number(test, "p", u->vote[k].p);
+        cli_json_bool(test, "reject", u->vote[k].reject);
+        (void)json_array_append_new(list, test);
+    }
+    return list;
+}
+
+static json_t *json_passes(const clast_decomposition *r)
+{
+    json_t *list = json_array();
+    for (int32_t k = 0; k < r->n_pass; ++k) {
+        json_t *pass = json_object();
+        json_t *bins = json_array();
+        for (int32_t j = 0; j < r->dimension; ++j) {
+            (void)json_array_append_new(bins, json_integer(r->pass[k].nb[j]));
+        }
+        (void)json_object_set_new(pass, "bins", bins);
+        cli_json_number(pass, "lambda", r->pass[k].lambda);
+        cli_json_count(pass, "lambda_count", r->pass[k].lambda_count);
+        cli_json_count(pass, "n_lambda", r->pass[k].n_lambda);
+        cli_json_number(pass, "score", r->pass[k].score);
+        cli_json_number(pass, "ideal_score", r->pass[k].ideal);
+        (void)json_array_append_new(list, pass);
+    }
+    return list;
+}
+
+static json_t *json_labels(const clast_decomposition *r)
+{
+    static const char *const name[8] = {"ambient",   "cluster_1", "cluster_2", "cluster_3",
+                                        "cluster_4", "cluster_5", "under",     "void"};
+    int64_t n[8] = {0};
+    json_t *labels = json_object();
+    for (int32_t c = 0; c < r->cells.n; ++c) {
+        ++n[r->cells.label[c] % 8];
+    }
+    for (int k = 0; k < 8; ++k) {
+        cli_json_count(labels, name[k], n[k]);
+    }
+    return labels;
+}
+
+static const char *stop_text(clast_decompose_stop stop)
+{
+    static const char *const text[] = {"the tests accept", "nothing is left to select",
+                                       "the variant makes one pass", "max_pass reached"};
+    return text[stop];
+}
+
+static clast_status print_json(const clast_decomposition *r, double wall)
+{
+    json_t *out = json_object();
+    cli_json_count(out, "n", r->n);
+    cli_json_count(out, "n_outside", r->n_outside);
+    cli_json_count(out, "dimension", r->dimension);
+    (void)json_object_set_new(out, "tests", json_tests(&r->before));
+    cli_json_bool(out, "reject", r->before.reject);
+    cli_json_number(out, "score", r->before.score);
+    cli_json_number(out, "ideal_score", r->before.ideal);
+    (void)json_object_set_new(out, "passes", json_passes(r));
+    cli_json_text(out, "stop", stop_text(r->stop));
+    cli_json_count(out, "n_cell", r->cells.n);
+    (void)json_object_set_new(out, "labels", json_labels(r));
+    cli_json_number(out, "events", r->events);
+    cli_json_number(out, "events_low", r->events_low);
+    cli_json_number(out, "events_high", r->events_high);
+    cli_json_count(out, "n_capped", r->n_capped);
+    cli_json_number(out, "points_per_bin", r->points_per_bin);
+    cli_json_number(out, "bias_estimate", r->bias_estimate);
+    cli_json_number(out, "wall_s", wall);
+    return cli_print_json(out);
+}
+
+static void print_words(const clast_decomposition *r, bool test_only)
+{
+    (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
+    if (r->n_outside > 0) {
+        (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
+    }
+    (void)printf("\n\n%-16s %12s %12s\n", "test", "statistic", "p");
+    for (int32_t k = 0; k < r->before.n_test; ++k) {
+        const clast_vote *v = &r->before.vote[k];
+        (void)printf("%-16s %12.6g %12.4g%s\n", v->name, v->statistic, v->p,
+                     v->reject ? "  rejects" : "");
+    }
+    (void)printf("score %.6g, expected for uniform points %.6g: %s\n", r->before.score,
+                 r->before.ideal,
+                 r->before.n_test == 0 ? "too few points to test"
+                 : r->before.reject    ? "not uniform"
+                                       : "uniform");
+    if (test_only) {
+        return;
+    }
+    for (int32_t k = 0; k < r->n_pass; ++k) {
+        const clast_pass *p = &r->pass[k];
+        (void)printf("pass %d: %d x %d x %d bins, threshold %.4g (count %d of %d searched), score "
+                     "%.4g, ideal %.4g\n",
+                     k + 1, p->nb[0], p->nb[1], p->nb[2], p->lambda, p->lambda_count, p->n_lambda,
+                     p->score, p->ideal);
+    }
+    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g], %d cells at the cap\n",
+                 stop_text(r->stop), r->cells.n, r->events, r->events_low, r->events_high,
+                 r->n_capped);
+    if (r->n_pass > 0 && r->points_per_bin < 10.0) {
+        (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
+                     "their noise; compare "
+                     "--mesh tree\n",
+                     r->points_per_bin);
+    }
+}
+
+static clast_status cell_table(const clast_decomposition *r, clast_table *table)
+{
+    static const char *const low[3] = {"x_low_m", "y_low_m", "z_low_m"};
+    static const char *const high[3] = {"x_high_m", "y_high_m", "z_high_m"};
+    const clast_cells *cells = &r->cells;
+    clast_status status = clast_table_init(table, "cells", cells->n);
+    for (int32_t j = 0; j < 2 * r->dimension && status == CLAST_OK; ++j) {
+        double *column = NULL;
+        const int32_t axis = j / 2;
+        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis], "m", &column);
+        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+            column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
+        }
+    }
+    static const char *const name[6] = {"volume", "count", "density", "label", "pass", "events"};
+    for (int k = 0; k < 6 && status == CLAST_OK; ++k) {
+        double *column = NULL;
+        status = clast_table_add_number(table, name[k], "-", &column);
+        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+            const double value[6] = {cells->volume[c],
+                                     (double)cells->count[c],
+                                     (double)cells->count[c] / cells->volume[c],
+                                     (double)cells->label[c],
+                                     (double)cells->pass[c],
+                                     cells->events[c]};
+            column[c] = value[k];
+        }
+    }
+    return status;
+}
+
+static clast_status write_tables(const clast_decomposition *r, int64_t n_point, const char *folder)
+{
+    char path[4096];
+    clast_table cells = {0};
+    clast_table points = {0};
+    double *cell = NULL;
+    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
+    clast_status status = cell_table(r, &cells);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
+        status = clast_table_write_csv(&cells, path);
+    }
+    if (status == CLAST_OK) {
+        status = clast_table_init(&points, "points", n_point);
+    }
+    if (status == CLAST_OK) {
+        status = clast_table_add_number(&points, "cell", "-", &cell);
+    }
+    if (status == CLAST_OK) {
+        for (int64_t i = 0; i < n_point; ++i) {
+            cell[i] = r->cells.of_point[i];
+        }
+        (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
+        status = clast_table_write_csv(&points, path);
+    }
+    clast_table_free(&cells);
+    clast_table_free(&points);
+    return status;
+}
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static clast_status run(const cli_common *common, void *values)
+{
+    config *c = values;
+    clast_table table = {0};
+    clast_cloud cloud = {0};
+    clast_decomposition result = {0};
+    const double begun = now();
+    if (c->decompose.domain[0] == '\0') {
+        return cli_fail(
+            CLAST_E_USAGE,
+            "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
+    }
+    if (c->test_only) {
+        c->decompose.variant = CLAST_VARIANT_TEST;
+    }
+    clast_status status = clast_table_read_csv(common->argument[0], NULL, &table, NULL);
+    if (status == CLAST_OK) {
+        status = take_points(&table, c, &cloud);
+    }
+    if (status == CLAST_OK) {
+        status = clast_decompose(&cloud, &c->decompose, &result);
+    }
+    if (status == CLAST_OK && common->output != NULL) {
+        status = write_tables(&result, cloud.n, common->output);
+    }
+    if (status == CLAST_OK) {
+        if (common->json) {
+            status = print_json(&result, now() - begun);
+        } else {
+            print_words(&result, c->test_only);
+        }
+    }
+    clast_table_free(&table);
+    clast_cloud_free(&cloud);
+    clast_decomposition_free(&result);
+    return status;
+}
+
+const cli_command cli_decompose = {
+    .name = "decompose",
+    .arguments = "POINTS",
+    .summary = "test a particle cloud for uniformity, split it into uniform cells, count "
+               "agglomeration events",
+    .details = "Reads delimited text. Method: Martinez Rodriguez et al., Appl. Math. Modelling 90 "
+               "(2021) 582-614.\n"
+               "tests: symmetric, centred and star discrepancy A_n standardised by its exact "
+               "variance (two-sided p),\n"
+               "       Henze-Zirkler on probit scores, Pearson with Bonferroni; rejected when "
+               "--votes of them reject.\n"
+               "events: sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events paper "
+               "takes n^2 / V as printed.\n"
+               "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events) and "
+               "point_cells.csv.",
+    .fields = fields,
+    .config_size = sizeof(config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};

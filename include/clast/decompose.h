@@ -1,0 +1,120 @@
+#pragma once
+#include <clast/cloud.h>
+#include <clast/domain.h>
+#include <clast/field.h>
+#include <clast/uniformity.h>
+
+// D2SD: cells in which particles are uniform, and agglomeration events that do not depend on a
+// mesh. [Martinez2021; docs/theory/decompose.md]
+
+typedef enum {
+    CLAST_VARIANT_FULL,  ///< tests before and after every pass
+    CLAST_VARIANT_FIRST, ///< "1+2": test first, one pass
+    CLAST_VARIANT_FAST,  ///< one pass, no test
+    CLAST_VARIANT_TEST   ///< the tests alone: one cell
+} clast_decompose_variant;
+
+typedef enum {
+    CLAST_CELLS_BOXES,
+    CLAST_CELLS_COMPONENTS,
+    CLAST_CELLS_BINS,
+    CLAST_CELLS_LABELS,
+    CLAST_CELLS_TREE
+} clast_cell_kind;
+
+typedef enum {
+    CLAST_EVENTS_PAIRS, ///< beta dt n (n - 1) / (2 V): unbiased in a uniform cell
+    CLAST_EVENTS_PAPER  ///< beta dt n^2 / V as printed in eq. 14
+} clast_event_law;
+
+typedef struct clast_decompose_config {
+    char *domain; ///< see clast_domain_parse
+    bool drop;    ///< leave points outside the domain out instead of refusing them
+    int32_t variant, mesh, events;
+    double level;  ///< of each test
+    int32_t votes; ///< tests that must reject
+    int32_t max_pass;
+    double beta_dt;    ///< kernel times time step [m^d]
+    double tree_level; ///< of the chi-square test of a tree cell
+    int32_t tree_least;
+    uint64_t seed;
+} clast_decompose_config;
+
+extern CLAST_API const clast_field clast_decompose_fields[];
+
+enum { CLAST_N_TEST = 5, CLAST_MAX_PASS = 64 };
+
+/// One of the five tests.
+typedef struct clast_vote {
+    const char *name; ///< "symmetric", "centred", "star", "henze_zirkler", "pearson"
+    double statistic, p;
+    bool reject;
+} clast_vote;
+
+/// All five, with the vote. n < 5: nothing is tested and nothing rejects.
+typedef struct clast_uniformity {
+    int32_t n_test; ///< 5; 4 in one dimension (no pair to correlate); 0 for n < 5
+    clast_vote vote[CLAST_N_TEST];
+    int32_t n_reject;
+    bool reject;
+    double score, ideal;
+} clast_uniformity;
+
+/// @param u  [n][d] in the unit cube    @param side  [3] for the score
+CLAST_API clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d,
+                                             const double side[3], double level, int32_t votes,
+                                             clast_uniformity *result);
+
+typedef struct clast_pass {
+    int32_t nb[3];
+    int32_t n_lambda;     ///< thresholds searched
+    int32_t lambda_count; ///< best threshold as a count
+    double lambda;        ///< as a density: count * bins / n
+    double score;         ///< expected over ghosts
+    double ideal;         ///< for the size of the synthetic sample
+    bool fallback;
+} clast_pass;
+
+typedef enum {
+    CLAST_STOP_UNIFORM,  ///< the vote accepts
+    CLAST_STOP_NOTHING,  ///< no threshold is left, or nothing new is selected
+    CLAST_STOP_ONE_PASS, ///< the variant makes one
+    CLAST_STOP_MAX_PASS
+} clast_decompose_stop;
+
+/// Cells. A box [low, high] is in the domain's coordinates for boxes, bins and tree cells of a box
+/// domain, in the unit cube for mapped domains; components and labels give their bounding box.
+typedef struct clast_cells {
+    int32_t n;
+    double (*low)[3], (*high)[3]; ///< [n][3]
+    double *volume;               ///< [n] m^d
+    int64_t *count;               ///< [n] real points
+    uint8_t *label, *pass;        ///< [n] 0..7 and 1.. (0: ambient)
+    double *events;               ///< [n] after the cap
+    int32_t *of_point;            ///< [n_point] cell of each point, -1 for points left out
+} clast_cells;
+
+typedef struct clast_decomposition {
+    int64_t n, n_outside; ///< points used and left out
+    int32_t dimension;
+    clast_uniformity before;
+    int32_t n_pass;
+    clast_pass pass[CLAST_MAX_PASS];
+    clast_decompose_stop stop;
+    clast_cells cells;
+    double events, events_low,
+        events_high;       ///< with the 95 % interval of Poisson counts in given cells
+    int32_t n_capped;      ///< cells at n/2
+    double points_per_bin; ///< below 10 the published estimate is biased
+    double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
+} clast_decomposition;
+
+/// Splits the cloud's domain into cells of uniform concentration and counts events.
+///
+/// @return CLAST_E_FORMAT when points are not finite, or lie outside (with their number) unless
+/// config->drop
+/// @note O(n log n); bytes do not depend on threads
+CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
+                                       const clast_decompose_config *config,
+                                       clast_decomposition *result);
+CLAST_API void clast_decomposition_free(clast_decomposition *result);

@@ -1,0 +1,285 @@
+// D2SD from points to cells and events.
+#include <clast/decompose.h>
+
+#include "base/alloc.h"
+#include "cloud/cells.h"
+#include "cloud/passes.h"
+#include "cloud/uniformity_tree.h"
+#include <math.h>
+#include <string.h>
+
+#define FIELD(type, name) #name, offsetof(clast_decompose_config, name), type
+const clast_field clast_decompose_fields[] = {
+    {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
+     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R [m]", ""},
+    {FIELD(CLAST_FIELD_BOOL, drop), 0, 0, 0, "-",
+     "leave points outside the domain out instead of refusing them", NULL},
+    {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
+     "how far to go: tests and passes, first test and one pass, one pass, tests alone",
+     "full|first|fast|test"},
+    {FIELD(CLAST_FIELD_CHOICE, mesh), 0, 0, 0, "-",
+     "what bins are joined into; tree splits by a chi-square test",
+     "boxes|components|bins|labels|tree"},
+    {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
+     "pairs|paper"},
+    {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
+    {FIELD(CLAST_FIELD_I32, votes), 2, 1, 5, "-", "tests that must reject", NULL},
+    {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
+    {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
+     "collision kernel times time step [m^d]", NULL},
+    {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
+     "level of the test in each tree cell", NULL},
+    {FIELD(CLAST_FIELD_I32, tree_least), 16, 2, 1000000, "-",
+     "points below which a tree cell is not split", NULL},
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL},
+    {0}};
+#undef FIELD
+
+static void free_cells(clast_cells *cells)
+{
+    clx_free(cells->low);
+    clx_free(cells->high);
+    clx_free(cells->volume);
+    clx_free(cells->count);
+    clx_free(cells->label);
+    clx_free(cells->pass);
+    clx_free(cells->events);
+    clx_free(cells->of_point);
+    *cells = (clast_cells){0};
+}
+
+void clast_decomposition_free(clast_decomposition *result)
+{
+    free_cells(&result->cells);
+    *result = (clast_decomposition){0};
+}
+
+static clast_status alloc_cells(clast_cells *cells, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    cells->n = n;
+    CLX_TRY(clx_alloc(&cells->low, n, sizeof *cells->low));
+    CLX_TRY(clx_alloc(&cells->high, n, sizeof *cells->high));
+    CLX_TRY(clx_alloc(&cells->volume, n, sizeof *cells->volume));
+    CLX_TRY(clx_alloc(&cells->count, n, sizeof *cells->count));
+    CLX_TRY(clx_alloc(&cells->label, n, sizeof *cells->label));
+    CLX_TRY(clx_alloc(&cells->pass, n, sizeof *cells->pass));
+    CLX_TRY(clx_alloc(&cells->events, n, sizeof *cells->events));
+done:
+    return status;
+}
+
+/// Points of the unit cube; *number lists which points of the cloud they are.
+typedef struct {
+    double *u;
+    int64_t *number;
+    int64_t n;
+    clast_domain domain;
+} mapped;
+
+static clast_status map_points(const clast_cloud *cloud, const clast_decompose_config *config,
+                               mapped *m)
+{
+    clast_status status = CLAST_OK;
+    int64_t n_outside = 0;
+    const int32_t d = cloud->dimension;
+    CLX_TRY(clast_domain_parse(config->domain, &m->domain));
+    CLX_CHECK(m->domain.dimension == d, CLAST_E_CONFIG,
+              "domain '%s' has %d dimensions, the points have %d", config->domain,
+              m->domain.dimension, d);
+    CLX_TRY(clx_alloc(&m->u, cloud->n * d, sizeof *m->u));
+    CLX_TRY(clx_alloc(&m->number, cloud->n, sizeof *m->number));
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        double u[3];
+        bool finite = true;
+        for (int32_t j = 0; j < d; ++j) {
+            finite = finite && isfinite(cloud->x[i * d + j]);
+        }
+        CLX_CHECK(finite, CLAST_E_FORMAT, "point %lld has a coordinate that is not finite",
+                  (long long)i + 1);
+        if (!clast_domain_map(&m->domain, cloud->x + i * d, u)) {
+            ++n_outside;
+            continue;
+        }
+        memcpy(m->u + m->n * d, u, (size_t)d * sizeof *u);
+        m->number[m->n++] = i;
+    }
+    CLX_CHECK(n_outside == 0 || config->drop, CLAST_E_FORMAT,
+              "%lld of %lld points lie outside the domain %s; give the true domain, or leave them "
+              "out with --drop",
+              (long long)n_outside, (long long)cloud->n, config->domain);
+done:
+    return status;
+}
+
+static clast_status one_cell(const mapped *m, clast_cells *cells)
+{
+    const clast_status status = alloc_cells(cells, 1);
+    if (status == CLAST_OK) {
+        for (int k = 0; k < 3; ++k) {
+            cells->high[0][k] = 1.0;
+        }
+        cells->volume[0] = 1.0;
+        cells->count[0] = m->n;
+        for (int64_t i = 0; i < m->n; ++i) {
+            cells->of_point[m->number[i]] = 0;
+        }
+    }
+    return status;
+}
+
+static clast_status tree_cells(const mapped *m, const clast_decompose_config *config,
+                               clast_cells *cells)
+{
+    clast_status status = CLAST_OK;
+    clx_uniformity_tree_cells tree = {0};
+    int32_t *of_point = NULL;
+    const clx_uniformity_tree_config limits = {config->tree_level, config->tree_least};
+    CLX_TRY(clx_alloc(&of_point, m->n, sizeof *of_point));
+    CLX_TRY(clx_uniformity_tree_split(m->u, m->n, m->domain.dimension, &limits, &tree, of_point));
+    CLX_TRY(alloc_cells(cells, tree.n));
+    for (int32_t c = 0; c < tree.n; ++c) {
+        cells->volume[c] = 1.0;
+        cells->count[c] = tree.count[c];
+        for (int32_t j = 0; j < m->domain.dimension; ++j) {
+            cells->low[c][j] = tree.low[c][j];
+            cells->high[c][j] = tree.high[c][j];
+            cells->volume[c] *= tree.high[c][j] - tree.low[c][j];
+        }
+    }
+    for (int64_t i = 0; i < m->n; ++i) {
+        cells->of_point[m->number[i]] = of_point[i];
+    }
+done:
+    clx_uniformity_tree_free(&tree);
+    clx_free(of_point);
+    return status;
+}
+
+static void gather_bins(const clx_passes *passes, const int32_t *cell, clast_cells *cells)
+{
+    const clx_bins *bins = &passes->bins;
+    for (int32_t c = 0; c < cells->n; ++c) {
+        for (int k = 0; k < 3; ++k) {
+            cells->low[c][k] = 1.0;
+        }
+    }
+    for (int64_t b = 0; b < bins->n_bin; ++b) {
+        const int32_t c = cell[b];
+        double low[3] = {0};
+        double high[3] = {0};
+        clx_bins_box(bins, b, low, high);
+        cells->count[c] += bins->count[b];
+        cells->volume[c] += 1.0;
+        cells->label[c] = (uint8_t)(passes->tag[b] % 8);
+        cells->pass[c] = (uint8_t)(passes->tag[b] / 8);
+        for (int k = 0; k < 3; ++k) {
+            cells->low[c][k] = fmin(cells->low[c][k], low[k]);
+            cells->high[c][k] = fmax(cells->high[c][k], high[k]);
+        }
+    }
+    for (int32_t c = 0; c < cells->n; ++c) {
+        cells->volume[c] /= (double)bins->n_bin;
+    }
+}
+
+static clast_status bin_cells(const mapped *m, const clast_decompose_config *config,
+                              clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    clx_passes passes = {0};
+    int32_t *cell = NULL;
+    int32_t n_cell = 0;
+    CLX_TRY(clx_passes_run(m->u, m->n, &m->domain, config, result, &passes));
+    CLX_TRY(clx_alloc(&cell, passes.bins.n_bin, sizeof *cell));
+    CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)config->mesh, passes.tag, cell, &n_cell));
+    CLX_TRY(alloc_cells(&result->cells, n_cell));
+    gather_bins(&passes, cell, &result->cells);
+    for (int64_t i = 0; i < m->n; ++i) {
+        result->cells.of_point[m->number[i]] =
+            cell[clx_bins_of(&passes.bins, m->u + i * m->domain.dimension)];
+    }
+done:
+    clx_passes_free(&passes);
+    clx_free(cell);
+    return status;
+}
+
+/// From the unit cube to the domain: volumes, and corners of a box domain.
+static void to_domain(const clast_domain *domain, clast_cells *cells)
+{
+    const double volume = clast_domain_volume(domain);
+    for (int32_t c = 0; c < cells->n; ++c) {
+        cells->volume[c] *= volume;
+        for (int32_t j = 0; j < domain->dimension && domain->kind == CLAST_DOMAIN_BOX; ++j) {
+            const double side = domain->high[j] - domain->low[j];
+            cells->low[c][j] = domain->low[j] + side * cells->low[c][j];
+            cells->high[c][j] = domain->low[j] + side * cells->high[c][j];
+        }
+    }
+}
+
+/// Events of each cell with the cap n/2, their sum and its interval: for Poisson n, n (n - 1) has
+/// the unbiased variance 4 n (n - 1)(n - 2) + 2 n (n - 1).
+static void count_events(const clast_decompose_config *config, clast_decomposition *r)
+{
+    double variance = 0.0;
+    for (int32_t c = 0; c < r->cells.n; ++c) {
+        const double n = (double)r->cells.count[c];
+        const double rate = config->beta_dt / r->cells.volume[c];
+        const double pairs = n * (n - 1.0);
+        const double wanted =
+            config->events == CLAST_EVENTS_PAPER ? rate * n * n : 0.5 * rate * pairs;
+        const bool capped = wanted > 0.5 * n;
+        r->cells.events[c] = capped ? 0.5 * n : wanted;
+        r->events += r->cells.events[c];
+        r->n_capped += capped ? 1 : 0;
+        const double scale = config->events == CLAST_EVENTS_PAPER ? rate : 0.5 * rate;
+        variance +=
+            capped ? 0.25 * n : scale * scale * (4.0 * pairs * fmax(0.0, n - 2.0) + 2.0 * pairs);
+    }
+    const double reach = 1.959963984540054 * sqrt(variance); // 97.5 % of the normal law
+    r->events_low = fmax(0.0, r->events - reach);
+    r->events_high = r->events + reach;
+    r->bias_estimate = r->n > 0 ? (double)r->cells.n / (double)r->n : 0.0;
+}
+
+static clast_status make_cells(const mapped *m, const clast_decompose_config *config,
+                               clast_decomposition *result)
+{
+    const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
+    if (m->n < 5 || config->variant == CLAST_VARIANT_TEST ||
+        (accepted && config->mesh != CLAST_CELLS_TREE)) {
+        result->stop = CLAST_STOP_UNIFORM;
+        return one_cell(m, &result->cells);
+    }
+    return config->mesh == CLAST_CELLS_TREE ? tree_cells(m, config, &result->cells)
+                                            : bin_cells(m, config, result);
+}
+
+clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
+                             clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    clast_decomposition made = {.dimension = cloud->dimension};
+    mapped m = {0};
+    double side[3];
+    CLX_TRY(map_points(cloud, config, &m));
+    made.n = m.n;
+    made.n_outside = cloud->n - m.n;
+    clast_domain_sides(&m.domain, side);
+    CLX_TRY(clast_uniformity_test(m.u, m.n, cloud->dimension, side, config->level, config->votes,
+                                  &made.before));
+    CLX_TRY(clx_alloc(&made.cells.of_point, cloud->n, sizeof *made.cells.of_point));
+    memset(made.cells.of_point, 0xff, (size_t)cloud->n * sizeof *made.cells.of_point);
+    CLX_TRY(make_cells(&m, config, &made));
+    to_domain(&m.domain, &made.cells);
+    count_events(config, &made);
+    *result = made;
+    made.cells = (clast_cells){0};
+done:
+    free_cells(&made.cells);
+    clx_free(m.u);
+    clx_free(m.number);
+    return status;
+}

@@ -1,0 +1,244 @@
+// Passes: histogram, thresholds, the best of them, ghosts in what it selects, test, again.
+#include "cloud/passes.h"
+
+#include "base/alloc.h"
+#include "cloud/ghosts.h"
+#include "cloud/levels.h"
+#include "math/rng.h"
+#include <math.h>
+#include <string.h>
+
+enum { GRID_MOST = 20000, GRID_LEAST = 1000, GRID_WORK = 20000000 };
+
+typedef struct {
+    const clast_decompose_config *config;
+    clx_depth_law law;
+    double side[3];
+    clx_passes *passes;
+    double *u;                  ///< synthetic sample [n][d]
+    int64_t n, capacity;        ///< points of it
+    uint8_t *active;            ///< [n_bin]
+    uint8_t *label, *best;      ///< [n_bin]
+    int32_t *bin_of, *depth_of; ///< [n] bin and depth class of each point
+    int64_t *depth_count;       ///< [n_grid + 1]
+    int32_t n_grid;
+} work;
+
+static void choose_grid(work *w)
+{
+    double cut = 0.0;
+    for (int32_t j = 0; j < w->passes->bins.d; ++j) {
+        cut = fmax(cut, 2.0 / (w->passes->bins.nb[j] * w->law.c[j]));
+    }
+    const double fits = GRID_WORK / ((double)w->passes->bins.n_bin * fmin(1.0, cut));
+    w->n_grid = (int32_t)fmin(GRID_MOST, fmax(GRID_LEAST, fits));
+}
+
+static clast_status classify(work *w)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = w->passes->bins.d;
+    clx_free(w->bin_of);
+    clx_free(w->depth_of);
+    w->bin_of = NULL;
+    w->depth_of = NULL;
+    CLX_TRY(clx_alloc(&w->bin_of, w->n, sizeof *w->bin_of));
+    CLX_TRY(clx_alloc(&w->depth_of, w->n, sizeof *w->depth_of));
+    CLX_TRY(clx_bins_count(&w->passes->bins, w->u, w->n, w->bin_of));
+    for (int64_t i = 0; i < w->n; ++i) {
+        w->depth_of[i] = clx_ghosts_depth_class(&w->law, w->u + i * d, w->n_grid);
+    }
+done:
+    return status;
+}
+
+static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan, double *score)
+{
+    memset(w->depth_count, 0, ((size_t)w->n_grid + 1) * sizeof *w->depth_count);
+    for (int64_t i = 0; i < w->n; ++i) {
+        w->depth_count[w->depth_of[i]] += label[w->bin_of[i]] == 0 ? 1 : 0;
+    }
+    *plan = clx_ghosts_plan(w->passes->bins.count, label, w->passes->bins.n_bin);
+    const clx_ghost_sample sample = {&w->passes->bins, label,    &w->law, *plan,
+                                     w->depth_count,   w->n_grid};
+    return clx_ghosts_expected_score(&sample, score);
+}
+
+/// The threshold whose expected score is nearest to the ideal one of its synthetic sample; labels
+/// go to w->best.
+static clast_status search(work *w, const clx_levels *levels, clast_pass *pass,
+                           clx_ghost_plan *plan)
+{
+    clast_status status = CLAST_OK;
+    double nearest = INFINITY;
+    const int64_t n_bin = w->passes->bins.n_bin;
+    for (int32_t t = 0; t < levels->n_lambda; ++t) {
+        clx_ghost_plan here;
+        double score = 0.0;
+        CLX_TRY(clx_levels_label(w->passes->bins.count, w->active, n_bin, levels->lambda[t],
+                                 levels->q20, w->label));
+        CLX_TRY(score_of(w, w->label, &here, &score));
+        const double ideal = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
+        if (here.n_ambient > 0 && fabs(score - ideal) / ideal < nearest) {
+            nearest = fabs(score - ideal) / ideal;
+            pass->lambda_count = levels->lambda[t];
+            pass->score = score;
+            pass->ideal = ideal;
+            *plan = here;
+            memcpy(w->best, w->label, (size_t)n_bin);
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status add_ghost(work *w, int64_t bin, clx_rng *rng)
+{
+    const int32_t d = w->passes->bins.d;
+    double low[3];
+    double high[3];
+    clast_status status = clx_grow(&w->u, &w->capacity, w->n + 1, (size_t)d * sizeof *w->u);
+    clx_bins_box(&w->passes->bins, bin, low, high);
+    for (int32_t j = 0; j < d && status == CLAST_OK; ++j) {
+        w->u[w->n * d + j] = low[j] + (high[j] - low[j]) * clx_rng_uniform(rng);
+    }
+    w->n += status == CLAST_OK ? 1 : 0;
+    return status;
+}
+
+/// Keeps the points of ambient bins and puts floor(c) or ceil(c) ghosts into each selected one.
+static clast_status replace(work *w, const clx_ghost_plan *plan, int32_t pass)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = w->passes->bins.d;
+    int64_t kept = 0;
+    for (int64_t i = 0; i < w->n; ++i) {
+        if (w->best[w->bin_of[i]] == 0) {
+            memmove(w->u + kept * d, w->u + i * d, (size_t)d * sizeof *w->u);
+            ++kept;
+        }
+    }
+    w->n = kept;
+    for (int64_t b = 0; b < w->passes->bins.n_bin; ++b) {
+        if (w->best[b] == 0) {
+            continue;
+        }
+        clx_rng rng =
+            clx_rng_at(w->config->seed, CLX_STREAM_GHOST, ((uint64_t)pass << 40) | (uint64_t)b);
+        const double whole = floor(plan->per_bin);
+        const int64_t n = (int64_t)whole + (clx_rng_uniform(&rng) < plan->per_bin - whole ? 1 : 0);
+        for (int64_t k = 0; k < n; ++k) {
+            CLX_TRY(add_ghost(w, b, &rng));
+        }
+        w->passes->tag[b] = (uint16_t)(pass * 8 + w->best[b]);
+        w->active[b] = 0;
+    }
+done:
+    return status;
+}
+
+/// One pass; *selected is false when there was nothing to select.
+static clast_status one_pass(work *w, int32_t number, clast_pass *pass, bool *selected)
+{
+    clast_status status = CLAST_OK;
+    clx_levels levels = {0};
+    clx_ghost_plan plan = {0};
+    *selected = false;
+    CLX_TRY(classify(w));
+    CLX_TRY(clx_levels_find(w->passes->bins.count, w->active, w->passes->bins.n_bin, &levels));
+    memcpy(pass->nb, w->passes->bins.nb, sizeof pass->nb);
+    pass->n_lambda = levels.n_lambda;
+    pass->fallback = levels.fallback;
+    if (levels.n_lambda > 0) {
+        CLX_TRY(search(w, &levels, pass, &plan));
+    }
+    if (pass->lambda_count > 0) {
+        pass->lambda = (double)pass->lambda_count * (double)w->passes->bins.n_bin / (double)w->n;
+        CLX_TRY(replace(w, &plan, number));
+        *selected = true;
+    }
+done:
+    clx_levels_free(&levels);
+    return status;
+}
+
+static clast_status iterate(work *w, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    const bool again = w->config->variant == CLAST_VARIANT_FULL;
+    const int32_t most = again ? w->config->max_pass : 1;
+    result->stop = again ? CLAST_STOP_MAX_PASS : CLAST_STOP_ONE_PASS;
+    for (int32_t k = 0; k < most; ++k) {
+        clast_uniformity after;
+        bool selected = false;
+        clast_pass pass = {0};
+        CLX_TRY(one_pass(w, k + 1, &pass, &selected));
+        if (!selected) {
+            result->stop = CLAST_STOP_NOTHING;
+            break;
+        }
+        result->pass[result->n_pass++] = pass;
+        if (again) {
+            CLX_TRY(clast_uniformity_test(w->u, w->n, w->passes->bins.d, w->side, w->config->level,
+                                          w->config->votes, &after));
+            if (!after.reject) {
+                result->stop = CLAST_STOP_UNIFORM;
+                break;
+            }
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status prepare(work *w, const double *u, int64_t n, int32_t d)
+{
+    clast_status status = CLAST_OK;
+    double width[3];
+    CLX_TRY(clx_bins_choose(u, n, d, width, &w->passes->bins));
+    CLX_TRY(clx_alloc(&w->passes->tag, w->passes->bins.n_bin, sizeof *w->passes->tag));
+    CLX_TRY(clx_alloc(&w->active, w->passes->bins.n_bin, 1));
+    CLX_TRY(clx_alloc(&w->label, w->passes->bins.n_bin, 1));
+    CLX_TRY(clx_alloc(&w->best, w->passes->bins.n_bin, 1));
+    CLX_TRY(clx_grow(&w->u, &w->capacity, n, (size_t)d * sizeof *w->u));
+    memcpy(w->u, u, (size_t)n * (size_t)d * sizeof *u);
+    memset(w->active, 1, (size_t)w->passes->bins.n_bin);
+    w->n = n;
+    choose_grid(w);
+    CLX_TRY(clx_alloc(&w->depth_count, (int64_t)w->n_grid + 1, sizeof *w->depth_count));
+done:
+    return status;
+}
+
+clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
+                            const clast_decompose_config *config, clast_decomposition *result,
+                            clx_passes *passes)
+{
+    clast_status status = CLAST_OK;
+    work w = {.config = config, .passes = passes};
+    clast_domain_sides(domain, w.side);
+    w.law = clx_depth_law_of_box(domain->dimension, w.side);
+    CLX_TRY(prepare(&w, u, n, domain->dimension));
+    result->points_per_bin = (double)n / (double)passes->bins.n_bin;
+    CLX_TRY(iterate(&w, result));
+    CLX_TRY(clx_bins_count(&passes->bins, u, n, NULL)); // the real points again
+done:
+    clx_free(w.u);
+    clx_free(w.active);
+    clx_free(w.label);
+    clx_free(w.best);
+    clx_free(w.bin_of);
+    clx_free(w.depth_of);
+    clx_free(w.depth_count);
+    if (status != CLAST_OK) {
+        clx_passes_free(passes);
+    }
+    return status;
+}
+
+void clx_passes_free(clx_passes *passes)
+{
+    clx_bins_free(&passes->bins);
+    clx_free(passes->tag);
+    *passes = (clx_passes){0};
+}

@@ -1,0 +1,18 @@
+#pragma once
+// The passes of step 2: threshold search, selection, ghosts.
+#include "cloud/bins.h"
+
+#include <clast/decompose.h>
+
+/// Bins of a cloud with what each pass selected.
+typedef struct clx_passes {
+    clx_bins bins;
+    uint16_t *tag; ///< [n_bin] pass * 8 + label of selected bins, 0 for ambient ones
+} clx_passes;
+
+/// Runs the passes that config asks for on points of the unit cube; fills result->pass, n_pass,
+/// stop and points_per_bin.
+clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
+                            const clast_decompose_config *config, clast_decomposition *result,
+                            clx_passes *passes);
+void clx_passes_free(clx_passes *passes);

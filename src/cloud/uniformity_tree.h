@@ -1,0 +1,26 @@
+#pragma once
+// The uniformity tree: a box is split in all axes while a chi-square test finds its points uneven.
+#include "base/status.h"
+
+/// Cells of the tree as boxes of the unit cube.
+typedef struct clx_uniformity_tree_cells {
+    int32_t n;
+    int64_t capacity;
+    double (*low)[3], (*high)[3];
+    int64_t *count;
+} clx_uniformity_tree_cells;
+
+typedef struct clx_uniformity_tree_config {
+    double level;  ///< of the test in each cell
+    int64_t least; ///< points below which a cell is not tested
+} clx_uniformity_tree_config;
+
+/// Splits [0, 1]^d while the counts of the 2^d halves, or of the 4^d quarters where at least 5
+/// points a block are expected, reject evenness at level / 2.
+///
+/// @param of_point  [n] cell of each point
+/// @note O(n depth); depth at most 20, so that equal points end
+clast_status clx_uniformity_tree_split(const double *u, int64_t n, int32_t d,
+                                       const clx_uniformity_tree_config *config,
+                                       clx_uniformity_tree_cells *cells, int32_t *of_point);
+void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells);

@@ -1,0 +1,119 @@
+"""CLI: decompose tests, splits and counts as its help says."""
+import math
+import random
+import unittest
+
+from clitest import ROOT, Case, clast
+
+DATA = ROOT / "data/d2sd"
+
+
+def write_points(path, points):
+    names = "xyz"[:len(points[0])]
+    path.write_text(",".join(names) + "\n" + "\n".join(",".join(repr(c) for c in p) for p in points) + "\n")
+
+
+class Decompose(Case):
+    def decompose(self, name, domain, *options):
+        result = clast("decompose", DATA / f"points_{name}.csv", "--domain", domain, "--json", *options)
+        self.assertEqual(result.code, 0, result.err)
+        return result.json
+
+    def test_uniform_points_are_one_cell(self):
+        r = self.decompose("u2_n50", "box:0,0,1,1", "--beta-dt", "0.004")
+        self.assertFalse(r["reject"])
+        self.assertEqual(r["n_cell"], 1)
+        self.assertAlmostEqual(r["events"], 0.5 * 0.004 * 50 * 49, places=12)
+
+    def test_frame_has_five_by_five_bins_and_one_pass_as_published(self):
+        r = self.decompose("f2_n500", "box:0,0,1,1")
+        self.assertTrue(r["reject"])
+        self.assertEqual([p["bins"] for p in r["passes"]], [[5, 5]])
+
+    def test_cells_hold_all_points_and_the_whole_volume(self):
+        for mesh in ("boxes", "components", "bins", "labels", "tree"):
+            r = clast("decompose", DATA / "points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1", "--mesh", mesh,
+                      "-o", self.folder / mesh, "--json")
+            self.assertEqual(r.code, 0, r.err)
+            rows = [line.split(",") for line in (self.folder / mesh / "cells.csv").read_text().split()]
+            column = {name: k for k, name in enumerate(rows[0])}
+            self.assertEqual(len(rows) - 1, r.json["n_cell"])
+            self.assertEqual(sum(float(row[column["count"]]) for row in rows[1:]), 500)
+            self.assertAlmostEqual(sum(float(row[column["volume"]]) for row in rows[1:]), 1.0, places=9)
+            self.assertAlmostEqual(sum(float(row[column["events"]]) for row in rows[1:]), r.json["events"], places=9)
+
+    def test_events_scale_with_the_inverse_of_the_volume(self):
+        near = self.decompose("u2_n50", "box:0,0,1,1")
+        random.seed(1)
+        points = [[float(c) * 10 for c in line.split(",")]
+                  for line in (DATA / "points_u2_n50.csv").read_text().split()[1:]]
+        write_points(self.folder / "far.csv", points)
+        far = clast("decompose", self.folder / "far.csv", "--domain", "box:0,0,10,10", "--json").json
+        self.assertAlmostEqual(near["events"] / far["events"], 100.0, places=6)
+        self.assertAlmostEqual(near["score"], far["score"], places=12)
+
+    def test_uniform_3d_cloud_is_unbiased_by_default(self):
+        random.seed(7)
+        points = [[random.random() for _ in range(3)] for _ in range(1000)]
+        write_points(self.folder / "u.csv", points)
+        expected = 0.5e-6 * 1000 * 999
+        for mesh in ("boxes", "tree"):
+            r = clast("decompose", self.folder / "u.csv", "--domain", "box:0,0,0,1,1,1", "--mesh", mesh, "--json").json
+            self.assertLess(abs(r["events"] / expected - 1.0), 0.02)
+
+    def test_published_estimate_is_biased_in_3d_and_says_so(self):
+        random.seed(7)
+        points = [[random.random() for _ in range(3)] for _ in range(1000)]
+        write_points(self.folder / "u.csv", points)
+        r = clast("decompose", self.folder / "u.csv", "--domain", "box:0,0,0,1,1,1", "--variant", "fast",
+                  "--events", "paper", "--json").json
+        self.assertGreater(r["events"] / 1e-6 / 1e6, 1.6)
+        words = clast("decompose", self.folder / "u.csv", "--domain", "box:0,0,0,1,1,1", "--variant", "fast").out
+        self.assertIn("points a bin (under 10)", words)
+
+    def test_half_pipe_maps_uniform_points_to_uniform_points(self):
+        random.seed(3)
+        points = []
+        for _ in range(2000):
+            rho, theta = 0.1 * math.sqrt(random.random()), math.pi * random.random()
+            points.append([rho * math.cos(theta), rho * math.sin(theta), random.random()])
+        write_points(self.folder / "pipe.csv", points)
+        r = clast("decompose", self.folder / "pipe.csv", "--domain", "half-pipe:0.1,1", "--json").json
+        self.assertFalse(r["reject"])
+        volume = 0.5 * math.pi * 0.01
+        self.assertAlmostEqual(r["events"], 0.5e-6 * 2000 * 1999 / volume, places=4)
+
+    def test_any_thread_count_gives_the_same_answer(self):
+        answers = []
+        for threads in ("1", "2", "4"):
+            r = self.decompose("b3_n500", "box:0,0,0,1,1,1", "-j", threads)
+            del r["wall_s"]
+            answers.append(r)
+        self.assertEqual(answers[0], answers[1])
+        self.assertEqual(answers[0], answers[2])
+
+    def test_bad_input_is_one_line(self):
+        file = DATA / "points_u2_n50.csv"
+        self.assert_fails(2, "decompose", file, says=["--domain", "never guessed"])
+        self.assert_fails(2, "decompose", file, "--domain", "box:0,0,1", says=["domain 'box:0,0,1'"])
+        self.assert_fails(2, "decompose", file, "--domain", "sphere:1", says=["3 dimensions", "2"])
+        self.assert_fails(3, "decompose", file, "--domain", "box:0,0,0.5,0.5", says=["50 points lie outside", "--drop"])
+        self.assert_fails(3, "decompose", self.folder / "none.csv", "--domain", "box:0,1", says=["none.csv"])
+        (self.folder / "nan.csv").write_text("x,y\n0.5,nan\n")
+        self.assert_fails(3, "decompose", self.folder / "nan.csv", "--domain", "box:0,0,1,1", says=["point 1"])
+        (self.folder / "text.csv").write_text("a,b\n0.5,0.1\n")
+        self.assert_fails(3, "decompose", self.folder / "text.csv", "--domain", "box:0,0,1,1", says=["'x'"])
+
+    def test_few_and_equal_points_are_told_apart_from_uniform(self):
+        write_points(self.folder / "few.csv", [[0.1, 0.2], [0.3, 0.4]])
+        few = clast("decompose", self.folder / "few.csv", "--domain", "box:0,0,1,1", "--json").json
+        self.assertEqual((few["tests"], few["n_cell"]), ([], 1))
+        write_points(self.folder / "equal.csv", [[0.5, 0.25]] * 40)
+        for mesh in ("boxes", "tree"):
+            equal = clast("decompose", self.folder / "equal.csv", "--domain", "box:0,0,1,1", "--mesh", mesh, "--json")
+            self.assertEqual(equal.code, 0, equal.err)
+            self.assertTrue(equal.json["reject"])
+
+
+if __name__ == "__main__":
+    unittest.main()
