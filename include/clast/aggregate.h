@@ -3,6 +3,7 @@
 // stopped at first touch.                       [docs/theory/aggregation.md; Rossi & Bonadonna
 // 2021]
 #include <clast/assembly.h>
+#include <clast/envelope.h>
 #include <clast/field.h>
 #include <clast/monitor.h>
 #include <clast/table.h>
@@ -49,7 +50,7 @@ typedef enum {
 
 typedef enum { CLAST_TARGET_CORE, CLAST_TARGET_MASS } clast_search_target;
 
-typedef enum { CLAST_PICK_RANDOM, CLAST_PICK_MASS, CLAST_PICK_KERNEL } clast_cluster_pick;
+typedef enum { CLAST_PICK_RANDOM, CLAST_PICK_MASS, CLAST_PICK_BROWNIAN } clast_cluster_pick;
 
 /// All of one run. Texts and lists are owned; start from clast_fields_default.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding) grouped as the options are
@@ -99,7 +100,6 @@ typedef struct clast_aggregate_config {
     clast_text_list envelope; ///< names; the first gives d_agg and density
     int32_t envelope_every;
     int32_t envelope_rays;
-    double envelope_length; ///< of alpha and wrap surfaces
 
     double stop_mass;     ///< kg; 0: never
     double stop_size;     ///< D_agg; 0: never
@@ -150,18 +150,23 @@ typedef enum {
     CLAST_STOP_POROSITY
 } clast_aggregate_stop;
 
-enum { CLAST_ENVELOPE_LIMIT = 16 };
-
-/// An aggregate in numbers, SI.
+/// An aggregate in numbers, SI. In cluster mode those of the largest cluster.
 typedef struct clast_aggregate_result {
-    int32_t n_particle; ///< placed on the core
+    int32_t n_particle; ///< placed on the core, or mergers
     int32_t n_grain;    ///< core included
     int32_t n_contact;
+    int32_t n_cluster;
     double mass;
-    double solid_sum;            ///< sum of the grains' volumes
+    double solid_sum; ///< sum of the grains' volumes
+    int32_t n_envelope;
+    clast_envelope envelope[CLAST_N_ENVELOPE]; ///< [n_envelope] in the order of the configuration
+    double porosity[CLAST_N_ENVELOPE];         ///< 1 - solid_sum / envelope
+    double d_agg;                ///< diameter of the sphere of the first envelope's volume
+    double density;              ///< mass by the first envelope's volume
     double radius_of_gyration;   ///< of the mass, each grain's own extent included
     double max_overlap;          ///< greatest step back that frees a particle; 0 within rounding
-    double max_overlap_relative; ///< the same by the particle's radius
+    double max_overlap_relative; ///< the same by the particle's size
+    int32_t n_lost;              ///< particles that the published march left at a step limit
     clast_aggregate_stop stop;
     double contact_s, envelope_s, wall_s;
 } clast_aggregate_result;
@@ -199,14 +204,36 @@ CLAST_API const clast_assembly *clast_aggregate_assembly(const clast_aggregate *
 CLAST_API clast_status clast_aggregate_history(const clast_aggregate *aggregate,
                                                clast_table *history);
 
-CLAST_API clast_aggregate_result clast_aggregate_now(const clast_aggregate *aggregate);
+/// The numbers of what has grown so far, envelopes to a tighter bound than in the rows.
+CLAST_API clast_status clast_aggregate_measure(const clast_aggregate *aggregate,
+                                               clast_aggregate_result *result);
 
-/// Goes on from what an earlier run had placed: the same particles follow, to the last bit.
+/// Cluster mode: table with the cluster of every grain and its place in it, which restoring needs.
+CLAST_API clast_status clast_aggregate_members(const clast_aggregate *aggregate,
+                                               clast_table *members);
+
+/// What an aggregation had placed; everything is borrowed.
+typedef struct clast_aggregate_saved {
+    int32_t repeat;
+    const clast_assembly *placed; ///< clast_aggregate_assembly
+    const clast_table *history;   ///< clast_aggregate_history: the rows of this repeat
+    const clast_table *members;   ///< clast_aggregate_members in cluster mode, else NULL
+} clast_aggregate_saved;
+
+/// Goes on from there: the same particles follow, to the last bit.
 ///
-/// @param placed   its assembly    @param history  its rows of this repeat
-/// @return CLAST_E_FORMAT when they do not belong to this configuration
+/// @return CLAST_E_FORMAT when it does not belong to this configuration
 CLAST_API clast_status clast_aggregate_restore(const clast_aggregate_config *config,
-                                               const clast_aggregate_input *input, int32_t repeat,
-                                               const clast_assembly *placed,
-                                               const clast_table *history,
+                                               const clast_aggregate_input *input,
+                                               const clast_aggregate_saved *saved,
                                                clast_aggregate **aggregate);
+
+/// Mean of repeated values, and the interval that holds the true mean at this level (Student's t).
+typedef struct clast_interval {
+    int32_t n;
+    double mean;
+    double deviation; ///< sample standard deviation; 0 for n = 1
+    double low, high; ///< mean -+ t deviation / sqrt(n); infinite for n = 1
+} clast_interval;
+
+CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, double confidence);

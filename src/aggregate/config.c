@@ -101,7 +101,6 @@ const clast_field clast_aggregate_fields[] = {
           "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, ..."),
     COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
-    NUMBER(envelope_length, 0, 0, 1e6, "m", "length of alpha and wrap envelopes"),
 
     NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never"),
     NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),

@@ -6,17 +6,12 @@
 
 #include "aggregate/config.h"
 #include "aggregate/sizes.h"
-#include "aggregate/trial.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "math/rng.h"
-#include "math/vec3.h"
-#include <clast/bvh.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/// The smallest core that a particle may meet, by length.
-static const double CORE_SMALLEST = 1e-6;
 
 void clast_aggregate_destroy(clast_aggregate *a)
 {
@@ -24,10 +19,14 @@ void clast_aggregate_destroy(clast_aggregate *a)
         return;
     }
     clx_touch_scene_destroy(a->scene);
+    clx_march_free(&a->march);
     clx_kit_free(&a->kit);
     clast_assembly_free(&a->assembly);
     clx_history_free(&a->history);
+    clx_clusters_free(&a->clusters);
+    clx_envelope_tracker_destroy(a->tracker);
     clx_free(a->shape_id);
+    clx_free(a->kit_shape);
     clx_free(a->size);
     clx_free(a->sphere_end);
     clx_free(a);
@@ -59,6 +58,7 @@ static clast_status add_shapes(clast_aggregate *a)
     clast_status status = CLAST_OK;
     clast_shape copy = {0};
     CLX_TRY(clx_alloc(&a->shape_id, a->kit.n_shape, sizeof *a->shape_id));
+    CLX_TRY(clx_alloc(&a->kit_shape, a->kit.n_shape, sizeof *a->kit_shape));
     for (int32_t i = 0; i < a->kit.n_shape; ++i) {
         const clast_shape *shape = a->kit.shape[i].shape;
         char name[256];
@@ -75,6 +75,7 @@ static clast_status add_shapes(clast_aggregate *a)
         copy.name = NULL;
         CLX_TRY(clx_alloc_text(&copy.name, name));
         CLX_TRY(clast_assembly_add_shape(&a->assembly, &copy, &a->shape_id[i]));
+        a->kit_shape[a->shape_id[i]] = i;
         clast_shape_free(&copy);
     }
 done:
@@ -82,194 +83,62 @@ done:
     return status;
 }
 
-static int64_t spheres_of(const clast_shape *shape)
+static clast_status prepare_contact(clast_aggregate *a)
 {
-    return shape->spheres.n > 0 ? shape->spheres.n : 1;
-}
-
-/// Everything that follows from one more placed grain.
-static clast_status account(clast_aggregate *a, int32_t grain, int32_t kit_shape)
-{
-    clast_status status = CLAST_OK;
-    const clast_assembly *all = &a->assembly;
-    const clx_kit_shape *shape = &a->kit.shape[kit_shape];
-    const double s = all->scale[grain];
-    const double volume = shape->shape->volume * s * s * s;
-    const double mass = volume * all->density[grain];
-    const double own = shape->inertia_trace / shape->shape->volume * s * s;
-    clx_touch_body body = shape->body;
-    clx_touch_body_place(&body, all->position[grain], all->orientation[grain], s);
-    CLX_TRY(clx_grow(&a->sphere_end, &a->sphere_room, grain + 1, sizeof *a->sphere_end));
-    CLX_TRY(clx_touch_scene_insert(a->scene, &body));
-    a->sphere_end[grain] = (grain > 0 ? a->sphere_end[grain - 1] : 0) + spheres_of(shape->shape);
-    a->volume += volume;
-    a->mass += mass;
-    a->second += mass * (v3_norm2(all->position[grain]) + own);
-    v3_axpy(a->moment, a->moment, mass, all->position[grain]);
-done:
-    return status;
-}
-
-static clast_status add_part(clast_aggregate *a, const clx_kit_part *placed)
-{
-    clast_status status = CLAST_OK;
-    CLX_TRY(clast_assembly_add_grain(&a->assembly, a->shape_id[placed->shape], placed->position,
-                                     placed->orientation, placed->scale, placed->density));
-    CLX_TRY(account(a, a->assembly.n_grain - 1, placed->shape));
-done:
-    return status;
-}
-
-static clast_status add_group(clast_aggregate *a, int32_t group, const double centre[3],
-                              const double orientation[4], double scale)
-{
-    clast_status status = CLAST_OK;
-    const clx_kit_group *g = &a->kit.group[group];
-    for (int32_t i = 0; i < g->n_part; ++i) {
-        clx_kit_part placed;
-        clx_kit_pose(g, i, centre, orientation, scale, &placed);
-        CLX_TRY(add_part(a, &placed));
+    if (a->config->contact == CLAST_CONTACT_MARCH) {
+        return clx_march_make(a->config, &a->kit, a->seed, &a->march);
     }
-done:
-    return status;
-}
-
-static double radius_of_gyration(const clast_aggregate *a)
-{
-    double centre[3];
-    v3_scale(centre, 1.0 / a->mass, a->moment);
-    return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));
-}
-
-static clast_status add_row(clast_aggregate *a, double **row)
-{
-    const clast_status status = clx_history_row(&a->history, row);
-    if (status == CLAST_OK) {
-        (*row)[CLX_HISTORY_REPEAT] = a->repeat;
-        (*row)[CLX_HISTORY_N] = a->n_placed;
-        (*row)[CLX_HISTORY_GRAIN] = a->assembly.n_grain - 1;
-        (*row)[CLX_HISTORY_TOUCHED] = -1.0;
-        (*row)[CLX_HISTORY_SHAPE] = -1.0;
-        (*row)[CLX_HISTORY_MASS] = a->mass;
-        (*row)[CLX_HISTORY_SOLID] = a->volume;
-        (*row)[CLX_HISTORY_GYRATION] = radius_of_gyration(a);
-    }
-    return status;
-}
-
-/// Does the point lie in the solid of this shape (its own frame)?
-static clast_status shape_holds(const clast_shape *shape, const double point[3], bool *holds)
-{
-    clast_status status = CLAST_OK;
-    clast_bvh *bvh = NULL;
-    *holds = false;
-    if (shape->kind == CLAST_SHAPE_MESH) {
-        CLX_TRY(clast_bvh_create(&shape->mesh, &bvh));
-        *holds = clast_bvh_inside(bvh, point);
-    } else if (shape->kind == CLAST_SHAPE_CLUMP) {
-        for (int32_t i = 0; i < shape->spheres.n && !*holds; ++i) {
-            *holds = v3_distance(point, shape->spheres.centre[i]) <= shape->spheres.radius[i];
-        }
-    } else {
-        double sum = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            const double x = point[k] / shape->semi_axes[shape->kind == CLAST_SHAPE_SPHERE ? 0 : k];
-            sum += x * x;
-        }
-        *holds = sum <= 1.0;
-    }
-done:
-    clast_bvh_destroy(bvh);
-    return status;
-}
-
-/// AUTO: from the core's centre, or from random grains when that lies outside the core.
-static clast_status resolve_origin(clast_aggregate *a)
-{
-    clast_status status = CLAST_OK;
-    bool holds = false;
-    a->origin = a->config->origin;
-    if (a->origin != CLAST_ORIGIN_AUTO) {
-        return CLAST_OK;
-    }
-    for (int32_t i = 0; i < a->n_core && !holds; ++i) {
-        double m[3][3], to[3], point[3];
-        q_matrix(m, a->assembly.orientation[i]);
-        v3_scale(to, -1.0 / a->assembly.scale[i], a->assembly.position[i]);
-        m3_mul_t(point, m, to);
-        CLX_TRY(shape_holds(&a->assembly.shape[a->assembly.shape_id[i]], point, &holds));
-    }
-    a->origin = holds ? CLAST_ORIGIN_CORE : CLAST_ORIGIN_GRAIN;
-done:
-    return status;
-}
-
-static clast_status place_core(clast_aggregate *a)
-{
-    clast_status status = CLAST_OK;
-    const double none[3] = {0.0, 0.0, 0.0};
-    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
-    const clast_aggregate_config *c = a->config;
-    double *row = NULL;
-    const double own = clx_kit_size(&a->kit.group[0], c->core_meaning);
-    const double scale = c->core_size > 0.0 ? c->core_size / own : 1.0;
-    CLX_CHECK(c->core_size > 0.0 || strcmp(a->input->core->unit, "m") == 0, CLAST_E_CONFIG,
-              "core_size: the core's file has no unit; give core_size, or unit");
-    CLX_TRY(add_group(a, 0, none, unturned, scale));
-    a->n_core = a->assembly.n_grain;
-    CLX_TRY(add_row(a, &row));
-    row[CLX_HISTORY_SIZE] = own * scale;
-    CLX_TRY(resolve_origin(a));
-done:
-    return status;
-}
-
-static clast_status check_sizes(const clast_aggregate *a)
-{
-    clast_status status = CLAST_OK;
-    const double core_length =
-        a->kit.group[0].length * a->assembly.scale[0] / a->kit.group[0].part[0].scale;
-    double mass = a->mass;
-    for (int32_t i = 0; i < a->n_particle; ++i) {
-        const int32_t shape = clx_aggregate_shape(a, i);
-        const clx_kit_group *group = &a->kit.group[1 + shape];
-        const double scale = clx_aggregate_scale(a, i, shape);
-        const double length = scale * group->length;
-        CLX_CHECK(core_length >= CORE_SMALLEST * length, CLAST_E_CONFIG,
-                  "core_size: the core's length %g m is below 1e-6 of particle %d, %g m long; are "
-                  "the units right?",
-                  core_length, i + 1, length);
-        mass += group->mass * scale * scale * scale;
-    }
-    CLX_CHECK(a->config->stop_mass <= mass, CLAST_E_CONFIG,
-              "stop_mass: %g kg is more than core and all %d particles weigh, %g kg; raise "
-              "replicate or lower stop_mass",
-              a->config->stop_mass, a->n_particle, mass);
-    CLX_CHECK(a->config->stop_mass == 0.0 || a->config->stop_mass > a->mass, CLAST_E_CONFIG,
-              "stop_mass: the core alone weighs %g kg, not below %g kg", a->mass,
-              a->config->stop_mass);
-done:
-    return status;
+    return a->config->mode == CLAST_AGGREGATE_CORE ? clx_touch_scene_create(&a->scene) : CLAST_OK;
 }
 
 /// Kit, sizes and an empty scene: all that is known before the first grain.
-static clast_status prepare(const clast_aggregate_config *config,
-                            const clast_aggregate_input *input, int32_t repeat, clast_aggregate *a)
+static clast_status prepare(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
+    const clast_aggregate_config *c = a->config;
+    CLX_TRY(clx_kit_make(c, a->input, &a->kit));
+    CLX_TRY(clx_sizes_plan(c, a->input->sizes, a->seed, &a->size, &a->n_particle));
+    CLX_TRY(prepare_contact(a));
+    CLX_TRY(clx_history_init(&a->history));
+    CLX_TRY(clx_aggregate_measure_begin(a));
+    CLX_TRY(add_shapes(a));
+done:
+    return status;
+}
+
+clast_status clx_aggregate_begin(const clast_aggregate_config *config,
+                                 const clast_aggregate_input *input, int32_t repeat,
+                                 clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    CLAST_ASSERT(input->n_coat == config->coat.n);
     a->config = config;
     a->input = input;
     a->repeat = repeat;
     a->seed = seed_of(config, repeat);
-    CLAST_ASSERT(input->n_coat == config->coat.n);
+    (void)snprintf(a->assembly.unit, sizeof a->assembly.unit, "m");
     CLX_TRY(clast_aggregate_config_check(config));
     CLX_TRY(clx_aggregate_axis(config, &a->random_axis, a->axis));
-    CLX_TRY(clx_kit_make(config, input, &a->kit));
-    CLX_TRY(clx_sizes_plan(config, input->sizes, a->seed, &a->size, &a->n_particle));
-    CLX_TRY(clx_touch_scene_create(&a->scene));
-    CLX_TRY(clx_history_init(&a->history));
-    (void)snprintf(a->assembly.unit, sizeof a->assembly.unit, "m");
-    CLX_TRY(add_shapes(a));
+    CLX_TRY(prepare(a));
+    a->n_step = a->n_particle;
+    if (config->mode == CLAST_AGGREGATE_CLUSTER) {
+        CLX_CHECK(config->n_final < a->n_particle, CLAST_E_CONFIG,
+                  "n_final: %d clusters cannot be left of %d particles", config->n_final,
+                  a->n_particle);
+        a->n_step = a->n_particle - config->n_final;
+    }
+done:
+    return status;
+}
+
+static clast_status first_grains(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
+        return clx_clusters_begin(a);
+    }
+    CLX_TRY(clx_aggregate_place_core(a));
+    CLX_TRY(clx_aggregate_check_sizes(a));
 done:
     return status;
 }
@@ -281,9 +150,8 @@ clast_status clast_aggregate_create(const clast_aggregate_config *config,
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));
-    CLX_TRY(prepare(config, input, repeat, a));
-    CLX_TRY(place_core(a));
-    CLX_TRY(check_sizes(a));
+    CLX_TRY(clx_aggregate_begin(config, input, repeat, a));
+    CLX_TRY(first_grains(a));
     *aggregate = a;
     a = NULL;
 done:
@@ -291,87 +159,37 @@ done:
     return status;
 }
 
-static void aim(const clast_aggregate *a, int32_t shape, clx_search *search)
+/// Last row's value in an envelope column, NAN when that row was not measured.
+static double last_value(const clast_aggregate *a, int32_t column)
+{
+    const clx_history *h = &a->history;
+    return h->n_row > 0 ? h->value[(h->n_row - 1) * h->n_column + column] : (double)NAN;
+}
+
+clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a)
 {
     const clast_aggregate_config *c = a->config;
-    const int32_t particle = a->n_placed;
-    *search = (clx_search){.kit = &a->kit,
-                           .group = &a->kit.group[1 + shape],
-                           .scale = clx_aggregate_scale(a, particle, shape),
-                           .size = a->size[particle],
-                           .scene = a->scene,
-                           .assembly = &a->assembly,
-                           .sphere_end = a->sphere_end,
-                           .origin = a->origin,
-                           .seed = a->seed,
-                           .particle = particle,
-                           .random_axis = a->random_axis,
-                           .cone = c->cone,
-                           .n_ray = c->rays,
-                           .n_orientation = c->orientations,
-                           .start = c->start};
-    v3_copy(search->axis, a->axis);
-    if (a->origin == CLAST_ORIGIN_MASS) {
-        v3_scale(search->centre, 1.0 / a->mass, a->moment);
-    }
-    if (c->target == CLAST_TARGET_MASS) {
-        v3_scale(search->target, 1.0 / a->mass, a->moment);
-    }
-}
-
-/// The landing, with new axes as long as every ray misses.
-static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_landing *landing)
-{
-    clast_status status = CLAST_OK;
-    const double begun = clx_clock();
-    do {
-        clx_search_run(search, landing);
-    } while (!landing->found && ++search->attempt < a->config->max_tries);
-    a->contact_s += clx_clock() - begun;
-    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
-              "particle %d of %d: all rays of %d axes miss the aggregate; widen the cone or let "
-              "rays start at a grain (origin: grain)",
-              a->n_placed + 1, a->n_particle, a->config->max_tries);
-done:
-    return status;
-}
-
-static clast_status place_particle(clast_aggregate *a)
-{
-    clast_status status = CLAST_OK;
-    clx_search search;
-    clx_landing landing;
-    double *row = NULL;
-    const int32_t shape = clx_aggregate_shape(a, a->n_placed);
-    aim(a, shape, &search);
-    CLX_TRY(throw_particle(a, &search, &landing));
-    const double overlap = clx_search_overlap(&search, &landing);
-    const int32_t first = a->assembly.n_grain;
-    CLX_TRY(add_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
-    CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touch.body, first + landing.part,
-                                       landing.touch.point));
-    ++a->n_placed;
-    CLX_TRY(add_row(a, &row));
-    row[CLX_HISTORY_SHAPE] = shape;
-    row[CLX_HISTORY_SIZE] = search.size;
-    row[CLX_HISTORY_DISTANCE] = landing.distance;
-    row[CLX_HISTORY_RAYS] = (double)search.n_ray * (search.attempt + 1);
-    row[CLX_HISTORY_TOUCHED] = landing.touch.body;
-    row[CLX_HISTORY_OVERLAP] = overlap;
-    a->max_overlap = fmax(a->max_overlap, overlap);
-    a->max_overlap_relative =
-        fmax(a->max_overlap_relative, overlap / (search.scale * search.group->radius));
-done:
-    return status;
-}
-
-static clast_aggregate_stop stop_now(const clast_aggregate *a)
-{
-    const clast_aggregate_config *c = a->config;
-    if (c->stop_mass > 0.0 && a->mass >= c->stop_mass) {
+    if (c->stop_mass > 0.0 && last_value(a, CLX_HISTORY_MASS) >= c->stop_mass) {
         return CLAST_STOP_MASS;
     }
-    return a->n_placed == a->n_particle ? CLAST_STOP_LIST : CLAST_STOP_NOT;
+    if (c->stop_size > 0.0 && last_value(a, CLX_HISTORY_FIXED) >= c->stop_size) {
+        return CLAST_STOP_SIZE;
+    }
+    if (c->stop_porosity > 0.0 && last_value(a, CLX_HISTORY_FIXED + 2) >= c->stop_porosity) {
+        return CLAST_STOP_POROSITY;
+    }
+    return a->n_placed == a->n_step ? CLAST_STOP_LIST : CLAST_STOP_NOT;
+}
+
+static clast_status step(clast_aggregate *a)
+{
+    const bool clusters = a->config->mode == CLAST_AGGREGATE_CLUSTER;
+    const clast_status status = clusters ? clx_clusters_merge(a) : clx_aggregate_place(a);
+    a->stop = status == CLAST_OK ? clx_aggregate_stop_now(a) : CLAST_STOP_NOT;
+    if (clusters && a->stop != CLAST_STOP_NOT) {
+        clx_clusters_spread(a);
+    }
+    return status;
 }
 
 clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_monitor *monitor)
@@ -380,11 +198,10 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
     const double begun = clx_clock();
     for (int32_t i = 0; i < n && a->stop == CLAST_STOP_NOT; ++i) {
         CLX_CHECK(monitor == NULL || monitor->stop == NULL || !monitor->stop(monitor->context),
-                  CLAST_E_STOPPED, "stopped after %d of %d particles", a->n_placed, a->n_particle);
-        CLX_TRY(place_particle(a));
-        a->stop = stop_now(a);
+                  CLAST_E_STOPPED, "stopped after %d of %d steps", a->n_placed, a->n_step);
+        CLX_TRY(step(a));
         if (monitor != NULL && monitor->report != NULL) {
-            monitor->report(monitor->context, "grow", a->n_placed, a->n_particle);
+            monitor->report(monitor->context, "grow", a->n_placed, a->n_step);
         }
     }
 done:
@@ -412,18 +229,56 @@ clast_status clast_aggregate_history(const clast_aggregate *a, clast_table *hist
     return clx_history_table(&a->history, history);
 }
 
-clast_aggregate_result clast_aggregate_now(const clast_aggregate *a)
+/// Mass, solid and radius of gyration of what is measured: the aggregate, or the largest cluster.
+static void sums(const clast_aggregate *a, clast_aggregate_result *r)
 {
-    return (clast_aggregate_result){.n_particle = a->n_placed,
-                                    .n_grain = a->assembly.n_grain,
-                                    .n_contact = a->assembly.n_contact,
-                                    .mass = a->mass,
-                                    .solid_sum = a->volume,
-                                    .radius_of_gyration = radius_of_gyration(a),
-                                    .max_overlap = a->max_overlap,
-                                    .max_overlap_relative = a->max_overlap_relative,
-                                    .stop = a->stop,
-                                    .contact_s = a->contact_s,
-                                    .envelope_s = a->envelope_s,
-                                    .wall_s = a->wall_s};
+    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
+        const clx_cluster *largest = clx_clusters_largest(&a->clusters);
+        r->n_grain = largest->n;
+        r->n_contact = largest->n_contact;
+        r->n_cluster = a->clusters.n;
+        r->mass = largest->mass;
+        r->solid_sum = largest->volume;
+        r->radius_of_gyration = largest->gyration;
+    } else {
+        r->n_grain = a->assembly.n_grain;
+        r->n_contact = a->assembly.n_contact;
+        r->n_cluster = 1;
+        r->mass = a->mass;
+        r->solid_sum = a->volume;
+        r->radius_of_gyration = clx_aggregate_gyration(a);
+    }
+}
+
+/// The worst overlap and the lost ones, from the rows.
+static void faults(const clast_aggregate *a, clast_aggregate_result *r)
+{
+    for (int64_t i = 0; i < a->history.n_row; ++i) {
+        const double *row = &a->history.value[i * a->history.n_column];
+        const double overlap = row[CLX_HISTORY_OVERLAP];
+        r->max_overlap = fmax(r->max_overlap, overlap);
+        r->max_overlap_relative = fmax(r->max_overlap_relative, overlap / row[CLX_HISTORY_SIZE]);
+        r->n_lost += row[CLX_HISTORY_LOST] > 0.0 ? 1 : 0;
+    }
+}
+
+clast_status clast_aggregate_measure(const clast_aggregate *a, clast_aggregate_result *result)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_result r = {.n_particle = a->n_placed,
+                                .stop = a->stop,
+                                .contact_s = a->contact_s,
+                                .envelope_s = a->envelope_s,
+                                .wall_s = a->wall_s};
+    sums(a, &r);
+    faults(a, &r);
+    CLX_TRY(clx_aggregate_measure_end(a, &r));
+    *result = r;
+done:
+    return status;
+}
+
+clast_status clast_aggregate_members(const clast_aggregate *a, clast_table *members)
+{
+    return clx_clusters_members(a, members);
 }

@@ -1,7 +1,11 @@
 #pragma once
 // The inside of a growing aggregate, for the files of this folder.
+#include "aggregate/aim.h"
+#include "aggregate/cluster.h"
+#include "aggregate/envelope.h"
 #include "aggregate/history.h"
 #include "aggregate/kit.h"
+#include "aggregate/march.h"
 #include "contact/touch_scene.h"
 
 struct clast_aggregate {
@@ -14,22 +18,29 @@ struct clast_aggregate {
     int32_t origin; ///< AUTO already resolved
 
     clx_kit kit;
-    int32_t *shape_id; ///< [kit.n_shape] number of a kit's shape in the assembly
-    double *size;      ///< [n_particle] m, in order of placement
+    int32_t *shape_id;  ///< [kit.n_shape] number of a kit's shape in the assembly
+    int32_t *kit_shape; ///< [assembly.n_shape] the reverse
+    double *size;       ///< [n_particle] m, in order of placement
     int32_t n_particle;
+    int32_t n_step; ///< particles to place, or mergers
     int32_t n_core; ///< grains of the core
 
     clast_assembly assembly;
-    clx_touch_scene *scene;
-    int64_t *sphere_end; ///< [n_grain] running count of composite spheres
+    clx_touch_scene *scene; ///< NULL in the march
+    clx_march march;        ///< empty but in the march
+    int64_t *sphere_end;    ///< [n_grain] running count of composite spheres
     int64_t sphere_room;
-    int32_t n_placed;
+    int32_t n_placed;      ///< steps done: particles placed, or mergers
+    clx_clusters clusters; ///< cluster mode
     clx_history history;
+
+    int32_t n_kind;
+    clast_envelope_kind kind[CLAST_N_ENVELOPE];
+    clx_envelope_tracker *tracker; ///< NULL in cluster mode
 
     double mass, volume;
     double moment[3]; ///< sum of mass times position
     double second;    ///< sum of mass times (position squared + own mean square radius)
-    double max_overlap, max_overlap_relative;
     clast_aggregate_stop stop;
     double contact_s, envelope_s, wall_s;
 };
@@ -37,3 +48,47 @@ struct clast_aggregate {
 /// Coating shape and scale of a particle.
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle);
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape);
+
+/// Adds the grains of a placed group: assembly, scene, sums.
+clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
+                                     const double orientation[4], double scale);
+
+/// Kit, sizes, scene, columns; no grain yet.
+clast_status clx_aggregate_begin(const clast_aggregate_config *config,
+                                 const clast_aggregate_input *input, int32_t repeat,
+                                 clast_aggregate *a);
+
+/// Whether, after this step, growing ends.
+clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a);
+
+/// AUTO origin resolved, once the core's n_core grains lie.
+clast_status clx_aggregate_resolve_origin(clast_aggregate *a);
+
+/// Scene, sums and envelopes of a grain that is in the assembly already.
+clast_status clx_aggregate_account(clast_aggregate *a, int32_t grain);
+
+/// A grain of the assembly as contact sees it.
+clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain);
+
+/// The cone of rays of the next step.
+clx_aim clx_aggregate_aim(const clast_aggregate *a);
+
+/// Envelopes: kinds, tracker and columns; a grain; a row's columns; the numbers at the end.
+clast_status clx_aggregate_measure_begin(clast_aggregate *a);
+clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row);
+clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster *cluster,
+                                           double *row);
+clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result);
+
+/// A row of the sums as they are.
+clast_status clx_aggregate_add_row(clast_aggregate *a, double **row);
+
+double clx_aggregate_gyration(const clast_aggregate *a);
+
+clast_status clx_aggregate_place_core(clast_aggregate *a);
+
+/// Refuses cores that are too small and masses that cannot be reached.
+clast_status clx_aggregate_check_sizes(const clast_aggregate *a);
+
+/// Throws and places the next particle.
+clast_status clx_aggregate_place(clast_aggregate *a);

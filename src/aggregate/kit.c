@@ -3,15 +3,18 @@
 
 #include "aggregate/form.h"
 #include "base/alloc.h"
+#include "contact/touch_tree.h"
 #include "math/vec3.h"
 
 void clx_kit_free(clx_kit *kit)
 {
     for (int32_t i = 0; i < kit->n_shape; ++i) {
-        (void)i;
+        clx_touch_tree_destroy(kit->shape[i].tree);
     }
     for (int32_t g = 0; g < kit->n_group; ++g) {
         clx_free(kit->group[g].part);
+        clx_free(kit->group[g].contact);
+        clx_free(kit->group[g].contact_point);
     }
     clx_free(kit->shape);
     clx_free(kit->group);
@@ -23,8 +26,9 @@ static clast_status composite(const clast_shape *shape, clx_kit_shape *made)
     clast_status status = CLAST_OK;
     CLX_CHECK(shape->spheres.n > 0, CLAST_E_GEOMETRY,
               "shape %s has no sphere composite; give coat_spheres or fill it", shape->name);
-    (void)made;
-    CLX_CHECK(false, CLAST_E_LIMIT, "shape %s: composites cannot be thrown yet", shape->name);
+    CLX_TRY(clx_touch_tree_spheres(shape->spheres.n, shape->spheres.centre, shape->spheres.radius,
+                                   &made->tree));
+    made->body = clx_touch_body_tree(made->tree);
 done:
     return status;
 }
@@ -39,7 +43,8 @@ static clast_status true_surface(const clast_shape *shape, clx_kit_shape *made)
     } else if (shape->kind == CLAST_SHAPE_CLUMP) {
         CLX_TRY(composite(shape, made));
     } else {
-        CLX_CHECK(false, CLAST_E_LIMIT, "shape %s: surfaces cannot be thrown yet", shape->name);
+        CLX_TRY(clx_touch_tree_mesh(&shape->mesh, &made->tree));
+        made->body = clx_touch_body_tree(made->tree);
     }
 done:
     return status;
@@ -87,6 +92,22 @@ done:
     return status;
 }
 
+static clast_status copy_contacts(const clast_assembly *assembly, clx_kit_group *group)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = assembly->n_contact;
+    CLX_TRY(clx_alloc(&group->contact, n, sizeof *group->contact));
+    CLX_TRY(clx_alloc(&group->contact_point, n, sizeof *group->contact_point));
+    group->n_contact = n;
+    for (int32_t i = 0; i < n; ++i) {
+        group->contact[i][0] = assembly->contact[i][0];
+        group->contact[i][1] = assembly->contact[i][1];
+        v3_sub(group->contact_point[i], assembly->contact_point[i], group->centre);
+    }
+done:
+    return status;
+}
+
 static clast_status make_group(const clx_kit *kit, const clast_assembly *assembly,
                                int32_t first_shape, clx_kit_group *group)
 {
@@ -95,6 +116,7 @@ static clast_status make_group(const clx_kit *kit, const clast_assembly *assembl
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
               "an aggregate of no grains cannot be thrown");
     CLX_TRY(make_parts(kit, assembly, first_shape, group));
+    CLX_TRY(copy_contacts(assembly, group));
     CLX_TRY(clx_form_dimensions(kit, group, form));
     group->length = form[0];
     group->mean_diameter = cbrt(form[0] * form[1] * form[2]);
@@ -109,7 +131,9 @@ static clast_status add_group(int32_t contact, const clast_assembly *assembly, c
     const int32_t first_shape = kit->n_shape;
     clx_kit_group *group = &kit->group[kit->n_group++];
     for (int32_t i = 0; assembly != NULL && i < assembly->n_shape; ++i) {
-        CLX_TRY(make_shape(contact, &assembly->shape[i], &kit->shape[kit->n_shape++]));
+        clx_kit_shape *shape = &kit->shape[kit->n_shape++];
+        shape->group = kit->n_group - 1;
+        CLX_TRY(make_shape(contact, &assembly->shape[i], shape));
     }
     if (assembly != NULL) {
         CLX_TRY(make_group(kit, assembly, first_shape, group));

@@ -6,7 +6,9 @@
 /// A distinct shape of the run.
 typedef struct clx_kit_shape {
     const clast_shape *shape; ///< borrowed
+    clx_touch_tree *tree;     ///< of surfaces and composites, or NULL
     clx_touch_body body;      ///< as contact sees it: at the origin, scale 1
+    int32_t group;            ///< that it belongs to
     double inertia_trace;     ///< half the trace of the inertia: integral of r2 about the centroid
 } clx_kit_shape;
 
@@ -23,8 +25,11 @@ typedef struct clx_kit_part {
 typedef struct clx_kit_group {
     int32_t n_part;
     clx_kit_part *part; ///< [n_part] owned
-    double centre[3];   ///< centre of mass in the coordinates of its assembly
-    double volume;      ///< sum of its parts'
+    int32_t n_contact;
+    int32_t (*contact)[2];      ///< [n_contact] parts that touch, owned
+    double (*contact_point)[3]; ///< [n_contact] relative to the centre of mass
+    double centre[3];           ///< centre of mass in the coordinates of its assembly
+    double volume;              ///< sum of its parts'
     double mass;
     double length;        ///< greatest distance of two of its points
     double mean_diameter; ///< (L I S)^(1/3)

@@ -7,6 +7,7 @@
 #include "aggregate/trial.h"
 
 #include "base/parallel.h"
+#include "contact/touch_tree.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <math.h>
@@ -30,27 +31,11 @@ typedef struct {
     double t_low;
 } ray;
 
-static uint64_t item(const clx_search *s, int64_t number, int64_t per_attempt)
-{
-    const uint64_t high = (uint64_t)(number + s->attempt * per_attempt);
-    return (uint64_t)s->particle | (high << 32);
-}
-
-static void draw_axis(const clx_search *s, double axis[3])
-{
-    v3_copy(axis, s->axis);
-    if (s->random_axis) {
-        clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_AXIS, item(s, 0, 1));
-        clx_rng_direction(&rng, axis);
-    }
-}
-
 /// Centre of the k-th sphere of all composites, in the world.
 static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
 {
-    const clast_assembly *a = s->assembly;
     int32_t low = 0;
-    int32_t high = a->n_grain - 1;
+    int32_t high = clx_touch_scene_count(s->scene) - 1;
     while (low < high) {
         const int32_t middle = low + (high - low) / 2;
         if (s->sphere_end[middle] > k) {
@@ -59,23 +44,26 @@ static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
             low = middle + 1;
         }
     }
-    const clast_shape *shape = &a->shape[a->shape_id[low]];
+    const clx_touch_body *body = clx_touch_scene_body(s->scene, low);
     const int64_t local = k - (low > 0 ? s->sphere_end[low - 1] : 0);
-    double arm[3] = {0.0, 0.0, 0.0};
-    if (shape->spheres.n > 0) {
-        q_rotate(arm, a->orientation[low], shape->spheres.centre[local]);
+    v3_copy(centre, body->position);
+    if (body->tree != NULL) {
+        for (int i = 0; i < 3; ++i) {
+            centre[i] += body->scale * v3_dot(&body->rotation[3 * i], body->tree->ball[local]);
+        }
     }
-    v3_axpy(centre, a->position[low], a->scale[low], arm);
 }
 
 static void draw_origin(const clx_search *s, int64_t number, double origin[3])
 {
-    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_ORIGIN, item(s, number, s->n_ray));
+    const int32_t n = clx_touch_scene_count(s->scene);
+    clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_ORIGIN,
+                             clx_aim_index(&s->aim, number, s->aim.n_ray));
     if (s->origin == CLAST_ORIGIN_GRAIN) {
-        v3_copy(origin, s->assembly->position[clx_rng_below(&rng, s->assembly->n_grain)]);
+        const int32_t pick = (int32_t)clx_rng_below(&rng, n);
+        v3_copy(origin, clx_touch_scene_body(s->scene, pick)->position);
     } else if (s->origin == CLAST_ORIGIN_SPHERE) {
-        const int64_t n = s->sphere_end[s->assembly->n_grain - 1];
-        sphere_centre(s, clx_rng_below(&rng, n), origin);
+        sphere_centre(s, clx_rng_below(&rng, s->sphere_end[n - 1]), origin);
     } else {
         v3_copy(origin, s->centre);
     }
@@ -96,12 +84,9 @@ static double start_of(const clx_search *s, const clx_touch_path *path, const do
 
 static void make_ray(const clx_search *s, int64_t number, ray *r)
 {
-    double axis[3], back[3];
-    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_RAY, item(s, number, s->n_ray));
-    draw_axis(s, axis);
+    double back[3];
     r->number = number;
-    clx_rng_cone(&rng, axis, s->cone, r->direction);
-    (void)v3_unit(r->direction, r->direction);
+    clx_aim_direction(&s->aim, number, r->direction);
     draw_origin(s, number, r->origin);
     v3_scale(back, -1.0, r->direction);
     const clx_touch_path path = clx_touch_path_along(back);
@@ -155,8 +140,9 @@ static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, doub
     double back[3];
     v3_scale(back, -1.0, r->direction);
     clx_touch_path path = clx_touch_path_along(back);
-    const int64_t n_trial = (int64_t)s->n_ray * s->n_orientation;
-    clx_rng rng = clx_rng_at(s->seed, CLX_STREAM_AGGREGATE_ORIENTATION, item(s, trial, n_trial));
+    const int64_t n_trial = (int64_t)s->aim.n_ray * s->n_orientation;
+    clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_ORIENTATION,
+                             clx_aim_index(&s->aim, trial, n_trial));
     clx_rng_orientation(&rng, landing->orientation);
     q_unit(landing->orientation);
     path.t_low = r->t_low;
@@ -223,7 +209,7 @@ void clx_search_run(const clx_search *search, clx_landing *best)
     race all = {.search = search, .lock = ATOMIC_FLAG_INIT};
     atomic_init(&all.bound, HUGE_VAL);
     const int64_t n_orientation = search->group->is_round ? 1 : search->n_orientation;
-    clx_parallel_for(search->n_ray * n_orientation, TRIAL_BLOCK, run_trials, &all);
+    clx_parallel_for(search->aim.n_ray * n_orientation, TRIAL_BLOCK, run_trials, &all);
     *best = all.best;
 }
 

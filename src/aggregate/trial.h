@@ -1,5 +1,6 @@
 #pragma once
 // One particle's search: rays in a cone, orientations on each ray, the landing nearest the target.
+#include "aggregate/aim.h"
 #include "aggregate/kit.h"
 #include "contact/touch_scene.h"
 
@@ -11,20 +12,14 @@ typedef struct clx_search {
     double size; ///< as the sizes mean it; the unit of `start` [m]
 
     const clx_touch_scene *scene;
-    const clast_assembly *assembly; ///< grains of the scene, in its order
-    const int64_t *sphere_end;      ///< [n_grain] running count of composite spheres, for SPHERE
-    int32_t origin;                 ///< clast_ray_origin, but never AUTO
-    double centre[3];               ///< rays' origin for CORE and MASS
+    const int64_t *sphere_end; ///< [bodies] running count of composite spheres, for SPHERE
+    int32_t origin;            ///< clast_ray_origin, but never AUTO
+    double centre[3];          ///< rays' origin for CORE and MASS
     double target[3];
 
-    uint64_t seed;
-    int64_t particle;
-    int32_t attempt; ///< 0, 1, ... : a new axis each
-    bool random_axis;
-    double axis[3];
-    double cone;
-    int32_t n_ray, n_orientation;
-    double start; ///< sizes beyond the ray's last hit, 0: from outside of all
+    clx_aim aim;
+    int32_t n_orientation; ///< on each of aim.n_ray rays
+    double start;          ///< sizes beyond the ray's last hit, 0: from outside of all
 } clx_search;
 
 /// Where a particle came to rest.

@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include <clast/mesh_file.h>
+#include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -50,6 +51,52 @@ done:
     return status;
 }
 
+/// Column of a sphere table whose name begins with `letter` (x_um, r), or NULL.
+static const double *sphere_column(const clast_table *table, char letter)
+{
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        if (table->column[c].name[0] == letter && table->column[c].number != NULL) {
+            return table->column[c].number;
+        }
+    }
+    return NULL;
+}
+
+/// Spheres x, y, z, r in the coordinates of the shape's file.
+static clast_status read_spheres(const char *path, double factor, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    clast_spheres made = {0};
+    CLX_TRY(clast_table_read_csv(path, NULL, &table, NULL));
+    const double *column[4];
+    for (int k = 0; k < 4; ++k) {
+        column[k] = sphere_column(&table, "xyzr"[k]);
+        CLX_CHECK(column[k] != NULL, CLAST_E_FORMAT, "%s: no number column that begins with %c",
+                  path, "xyzr"[k]);
+    }
+    CLX_CHECK(table.n_row >= 1 && table.n_row <= 10000000, CLAST_E_FORMAT,
+              "%s: %lld spheres; 1 to 1e7 make a composite", path, (long long)table.n_row);
+    CLX_TRY(clast_spheres_alloc((int32_t)table.n_row, &made));
+    for (int32_t i = 0; i < made.n; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            made.centre[i][k] = factor * column[k][i] - shape->source_origin[k];
+            CLX_CHECK(isfinite(made.centre[i][k]), CLAST_E_FORMAT, "%s: sphere %d has no centre",
+                      path, i + 1);
+        }
+        made.radius[i] = factor * column[3][i];
+        CLX_CHECK(made.radius[i] > 0.0 && isfinite(made.radius[i]), CLAST_E_FORMAT,
+                  "%s: the radius of sphere %d is not above 0", path, i + 1);
+    }
+    clast_spheres_free(&shape->spheres);
+    shape->spheres = made;
+    made = (clast_spheres){0};
+done:
+    clast_spheres_free(&made);
+    clast_table_free(&table);
+    return status;
+}
+
 static bool is_ellipsoid(const char *text)
 {
     return strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0;
@@ -64,7 +111,7 @@ static clast_status read_shape(const char *text, double factor, clast_shape *sha
 }
 
 static clast_status load_shape(const clast_aggregate_config *config, const char *text,
-                               double density, clast_assembly *assembly)
+                               const char *spheres, double density, clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
     clast_shape shape = {0};
@@ -75,6 +122,9 @@ static clast_status load_shape(const clast_aggregate_config *config, const char 
         CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
     }
     CLX_TRY(read_shape(text, factor, &shape));
+    if (spheres[0] != '\0') {
+        CLX_TRY(read_spheres(spheres, factor, &shape));
+    }
     CLX_TRY(clast_assembly_add_shape(assembly, &shape, NULL));
     CLX_TRY(clast_assembly_add_grain(assembly, 0, NOWHERE, UNTURNED, 1.0, density));
     (void)snprintf(assembly->unit, sizeof assembly->unit, "%s", has_unit ? "m" : "model");
@@ -84,9 +134,10 @@ done:
 }
 
 static clast_status load_named(const char *role, const clast_aggregate_config *config,
-                               const char *text, double density, clast_assembly *assembly)
+                               const char *text, const char *spheres, double density,
+                               clast_assembly *assembly)
 {
-    const clast_status status = load_shape(config, text, density, assembly);
+    const clast_status status = load_shape(config, text, spheres, density, assembly);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", role);
     }
@@ -124,14 +175,16 @@ static clast_status load_shapes(const clast_aggregate_config *config, clast_aggr
 {
     clast_status status = CLAST_OK;
     if (config->core[0] != '\0') {
-        CLX_TRY(load_named("core", config, config->core, config->core_density, &made->core));
+        CLX_TRY(load_named("core", config, config->core, config->core_spheres, config->core_density,
+                           &made->core));
     }
     CLX_TRY(clx_alloc(&made->coat, config->coat.n, sizeof *made->coat));
     made->n_coat = config->coat.n;
     for (int32_t i = 0; i < config->coat.n; ++i) {
         const int32_t k = config->coat_density.n > 1 ? i : 0;
-        CLX_TRY(load_named("coat", config, config->coat.item[i], config->coat_density.item[k],
-                           &made->coat[i]));
+        const char *spheres = config->coat_spheres.n > 0 ? config->coat_spheres.item[i] : "";
+        CLX_TRY(load_named("coat", config, config->coat.item[i], spheres,
+                           config->coat_density.item[k], &made->coat[i]));
     }
 done:
     return status;

@@ -112,6 +112,28 @@ static inline void q_matrix(double m[3][3], const double q[4])
     v3_set(m[2], 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y));
 }
 
+/// Unit quaternion of a rotation matrix, from its greatest component. [Shepperd1978]
+static inline void q_from_matrix(double q[4], double m[3][3])
+{
+    const double square[4] = {1.0 + m[0][0] + m[1][1] + m[2][2], 1.0 + m[0][0] - m[1][1] - m[2][2],
+                              1.0 - m[0][0] + m[1][1] - m[2][2], 1.0 - m[0][0] - m[1][1] + m[2][2]};
+    const double cross[6] = {m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1],
+                             m[0][1] + m[1][0], m[0][2] + m[2][0], m[1][2] + m[2][1]};
+    // row i: 4 q[i] q[j] for all j
+    const double row[4][4] = {{square[0], cross[0], cross[1], cross[2]},
+                              {cross[0], square[1], cross[3], cross[4]},
+                              {cross[1], cross[3], square[2], cross[5]},
+                              {cross[2], cross[4], cross[5], square[3]}};
+    int best = 0;
+    for (int i = 1; i < 4; ++i) {
+        best = square[i] > square[best] ? i : best;
+    }
+    const double scale = 0.5 / sqrt(square[best]);
+    for (int j = 0; j < 4; ++j) {
+        q[j] = scale * row[best][j];
+    }
+}
+
 /// out = a b: first b, then a.
 static inline void q_mul(double out[4], const double a[4], const double b[4])
 {

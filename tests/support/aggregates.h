@@ -10,8 +10,9 @@ typedef struct support_aggregate {
     clast_aggregate_input input;
 } support_aggregate;
 
-/// Sphere core, n coating shapes that are spheres or the given ellipsoids [n][3] full axes, all
-/// sizes 1 m unless `sizes` (options as "key=value;key=value").
+/// Core and n coating shapes: unit spheres (axes NULL), or ellipsoids of these full axes [n][3],
+/// with three spheres each as composites, the core like the first. Options are
+/// "key=value;key=value"; lists grow by repeating the key.
 void support_aggregate_make(support_aggregate *s, const double (*axes)[3], int32_t n_coat,
                             const char *options);
 void support_aggregate_free(support_aggregate *s);

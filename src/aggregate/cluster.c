@@ -1,0 +1,417 @@
+// Cluster-cluster growth: two clusters are chosen, the smaller is thrown at the larger, and they
+// stay together. [Meakin 1983, Kolb et al. 1983, with ballistic approach and the cone of rays]
+//
+// The larger keeps its place, so its scene only grows: N grains cost O(N log N) insertions.
+#include "aggregate/cluster.h"
+
+#include "aggregate/grow.h"
+#include "aggregate/pick.h"
+#include "aggregate/trial.h"
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "math/vec3.h"
+#include <math.h>
+#include <string.h>
+
+static void free_cluster(clx_cluster *cluster)
+{
+    clx_touch_scene_destroy(cluster->scene);
+    clx_free(cluster->grain);
+    clx_free(cluster->contact);
+    *cluster = (clx_cluster){0};
+}
+
+void clx_clusters_free(clx_clusters *clusters)
+{
+    for (int32_t i = 0; i < clusters->n; ++i) {
+        free_cluster(&clusters->cluster[i]);
+    }
+    clx_free(clusters->cluster);
+    *clusters = (clx_clusters){0};
+}
+
+/// Mass, centre and radius of gyration, summed in the order of the grains, so that a restored
+/// cluster has the same bits.
+static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
+{
+    const clast_assembly *all = &a->assembly;
+    double moment[3] = {0.0, 0.0, 0.0};
+    double second = 0.0;
+    cluster->mass = 0.0;
+    cluster->volume = 0.0;
+    for (int32_t i = 0; i < cluster->n; ++i) {
+        const int32_t grain = cluster->grain[i];
+        const double s = all->scale[grain];
+        const clx_kit_shape *shape = &a->kit.shape[a->kit_shape[all->shape_id[grain]]];
+        const double volume = shape->shape->volume * s * s * s;
+        const double mass = volume * all->density[grain];
+        const double own = shape->inertia_trace / shape->shape->volume * s * s;
+        cluster->volume += volume;
+        cluster->mass += mass;
+        v3_axpy(moment, moment, mass, all->position[grain]);
+        second += mass * (v3_norm2(all->position[grain]) + own);
+    }
+    v3_scale(cluster->centre, 1.0 / cluster->mass, moment);
+    cluster->gyration = sqrt(fmax(0.0, second / cluster->mass - v3_norm2(cluster->centre)));
+}
+
+/// A cluster of n grains from `first` on, with the contacts made since `first_contact`.
+static clast_status add_cluster(clast_aggregate *a, int32_t first, int32_t n, int32_t first_contact)
+{
+    clast_status status = CLAST_OK;
+    clx_clusters *all = &a->clusters;
+    CLX_TRY(clx_grow(&all->cluster, &all->room, all->n + 1, sizeof *all->cluster));
+    all->cluster[all->n] = (clx_cluster){0};
+    clx_cluster *cluster = &all->cluster[all->n++];
+    CLX_TRY(clx_grow(&cluster->grain, &cluster->room, n, sizeof *cluster->grain));
+    for (int32_t i = 0; i < n; ++i) {
+        cluster->grain[i] = first + i;
+    }
+    cluster->n = n;
+    cluster->n_contact = a->assembly.n_contact - first_contact;
+    CLX_TRY(clx_grow(&cluster->contact, &cluster->contact_room, cluster->n_contact,
+                     sizeof *cluster->contact));
+    for (int32_t i = 0; i < cluster->n_contact; ++i) {
+        cluster->contact[i] = first_contact + i;
+    }
+    sum_up(a, cluster);
+done:
+    return status;
+}
+
+clast_status clx_clusters_begin(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const double none[3] = {0.0, 0.0, 0.0};
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    for (int32_t i = 0; i < a->n_particle; ++i) {
+        const int32_t shape = clx_aggregate_shape(a, i);
+        const int32_t first = a->assembly.n_grain;
+        const int32_t first_contact = a->assembly.n_contact;
+        CLX_TRY(clx_aggregate_add_group(a, 1 + shape, none, unturned,
+                                        clx_aggregate_scale(a, i, shape)));
+        CLX_TRY(add_cluster(a, first, a->assembly.n_grain - first, first_contact));
+    }
+done:
+    return status;
+}
+
+/// Members sorted into their clusters, each in its order.
+static clast_status read_members(clast_aggregate *a, const double *cluster, const double *place)
+{
+    clast_status status = CLAST_OK;
+    clx_clusters *all = &a->clusters;
+    const int32_t n = a->assembly.n_grain;
+    for (int32_t g = 0; g < n; ++g) {
+        CLX_CHECK(cluster[g] >= 0.0 && cluster[g] < all->n && place[g] >= 0.0 && place[g] < n,
+                  CLAST_E_FORMAT, "the saved cluster or place of grain %d is out of range", g);
+        ++all->cluster[(int32_t)cluster[g]].n;
+    }
+    for (int32_t c = 0; c < all->n; ++c) {
+        clx_cluster *made = &all->cluster[c];
+        CLX_CHECK(made->n > 0, CLAST_E_FORMAT, "the saved cluster %d has no grain", c);
+        CLX_TRY(clx_grow(&made->grain, &made->room, made->n, sizeof *made->grain));
+        memset(made->grain, -1, (size_t)made->n * sizeof *made->grain);
+    }
+    for (int32_t g = 0; g < n; ++g) {
+        clx_cluster *made = &all->cluster[(int32_t)cluster[g]];
+        const int32_t at = (int32_t)place[g];
+        CLX_CHECK(at < made->n && made->grain[at] == -1, CLAST_E_FORMAT,
+                  "the saved place of grain %d is taken or out of range", g);
+        made->grain[at] = g;
+    }
+done:
+    return status;
+}
+
+static clast_status give_contacts(clast_aggregate *a, const double *cluster)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t k = 0; k < a->assembly.n_contact; ++k) {
+        clx_cluster *made = &a->clusters.cluster[(int32_t)cluster[a->assembly.contact[k][0]]];
+        CLX_TRY(clx_grow(&made->contact, &made->contact_room, made->n_contact + 1,
+                         sizeof *made->contact));
+        made->contact[made->n_contact++] = k;
+    }
+done:
+    return status;
+}
+
+clast_status clx_clusters_restore(clast_aggregate *a, const clast_table *members)
+{
+    clast_status status = CLAST_OK;
+    clx_clusters *all = &a->clusters;
+    const double *cluster = members != NULL ? clast_table_numbers(members, "cluster") : NULL;
+    const double *place = members != NULL ? clast_table_numbers(members, "place") : NULL;
+    const int32_t n = a->n_particle - a->n_placed;
+    CLX_CHECK(cluster != NULL && place != NULL && members->n_row == a->assembly.n_grain,
+              CLAST_E_FORMAT, "the saved members table does not fit %d grains",
+              a->assembly.n_grain);
+    CLX_TRY(clx_grow(&all->cluster, &all->room, n, sizeof *all->cluster));
+    memset(all->cluster, 0, (size_t)n * sizeof *all->cluster);
+    all->n = n;
+    CLX_TRY(read_members(a, cluster, place));
+    CLX_TRY(give_contacts(a, cluster));
+    for (int32_t c = 0; c < n; ++c) {
+        sum_up(a, &all->cluster[c]);
+    }
+done:
+    return status;
+}
+
+/// A scene of the cluster's grains, made when it is first thrown at.
+static clast_status ensure_scene(clast_aggregate *a, clx_cluster *cluster)
+{
+    clast_status status = CLAST_OK;
+    clx_touch_scene *scene = NULL;
+    if (cluster->scene != NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_touch_scene_create(&scene));
+    for (int32_t i = 0; i < cluster->n; ++i) {
+        const clx_touch_body body = clx_aggregate_body(a, cluster->grain[i]);
+        CLX_TRY(clx_touch_scene_insert(scene, &body));
+    }
+    cluster->scene = scene;
+    scene = NULL;
+done:
+    clx_touch_scene_destroy(scene);
+    return status;
+}
+
+/// The cluster as a group about its centre of mass.
+static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluster,
+                             clx_kit_group *group)
+{
+    const clast_assembly *all = &a->assembly;
+    *group = (clx_kit_group){.n_part = cluster->n};
+    const clast_status status = clx_alloc(&group->part, cluster->n, sizeof *group->part);
+    for (int32_t i = 0; i < cluster->n && status == CLAST_OK; ++i) {
+        const int32_t grain = cluster->grain[i];
+        clx_kit_part *part = &group->part[i];
+        part->shape = a->kit_shape[all->shape_id[grain]];
+        part->scale = all->scale[grain];
+        part->density = all->density[grain];
+        v3_sub(part->position, all->position[grain], cluster->centre);
+        for (int k = 0; k < 4; ++k) {
+            part->orientation[k] = all->orientation[grain][k];
+        }
+        group->radius =
+            fmax(group->radius, v3_norm(part->position) +
+                                    part->scale * a->kit.shape[part->shape].shape->bounding_radius);
+    }
+    return status;
+}
+
+static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_landing *landing)
+{
+    const double begun = clx_clock();
+    do {
+        clx_search_run(search, landing);
+    } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    a->contact_s += clx_clock() - begun;
+    return landing->found ? CLAST_OK
+                          : clx_fail(CLAST_E_CONVERGE,
+                                     "merger %d: all rays of %d axes miss the larger cluster; "
+                                     "let rays start at a grain (origin: grain)",
+                                     a->n_placed + 1, a->config->max_tries);
+}
+
+/// Contact points of the thrown cluster turn and move with it.
+static void move_contacts(clast_aggregate *a, const clx_cluster *small, const clx_landing *landing)
+{
+    for (int32_t i = 0; i < small->n_contact; ++i) {
+        double *point = a->assembly.contact_point[small->contact[i]];
+        double arm[3];
+        v3_sub(arm, point, small->centre);
+        q_rotate(arm, landing->orientation, arm);
+        v3_add(point, landing->centre, arm);
+    }
+}
+
+static clast_status join_contacts(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
+                                  const clx_landing *landing)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = large->n_contact + small->n_contact + 1;
+    CLX_TRY(clx_grow(&large->contact, &large->contact_room, n, sizeof *large->contact));
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, large->grain[landing->touch.body],
+                                       small->grain[landing->part], landing->touch.point));
+    move_contacts(a, small, landing);
+    for (int32_t i = 0; i < small->n_contact; ++i) {
+        large->contact[large->n_contact + i] = small->contact[i];
+    }
+    large->contact[n - 1] = a->assembly.n_contact - 1;
+    large->n_contact = n;
+done:
+    return status;
+}
+
+/// The thrown grains take their new poses and join the larger cluster.
+static clast_status join(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
+                         const clx_kit_group *group, const clx_landing *landing)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&large->grain, &large->room, large->n + small->n, sizeof *large->grain));
+    CLX_TRY(join_contacts(a, large, small, landing));
+    for (int32_t i = 0; i < small->n; ++i) {
+        const int32_t grain = small->grain[i];
+        clx_kit_part placed;
+        clx_kit_pose(group, i, landing->centre, landing->orientation, 1.0, &placed);
+        v3_copy(a->assembly.position[grain], placed.position);
+        for (int k = 0; k < 4; ++k) {
+            a->assembly.orientation[grain][k] = placed.orientation[k];
+        }
+        large->grain[large->n + i] = grain;
+        const clx_touch_body body = clx_aggregate_body(a, grain);
+        CLX_TRY(clx_touch_scene_insert(large->scene, &body));
+    }
+    large->n += small->n;
+    sum_up(a, large);
+done:
+    return status;
+}
+
+static clast_status add_row(clast_aggregate *a, const clx_cluster *merged, const clx_search *search,
+                            const clx_landing *landing, double overlap)
+{
+    clast_status status = CLAST_OK;
+    double *row = NULL;
+    CLX_TRY(clx_history_row(&a->history, &row));
+    row[CLX_HISTORY_REPEAT] = a->repeat;
+    row[CLX_HISTORY_N] = a->n_placed;
+    row[CLX_HISTORY_CLUSTERS] = a->clusters.n;
+    row[CLX_HISTORY_GRAINS] = merged->n;
+    row[CLX_HISTORY_SHAPE] = -1.0;
+    row[CLX_HISTORY_SIZE] = search->size;
+    row[CLX_HISTORY_DISTANCE] = landing->distance;
+    row[CLX_HISTORY_RAYS] = (double)search->aim.n_ray * (search->aim.attempt + 1);
+    row[CLX_HISTORY_TOUCHED] = merged->grain[landing->touch.body];
+    row[CLX_HISTORY_OVERLAP] = overlap;
+    row[CLX_HISTORY_MASS] = merged->mass;
+    row[CLX_HISTORY_SOLID] = merged->volume;
+    row[CLX_HISTORY_GYRATION] = merged->gyration;
+    CLX_TRY(clx_aggregate_measure_cluster(a, merged, row));
+done:
+    return status;
+}
+
+static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
+                           const clx_kit_group *group, clx_search *search)
+{
+    const clast_aggregate_config *c = a->config;
+    *search = (clx_search){.kit = &a->kit,
+                           .group = group,
+                           .scale = 1.0,
+                           .size = 2.0 * group->radius,
+                           .scene = large->scene,
+                           .origin = c->origin == CLAST_ORIGIN_GRAIN ? CLAST_ORIGIN_GRAIN
+                                                                     : CLAST_ORIGIN_MASS,
+                           .aim = clx_aggregate_aim(a),
+                           .n_orientation = c->orientations,
+                           .start = c->start};
+    v3_copy(search->centre, large->centre);
+    v3_copy(search->target, large->centre);
+}
+
+static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *small)
+{
+    clast_status status = CLAST_OK;
+    clx_kit_group group = {0};
+    clx_search search;
+    clx_landing landing;
+    CLX_TRY(ensure_scene(a, large));
+    CLX_TRY(as_group(a, small, &group));
+    prepare_search(a, large, &group, &search);
+    CLX_TRY(throw_cluster(a, &search, &landing));
+    const double overlap = clx_search_overlap(&search, &landing);
+    CLX_TRY(join(a, large, small, &group, &landing));
+    ++a->n_placed;
+    free_cluster(small);
+    *small = a->clusters.cluster[--a->clusters.n];
+    if (large == &a->clusters.cluster[a->clusters.n]) {
+        large = small; // the last cluster took the freed place
+    }
+    CLX_TRY(add_row(a, large, &search, &landing, overlap));
+done:
+    clx_free(group.part);
+    return status;
+}
+
+clast_status clx_clusters_merge(clast_aggregate *a)
+{
+    int32_t pair[2];
+    clx_pick_pair(a, pair);
+    clx_cluster *first = &a->clusters.cluster[pair[0]];
+    clx_cluster *second = &a->clusters.cluster[pair[1]];
+    return first->n >= second->n ? merge(a, first, second) : merge(a, second, first);
+}
+
+const clx_cluster *clx_clusters_largest(const clx_clusters *clusters)
+{
+    const clx_cluster *best = &clusters->cluster[0];
+    for (int32_t i = 1; i < clusters->n; ++i) {
+        best = clusters->cluster[i].n > best->n ? &clusters->cluster[i] : best;
+    }
+    return best;
+}
+
+static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
+{
+    double reach = 0.0;
+    for (int32_t i = 0; i < cluster->n; ++i) {
+        const int32_t grain = cluster->grain[i];
+        const clast_shape *shape = &a->assembly.shape[a->assembly.shape_id[grain]];
+        reach = fmax(reach, v3_distance(a->assembly.position[grain], cluster->centre) +
+                                a->assembly.scale[grain] * shape->bounding_radius);
+    }
+    return reach;
+}
+
+void clx_clusters_spread(clast_aggregate *a)
+{
+    double x = 0.0;
+    for (int32_t c = 0; c < a->clusters.n; ++c) {
+        clx_cluster *cluster = &a->clusters.cluster[c];
+        const double reach = reach_of(a, cluster);
+        x += c > 0 ? 1.1 * reach : 0.0;
+        const double move[3] = {x - cluster->centre[0], -cluster->centre[1], -cluster->centre[2]};
+        for (int32_t i = 0; i < cluster->n; ++i) {
+            double *at = a->assembly.position[cluster->grain[i]];
+            v3_add(at, at, move);
+        }
+        for (int32_t i = 0; i < cluster->n_contact; ++i) {
+            double *at = a->assembly.contact_point[cluster->contact[i]];
+            v3_add(at, at, move);
+        }
+        sum_up(a, cluster);
+        clx_touch_scene_destroy(cluster->scene);
+        cluster->scene = NULL;
+        x += 1.1 * reach;
+    }
+}
+
+clast_status clx_clusters_members(const clast_aggregate *a, clast_table *members)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    double *cluster = NULL;
+    double *place = NULL;
+    CLX_TRY(clast_table_init(&made, "members", a->assembly.n_grain));
+    CLX_TRY(clast_table_add_number(&made, "cluster", "-", NULL));
+    CLX_TRY(clast_table_add_number(&made, "place", "-", NULL));
+    cluster = made.column[0].number;
+    place = made.column[1].number;
+    for (int32_t c = 0; c < a->clusters.n; ++c) {
+        for (int32_t i = 0; i < a->clusters.cluster[c].n; ++i) {
+            const int32_t grain = a->clusters.cluster[c].grain[i];
+            cluster[grain] = c;
+            place[grain] = i;
+        }
+    }
+    *members = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}

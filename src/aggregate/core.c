@@ -1,0 +1,126 @@
+// The core: where it lies, whether its centre is inside it, and what it may meet.
+#include "aggregate/grow.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include <clast/bvh.h>
+#include <math.h>
+#include <string.h>
+
+/// The smallest core that a particle may meet, by length.
+static const double CORE_SMALLEST = 1e-6;
+
+/// Does the point lie in the solid of this shape (its own frame)?
+static clast_status shape_holds(const clast_shape *shape, const double point[3], bool *holds)
+{
+    clast_status status = CLAST_OK;
+    clast_bvh *bvh = NULL;
+    *holds = false;
+    if (shape->kind == CLAST_SHAPE_MESH) {
+        CLX_TRY(clast_bvh_create(&shape->mesh, &bvh));
+        *holds = clast_bvh_inside(bvh, point);
+    } else if (shape->kind == CLAST_SHAPE_CLUMP) {
+        for (int32_t i = 0; i < shape->spheres.n && !*holds; ++i) {
+            *holds = v3_distance(point, shape->spheres.centre[i]) <= shape->spheres.radius[i];
+        }
+    } else {
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const double x = point[k] / shape->semi_axes[shape->kind == CLAST_SHAPE_SPHERE ? 0 : k];
+            sum += x * x;
+        }
+        *holds = sum <= 1.0;
+    }
+done:
+    clast_bvh_destroy(bvh);
+    return status;
+}
+
+/// AUTO: from the core's centre, or from random grains when that lies outside the core.
+clast_status clx_aggregate_resolve_origin(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    bool holds = false;
+    a->origin = a->config->origin;
+    if (a->origin != CLAST_ORIGIN_AUTO) {
+        return CLAST_OK;
+    }
+    for (int32_t i = 0; i < a->n_core && !holds; ++i) {
+        double m[3][3], to[3], point[3];
+        q_matrix(m, a->assembly.orientation[i]);
+        v3_scale(to, -1.0 / a->assembly.scale[i], a->assembly.position[i]);
+        m3_mul_t(point, m, to);
+        CLX_TRY(shape_holds(&a->assembly.shape[a->assembly.shape_id[i]], point, &holds));
+    }
+    a->origin = holds ? CLAST_ORIGIN_CORE : CLAST_ORIGIN_GRAIN;
+done:
+    return status;
+}
+
+static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
+
+/// The core's centre of mass at the origin.
+static clast_status core_by_mass(clast_aggregate *a, double scale)
+{
+    const double none[3] = {0.0, 0.0, 0.0};
+    return clx_aggregate_add_group(a, 0, none, UNTURNED, scale);
+}
+
+/// The centroid of the core's spheres at the origin, scaled by its sampled length.
+static clast_status core_by_spheres(clast_aggregate *a)
+{
+    const clx_march_shape *core = &a->march.shape[0];
+    const clx_kit_group *group = &a->kit.group[0];
+    double centre[3];
+    const double scale = a->config->core_size > 0.0
+                             ? a->config->core_size * core->ratio / core->length
+                             : group->part[0].scale;
+    v3_scale(centre, -scale, core->centroid);
+    return clx_aggregate_add_group(a, 0, centre, UNTURNED, scale / group->part[0].scale);
+}
+
+clast_status clx_aggregate_place_core(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const clast_aggregate_config *c = a->config;
+    double *row = NULL;
+    const double own = clx_kit_size(&a->kit.group[0], c->core_meaning);
+    const double scale = c->core_size > 0.0 ? c->core_size / own : 1.0;
+    CLX_CHECK(c->core_size > 0.0 || strcmp(a->input->core->unit, "m") == 0, CLAST_E_CONFIG,
+              "core_size: the core's file has no unit; give core_size, or unit");
+    CLX_TRY(c->contact == CLAST_CONTACT_MARCH ? core_by_spheres(a) : core_by_mass(a, scale));
+    a->n_core = a->assembly.n_grain;
+    CLX_TRY(clx_aggregate_add_row(a, &row));
+    row[CLX_HISTORY_SIZE] = own * scale;
+    CLX_TRY(clx_aggregate_resolve_origin(a));
+done:
+    return status;
+}
+
+clast_status clx_aggregate_check_sizes(const clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const double core_length =
+        a->kit.group[0].length * a->assembly.scale[0] / a->kit.group[0].part[0].scale;
+    double mass = a->mass;
+    for (int32_t i = 0; i < a->n_particle; ++i) {
+        const int32_t shape = clx_aggregate_shape(a, i);
+        const clx_kit_group *group = &a->kit.group[1 + shape];
+        const double scale = clx_aggregate_scale(a, i, shape);
+        const double length = scale * group->length;
+        CLX_CHECK(core_length >= CORE_SMALLEST * length, CLAST_E_CONFIG,
+                  "core_size: the core's length %g m is below 1e-6 of particle %d, %g m long; are "
+                  "the units right?",
+                  core_length, i + 1, length);
+        mass += group->mass * scale * scale * scale;
+    }
+    CLX_CHECK(a->config->stop_mass <= mass, CLAST_E_CONFIG,
+              "stop_mass: %g kg is more than core and all %d particles weigh, %g kg; raise "
+              "replicate or lower stop_mass",
+              a->config->stop_mass, a->n_particle, mass);
+    CLX_CHECK(a->config->stop_mass == 0.0 || a->config->stop_mass > a->mass, CLAST_E_CONFIG,
+              "stop_mass: the core alone weighs %g kg, not below %g kg", a->mass,
+              a->config->stop_mass);
+done:
+    return status;
+}

@@ -1,0 +1,127 @@
+// What every placed grain adds: to the assembly, the scene and the sums.
+#include "aggregate/grow.h"
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "contact/touch_tree.h"
+#include "math/vec3.h"
+#include <math.h>
+
+clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)
+{
+    const clast_assembly *all = &a->assembly;
+    clx_touch_body body = a->kit.shape[a->kit_shape[all->shape_id[grain]]].body;
+    clx_touch_body_place(&body, all->position[grain], all->orientation[grain], all->scale[grain]);
+    return body;
+}
+
+static clast_status enter_scene(clast_aggregate *a, int32_t grain)
+{
+    clast_status status = CLAST_OK;
+    const int64_t before = grain > 0 ? a->sphere_end[grain - 1] : 0;
+    const clx_touch_body body = clx_aggregate_body(a, grain);
+    CLX_TRY(clx_touch_scene_insert(a->scene, &body));
+    CLX_TRY(clx_grow(&a->sphere_end, &a->sphere_room, grain + 1, sizeof *a->sphere_end));
+    a->sphere_end[grain] = before + (body.tree != NULL ? body.tree->n_item : 1);
+done:
+    return status;
+}
+
+/// The composite of a grain enters the march: its centroid follows from the stored pose, so that a
+/// restored run has the same bits.
+static clast_status enter_march(clast_aggregate *a, int32_t grain)
+{
+    const clast_assembly *all = &a->assembly;
+    const int32_t shape = a->kit.shape[a->kit_shape[all->shape_id[grain]]].group;
+    double centroid[3];
+    q_rotate(centroid, all->orientation[grain], a->march.shape[shape].centroid);
+    v3_axpy(centroid, all->position[grain], all->scale[grain], centroid);
+    return clx_march_add(&a->march, shape, centroid, all->orientation[grain], all->scale[grain]);
+}
+
+clast_status clx_aggregate_account(clast_aggregate *a, int32_t grain)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *all = &a->assembly;
+    const clx_kit_shape *shape = &a->kit.shape[a->kit_shape[all->shape_id[grain]]];
+    const double s = all->scale[grain];
+    const double volume = shape->shape->volume * s * s * s;
+    const double mass = volume * all->density[grain];
+    const double own = shape->inertia_trace / shape->shape->volume * s * s;
+    if (a->scene != NULL) {
+        CLX_TRY(enter_scene(a, grain));
+    }
+    if (a->march.n_shape > 0) {
+        CLX_TRY(enter_march(a, grain));
+    }
+    if (a->tracker != NULL) {
+        const double begun = clx_clock();
+        CLX_TRY(clx_envelope_tracker_add(a->tracker, all, grain));
+        a->envelope_s += clx_clock() - begun;
+    }
+    a->volume += volume;
+    a->mass += mass;
+    a->second += mass * (v3_norm2(all->position[grain]) + own);
+    v3_axpy(a->moment, a->moment, mass, all->position[grain]);
+done:
+    return status;
+}
+
+static clast_status add_part(clast_aggregate *a, const clx_kit_part *placed)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_assembly_add_grain(&a->assembly, a->shape_id[placed->shape], placed->position,
+                                     placed->orientation, placed->scale, placed->density));
+    CLX_TRY(clx_aggregate_account(a, a->assembly.n_grain - 1));
+done:
+    return status;
+}
+
+clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
+                                     const double orientation[4], double scale)
+{
+    clast_status status = CLAST_OK;
+    const clx_kit_group *g = &a->kit.group[group];
+    const int32_t first = a->assembly.n_grain;
+    for (int32_t i = 0; i < g->n_part; ++i) {
+        clx_kit_part placed;
+        clx_kit_pose(g, i, centre, orientation, scale, &placed);
+        CLX_TRY(add_part(a, &placed));
+    }
+    for (int32_t i = 0; i < g->n_contact; ++i) {
+        double point[3];
+        q_rotate(point, orientation, g->contact_point[i]);
+        v3_axpy(point, centre, scale, point);
+        CLX_TRY(clast_assembly_add_contact(&a->assembly, first + g->contact[i][0],
+                                           first + g->contact[i][1], point));
+    }
+done:
+    return status;
+}
+
+double clx_aggregate_gyration(const clast_aggregate *a)
+{
+    double centre[3];
+    v3_scale(centre, 1.0 / a->mass, a->moment);
+    return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));
+}
+
+clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
+{
+    clast_status status = CLAST_OK;
+    double *made = NULL;
+    CLX_TRY(clx_history_row(&a->history, &made));
+    made[CLX_HISTORY_REPEAT] = a->repeat;
+    made[CLX_HISTORY_N] = a->n_placed;
+    made[CLX_HISTORY_CLUSTERS] = 1.0;
+    made[CLX_HISTORY_GRAINS] = a->assembly.n_grain;
+    made[CLX_HISTORY_SHAPE] = -1.0;
+    made[CLX_HISTORY_TOUCHED] = -1.0;
+    made[CLX_HISTORY_MASS] = a->mass;
+    made[CLX_HISTORY_SOLID] = a->volume;
+    made[CLX_HISTORY_GYRATION] = clx_aggregate_gyration(a);
+    CLX_TRY(clx_aggregate_measure_row(a, made));
+    *row = made;
+done:
+    return status;
+}

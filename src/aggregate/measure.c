@@ -1,0 +1,179 @@
+// Envelopes of a growing aggregate: one tracker, a set of columns, and the numbers at the end.
+#include "aggregate/grow.h"
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include <math.h>
+#include <stdio.h>
+
+/// Gap between the bounds of a smooth body's hull while it grows, and at the end.
+static const double ROW_TOLERANCE = 2e-3;
+static const double END_TOLERANCE = 1e-3;
+
+static clast_envelope_options options_of(const clast_aggregate *a, double tolerance)
+{
+    clast_envelope_options options = clast_envelope_options_default();
+    options.tolerance = tolerance;
+    options.n_ray = a->config->envelope_rays;
+    options.seed = a->seed;
+    return options;
+}
+
+static clast_status add_columns(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    char name[CLX_HISTORY_NAME];
+    CLX_TRY(clx_history_column(&a->history, "d_agg_m", "m"));
+    CLX_TRY(clx_history_column(&a->history, "density_kg/m^3", "kg/m^3"));
+    for (int32_t k = 0; k < a->n_kind; ++k) {
+        (void)snprintf(name, sizeof name, "porosity_%s", clast_envelope_name(a->kind[k]));
+        CLX_TRY(clx_history_column(&a->history, name, "-"));
+    }
+    for (int32_t k = 0; k < a->n_kind; ++k) {
+        (void)snprintf(name, sizeof name, "%s_m3", clast_envelope_name(a->kind[k]));
+        CLX_TRY(clx_history_column(&a->history, name, "m^3"));
+    }
+done:
+    return status;
+}
+
+clast_status clx_aggregate_measure_begin(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const clast_text_list *names = &a->config->envelope;
+    const clast_envelope_options options = options_of(a, ROW_TOLERANCE);
+    CLX_CHECK(names->n <= CLAST_N_ENVELOPE, CLAST_E_CONFIG, "envelope: %d names, %d envelopes",
+              names->n, (int)CLAST_N_ENVELOPE);
+    for (int32_t k = 0; k < names->n; ++k) {
+        CLX_TRY(clast_envelope_parse(names->item[k], &a->kind[k]));
+        for (int32_t j = 0; j < k; ++j) {
+            CLX_CHECK(a->kind[j] != a->kind[k], CLAST_E_CONFIG, "envelope: %s is named twice",
+                      names->item[k]);
+        }
+    }
+    a->n_kind = names->n;
+    if (a->config->mode == CLAST_AGGREGATE_CORE) {
+        CLX_TRY(clx_envelope_tracker_create(a->n_kind, a->kind, &options, &a->tracker));
+    }
+    CLX_TRY(add_columns(a));
+done:
+    return status;
+}
+
+static double equivalent_diameter(double volume)
+{
+    return cbrt(6.0 * volume / CLAST_PI);
+}
+
+static void fill_row(const clast_aggregate *a, double mass, double solid,
+                     const clast_envelope *envelope, double *row)
+{
+    double *at = &row[CLX_HISTORY_FIXED];
+    at[0] = equivalent_diameter(envelope[0].volume);
+    at[1] = mass / envelope[0].volume;
+    for (int32_t k = 0; k < a->n_kind; ++k) {
+        at[2 + k] = 1.0 - solid / envelope[k].volume;
+        at[2 + a->n_kind + k] = envelope[k].volume;
+    }
+}
+
+/// Rows that are not asked for hold no envelope.
+static bool is_measured(clast_aggregate *a, double *row)
+{
+    const bool wanted = a->n_placed % a->config->envelope_every == 0 || a->n_placed == a->n_step;
+    for (int32_t c = CLX_HISTORY_FIXED; c < a->history.n_column && !wanted; ++c) {
+        row[c] = (double)NAN;
+    }
+    return wanted;
+}
+
+clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row)
+{
+    clast_status status = CLAST_OK;
+    clast_envelope envelope[CLAST_N_ENVELOPE];
+    const double begun = clx_clock();
+    if (is_measured(a, row)) {
+        CLX_TRY(clx_envelope_tracker_now(a->tracker, &a->assembly, envelope));
+        fill_row(a, a->mass, a->volume, envelope, row);
+    }
+done:
+    a->envelope_s += clx_clock() - begun;
+    return status;
+}
+
+/// The grains of a cluster, as an assembly that borrows the shapes: free it with free_view.
+static clast_status view(const clast_aggregate *a, const clx_cluster *cluster,
+                         clast_assembly *grains)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *all = &a->assembly;
+    clast_assembly made = {.n_shape = all->n_shape, .shape = all->shape};
+    for (int32_t i = 0; i < cluster->n; ++i) {
+        const int32_t g = cluster->grain[i];
+        CLX_TRY(clast_assembly_add_grain(&made, all->shape_id[g], all->position[g],
+                                         all->orientation[g], all->scale[g], all->density[g]));
+    }
+    *grains = made;
+    made = (clast_assembly){0};
+done:
+    made.n_shape = 0;
+    made.shape = NULL;
+    clast_assembly_free(&made);
+    return status;
+}
+
+static void free_view(clast_assembly *grains)
+{
+    grains->n_shape = 0;
+    grains->shape = NULL;
+    clast_assembly_free(grains);
+}
+
+static clast_status measure(const clast_aggregate *a, const clx_cluster *cluster, double tolerance,
+                            clast_envelope *envelope)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly grains = {0};
+    const clast_envelope_options options = options_of(a, tolerance);
+    if (cluster != NULL) {
+        CLX_TRY(view(a, cluster, &grains));
+    }
+    const clast_assembly *measured = cluster != NULL ? &grains : &a->assembly;
+    for (int32_t k = 0; k < a->n_kind; ++k) {
+        CLX_TRY(clast_assembly_envelope(measured, a->kind[k], &options, &envelope[k]));
+    }
+done:
+    free_view(&grains);
+    return status;
+}
+
+clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster *cluster,
+                                           double *row)
+{
+    clast_status status = CLAST_OK;
+    clast_envelope envelope[CLAST_N_ENVELOPE];
+    const double begun = clx_clock();
+    if (is_measured(a, row)) {
+        CLX_TRY(measure(a, cluster, ROW_TOLERANCE, envelope));
+        fill_row(a, cluster->mass, cluster->volume, envelope, row);
+    }
+done:
+    a->envelope_s += clx_clock() - begun;
+    return status;
+}
+
+clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result)
+{
+    clast_status status = CLAST_OK;
+    const bool clusters = a->config->mode == CLAST_AGGREGATE_CLUSTER;
+    const clx_cluster *largest = clusters ? clx_clusters_largest(&a->clusters) : NULL;
+    CLX_TRY(measure(a, largest, END_TOLERANCE, result->envelope));
+    for (int32_t k = 0; k < a->n_kind; ++k) {
+        result->porosity[k] = 1.0 - result->solid_sum / result->envelope[k].volume;
+    }
+    result->n_envelope = a->n_kind;
+    result->d_agg = equivalent_diameter(result->envelope[0].volume);
+    result->density = result->mass / result->envelope[0].volume;
+done:
+    return status;
+}

@@ -1,0 +1,116 @@
+// One more particle: thrown by the method of contact, placed at its best trial, noted in a row.
+#include "aggregate/grow.h"
+
+#include "aggregate/trial.h"
+#include "base/clock.h"
+#include "math/vec3.h"
+#include <math.h>
+
+clx_aim clx_aggregate_aim(const clast_aggregate *a)
+{
+    return (clx_aim){.seed = a->seed,
+                     .particle = a->n_placed,
+                     .n_ray = a->config->rays,
+                     .random_axis = a->random_axis,
+                     .axis = {a->axis[0], a->axis[1], a->axis[2]},
+                     .cone = a->config->cone};
+}
+
+static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
+{
+    const clast_aggregate_config *c = a->config;
+    *search = (clx_search){.kit = &a->kit,
+                           .group = &a->kit.group[1 + shape],
+                           .scale = clx_aggregate_scale(a, a->n_placed, shape),
+                           .size = a->size[a->n_placed],
+                           .scene = a->scene,
+                           .sphere_end = a->sphere_end,
+                           .origin = a->origin,
+                           .aim = clx_aggregate_aim(a),
+                           .n_orientation = c->orientations,
+                           .start = c->start};
+    if (a->origin == CLAST_ORIGIN_MASS) {
+        v3_scale(search->centre, 1.0 / a->mass, a->moment);
+    }
+    if (c->target == CLAST_TARGET_MASS) {
+        v3_scale(search->target, 1.0 / a->mass, a->moment);
+    }
+}
+
+/// The landing, with new axes as long as every ray misses.
+static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_landing *landing)
+{
+    const double begun = clx_clock();
+    do {
+        clx_search_run(search, landing);
+    } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    a->contact_s += clx_clock() - begun;
+    return landing->found
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONVERGE,
+                          "particle %d of %d: all rays of %d axes miss the aggregate; widen the "
+                          "cone or let rays start at a grain (origin: grain)",
+                          a->n_placed + 1, a->n_particle, a->config->max_tries);
+}
+
+static clast_status place_by_touch(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    clx_search search;
+    clx_landing landing;
+    double *row = NULL;
+    const int32_t shape = clx_aggregate_shape(a, a->n_placed);
+    const int32_t first = a->assembly.n_grain;
+    prepare_search(a, shape, &search);
+    CLX_TRY(throw_particle(a, &search, &landing));
+    const double overlap = clx_search_overlap(&search, &landing);
+    CLX_TRY(
+        clx_aggregate_add_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touch.body, first + landing.part,
+                                       landing.touch.point));
+    ++a->n_placed;
+    CLX_TRY(clx_aggregate_add_row(a, &row));
+    row[CLX_HISTORY_SHAPE] = shape;
+    row[CLX_HISTORY_SIZE] = search.size;
+    row[CLX_HISTORY_DISTANCE] = landing.distance;
+    row[CLX_HISTORY_RAYS] = (double)search.aim.n_ray * (search.aim.attempt + 1);
+    row[CLX_HISTORY_TOUCHED] = landing.touch.body;
+    row[CLX_HISTORY_OVERLAP] = overlap;
+done:
+    return status;
+}
+
+static clast_status place_by_march(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    const double size = a->size[a->n_placed];
+    const int32_t first = a->assembly.n_grain;
+    const clx_aim aim = clx_aggregate_aim(a);
+    clx_march_landing landing;
+    double centre[3], arm[3];
+    double *row = NULL;
+    const double begun = clx_clock();
+    CLX_TRY(clx_march_run(&a->march, &aim, size, &landing));
+    a->contact_s += clx_clock() - begun;
+    const int32_t group = 1 + landing.shape;
+    q_rotate(arm, landing.orientation, a->march.shape[group].centroid);
+    v3_axpy(centre, landing.centroid, -landing.scale, arm);
+    CLX_TRY(clx_aggregate_add_group(a, group, centre, landing.orientation,
+                                    landing.scale / a->kit.group[group].part[0].scale));
+    CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touched, first, landing.point));
+    ++a->n_placed;
+    CLX_TRY(clx_aggregate_add_row(a, &row));
+    row[CLX_HISTORY_SHAPE] = landing.shape;
+    row[CLX_HISTORY_SIZE] = size;
+    row[CLX_HISTORY_DISTANCE] = landing.distance;
+    row[CLX_HISTORY_RAYS] = a->config->rays;
+    row[CLX_HISTORY_TOUCHED] = landing.touched;
+    row[CLX_HISTORY_LOST] = landing.lost ? 1.0 : 0.0;
+done:
+    return status;
+}
+
+clast_status clx_aggregate_place(clast_aggregate *a)
+{
+    return a->config->contact == CLAST_CONTACT_MARCH ? place_by_march(a) : place_by_touch(a);
+}
