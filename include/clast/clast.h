@@ -17,6 +17,7 @@
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
+#include <clast/mesh_simplify.h>
 #include <clast/monitor.h>
 #include <clast/overlap.h>
 #include <clast/parallel.h>

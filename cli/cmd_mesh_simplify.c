@@ -1,0 +1,167 @@
+// clast mesh simplify and clast mesh hull: fewer triangles with the same volume, and the convex
+// hull.
+#include "command.h"
+#include "mesh_words.h"
+
+#include <clast/hull.h>
+#include <clast/mesh_file.h>
+#include <clast/mesh_simplify.h>
+
+#include <stdio.h>
+
+typedef struct {
+    int32_t faces;
+} simplify_config;
+
+static const clast_field simplify_fields[] = {{"faces", offsetof(simplify_config, faces),
+                                               CLAST_FIELD_I32, 300, 4, 2e9, "-",
+                                               "number of triangles wanted", NULL},
+                                              {0}};
+
+static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify_report *r)
+{
+    json_t *o = json_object();
+    cli_json_text(o, "file", common->argument[0]);
+    cli_json_text(o, "output", common->output);
+    cli_json_count(o, "n_triangle_before", r->n_triangle_before);
+    cli_json_count(o, "n_triangle", r->n_triangle_after);
+    cli_json_bool(o, "reached", r->reached);
+    cli_json_number(o, "volume_before", r->volume_before);
+    cli_json_number(o, "volume", r->volume_after);
+    cli_json_number(o, "volume_change", r->volume_after / r->volume_before - 1.0);
+    cli_json_number(o, "volume_drift", r->volume_drift);
+    cli_json_number(o, "correction", r->correction);
+    cli_json_number(o, "area_before", r->area_before);
+    cli_json_number(o, "area", r->area_after);
+    cli_json_number(o, "hausdorff", r->deviation.hausdorff);
+    cli_json_number(o, "hausdorff_forward", r->deviation.forward);
+    cli_json_number(o, "hausdorff_backward", r->deviation.backward);
+    cli_json_number(o, "mean_distance", r->deviation.mean);
+    cli_json_count(o, "n_sample", r->deviation.n_sample);
+    return o;
+}
+
+static void simplify_words(const cli_common *common, const clast_mesh_simplify_report *r)
+{
+    (void)printf("%s: %d triangles -> %s: %d triangles\n", common->argument[0],
+                 r->n_triangle_before, common->output, r->n_triangle_after);
+    (void)printf("  volume %.12g -> %.12g (relative change %.2g; rounding of %.2g taken back)\n",
+                 r->volume_before, r->volume_after, r->volume_after / r->volume_before - 1.0,
+                 r->volume_drift);
+    (void)printf("  area   %.10g -> %.10g\n", r->area_before, r->area_after);
+    (void)printf("  farthest apart %.6g (there %.6g, back %.6g), mean %.3g, by %lld samples\n",
+                 r->deviation.hausdorff, r->deviation.forward, r->deviation.backward,
+                 r->deviation.mean, (long long)r->deviation.n_sample);
+}
+
+static clast_status run_simplify(const cli_common *common, void *config_bytes)
+{
+    const simplify_config *config = config_bytes;
+    clast_mesh mesh = {0};
+    clast_mesh out = {0};
+    clast_mesh_simplify_report report = {0};
+    clast_status status = cli_mesh_output(common);
+    if (status == CLAST_OK) {
+        status = cli_mesh_input(common, &mesh);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_write(common->output, &out, NULL);
+    }
+    if (status == CLAST_OK && common->json) {
+        status = cli_print_json(simplify_json(common, &report));
+    } else if (status == CLAST_OK) {
+        simplify_words(common, &report);
+    }
+    if (status == CLAST_OK && !report.reached) {
+        status = cli_fail(CLAST_E_CONVERGE,
+                          "%s has %d triangles, not %d: no further edge can go without changing "
+                          "the topology or folding over",
+                          common->output, report.n_triangle_after, config->faces);
+    }
+    clast_mesh_free(&out);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static void hull_words(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull)
+{
+    const double volume = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : 0.0;
+    const double hull_volume = clast_mesh_volume(hull);
+    (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles\n", common->argument[0],
+                 mesh->n_vert, common->output, hull->n_vert, hull->n_tri);
+    (void)printf("  volume %.10g, hull %.10g: %.10g added (%.4g of the hull)\n", volume,
+                 hull_volume, hull_volume - volume, 1.0 - volume / hull_volume);
+    (void)printf("  area %.10g, hull %.10g\n", clast_mesh_area(mesh), clast_mesh_area(hull));
+}
+
+static json_t *hull_json(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull)
+{
+    json_t *o = json_object();
+    const double volume = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : 0.0;
+    cli_json_text(o, "file", common->argument[0]);
+    cli_json_text(o, "output", common->output);
+    cli_json_count(o, "n_vertex", hull->n_vert);
+    cli_json_count(o, "n_triangle", hull->n_tri);
+    cli_json_number(o, "volume", volume);
+    cli_json_number(o, "area", clast_mesh_area(mesh));
+    cli_json_number(o, "hull_volume", clast_mesh_volume(hull));
+    cli_json_number(o, "hull_area", clast_mesh_area(hull));
+    cli_json_number(o, "added_volume", clast_mesh_volume(hull) - volume);
+    return o;
+}
+
+static clast_status run_hull(const cli_common *common, void *config)
+{
+    clast_mesh mesh = {0};
+    clast_mesh hull = {0};
+    (void)config;
+    clast_status status = cli_mesh_output(common);
+    if (status == CLAST_OK) {
+        status = cli_mesh_input(common, &mesh);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_hull(&mesh, &hull);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_write(common->output, &hull, NULL);
+    }
+    if (status == CLAST_OK && common->json) {
+        status = cli_print_json(hull_json(common, &mesh, &hull));
+    } else if (status == CLAST_OK) {
+        hull_words(common, &mesh, &hull);
+    }
+    clast_mesh_free(&hull);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+const cli_command cli_mesh_simplify = {
+    .name = "mesh simplify",
+    .arguments = "FILE --faces N -o OUT",
+    .summary = "fewer triangles, same volume",
+    .details = "Edges collapse, cheapest first, each to the point that keeps the volume and moves "
+               "the surface\nleast (Lindstrom and Turk 1998). Topology stays; no triangle folds "
+               "over. Reports how far the two\nsurfaces are apart. An STL keeps 24 bits of each "
+               "coordinate: write .ply, .obj or .off to keep the\nvolume to 1e-12.\nExit code 5 "
+               "when the number cannot be reached (the result is written all the same).",
+    .fields = simplify_fields,
+    .config_size = sizeof(simplify_config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run_simplify,
+};
+
+const cli_command cli_mesh_hull = {
+    .name = "mesh hull",
+    .arguments = "FILE -o OUT",
+    .summary = "convex hull of a surface or of points",
+    .details = "Quickhull by qhull_r; reports the volume that the hull adds.",
+    .fields = NULL,
+    .config_size = 0,
+    .n_min = 1,
+    .n_max = 1,
+    .run = run_hull,
+};

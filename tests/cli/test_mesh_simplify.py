@@ -1,0 +1,52 @@
+"""CLI: clast mesh simplify keeps the volume, clast mesh hull tells what it adds."""
+import unittest
+
+from clitest import ROOT, Case, clast
+
+DATA = ROOT / "data"
+
+
+class MeshSimplify(Case):
+    def test_volume_is_kept_to_1e_9_through_a_file(self):
+        out = self.folder / "out.ply"
+        source = DATA / "scarlet/stl/27sk21_shape_coarse.stl"
+        result = clast("mesh", "simplify", source, "--faces", "100", "-o", out, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual(result.json["n_triangle"], 100)
+        self.assertGreater(result.json["hausdorff"], 0)
+        before = clast("mesh", "check", source, "--json").json
+        after = clast("mesh", "check", out, "--json")
+        self.assertEqual(after.code, 0)
+        self.assertEqual(after.json["n_triangle"], 100)
+        self.assertLess(abs(after.json["volume"] / before["volume"] - 1), 1e-9)
+
+    def test_unreachable_number_is_code_5_and_told(self):
+        out = self.folder / "out.ply"
+        result = clast("mesh", "simplify", DATA / "scarlet/stl/L_shaped.stl", "--faces", "10", "-o", out)
+        self.assertEqual(result.code, 5)
+        self.assertIn("no further edge can go", result.err)
+        self.assertTrue(out.exists())
+
+    def test_open_surface_is_sent_to_repair(self):
+        self.assert_fails(3, "mesh", "simplify", DATA / "scarlet/stl/ellipse.stl", "-o", self.folder / "o.ply",
+                          says=["clast mesh repair"])
+
+
+class MeshHull(Case):
+    def test_hull_of_the_scan(self):
+        out = self.folder / "hull.ply"
+        result = clast("mesh", "hull", DATA / "scarlet/stl/particle.stl", "-o", out, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertAlmostEqual(1 - result.json["volume"] / result.json["hull_volume"], 0.3527, places=4)
+        check = clast("mesh", "check", out, "--json")
+        self.assertEqual(check.code, 0)
+        self.assertAlmostEqual(check.json["volume"] / check.json["hull_volume"], 1, places=12)
+
+    def test_points_will_do_and_flat_sets_are_refused(self):
+        flat = self.folder / "flat.off"
+        flat.write_text("OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n")
+        self.assert_fails(3, "mesh", "hull", flat, "-o", self.folder / "h.ply", says=["lie in one plane"])
+
+
+if __name__ == "__main__":
+    unittest.main()
