@@ -27,6 +27,7 @@
 #include <clast/shape.h>
 #include <clast/state.h>
 #include <clast/status.h>
+#include <clast/structure.h>
 #include <clast/table.h>
 #include <clast/table_file.h>
 #include <clast/uniformity.h>

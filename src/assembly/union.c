@@ -8,13 +8,12 @@
 // is in another its term is exact, so the noise is that of the overlaps alone.
 #include <clast/overlap.h>
 
+#include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
 #include "contact/touch_gap.h"
-#include "contact/touch_inside.h"
-#include "contact/touch_tree.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
@@ -56,75 +55,9 @@ static double grain_radius(const clast_assembly *a, int32_t i)
     return cbrt(0.75 / CLAST_PI * grain_volume(a, i));
 }
 
-/// Point in the frame of a body: R^T (x - position) / scale.
-static void to_body(const clx_touch_body *body, const double x[3], double out[3])
-{
-    double d[3];
-    v3_sub(d, x, body->position);
-    for (int k = 0; k < 3; ++k) {
-        out[k] = (body->rotation[k] * d[0] + body->rotation[3 + k] * d[1] +
-                  body->rotation[6 + k] * d[2]) /
-                 body->scale;
-    }
-}
-
-static bool in_tree(const clx_touch_tree *tree, const double p[3])
-{
-    if (tree->kind == CLX_TOUCH_MESH) {
-        return clx_touch_tree_inside(tree, p);
-    }
-    for (int32_t k = 0; k < tree->n_item; ++k) {
-        if (v3_distance2(p, tree->ball[k]) <= tree->ball[k][3] * tree->ball[k][3]) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool holds(const clx_touch_body *body, const double x[3])
-{
-    double p[3];
-    double q = 0.0;
-    if (v3_distance2(x, body->position) > body->radius * body->radius) {
-        return false;
-    }
-    to_body(body, x, p);
-    if (body->tree != NULL) {
-        return in_tree(body->tree, p);
-    }
-    for (int k = 0; k < 3; ++k) {
-        const double a = body->kind == CLX_TOUCH_SPHERE ? body->semi_axes[0] : body->semi_axes[k];
-        q += p[k] / a * (p[k] / a);
-    }
-    return q <= 1.0;
-}
-
-/// Maps a point of the unit cube into the body's frame: onto the solid where that has a map, else
-/// into its box; false when the point is then outside.
-static bool place_point(const clx_touch_body *body, const double c[3], double p[3])
-{
-    if (body->tree == NULL) {
-        const double z = 2.0 * c[0] - 1.0;
-        const double r = cbrt(c[2]);
-        const double rho = r * sqrt(fmax(0.0, 1.0 - z * z));
-        const bool is_sphere = body->kind == CLX_TOUCH_SPHERE;
-        p[0] = body->semi_axes[0] * rho * cos(2.0 * CLAST_PI * c[1]);
-        p[1] = body->semi_axes[is_sphere ? 0 : 1] * rho * sin(2.0 * CLAST_PI * c[1]);
-        p[2] = body->semi_axes[is_sphere ? 0 : 2] * r * z;
-        return true;
-    }
-    for (int k = 0; k < 3; ++k) {
-        p[k] = body->tree->low[k] + c[k] * (body->tree->high[k] - body->tree->low[k]);
-    }
-    return in_tree(body->tree, p);
-}
-
 /// Mean of 1 / k over one shifted lattice of points in a grain.
 static double shifted_mean(const group *g, const member *m, int shift)
 {
-    // powers of 1/g, g^4 = g + 1: the lattice of irrational steps in three dimensions
-    static const double step[3] = {0.81917251339616443970, 0.67104360670378920842,
-                                   0.54970047790197026194};
     const clx_touch_body *body = clx_touch_scene_body(g->set->scene, m->grain);
     clx_rng rng =
         clx_rng_at(g->seed, CLX_STREAM_UNION, (uint64_t)m->grain * N_SHIFT + (unsigned)shift);
@@ -132,21 +65,15 @@ static double shifted_mean(const group *g, const member *m, int shift)
     double sum = 0.0;
     int32_t n = 0;
     for (int32_t i = 0; i < g->n_point; ++i) {
-        double p[3];
         double x[3];
-        for (int k = 0; k < 3; ++k) {
-            c[k] += step[k];
-            c[k] -= floor(c[k]);
-        }
-        if (!place_point(body, c, p)) {
+        clx_lattice_step(c);
+        if (!clx_body_draw(body, c, x)) {
             continue;
-        }
-        for (int k = 0; k < 3; ++k) {
-            x[k] = body->position[k] + body->scale * v3_dot(&body->rotation[3 * k], p);
         }
         int32_t held = 1;
         for (int32_t k = 0; k < m->n; ++k) {
-            held += holds(clx_touch_scene_body(g->set->scene, g->partner[m->first + k]), x);
+            held +=
+                clx_body_holds(clx_touch_scene_body(g->set->scene, g->partner[m->first + k]), x);
         }
         sum += 1.0 / held;
         ++n;

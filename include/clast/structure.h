@@ -1,0 +1,88 @@
+#pragma once
+#include <clast/envelope.h>
+#include <clast/overlap.h>
+#include <clast/settling.h>
+#include <clast/table.h>
+
+/// A power law N = k (R / a)^D fitted to an assembly.
+///
+/// N counts solid volume in units of the mean grain's, a is that grain's volume-equivalent radius,
+/// so equal spheres give the usual N = k (R_g / a)^D.           [docs/theory/structure.md]
+typedef struct clast_fractal {
+    double dimension, dimension_error; ///< D and its standard error from the scatter about the line
+    double prefactor, prefactor_error; ///< k
+    double low, high;                  ///< interval of R that was fitted [m]
+    int32_t n;                         ///< points fitted
+} clast_fractal;
+
+/// From growth: radius of gyration after each grain, in the order of the grains, from grain n_first
+/// (counted from 1) to the last, at up to 40 log-spaced counts.
+///
+/// @return CLAST_E_USAGE with fewer than three counts to fit, CLAST_E_GEOMETRY when the radius does
+///         not grow
+CLAST_API clast_status clast_fractal_growth(const clast_assembly *assembly, int32_t n_first,
+                                            clast_fractal *fractal);
+
+/// From the pair correlation: volume-weighted share of pairs of centres closer than r, between two
+/// mean diameters and the radius of gyration; k is then the count about a mean grain.
+///
+/// Of more than 4000 grains every so-manyth is taken. @return as above, when the assembly is less
+/// than four mean diameters across
+CLAST_API clast_status clast_fractal_correlation(const clast_assembly *assembly,
+                                                 clast_fractal *fractal);
+
+/// Solid volume in n_bin shells of equal thickness about a centre (NULL: centre of mass), out to
+/// the farthest grain.
+///
+/// Columns radius_low_m, radius_high_m, solid_m3, solid_error_m3, solid_fraction, density_kg_m3.
+/// Spheres are cut in closed form; other grains by 512 lattice points each, whose error is bounded
+/// by that of random points. `table` must be empty.
+CLAST_API clast_status clast_assembly_radial_profile(const clast_assembly *assembly,
+                                                     const double centre[3], int32_t n_bin,
+                                                     clast_table *table);
+
+/// Grains by number of contacts: columns coordination, n_grain, share. CLAST_E_USAGE when the
+/// contacts are not known (clast_assembly_find_contacts finds them).
+CLAST_API clast_status clast_assembly_coordination(const clast_assembly *assembly,
+                                                   clast_table *table);
+
+/// Area of the shadow along a direction, by n_line scan lines on which the shadow's length is
+/// exact; error from n_line and n_line / 2 lines.
+CLAST_API clast_status clast_assembly_projected_area(const clast_assembly *assembly,
+                                                     const double direction[3], int32_t n_line,
+                                                     double *area, double *error);
+
+/// Mean shadow over n_direction directions spread evenly over the half sphere; error: standard
+/// deviation over the root of their number (an upper bound for even directions).
+CLAST_API clast_status clast_assembly_mean_projection(const clast_assembly *assembly,
+                                                      int32_t n_direction, int32_t n_line,
+                                                      double *area, double *error);
+
+/// How far an assembly reaches.
+typedef struct clast_extent {
+    double length;     ///< greatest distance of two points
+    double axis[3][3]; ///< principal axes of the mass, by rows, longest width first
+    double width[3];   ///< between the tangent planes across each axis, falling: L, I, S
+} clast_extent;
+
+/// Exact for polyhedra, to 1e-9 for smooth grains.
+CLAST_API clast_status clast_assembly_extent(const clast_assembly *assembly, clast_extent *extent);
+
+typedef struct clast_structure_options {
+    clast_envelope_options envelope;
+    clast_union_options solid;
+    clast_fluid fluid;
+    int32_t n_line, n_direction; ///< of projected areas
+    int32_t n_first;             ///< first grain of the growth fit; 0: a tenth of them, 5 at least
+} clast_structure_options;
+
+/// Options of the parts, air, 512 lines, 24 directions.
+CLAST_API clast_structure_options clast_structure_options_default(void);
+
+/// Everything above in one table: columns name, value, error, unit, meaning.
+///
+/// One row per measure; for each envelope that the shapes allow its volume, porosity, packing,
+/// density, D_agg and terminal velocity. Measures that do not exist here (a fractal dimension of
+/// two grains, contacts that are not known) have no row. `table` must be empty.
+CLAST_API clast_status clast_structure(const clast_assembly *assembly,
+                                       const clast_structure_options *options, clast_table *table);

@@ -1,0 +1,291 @@
+// Shadows of assemblies by scan lines: on each line the covered length is exact (spheres and
+// ellipsoids in closed form, surfaces by their triangles), between lines the midpoint rule.
+#include <clast/structure.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "base/status.h"
+#include "math/vec3.h"
+#include <stdlib.h>
+
+/// Something that covers an interval of each line it meets: an ellipse or a triangle.
+typedef struct shade {
+    double low, high; ///< extent across the lines
+    bool is_triangle;
+    double x[3], y[3]; ///< corners; of an ellipse x[0], y[0] the centre and
+    double slope;      ///< its axis: how x moves with y
+    double half;       ///< half length on the line through the centre
+} shade;
+
+typedef struct span {
+    double begin, end;
+} span;
+
+typedef struct shadow {
+    double a[3], b[3], d[3]; ///< lines along a, stacked along b, seen along d
+    int64_t n, room;
+    shade *shade;
+    int64_t n_span, span_room;
+    span *span;
+    int64_t *active;
+    int64_t active_room;
+} shadow;
+
+static void shadow_free(shadow *s)
+{
+    clx_free(s->shade);
+    clx_free(s->span);
+    clx_free(s->active);
+    *s = (shadow){0};
+}
+
+static clast_status add_shade(shadow *s, const shade *item)
+{
+    const clast_status status = clx_grow(&s->shade, &s->room, s->n + 1, sizeof *s->shade);
+    if (status == CLAST_OK) {
+        s->shade[s->n++] = *item;
+    }
+    return status;
+}
+
+/// Shadow of centre + half y, |y| <= 1: the ellipse of matrix P = (a b)^T half half^T (a b).
+static clast_status add_ellipse(shadow *s, const double centre[3], double half[3][3])
+{
+    double pa[3];
+    double pb[3];
+    m3_mul_t(pa, half, s->a);
+    m3_mul_t(pb, half, s->b);
+    const double aa = v3_norm2(pa);
+    const double ab = v3_dot(pa, pb);
+    const double bb = v3_norm2(pb);
+    shade item = {.x = {v3_dot(centre, s->a)}, .y = {v3_dot(centre, s->b)}};
+    item.slope = ab / bb;
+    item.half = sqrt(fmax(0.0, aa - ab * ab / bb));
+    item.low = item.y[0] - sqrt(bb);
+    item.high = item.y[0] + sqrt(bb);
+    return add_shade(s, &item);
+}
+
+static clast_status add_ball(shadow *s, const double centre[3], double radius)
+{
+    double half[3][3] = {{radius, 0.0, 0.0}, {0.0, radius, 0.0}, {0.0, 0.0, radius}};
+    return add_ellipse(s, centre, half);
+}
+
+/// A closed surface's shadow is that of the triangles that face the viewer.
+static clast_status add_triangle(shadow *s, double corner[3][3])
+{
+    shade item = {.is_triangle = true};
+    for (int k = 0; k < 3; ++k) {
+        item.x[k] = v3_dot(corner[k], s->a);
+        item.y[k] = v3_dot(corner[k], s->b);
+    }
+    if ((item.x[1] - item.x[0]) * (item.y[2] - item.y[0]) <=
+        (item.x[2] - item.x[0]) * (item.y[1] - item.y[0])) {
+        return CLAST_OK;
+    }
+    item.low = fmin(item.y[0], fmin(item.y[1], item.y[2]));
+    item.high = fmax(item.y[0], fmax(item.y[1], item.y[2]));
+    return add_shade(s, &item);
+}
+
+static clast_status add_grain(const clast_assembly *assembly, int32_t i, shadow *s)
+{
+    clast_status status = CLAST_OK;
+    const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
+    const double scale = assembly->scale[i];
+    const double *position = assembly->position[i];
+    double turn[3][3];
+    q_matrix(turn, assembly->orientation[i]);
+    if (shape->kind == CLAST_SHAPE_SPHERE) {
+        CLX_TRY(add_ball(s, position, scale * shape->semi_axes[0]));
+    } else if (shape->kind == CLAST_SHAPE_ELLIPSOID) {
+        double half[3][3];
+        for (int r = 0; r < 3; ++r) {
+            for (int c = 0; c < 3; ++c) {
+                half[r][c] = turn[r][c] * scale * shape->semi_axes[c];
+            }
+        }
+        CLX_TRY(add_ellipse(s, position, half));
+    } else if (shape->kind == CLAST_SHAPE_CLUMP) {
+        for (int32_t k = 0; k < shape->spheres.n; ++k) {
+            double at[3];
+            m3_mul(at, turn, shape->spheres.centre[k]);
+            v3_axpy(at, position, scale, at);
+            CLX_TRY(add_ball(s, at, scale * shape->spheres.radius[k]));
+        }
+    } else {
+        for (int32_t t = 0; t < shape->mesh.n_tri; ++t) {
+            double corner[3][3];
+            for (int k = 0; k < 3; ++k) {
+                m3_mul(corner[k], turn, shape->mesh.vert[shape->mesh.tri[t][k]]);
+                v3_axpy(corner[k], position, scale, corner[k]);
+            }
+            CLX_TRY(add_triangle(s, corner));
+        }
+    }
+done:
+    return status;
+}
+
+static bool cover(const shade *item, double y, span *out)
+{
+    if (!item->is_triangle) {
+        const double t = (y - item->y[0]) / (item->high - item->y[0]);
+        const double half = item->half * sqrt(fmax(0.0, 1.0 - t * t));
+        const double middle = item->x[0] + item->slope * (y - item->y[0]);
+        *out = (span){middle - half, middle + half};
+        return half > 0.0;
+    }
+    *out = (span){INFINITY, -INFINITY};
+    for (int k = 0; k < 3; ++k) {
+        const int m = (k + 1) % 3;
+        if ((item->y[k] <= y) != (item->y[m] <= y)) {
+            const double x = item->x[k] + (item->x[m] - item->x[k]) * (y - item->y[k]) /
+                                              (item->y[m] - item->y[k]);
+            out->begin = fmin(out->begin, x);
+            out->end = fmax(out->end, x);
+        }
+    }
+    return out->end > out->begin;
+}
+
+static int by_low(const void *p, const void *q)
+{
+    const shade *a = p;
+    const shade *b = q;
+    return (a->low > b->low) - (a->low < b->low);
+}
+
+static int by_begin(const void *p, const void *q)
+{
+    const span *a = p;
+    const span *b = q;
+    return (a->begin > b->begin) - (a->begin < b->begin);
+}
+
+static double covered(span *spans, int64_t n)
+{
+    double length = 0.0;
+    double end = -INFINITY;
+    if (n > 1) {
+        qsort(spans, (size_t)n, sizeof *spans, by_begin);
+    }
+    for (int64_t i = 0; i < n; ++i) {
+        if (spans[i].end > end) {
+            length += spans[i].end - fmax(spans[i].begin, end);
+            end = spans[i].end;
+        }
+    }
+    return length;
+}
+
+/// Area by n lines; shades sorted by their low end.
+static double sweep(shadow *s, int32_t n_line)
+{
+    double low = INFINITY;
+    double high = -INFINITY;
+    double sum = 0.0;
+    int64_t n_active = 0;
+    int64_t next = 0;
+    for (int64_t i = 0; i < s->n; ++i) {
+        low = fmin(low, s->shade[i].low);
+        high = fmax(high, s->shade[i].high);
+    }
+    const double step = (high - low) / n_line;
+    for (int32_t line = 0; line < n_line; ++line) {
+        const double y = low + (line + 0.5) * step;
+        int64_t kept = 0;
+        int64_t n_span = 0;
+        while (next < s->n && s->shade[next].low <= y) {
+            s->active[n_active++] = next++;
+        }
+        for (int64_t k = 0; k < n_active; ++k) {
+            const shade *item = &s->shade[s->active[k]];
+            if (item->high > y) {
+                s->active[kept++] = s->active[k];
+                n_span += cover(item, y, &s->span[n_span]);
+            }
+        }
+        n_active = kept;
+        sum += covered(s->span, n_span);
+    }
+    return sum * step;
+}
+
+clast_status clast_assembly_projected_area(const clast_assembly *assembly,
+                                           const double direction[3], int32_t n_line, double *area,
+                                           double *error)
+{
+    clast_status status = CLAST_OK;
+    shadow s = {0};
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to project");
+    CLX_CHECK(n_line >= 2, CLAST_E_USAGE, "projection: %d scan lines, 2 at least", n_line);
+    CLX_CHECK(v3_unit(s.d, direction), CLAST_E_USAGE, "projection: the direction is zero");
+    v3_frame(s.d, s.a, s.b);
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        CLX_TRY(add_grain(assembly, i, &s));
+    }
+    CLX_TRY(clx_grow(&s.span, &s.span_room, s.n, sizeof *s.span));
+    CLX_TRY(clx_grow(&s.active, &s.active_room, s.n, sizeof *s.active));
+    if (s.n > 1) {
+        qsort(s.shade, (size_t)s.n, sizeof *s.shade, by_low);
+    }
+    const double fine = sweep(&s, n_line);
+    *error = fabs(fine - sweep(&s, n_line / 2));
+    *area = fine;
+done:
+    shadow_free(&s);
+    return status;
+}
+
+typedef struct many {
+    const clast_assembly *assembly;
+    int32_t n, n_line;
+    double *area;         ///< [n]
+    clast_status *status; ///< [n]
+} many;
+
+/// Directions on the half sphere: equal heights, golden turns.
+static void project_some(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const many *m = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double z = ((double)i + 0.5) / m->n;
+        const double turn = 2.0 * CLAST_PI * 0.61803398874989484820 * (double)i;
+        const double r = sqrt(1.0 - z * z);
+        const double direction[3] = {r * cos(turn), r * sin(turn), z};
+        double error = 0.0;
+        m->status[i] =
+            clast_assembly_projected_area(m->assembly, direction, m->n_line, &m->area[i], &error);
+    }
+}
+
+clast_status clast_assembly_mean_projection(const clast_assembly *assembly, int32_t n_direction,
+                                            int32_t n_line, double *area, double *error)
+{
+    clast_status status = CLAST_OK;
+    many m = {.assembly = assembly, .n = n_direction, .n_line = n_line};
+    double sum = 0.0;
+    double squares = 0.0;
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to project");
+    CLX_CHECK(n_direction >= 2 && n_line >= 2, CLAST_E_USAGE,
+              "projection: %d directions and %d lines, 2 of each at least", n_direction, n_line);
+    CLX_TRY(clx_alloc(&m.area, n_direction, sizeof *m.area));
+    CLX_TRY(clx_alloc(&m.status, n_direction, sizeof *m.status));
+    clx_parallel_for(n_direction, 1, project_some, &m);
+    for (int32_t i = 0; i < n_direction; ++i) {
+        CLX_CHECK(m.status[i] == CLAST_OK, m.status[i], "projection: %s",
+                  clast_status_text(m.status[i]));
+        sum += m.area[i];
+        squares += m.area[i] * m.area[i];
+    }
+    const double mean = sum / n_direction;
+    *area = mean;
+    *error = sqrt(fmax(0.0, squares / n_direction - mean * mean) / (n_direction - 1));
+done:
+    clx_free(m.area);
+    clx_free(m.status);
+    return status;
+}

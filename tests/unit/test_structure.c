@@ -1,0 +1,310 @@
+/* Unit: shadows, extents, profiles, dimensions and coordination of arrangements known by heart. */
+#include "support.h"
+
+#include "math/rng.h"
+#include "math/vec3.h"
+#include <string.h>
+
+static const double no_turn[4] = {1.0, 0.0, 0.0, 0.0};
+
+static void add(clast_assembly *a, double x, double y, double z, double scale)
+{
+    CHECK_OK(clast_assembly_add_grain(a, 0, (double[3]){x, y, z}, no_turn, scale, 1000.0));
+}
+
+static void with_ball(clast_assembly *a)
+{
+    clast_shape ball = {0};
+    CHECK_OK(clast_shape_sphere("ball", 1.0, &ball));
+    CHECK_OK(clast_assembly_add_shape(a, &ball, NULL));
+    clast_shape_free(&ball);
+}
+
+static void with_box(clast_assembly *a, double x, double y, double z)
+{
+    clast_mesh mesh = {0};
+    clast_shape shape = {0};
+    CHECK_OK(clast_mesh_box(x, y, z, &mesh));
+    CHECK_OK(clast_shape_mesh("box", &mesh, &shape));
+    CHECK_OK(clast_assembly_add_shape(a, &shape, NULL));
+    clast_shape_free(&shape);
+    clast_mesh_free(&mesh);
+}
+
+static double shadow(const clast_assembly *a, double x, double y, double z)
+{
+    double area = 0.0;
+    double error = 0.0;
+    CHECK_OK(clast_assembly_projected_area(a, (double[3]){x, y, z}, 1024, &area, &error));
+    assert_true(error < 3e-4 * area);
+    return area;
+}
+
+static void shadows_have_their_areas(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    const double q[4] = {0.8, 0.0, 0.6, 0.0};
+    with_ball(&a);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    CHECK_REL(shadow(&a, 0.3, -0.4, 2.0), CLAST_PI, 1e-4);
+    add(&a, 0.0, 0.0, 1.0, 1.0);
+    CHECK_REL(shadow(&a, 0.0, 0.0, 1.0), CLAST_PI, 1e-4); /* one behind the other */
+    /* two discs a radius apart: 2 pi - 2 (pi / 3 - sqrt(3) / 4) */
+    CHECK_REL(shadow(&a, 0.0, 1.0, 0.0), 4.0 * CLAST_PI / 3.0 + sqrt(3.0) / 2.0, 1e-4);
+    clast_assembly_free(&a);
+
+    /* ellipsoid a, b, c along n: pi sqrt((bc n1)^2 + (ca n2)^2 + (ab n3)^2) in its own frame */
+    clast_shape egg = {0};
+    CHECK_OK(clast_shape_ellipsoid("egg", (double[3]){3.0, 2.0, 1.0}, &egg));
+    CHECK_OK(clast_assembly_add_shape(&a, &egg, NULL));
+    clast_shape_free(&egg);
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){1, 2, 3}, q, 2.0, 1.0));
+    double n[3];
+    q_rotate(n, q, (double[3]){0.6, 0.0, 0.8});
+    const double wanted = 4.0 * CLAST_PI * sqrt(2.0 * 0.6 * 2.0 * 0.6 + 6.0 * 0.8 * 6.0 * 0.8);
+    CHECK_REL(shadow(&a, n[0], n[1], n[2]), wanted, 1e-4);
+    clast_assembly_free(&a);
+}
+
+/* Cauchy: the mean shadow of a convex body is a quarter of its surface. */
+static void mean_shadow_is_a_quarter_of_the_surface(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    double area = 0.0;
+    double error = 0.0;
+    with_box(&a, 1.0, 2.0, 3.0);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    CHECK_REL(shadow(&a, 1.0, 0.0, 0.0), 6.0, 1e-12);
+    CHECK_REL(shadow(&a, 0.0, 0.0, -1.0), 2.0, 1e-12);
+    CHECK_REL(shadow(&a, 1.0, 1.0, 1.0), 11.0 / sqrt(3.0), 1e-5);
+    CHECK_OK(clast_assembly_mean_projection(&a, 200, 128, &area, &error));
+    CHECK_REL(area, 5.5, 2e-3); /* even directions do better than the stated bound */
+    assert_true(fabs(area - 5.5) < error && error < 0.02 * area);
+    CHECK_STATUS(clast_assembly_mean_projection(&a, 1, 128, &area, &error), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_projected_area(&a, (double[3]){0, 0, 0}, 128, &area, &error),
+                 CLAST_E_USAGE);
+    clast_assembly_free(&a);
+}
+
+static void extents_are_lengths_and_widths(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_extent e;
+    const double q[4] = {0.5, 0.5, -0.5, 0.5};
+    with_box(&a, 1.0, 2.0, 3.0);
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){4, 5, 6}, q, 2.0, 1.0));
+    CHECK_OK(clast_assembly_extent(&a, &e));
+    CHECK_REL(e.length, 2.0 * sqrt(14.0), 1e-14);
+    for (int k = 0; k < 3; ++k) {
+        CHECK_REL(e.width[k], 2.0 * (3 - k), 1e-13);
+    }
+    clast_assembly_free(&a);
+    with_ball(&a);
+    add(&a, 0.0, 0.0, 0.0, 3.0);
+    add(&a, 0.48 * 4.0, -0.6 * 4.0, 0.64 * 4.0, 1.0);
+    CHECK_OK(clast_assembly_extent(&a, &e));
+    CHECK_REL(e.length, 8.0, 1e-9);
+    CHECK_REL(e.width[0], 8.0, 1e-9);
+    CHECK_REL(e.width[1], 6.0, 1e-12);
+    CHECK_REL(fabs(v3_dot(e.axis[0], (double[3]){0.48, -0.6, 0.64})), 1.0, 1e-12);
+    clast_assembly_free(&a);
+}
+
+static void radial_profile_cuts_balls_exactly(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_table t = {0};
+    with_ball(&a);
+    add(&a, 0.0, 0.0, 0.0, 2.0);
+    add(&a, 3.0, 0.0, 0.0, 1.0);
+    add(&a, -3.0, 0.0, 0.0, 1.0);
+    CHECK_OK(clast_assembly_radial_profile(&a, NULL, 8, &t));
+    assert_int_equal(t.n_row, 8);
+    const double *solid = clast_table_numbers(&t, "solid_m3");
+    const double *share = clast_table_numbers(&t, "solid_fraction");
+    for (int k = 0; k < 4; ++k) { /* shells of 0.5 within the big ball */
+        CHECK_REL(share[k], 1.0, 1e-14);
+        CHECK_REL(clast_table_numbers(&t, "density_kg_m3")[k], 1000.0, 1e-14);
+    }
+    /* from 2 to 3: half the small balls less what bulges over: two spheres cut by the ball of 3,
+     * pi (R + r - d)^2 (d^2 + 2 d (R + r) - 3 (R - r)^2) / (12 d) with R 3, r 1, d 3 */
+    CHECK_REL(solid[4] + solid[5], 2.0 * CLAST_PI * (9.0 + 24.0 - 12.0) / 36.0, 1e-13);
+    CHECK_REL(solid[6] + solid[7] + solid[4] + solid[5], 8.0 / 3.0 * CLAST_PI, 1e-13);
+    CHECK_REL(clast_table_numbers(&t, "radius_high_m")[7], 4.0, 1e-15);
+    clast_table_free(&t);
+    CHECK_STATUS(clast_assembly_radial_profile(&a, NULL, 0, &t), CLAST_E_USAGE);
+    clast_assembly_free(&a);
+    /* A cube of edge 2 about its centre, by points: all within sqrt 3, pi/6 within 1. */
+    with_box(&a, 2.0, 2.0, 2.0);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    CHECK_OK(clast_assembly_radial_profile(&a, NULL, 100, &t));
+    double inner = 0.0;
+    double error = 0.0;
+    for (int k = 0; clast_table_numbers(&t, "radius_high_m")[k] <= 1.0; ++k) {
+        inner += clast_table_numbers(&t, "solid_m3")[k];
+        error = hypot(error, clast_table_numbers(&t, "solid_error_m3")[k]);
+    }
+    CHECK_ABS(inner, 4.0 / 3.0 * CLAST_PI, error + 0.1);
+    assert_true(error < 0.5);
+    clast_table_free(&t);
+    clast_assembly_free(&a);
+}
+
+/* A straight chain of touching balls: Rg^2 = (n^2 - 1) / 3 + 3/5, dimension 1. */
+static void chain_has_dimension_one(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_fractal f;
+    with_ball(&a);
+    for (int i = 0; i < 400; ++i) {
+        add(&a, 2.0 * i, 0.0, 0.0, 1.0);
+    }
+    CHECK_OK(clast_fractal_growth(&a, 40, &f));
+    CHECK_REL(f.dimension, 1.0, 1e-3);
+    CHECK_REL(f.prefactor, sqrt(3.0), 2e-3);
+    CHECK_REL(f.low, sqrt((40.0 * 40.0 - 1.0) / 3.0 + 0.6), 1e-12);
+    CHECK_REL(f.high, sqrt((400.0 * 400.0 - 1.0) / 3.0 + 0.6), 1e-12);
+    assert_true(f.n >= 30 && f.dimension_error < 1e-3);
+    CHECK_OK(clast_fractal_correlation(&a, &f));
+    CHECK_ABS(f.dimension, 1.0, 0.12); /* the ends of the chain have fewer neighbours */
+    CHECK_STATUS(clast_fractal_growth(&a, 400, &f), CLAST_E_USAGE);
+    a.n_grain = 4;
+    CHECK_STATUS(clast_fractal_correlation(&a, &f), CLAST_E_GEOMETRY);
+    a.n_grain = 400;
+    clast_assembly_free(&a);
+}
+
+/* A ball of touching balls on a simple cubic lattice, grown shell by shell: dimension 3,
+ * N = (4/3) pi (R / 2a)^3 with R = sqrt(5/3) Rg. */
+static void lattice_has_dimension_three(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_fractal f;
+    with_ball(&a);
+    for (int shell = 0; shell <= 100; ++shell) {
+        for (int i = -10; i <= 10; ++i) {
+            for (int j = -10; j <= 10; ++j) {
+                for (int k = -10; k <= 10; ++k) {
+                    if (i * i + j * j + k * k == shell) {
+                        add(&a, 2.0 * i, 2.0 * j, 2.0 * k, 1.0);
+                    }
+                }
+            }
+        }
+    }
+    CHECK_OK(clast_fractal_growth(&a, 200, &f));
+    CHECK_REL(f.dimension, 3.0, 0.02);
+    CHECK_REL(f.prefactor, 4.0 / 3.0 * CLAST_PI / 8.0 * pow(5.0 / 3.0, 1.5),
+              0.10); /* at R = a, far off */
+    CHECK_OK(clast_assembly_find_contacts(&a, 1e-9));
+    clast_table t = {0};
+    CHECK_OK(clast_assembly_coordination(&a, &t));
+    assert_int_equal(t.n_row, 7);
+    double sum = 0.0;
+    for (int64_t k = 0; k < t.n_row; ++k) {
+        sum += t.column[0].number[k] * t.column[1].number[k];
+    }
+    CHECK_REL(sum, 2.0 * a.n_contact, 1e-15);
+    assert_true(t.column[1].number[6] > 0.6 * a.n_grain); /* the inner ones touch six */
+    clast_table_free(&t);
+    clast_assembly_free(&a);
+}
+
+static double value_of(const clast_table *t, const char *name)
+{
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        if (strcmp(t->column[0].text[i], name) == 0) {
+            assert_true(t->column[2].number[i] >= 0.0 && isfinite(t->column[1].number[i]));
+            return t->column[1].number[i];
+        }
+    }
+    return NAN;
+}
+
+static void structure_names_every_measure(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_table t = {0};
+    clast_structure_options options = clast_structure_options_default();
+    options.n_line = 64;
+    options.envelope.n_ray = 1000;
+    with_ball(&a);
+    add(&a, 0.0, 0.0, 0.0, 1e-4);
+    add(&a, 2e-4, 0.0, 0.0, 1e-4);
+    CHECK_OK(clast_structure(&a, &options, &t));
+    CHECK_REL(value_of(&t, "porosity_surface_hull"), 0.2, 1e-11);
+    CHECK_REL(value_of(&t, "packing_sphere_hull"), 0.8, 1e-11);
+    CHECK_REL(value_of(&t, "density_surface_hull"), 800.0, 1e-11);
+    CHECK_REL(value_of(&t, "d_agg_surface_hull"), 2e-4 * cbrt(2.5), 1e-11);
+    CHECK_REL(value_of(&t, "porosity_enclosing_sphere"), 0.75, 1e-10);
+    CHECK_REL(value_of(&t, "length"), 4e-4, 1e-8);
+    CHECK_REL(value_of(&t, "radius_of_gyration"), 1e-4 * sqrt(1.6), 1e-13);
+    CHECK_REL(value_of(&t, "solid_union"), 8.0 / 3.0 * CLAST_PI * 1e-12, 1e-13);
+    CHECK_REL(value_of(&t, "projected_area_1"), CLAST_PI * 1e-8, 1e-3);
+    assert_true(value_of(&t, "settling_velocity_surface_hull") > 0.3);
+    assert_true(isnan(value_of(&t, "fractal_growth"))); /* two grains have none */
+    assert_true(isnan(value_of(&t, "coordination")));   /* contacts are not known */
+    clast_table_free(&t);
+    CHECK_OK(clast_assembly_find_contacts(&a, 1e-12));
+    CHECK_OK(clast_structure(&a, &options, &t));
+    CHECK_REL(value_of(&t, "coordination"), 1.0, 1e-15);
+    clast_table_free(&t);
+    clast_assembly_free(&a);
+    CHECK_STATUS(clast_structure(&a, &options, &t), CLAST_E_USAGE);
+}
+
+static clast_status measure(void *context)
+{
+    clast_table t = {0};
+    clast_structure_options options = clast_structure_options_default();
+    options.n_line = 8;
+    options.n_direction = 2;
+    options.envelope.n_ray = 30;
+    options.envelope.tolerance = 0.1;
+    clast_status status = clast_structure(context, &options, &t);
+    clast_table_free(&t);
+    if (status == CLAST_OK) {
+        status = clast_assembly_radial_profile(context, NULL, 4, &t);
+    }
+    clast_table_free(&t);
+    if (status == CLAST_OK) {
+        status = clast_assembly_coordination(context, &t);
+    }
+    clast_table_free(&t);
+    return status;
+}
+
+static void structure_survives_refused_memory(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    with_box(&a, 1.0, 1.0, 1.0);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    CHECK_OK(clast_assembly_find_contacts(&a, 0.0));
+    clast_parallel_set_threads(1);
+    support_refuse_each_allocation(measure, &a);
+    clast_parallel_set_threads(0);
+    clast_assembly_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shadows_have_their_areas),
+        cmocka_unit_test(mean_shadow_is_a_quarter_of_the_surface),
+        cmocka_unit_test(extents_are_lengths_and_widths),
+        cmocka_unit_test(radial_profile_cuts_balls_exactly),
+        cmocka_unit_test(chain_has_dimension_one),
+        cmocka_unit_test(lattice_has_dimension_three),
+        cmocka_unit_test(structure_names_every_measure),
+        cmocka_unit_test(structure_survives_refused_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
