@@ -14,7 +14,7 @@ clx_touch_path clx_touch_path_along(const double direction[3])
 }
 
 static bool entry(const clx_touch_body *moving, const clx_touch_body *lying,
-                  const clx_touch_path *path, const double c[3], clx_entry *found)
+                  const clx_touch_path *path, const double c[3], double t_high, clx_entry *found)
 {
     if (moving->kind == CLX_TOUCH_SPHERE && lying->kind == CLX_TOUCH_SPHERE) {
         return clx_sphere_entry(moving->radius + lying->radius, c, found);
@@ -23,7 +23,7 @@ static bool entry(const clx_touch_body *moving, const clx_touch_body *lying,
     double b[6];
     sym_to_frame(a, path, lying->matrix);
     sym_to_frame(b, path, moving->matrix);
-    return clx_ellipsoid_entry(a, b, c, found);
+    return clx_ellipsoid_entry(a, b, c, t_high, found);
 }
 
 /// The convex bodies overlap at t_low, which lies after their first touch: the sum of the bodies is
@@ -33,7 +33,7 @@ static bool overlap_at_start(const clx_touch_body *moving, const clx_touch_body 
 {
     const double mirrored[3] = {-c[0], -c[1], -c[2]};
     clx_entry exit;
-    return entry(moving, lying, path, mirrored, &exit) && -exit.t > path->t_low;
+    return entry(moving, lying, path, mirrored, INFINITY, &exit) && -exit.t > path->t_low;
 }
 
 /// Point of the lying ellipsoid with this outward normal (both in the world).
@@ -52,7 +52,7 @@ static bool touch_convex(const clx_touch_body *moving, const clx_touch_body *lyi
     clx_entry found;
     v3_sub(difference, moving->position, lying->position);
     touch_to_frame(c, path, difference);
-    if (!entry(moving, lying, path, c, &found) || found.t > path->t_high) {
+    if (!entry(moving, lying, path, c, path->t_high, &found) || found.t > path->t_high) {
         return false;
     }
     *touch = (clx_touch){.t = found.t};

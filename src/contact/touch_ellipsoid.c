@@ -62,17 +62,20 @@ static double support(const double s[6], const double n[3])
     return form > 0.0 ? sqrt(form) : 0.0;
 }
 
-bool clx_ellipsoid_entry(const double a[6], const double b[6], const double c[3], clx_entry *entry)
+bool clx_ellipsoid_entry(const double a[6], const double b[6], const double c[3], double t_high,
+                         clx_entry *entry)
 {
     double low = 0.0; // the maximum of t(k) lies in (low, high)
     double high = 1.0;
     double before = 0.0; // the last but one k and its residual
     double residual_before = 0.0;
     const double reach_a = sqrt(a[0] + a[1] + a[2]);
-    double k = reach_a / (reach_a + sqrt(b[0] + b[1] + b[2]));
+    const double reach = reach_a + sqrt(b[0] + b[1] + b[2]);
+    const double give_up = t_high + 1e-12 * (reach + fabs(c[2])); // beyond doubt later than t_high
+    double k = reach_a / reach;
     for (int step = 0; step < MAX_STEP; ++step) {
-        if (!entry_of_bound(a, b, c, k, &entry->t, entry->normal)) {
-            return false;
+        if (!entry_of_bound(a, b, c, k, &entry->t, entry->normal) || entry->t > give_up) {
+            return false; // entry->t is never beyond the true entry
         }
         const double h_a = support(a, entry->normal);
         const double share = h_a / (h_a + support(b, entry->normal));

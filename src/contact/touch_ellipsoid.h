@@ -9,11 +9,12 @@ typedef struct clx_entry {
 } clx_entry;
 
 /// Entry of the line c + t z into {x + y : x in A, y in B}, A and B given by their matrices
-/// (h(n) = sqrt(n^T A n)); false if the line misses.
+/// (h(n) = sqrt(n^T A n)); false if the line misses, or surely enters after t_high.
 ///
 /// @param a, b  xx, yy, zz, yz, xz, xy [m2], positive definite   @param c  centre of the moving
 /// ellipsoid minus that of the lying one at t = 0 [m]
-bool clx_ellipsoid_entry(const double a[6], const double b[6], const double c[3], clx_entry *entry);
+bool clx_ellipsoid_entry(const double a[6], const double b[6], const double c[3], double t_high,
+                         clx_entry *entry);
 
 /// The same for spheres of radius sum `reach`: closed form.
 bool clx_sphere_entry(double reach, const double c[3], clx_entry *entry);

@@ -108,7 +108,7 @@ static void first_normal(const clx_touch_body *a, const clx_touch_body *b, const
         touch_to_frame(seen, &path, c);
         sym_to_frame(m[0], &path, a->matrix);
         sym_to_frame(m[1], &path, b->matrix);
-        if (clx_ellipsoid_entry(m[0], m[1], seen, &entry)) {
+        if (clx_ellipsoid_entry(m[0], m[1], seen, INFINITY, &entry)) {
             touch_from_frame(n, &path, entry.normal);
         }
     }

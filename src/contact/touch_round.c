@@ -90,8 +90,8 @@ static bool pass_ball(const search *s, const touch_item *item, clx_pass *pass)
     const bool is_bounded = isfinite(s->t_low); // the end of the touch matters only then
     v3_sub(c, s->centre, item->corner[0]);
     v3_scale(mirrored, -1.0, c);
-    if (!clx_ellipsoid_entry(ball, s->matrix, c, &in) ||
-        (is_bounded && !clx_ellipsoid_entry(ball, s->matrix, mirrored, &out))) {
+    if (!clx_ellipsoid_entry(ball, s->matrix, c, s->t_high, &in) ||
+        (is_bounded && !clx_ellipsoid_entry(ball, s->matrix, mirrored, INFINITY, &out))) {
         return false;
     }
     *pass = (clx_pass){.first = in.t, .last = is_bounded ? -out.t : (double)INFINITY};
@@ -177,7 +177,7 @@ static void contact_of(const search *s, double point[3], double normal[3])
         double c[3];
         clx_entry in = {0};
         v3_sub(c, s->centre, item.corner[0]);
-        (void)clx_ellipsoid_entry(ball, s->matrix, c, &in);
+        (void)clx_ellipsoid_entry(ball, s->matrix, c, INFINITY, &in);
         v3_copy(normal, in.normal);
         v3_axpy(point, item.corner[0], item.radius, normal);
         return;

@@ -82,7 +82,7 @@ static void scenes_agree_with_asking_every_body(void **state)
     clx_touch_scene_destroy(scene);
 }
 
-/// Bodies along a line, ever farther: a tree grown without care would be a list.
+/// Bodies along a line, ever farther.
 static void long_chains_stay_searchable(void **state)
 {
     (void)state;
@@ -100,6 +100,29 @@ static void long_chains_stay_searchable(void **state)
     const clx_touch_path path = clx_touch_path_along((double[3]){-1.0, 0.0, 0.0});
     clx_touch touch;
     assert_true(clx_touch_scene_first(scene, &body, &path, &touch)); // from far at +x
+    assert_int_equal(touch.body, 1999);
+    clx_touch_scene_destroy(scene);
+}
+
+/// Each body swallows all before it: a tree grown without care would be a list.
+static void nested_bodies_stay_searchable(void **state)
+{
+    (void)state;
+    clx_touch_scene *scene = NULL;
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    const double origin[3] = {0.0, 0.0, 0.0};
+    clx_touch_body body = clx_touch_body_sphere(1.0);
+    CHECK_OK(clx_touch_scene_create(&scene));
+    double size = 1.0;
+    for (int i = 0; i < 2000; ++i) {
+        clx_touch_body_place(&body, origin, unturned, size);
+        CHECK_OK(clx_touch_scene_insert(scene, &body));
+        size *= 1.1;
+    }
+    clx_touch_body_place(&body, origin, unturned, 0.5);
+    const clx_touch_path path = clx_touch_path_along((double[3]){-1.0, 0.0, 0.0});
+    clx_touch touch;
+    assert_true(clx_touch_scene_first(scene, &body, &path, &touch));
     assert_int_equal(touch.body, 1999);
     clx_touch_scene_destroy(scene);
 }
@@ -192,6 +215,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_agree_with_asking_every_body),
         cmocka_unit_test(long_chains_stay_searchable),
+        cmocka_unit_test(nested_bodies_stay_searchable),
         cmocka_unit_test(equal_touches_name_the_lowest_number),
         cmocka_unit_test(near_visits_all_boxes_in_reach),
         cmocka_unit_test(scenes_survive_refused_memory),

@@ -51,6 +51,7 @@ static void aligned_cubes_stack_without_loss(void **state)
     clx_touch_tree_destroy(cube);
 }
 
+/// Sideways errors of 1e-13 of the size count as touching, so that nothing is lost between faces.
 static void cubes_that_pass_do_not_touch(void **state)
 {
     (void)state;
@@ -59,6 +60,8 @@ static void cubes_that_pass_do_not_touch(void **state)
     clx_touch touch;
     const clx_touch_body beside = put(cube, 1.0 + 1e-11, 0.3, 5.0);
     assert_true(isnan(fall(&beside, &lying, &touch)));
+    const clx_touch_body grazing = put(cube, 1.0 + 1e-14, 0.3, 5.0);
+    CHECK_ABS(fall(&grazing, &lying, &touch), 4.0, 1e-14);
     const clx_touch_body within = put(cube, 1.0 - 1e-11, 0.3, 5.0);
     CHECK_ABS(fall(&within, &lying, &touch), 4.0, 1e-14);
     clx_touch_tree_destroy(cube);
@@ -122,9 +125,41 @@ static void a_sphere_meets_face_edge_and_corner(void **state)
     CHECK_ABS(touch.normal[0], 0.6, 1e-14);
     clx_touch_body_move(&sphere, (double[3]){1.3, 1.2, 9.0});
     CHECK_ABS(fall(&sphere, &lying, &touch), 8.0 - sqrt(0.25 - 0.09 - 0.04), 1e-14);
+    clx_touch_path path = clx_touch_path_along((double[3]){0.0, 0.0, -1.0});
+    path.t_low = 8.0; // in the middle of passing the corner
+    assert_true(clx_first_touch(&sphere, &lying, &path, &touch));
+    assert_true(touch.overlap);
     clx_touch_body_move(&sphere, (double[3]){1.3, 1.41, 9.0});
     assert_true(isnan(fall(&sphere, &lying, &touch)));
     clx_touch_tree_destroy(cube);
+}
+
+/// A sphere that falls past a lone triangle overlaps it from first to last touch: of its face, of
+/// an edge, of a corner.
+static void spheres_leave_triangles_where_they_should(void **state)
+{
+    (void)state;
+    double vert[3][3] = {{0.0, -9.0, 0.0}, {9.0, 0.0, 0.0}, {0.0, 9.0, 0.0}};
+    int32_t tri[1][3] = {{0, 1, 2}};
+    clast_mesh mesh = {3, 1, vert, tri};
+    clx_touch_tree *sheet = NULL;
+    CHECK_OK(clx_touch_tree_mesh(&mesh, &sheet));
+    const clx_touch_body lying = put(sheet, 0.0, 0.0, 0.0);
+    const double x[3] = {3.0, -0.3, 9.3};
+    const double half[3] = {0.5, 0.4, 0.4};
+    for (int i = 0; i < 3; ++i) {
+        clx_touch_body sphere = clx_touch_body_sphere(0.5);
+        clx_touch_path path = clx_touch_path_along((double[3]){0.0, 0.0, -1.0});
+        clx_touch touch;
+        clx_touch_body_move(&sphere, (double[3]){x[i], 0.0, 9.0});
+        CHECK_ABS(fall(&sphere, &lying, &touch), 9.0 - half[i], 1e-14);
+        path.t_low = 9.0 + half[i] - 1e-9;
+        assert_true(clx_first_touch(&sphere, &lying, &path, &touch));
+        assert_true(touch.overlap);
+        path.t_low = 9.0 + half[i] + 1e-9;
+        assert_false(clx_first_touch(&sphere, &lying, &path, &touch));
+    }
+    clx_touch_tree_destroy(sheet);
 }
 
 /// A sphere composite of one sphere is that sphere.
@@ -211,6 +246,27 @@ static void degenerate_triangles_are_segments_and_points(void **state)
     clx_touch_tree_destroy(good);
     clx_touch_tree_destroy(bad);
     clx_touch_tree_destroy(cube);
+}
+
+/// Two upright sheets in one plane: seen along the way both are lines, and only their edges meet.
+static void sheets_meet_edge_on(void **state)
+{
+    (void)state;
+    double vert[3][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.25, 0.0, 1.0}};
+    int32_t tri[1][3] = {{0, 1, 2}};
+    clast_mesh mesh = {3, 1, vert, tri};
+    clx_touch_tree *sheet = NULL;
+    CHECK_OK(clx_touch_tree_mesh(&mesh, &sheet));
+    const clx_touch_body lying = put(sheet, 0.0, 0.0, 0.0); // tip at (0.25, 1)
+    clx_touch touch;
+    const clx_touch_body above = put(sheet, -0.25, 0.0, 4.0); // its foot is flat
+    CHECK_ABS(fall(&above, &lying, &touch), 3.0, 1e-14);
+    CHECK_ABS(touch.point[2], 1.0, 1e-14);
+    const clx_touch_body beside = put(sheet, 0.625, 0.0, 4.0); // foot's corner on the slope
+    CHECK_ABS(fall(&beside, &lying, &touch), 3.5, 1e-14);
+    const clx_touch_body past = put(sheet, 1.1, 0.0, 4.0);
+    assert_true(isnan(fall(&past, &lying, &touch)));
+    clx_touch_tree_destroy(sheet);
 }
 
 /// Needles seen end on are points; a needle on a needle touches where they cross.
@@ -319,9 +375,11 @@ int main(void)
         cmocka_unit_test(a_corner_meets_a_face),
         cmocka_unit_test(an_edge_meets_an_edge),
         cmocka_unit_test(a_sphere_meets_face_edge_and_corner),
+        cmocka_unit_test(spheres_leave_triangles_where_they_should),
         cmocka_unit_test(one_sphere_is_a_composite),
         cmocka_unit_test(nothing_tunnels_through_thin_plates),
         cmocka_unit_test(degenerate_triangles_are_segments_and_points),
+        cmocka_unit_test(sheets_meet_edge_on),
         cmocka_unit_test(needles_seen_end_on_are_hit),
         cmocka_unit_test(hollow_bodies_hold_bodies),
         cmocka_unit_test(builders_refuse_what_cannot_be_touched),
