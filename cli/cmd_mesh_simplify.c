@@ -67,6 +67,10 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     if (status == CLAST_OK) {
         status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
     }
+    if (status == CLAST_OK && clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
+        status = clast_mesh_round_float(&out);
+        report.volume_after = clast_mesh_volume(&out);
+    }
     if (status == CLAST_OK) {
         status = clast_mesh_write(common->output, &out, NULL);
     }
@@ -144,8 +148,9 @@ const cli_command cli_mesh_simplify = {
     .summary = "fewer triangles, same volume",
     .details = "Edges collapse, cheapest first, each to the point that keeps the volume and moves "
                "the surface\nleast (Lindstrom and Turk 1998). Topology stays; no triangle folds "
-               "over. Reports how far the two\nsurfaces are apart. An STL keeps 24 bits of each "
-               "coordinate: write .ply, .obj or .off to keep the\nvolume to 1e-12.\nExit code 5 "
+               "over. Reports how far the two\nsurfaces are apart. The volume is kept to 1e-12; in "
+               "an STL, which has "
+               "24 bits\nfor each coordinate, to about 1e-10.\nExit code 5 "
                "when the number cannot be reached (the result is written all the same).",
     .fields = simplify_fields,
     .config_size = sizeof(simplify_config),

@@ -29,8 +29,9 @@ static void sample_triangle(const sampling *s, int32_t t, double *greatest, doub
     const double step = 1.0 / s->n_row;
     for (int32_t i = 0; i < s->n_row; ++i) {
         for (int32_t j = 0; j < 2 * (s->n_row - i) - 1; ++j) {
+            const int32_t column = j / 2;
             const double u = (i + (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) * step;
-            const double v = (j / 2 + (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) * step;
+            const double v = (column + (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) * step;
             double p[3] = {0};
             v3_axpy(p, p, 1.0 - u - v, s->mesh->vert[tri[0]]);
             v3_axpy(p, p, u, s->mesh->vert[tri[1]]);

@@ -178,6 +178,35 @@ static void distance_of_boxes_is_known(void **state)
     clast_mesh_free(&large);
 }
 
+static void rounding_to_float_keeps_the_volume(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clast_mesh out = {0};
+    CHECK_OK(clast_mesh_ellipsoid((double[3]){3.0, 2.0, 1.0}, 3, &mesh));
+    mesh_tilt(&mesh);
+    (void)simplify(&mesh, 100, &out);
+    const double volume = clast_mesh_volume(&out);
+    double before[200][3];
+    memcpy(before, out.vert, (size_t)out.n_vert * sizeof *out.vert);
+    CHECK_OK(clast_mesh_round_float(&out));
+    CHECK_REL(clast_mesh_volume(&out), volume, 1e-10); /* plain rounding: 3e-8 */
+    for (int32_t i = 0; i < 3 * out.n_vert; ++i) {
+        const double x = out.vert[i / 3][i % 3];
+        assert_true(x == (double)(float)x);
+        CHECK_ABS(x, before[i / 3][i % 3], 4e-6); /* coordinates up to 16 have steps of 1e-6 */
+    }
+    out.vert[3][1] = 1e300;
+    CHECK_STATUS(clast_mesh_round_float(&out), CLAST_E_GEOMETRY);
+    clast_mesh_free(&out);
+    clast_mesh_free(&mesh);
+}
+
+static clast_status make_rounded(void *context)
+{
+    return clast_mesh_round_float(context);
+}
+
 static clast_status make_simple(void *context)
 {
     clast_mesh out = {0};
@@ -193,6 +222,7 @@ static void simplify_survives_refused_memory(void **state)
     clast_mesh mesh = {0};
     CHECK_OK(clast_mesh_ellipsoid((double[3]){1.0, 1.0, 1.0}, 1, &mesh));
     support_refuse_each_allocation(make_simple, &mesh);
+    support_refuse_each_allocation(make_rounded, &mesh);
     clast_mesh_free(&mesh);
 }
 
@@ -207,6 +237,7 @@ int main(void)
         cmocka_unit_test(scan_comes_down_to_300),
         cmocka_unit_test(only_solids_are_simplified),
         cmocka_unit_test(distance_of_boxes_is_known),
+        cmocka_unit_test(rounding_to_float_keeps_the_volume),
         cmocka_unit_test(simplify_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
