@@ -10,6 +10,7 @@
 #include <clast/decompose.h>
 #include <clast/domain.h>
 #include <clast/envelope.h>
+#include <clast/export.h>
 #include <clast/field.h>
 #include <clast/hull.h>
 #include <clast/manifest.h>

@@ -264,7 +264,7 @@ static clast_status survey_row(cursor *c, outline *o, bool first, bool judge, bo
     bool more = true;
     *all_numbers = true;
     while (more) {
-        cell x;
+        cell x = {0};
         double value = 0.0;
         CLX_TRY(next_cell(c, &x, &more));
         const bool number = to_number(&x, &value);
@@ -407,7 +407,7 @@ static clast_status add_columns(cursor *c, const outline *o, clast_table *table,
     }
     for (int32_t k = 0; k < o->n_column; ++k) {
         if (o->has_header) {
-            cell x;
+            cell x = {0};
             CLX_TRY(next_cell(c, &x, &more));
             CLX_TRY(cell_text(&x, &wanted));
         }
@@ -429,7 +429,7 @@ static clast_status fill(cursor *c, clast_table *table, clast_csv_report *report
         (void)begin_row(c);
         for (int32_t k = 0; k < table->n_column; ++k) {
             clast_column *column = &table->column[k];
-            cell x;
+            cell x = {0};
             bool more = true;
             CLX_TRY(next_cell(c, &x, &more));
             if (column->number != NULL) {
@@ -475,7 +475,7 @@ clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n
     clast_table made = {0};
     clast_csv_report found = {0};
     outline o = {0};
-    cursor end;
+    cursor end = {0};
     cursor c = {.name = name,
                 .line = 1,
                 .comment = wish->comment != 0 ? wish->comment : '#',

@@ -173,8 +173,9 @@ done:
     return status;
 }
 
+/// Sizes into shape [rank]; *bytes holds the bytes of one number before and of all after.
 static clast_status check_sizes(const clx_h5 *h5, const char *name, hid_t space, int32_t rank,
-                                size_t item, int64_t *shape, uint64_t *bytes)
+                                int64_t *shape, uint64_t *bytes)
 {
     clast_status status = CLAST_OK;
     hsize_t size[CLX_H5_RANK_LIMIT] = {0};
@@ -182,7 +183,6 @@ static clast_status check_sizes(const clx_h5 *h5, const char *name, hid_t space,
     CLX_CHECK(H5Sis_simple(space) > 0 && H5Sget_simple_extent_ndims(space) == rank, CLAST_E_FORMAT,
               "%s: array %s does not have %d dimensions", h5->label, name, rank);
     (void)H5Sget_simple_extent_dims(space, size, NULL);
-    *bytes = item;
     for (int32_t d = 0; d < rank; ++d) {
         CLX_CHECK(size[d] == 0 || *bytes <= limit / size[d], CLAST_E_LIMIT,
                   "%s: array %s is too large", h5->label, name);
@@ -200,7 +200,7 @@ static clast_status open_array(const clx_h5 *h5, const char *name, clx_h5_type t
     clast_status status = CLAST_OK;
     hid_t file_type = H5I_INVALID_HID;
     hid_t space = H5I_INVALID_HID;
-    uint64_t bytes = 0;
+    uint64_t bytes = clx_h5_type_size(type);
     *set = H5I_INVALID_HID;
     CLX_CHECK(is_inside(h5, name), CLAST_E_FORMAT, "%s: there is no array %s", h5->label, name);
     *set = H5Dopen2(h5->file, name, H5P_DEFAULT);
@@ -209,7 +209,7 @@ static clast_status open_array(const clx_h5 *h5, const char *name, clx_h5_type t
     space = H5Dget_space(*set);
     CLX_CHECK(file_type >= 0 && space >= 0 && same_type(file_type, type), CLAST_E_FORMAT,
               "%s: array %s holds another type of number", h5->label, name);
-    CLX_TRY(check_sizes(h5, name, space, rank, clx_h5_type_size(type), shape, &bytes));
+    CLX_TRY(check_sizes(h5, name, space, rank, shape, &bytes));
     CLX_TRY(check_storage(h5, name, *set, bytes));
 done:
     if (file_type >= 0) {

@@ -34,7 +34,9 @@ const char *clx_json_next(const char *text, char out[CLX_JSON_STEP], size_t *n)
 {
     const size_t length = utf8_length((const unsigned char *)text);
     if (length == 0) {
-        memcpy(out, "\xef\xbf\xbd", 3);
+        out[0] = '\xef';
+        out[1] = '\xbf';
+        out[2] = '\xbd';
         *n = 3;
         return text + 1;
     }

@@ -7,7 +7,6 @@
 #include "io/json.h"
 #include "io/sha256.h"
 #include <clast/parallel.h>
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -115,12 +114,12 @@ clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte)
     char *block = NULL;
     clx_sha256 sha = clx_sha256_begin();
     FILE *file = fopen(path, "rb");
-    CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(file != NULL, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     CLX_TRY(clx_alloc(&block, BLOCK, 1));
     for (size_t n = fread(block, 1, BLOCK, file); n > 0; n = fread(block, 1, BLOCK, file)) {
         clx_sha256_add(&sha, block, n);
     }
-    CLX_CHECK(ferror(file) == 0, CLAST_E_IO, "cannot read %s: %s", path, strerror(errno));
+    CLX_CHECK(ferror(file) == 0, CLAST_E_IO, "cannot read %s: %s", path, clx_errno_text());
     if (n_byte != NULL) {
         *n_byte = (int64_t)sha.n_byte;
     }

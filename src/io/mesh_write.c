@@ -9,8 +9,7 @@ static const char *unit_of(const clast_mesh_write_options *options)
     return options->unit != NULL ? options->unit : "not stated";
 }
 
-/// "PREFIX x y z\n" with digits enough to read the same doubles back.
-static clast_status write_point(clx_file *file, const char *prefix, const double p[3])
+clast_status clx_mesh_write_point(clx_file *file, const char *prefix, const double p[3])
 {
     char line[4 * CLX_NUMBER_SIZE];
     int n = snprintf(line, CLX_NUMBER_SIZE, "%s", prefix);
@@ -40,7 +39,7 @@ clast_status clx_obj_write(const clast_mesh *mesh, const clast_mesh_write_option
         CLX_TRY(clx_file_print(file, "o %.*s\n", name_length(options->name), options->name));
     }
     for (int32_t i = 0; i < mesh->n_vert; ++i) {
-        CLX_TRY(write_point(file, "v ", mesh->vert[i]));
+        CLX_TRY(clx_mesh_write_point(file, "v ", mesh->vert[i]));
     }
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         const int32_t *tri = mesh->tri[t];
@@ -58,7 +57,7 @@ clast_status clx_off_write(const clast_mesh *mesh, const clast_mesh_write_option
     CLX_TRY(clx_file_print(file, "OFF\n# clast %s, unit %s\n%d %d 0\n", clast_version(),
                            unit_of(options), mesh->n_vert, mesh->n_tri));
     for (int32_t i = 0; i < mesh->n_vert; ++i) {
-        CLX_TRY(write_point(file, "", mesh->vert[i]));
+        CLX_TRY(clx_mesh_write_point(file, "", mesh->vert[i]));
     }
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         const int32_t *tri = mesh->tri[t];

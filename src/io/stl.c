@@ -347,8 +347,7 @@ static clast_status check_single(const clast_mesh *mesh)
 }
 
 /// The header must not begin with "solid", or naive readers take the file for text.
-static clast_status write_header(const clast_mesh_write_options *options, uint32_t n,
-                                 clx_file *file)
+clast_status clx_stl_begin(const clast_mesh_write_options *options, uint32_t n, clx_file *file)
 {
     char header[BODY_START] = {0};
     (void)snprintf(header, HEADER_SIZE, "clast %s binary STL, unit %.15s%s%.30s", clast_version(),
@@ -376,17 +375,22 @@ static void store_facet(const clast_mesh *mesh, int32_t t, uint8_t out[FACET_SIZ
     }
 }
 
-clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
-                           clx_file *file)
+clast_status clx_stl_append(const clast_mesh *mesh, clx_file *file)
 {
     clast_status status = CLAST_OK;
     uint8_t facet[FACET_SIZE] = {0};
     CLX_TRY(check_single(mesh));
-    CLX_TRY(write_header(options, (uint32_t)mesh->n_tri, file));
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         store_facet(mesh, t, facet);
         CLX_TRY(clx_file_write(file, facet, sizeof facet));
     }
 done:
     return status;
+}
+
+clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
+                           clx_file *file)
+{
+    const clast_status status = clx_stl_begin(options, (uint32_t)mesh->n_tri, file);
+    return status == CLAST_OK ? clx_stl_append(mesh, file) : status;
 }

@@ -1,4 +1,5 @@
 /* Unit: states come back bit for bit, equal states give equal bytes, and nothing is believed. */
+#include "states.h"
 #include "support.h"
 
 #include "base/alloc.h"
@@ -386,6 +387,28 @@ static void inconsistent_tables_are_refused(void **state)
     }
 }
 
+/* A file of clast 0.1.0 with HDF5 1.10.8, kept: later programs read it still. */
+static void kept_file_of_schema_1_still_reads(void **state)
+{
+    (void)state;
+    clast_state kept = {0};
+    clast_state now = {0};
+    CHECK_OK(support_state(&now));
+    CHECK_OK(clast_state_read(support_data("state/schema1.h5"), &kept));
+    check_same_assembly(kept.assembly, now.assembly);
+    assert_string_equal(kept.config, now.config);
+    assert_string_equal(kept.version, "0.1.0");
+    assert_int_equal(kept.n_spheres, 1);
+    assert_string_equal(kept.spheres[0].name, "fill");
+    assert_memory_equal(kept.spheres[0].spheres.radius, now.spheres[0].spheres.radius,
+                        2 * sizeof(double));
+    assert_int_equal(kept.n_table, 1);
+    assert_true(kept.table[0].column[0].number[2] == 0.5);
+    assert_string_equal(kept.table[0].column[1].text[2], "box, turned");
+    clast_state_free(&kept);
+    clast_state_free(&now);
+}
+
 static clast_status write_and_read(void *context)
 {
     clast_state s = {0};
@@ -435,6 +458,7 @@ int main(void)
         cmocka_unit_test(inconsistent_assemblies_are_refused),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(inconsistent_tables_are_refused),
+        cmocka_unit_test(kept_file_of_schema_1_still_reads),
         cmocka_unit_test(states_survive_refused_memory),
         cmocka_unit_test(full_disk_keeps_the_old_state),
     };

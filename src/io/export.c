@@ -1,0 +1,181 @@
+// Assemblies to the files that other programs read: which writer, and ParaView collections.
+#include "io/export.h"
+
+#include "base/number.h"
+#include <clast/mesh_file.h>
+#include <clast/table_file.h>
+#include <string.h>
+
+static const char *const names[] = {"any", "vtu", "stl",  "obj", "ply",
+                                    "3mf", "csv", "dump", "json"};
+enum { N_FORMAT = sizeof names / sizeof names[0] };
+
+const char *clast_export_format_name(clast_export_format format)
+{
+    return (unsigned)format < N_FORMAT ? names[format] : "unknown";
+}
+
+static bool same_word(const char *a, const char *b)
+{
+    for (; *a != '\0' && *b != '\0'; ++a, ++b) {
+        if ((*a >= 'A' && *a <= 'Z' ? *a + 32 : *a) != *b) {
+            return false;
+        }
+    }
+    return *a == *b;
+}
+
+clast_export_format clast_export_format_of_path(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (int f = 1; dot != NULL && f < N_FORMAT; ++f) {
+        if (same_word(dot + 1, names[f])) {
+            return (clast_export_format)f;
+        }
+    }
+    return CLAST_EXPORT_ANY;
+}
+
+static bool has_surfaces(clast_export_format format, bool points)
+{
+    return format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ || format == CLAST_EXPORT_PLY ||
+           (format == CLAST_EXPORT_VTU && !points);
+}
+
+static clast_status write_body(clx_export *e, clast_export_format format)
+{
+    switch (format) {
+    case CLAST_EXPORT_VTU:
+        return e->options->points ? clx_export_vtu_points(e) : clx_export_vtu_surfaces(e);
+    case CLAST_EXPORT_STL:
+        return clx_export_stl(e);
+    case CLAST_EXPORT_OBJ:
+        return clx_export_obj(e);
+    case CLAST_EXPORT_PLY:
+        return clx_export_ply(e);
+    default:
+        return clx_export_dump(e);
+    }
+}
+
+static clast_status write_stream(clx_export *e, clast_export_format format, const char *path,
+                                 clast_export_report *report)
+{
+    clast_status status = CLAST_OK;
+    if (has_surfaces(format, e->options->points)) {
+        CLX_TRY(clx_parts_make(e->assembly, e->options->level, &e->parts));
+    }
+    CLX_TRY(clx_file_begin(path, &e->file));
+    CLX_TRY(write_body(e, format));
+    report->n_vertex = e->parts.n_vert;
+    report->n_triangle = e->parts.n_tri;
+    CLX_TRY(clx_file_commit(&e->file));
+done:
+    clx_file_abandon(&e->file);
+    clx_parts_free(&e->parts);
+    return status;
+}
+
+static clast_status write_table(const clast_assembly *assembly, clast_export_format format,
+                                const char *path)
+{
+    clast_table table = {0};
+    clast_status status = clast_assembly_table(assembly, &table);
+    if (status == CLAST_OK) {
+        status = format == CLAST_EXPORT_CSV ? clast_table_write_csv(&table, path)
+                                            : clast_table_write_json(&table, path);
+    }
+    clast_table_free(&table);
+    return status;
+}
+
+/// 3MF is small work for printers: one merged surface.
+static clast_status write_threemf(const clast_assembly *assembly, int level, const char *path,
+                                  clast_export_report *report)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh all = {0};
+    const clast_mesh_write_options options = {
+        .format = CLAST_MESH_3MF, .unit = clx_export_unit(assembly), .name = "aggregate"};
+    CLX_CHECK(strcmp(options.unit, "model") != 0, CLAST_E_USAGE,
+              "%s: 3MF is in millimetres, and this assembly's unit is not known", path);
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &all));
+    }
+    CLX_TRY(clast_mesh_write(path, &all, &options));
+    report->n_vertex = all.n_vert;
+    report->n_triangle = all.n_tri;
+done:
+    clast_mesh_free(&all);
+    return status;
+}
+
+clast_status clast_assembly_write(const clast_assembly *assembly, const char *path,
+                                  const clast_export_options *options, clast_export_report *report)
+{
+    static const clast_export_options usual = {.level = 3};
+    clast_status status = CLAST_OK;
+    const clast_export_options *o = options != NULL ? options : &usual;
+    clx_export e = {.assembly = assembly, .options = o};
+    clast_export_report made = {0};
+    made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
+    CLX_CHECK(
+        made.format != CLAST_EXPORT_ANY, CLAST_E_USAGE,
+        "%s: no export by that name; write .vtu, .stl, .obj, .ply, .3mf, .csv, .json or .dump",
+        path);
+    CLX_CHECK(!o->points || made.format == CLAST_EXPORT_VTU, CLAST_E_USAGE,
+              "%s: points are for .vtu only; .csv and .dump hold poses anyway", path);
+    if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
+        CLX_TRY(write_table(assembly, made.format, path));
+    } else if (made.format == CLAST_EXPORT_3MF) {
+        CLX_TRY(write_threemf(assembly, o->level, path, &made));
+    } else {
+        CLX_TRY(write_stream(&e, made.format, path, &made));
+    }
+    if (report != NULL) {
+        *report = made;
+    }
+done:
+    return status;
+}
+
+static void put_escaped(clx_file *file, const char *text)
+{
+    for (; *text != '\0'; ++text) {
+        switch (*text) {
+        case '&':
+            (void)clx_file_print(file, "&amp;");
+            break;
+        case '<':
+            (void)clx_file_print(file, "&lt;");
+            break;
+        case '"':
+            (void)clx_file_print(file, "&quot;");
+            break;
+        default:
+            (void)clx_file_write(file, text, 1);
+        }
+    }
+}
+
+clast_status clast_pvd_write(const char *path, int64_t n, const double *time,
+                             const char *const *name)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    (void)clx_file_print(&file, "<?xml version=\"1.0\"?>\n"
+                                "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
+    for (int64_t i = 0; i < n; ++i) {
+        char text[CLX_NUMBER_SIZE];
+        (void)clx_number_format(time[i], text);
+        (void)clx_file_print(&file, "<DataSet timestep=\"%s\" part=\"0\" file=\"", text);
+        put_escaped(&file, name[i]);
+        (void)clx_file_print(&file, "\"/>\n");
+    }
+    (void)clx_file_print(&file, "</Collection>\n</VTKFile>\n");
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}

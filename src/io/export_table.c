@@ -1,0 +1,244 @@
+// Assemblies as tables: a row a grain, and LAMMPS dumps of the equivalent ellipsoids.
+#include "io/export.h"
+
+#include "base/alloc.h"
+#include "base/number.h"
+#include "math/sym3.h"
+#include "math/vec3.h"
+#include <clast/field.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *clx_export_unit(const clast_assembly *assembly)
+{
+    return assembly->unit[0] != '\0' ? assembly->unit : "model";
+}
+
+/// Unit quaternion of a rotation matrix, by its greatest component. [Shepperd1978]
+static void matrix_quaternion(double m[3][3], double q[4])
+{
+    const double four[4] = {1.0 + m[0][0] + m[1][1] + m[2][2], 1.0 + m[0][0] - m[1][1] - m[2][2],
+                            1.0 - m[0][0] + m[1][1] - m[2][2], 1.0 - m[0][0] - m[1][1] + m[2][2]};
+    int best = 0;
+    for (int k = 1; k < 4; ++k) {
+        best = four[k] > four[best] ? k : best;
+    }
+    const double sums[4][4] = {{four[0], m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]},
+                               {m[2][1] - m[1][2], four[1], m[0][1] + m[1][0], m[0][2] + m[2][0]},
+                               {m[0][2] - m[2][0], m[0][1] + m[1][0], four[2], m[1][2] + m[2][1]},
+                               {m[1][0] - m[0][1], m[0][2] + m[2][0], m[1][2] + m[2][1], four[3]}};
+    memcpy(q, sums[best], sizeof sums[best]);
+    q_unit(q);
+}
+
+void clx_shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double turn[4])
+{
+    double c[3][3];
+    double value[3];
+    double axis[3][3];
+    double m[3][3];
+    const double half = 0.5 * (shape->inertia[0][0] + shape->inertia[1][1] + shape->inertia[2][2]);
+    v3_copy(semi_axes, shape->semi_axes);
+    if (shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_ELLIPSOID) {
+        turn[0] = 1.0; // along x, y, z already
+        turn[1] = turn[2] = turn[3] = 0.0;
+        return;
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            c[i][j] = (i == j ? half : 0.0) - shape->inertia[i][j];
+        }
+    }
+    clx_sym3_eigen(c, value, axis);
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            m[i][k] = axis[k][i];
+        }
+    }
+    matrix_quaternion(m, turn);
+}
+
+/// Adds a number column called `name`, or name_unit for lengths to the given power.
+static clast_status add(clast_table *table, const char *name, const char *unit, int power,
+                        double **into)
+{
+    char title[64];
+    char text[32] = "-";
+    if (power > 0) {
+        (void)snprintf(title, sizeof title, power == 1 ? "%s_%s" : "%s_%s%d", name, unit, power);
+        (void)snprintf(text, sizeof text, power == 1 ? "%s" : "%s^%d", unit, power);
+    } else {
+        (void)snprintf(title, sizeof title, "%s", name);
+    }
+    return clast_table_add_number(table, title, text, into);
+}
+
+static clast_status add_poses(const clast_assembly *a, const char *unit, clast_table *table)
+{
+    static const char *const axes[3] = {"x", "y", "z"};
+    static const char *const quaternion[4] = {"qw", "qx", "qy", "qz"};
+    clast_status status = CLAST_OK;
+    double *into = NULL;
+    for (int k = 0; k < 3; ++k) {
+        CLX_TRY(add(table, axes[k], unit, 1, &into));
+        for (int32_t i = 0; i < a->n_grain; ++i) {
+            into[i] = a->position[i][k];
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        CLX_TRY(add(table, quaternion[k], unit, 0, &into));
+        for (int32_t i = 0; i < a->n_grain; ++i) {
+            into[i] = a->orientation[i][k];
+        }
+    }
+done:
+    return status;
+}
+
+typedef enum { SCALE, LENGTH, VOLUME, DENSITY, MASS } measure;
+
+static double measure_of(const clast_assembly *a, int32_t i, measure what)
+{
+    const clast_shape *shape = &a->shape[a->shape_id[i]];
+    const double s = a->scale[i];
+    switch (what) {
+    case SCALE:
+        return s;
+    case LENGTH:
+        return s * shape->length;
+    case VOLUME:
+        return s * s * s * shape->volume;
+    case DENSITY:
+        return a->density[i];
+    case MASS:
+        return s * s * s * shape->volume * a->density[i];
+    }
+    return 0.0;
+}
+
+static clast_status add_measures(const clast_assembly *a, const char *unit, clast_table *table)
+{
+    static const struct {
+        const char *name;
+        int power;
+        measure what;
+    } measures[] = {{"scale", 0, SCALE}, {"length", 1, LENGTH}, {"volume", 3, VOLUME}};
+    clast_status status = CLAST_OK;
+    double *into = NULL;
+    for (size_t k = 0; k < sizeof measures / sizeof measures[0]; ++k) {
+        CLX_TRY(add(table, measures[k].name, unit, measures[k].power, &into));
+        for (int32_t i = 0; i < a->n_grain; ++i) {
+            into[i] = measure_of(a, i, measures[k].what);
+        }
+    }
+    CLX_TRY(clast_table_add_number(table, "density_kg_m3", "kg/m^3", &into));
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        into[i] = measure_of(a, i, DENSITY);
+    }
+    if (strcmp(unit, "model") != 0) {
+        double metre = 0.0;
+        CLX_TRY(clast_unit_factor(unit, "m", &metre));
+        CLX_TRY(clast_table_add_number(table, "mass_kg", "kg", &into));
+        for (int32_t i = 0; i < a->n_grain; ++i) {
+            into[i] = metre * metre * metre * measure_of(a, i, MASS);
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status add_contacts(const clast_assembly *a, clast_table *table)
+{
+    double *into = NULL;
+    if (a->contact == NULL) {
+        return CLAST_OK;
+    }
+    const clast_status status = clast_table_add_number(table, "n_contact", "-", &into);
+    for (int32_t c = 0; status == CLAST_OK && c < a->n_contact; ++c) {
+        into[a->contact[c][0]] += 1.0;
+        into[a->contact[c][1]] += 1.0;
+    }
+    return status;
+}
+
+clast_status clast_assembly_table(const clast_assembly *assembly, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    double *id = NULL;
+    const char *unit = clx_export_unit(assembly);
+    CLX_TRY(clast_table_init(&made, "grains", assembly->n_grain));
+    CLX_TRY(clast_table_add_number(&made, "id", "-", &id));
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        id[i] = (double)assembly->id[i];
+    }
+    CLX_TRY(clast_table_add_text(&made, "shape"));
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        CLX_TRY(clast_table_set_text(&made, 1, i, assembly->shape[assembly->shape_id[i]].name));
+    }
+    CLX_TRY(add_poses(assembly, unit, &made));
+    CLX_TRY(add_measures(assembly, unit, &made));
+    CLX_TRY(add_contacts(assembly, &made));
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}
+
+static void put_numbers(clx_file *file, const double *x, int n)
+{
+    for (int k = 0; k < n; ++k) {
+        char text[1 + CLX_NUMBER_SIZE] = " ";
+        const int length = clx_number_format(x[k], text + 1);
+        (void)clx_file_write(file, text, (size_t)length + 1);
+    }
+}
+
+static void put_bounds(clx_file *file, const clast_assembly *a)
+{
+    double low[3] = {0};
+    double high[3] = {0};
+    if (a->n_grain > 0) {
+        clast_assembly_bounds(a, low, high);
+    }
+    (void)clx_file_print(file, "ITEM: BOX BOUNDS ff ff ff\n");
+    for (int k = 0; k < 3; ++k) {
+        char text[2][CLX_NUMBER_SIZE];
+        (void)clx_number_format(low[k], text[0]);
+        (void)clx_number_format(high[k], text[1]);
+        (void)clx_file_print(file, "%s %s\n", text[0], text[1]);
+    }
+}
+
+/// LAMMPS: shapex, shapey, shapez are the diameters of an ellipsoid; atom ids and types count
+/// from 1.
+clast_status clx_export_dump(clx_export *e)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *a = e->assembly;
+    clx_file *file = &e->file;
+    (void)clx_file_print(file, "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n%d\n", a->n_grain);
+    put_bounds(file, a);
+    (void)clx_file_print(file, "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "
+                               "shapez radius density\n");
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        double axes[3];
+        double turn[4];
+        double q[4];
+        clx_shape_ellipsoid(shape, axes, turn);
+        q_mul(q, a->orientation[i], turn);
+        v3_scale(axes, 2.0 * a->scale[i], axes);
+        const double last[2] = {cbrt(0.75 / CLAST_PI * measure_of(a, i, VOLUME)), a->density[i]};
+        (void)clx_file_print(file, "%" PRId64 " %d", a->id[i] + 1, a->shape_id[i] + 1);
+        put_numbers(file, a->position[i], 3);
+        put_numbers(file, q, 4);
+        put_numbers(file, axes, 3);
+        put_numbers(file, last, 2);
+        CLX_TRY(clx_file_write(file, "\n", 1));
+    }
+done:
+    return status;
+}

@@ -1,0 +1,117 @@
+// DataArrays of VTK's XML formats [VTK file formats, "XML file formats"]: header_type UInt64,
+// vtkZLibDataCompressor. The header (number of blocks, bytes of a block, bytes of the last block if
+// it is shorter, compressed bytes of each) and the blocks are two base64 texts without a gap.
+#include "io/vtk_array.h"
+
+#include "base/alloc.h"
+#include <string.h>
+#include <zlib.h>
+
+void clx_vtk_free(clx_vtk_array *array)
+{
+    clx_free(array->block);
+    clx_free(array->packed);
+    clx_free(array->size);
+    *array = (clx_vtk_array){0};
+}
+
+clast_status clx_vtk_begin(clx_vtk_array *array)
+{
+    array->used = 0;
+    array->n_packed = 0;
+    array->n_block = 0;
+    array->last = 0;
+    return array->block != NULL ? CLAST_OK : clx_alloc(&array->block, CLX_VTK_BLOCK, 1);
+}
+
+/// Speed over size: level 6 took 4 times as long for 8 % less on placed surfaces.
+enum { LEVEL = 1 };
+
+static clast_status pack(clx_vtk_array *a)
+{
+    clast_status status = CLAST_OK;
+    uLongf room = compressBound((uLong)a->used);
+    if (a->used == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_grow(&a->packed, &a->packed_capacity, a->n_packed + (int64_t)room, 1));
+    CLX_TRY(clx_grow(&a->size, &a->size_capacity, a->n_block + 1, sizeof *a->size));
+    CLX_CHECK(compress2((Bytef *)a->packed + a->n_packed, &room, (const Bytef *)a->block,
+                        (uLong)a->used, LEVEL) == Z_OK,
+              CLAST_E_MEMORY, "zlib cannot compress a block");
+    a->size[a->n_block++] = room;
+    a->n_packed += (int64_t)room;
+    a->last = a->used;
+    a->used = 0;
+done:
+    return status;
+}
+
+clast_status clx_vtk_add(clx_vtk_array *array, const void *bytes, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    const char *from = bytes;
+    while (n > 0) {
+        const int64_t room = CLX_VTK_BLOCK - array->used;
+        const int64_t part = n < room ? n : room;
+        memcpy(array->block + array->used, from, (size_t)part);
+        array->used += part;
+        from += part;
+        n -= part;
+        if (array->used == CLX_VTK_BLOCK) {
+            CLX_TRY(pack(array));
+        }
+    }
+done:
+    return status;
+}
+
+/// Base64 of two byte strings in a row is not that of their sum, so a text may have only one
+/// caller.
+static void put_base64(clx_file *file, const void *bytes, int64_t n)
+{
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *b = bytes;
+    char out[1024];
+    size_t used = 0;
+    for (int64_t i = 0; i < n; i += 3) {
+        const int64_t left = n - i;
+        const uint32_t three = (uint32_t)b[i] << 16 | (left > 1 ? (uint32_t)b[i + 1] << 8 : 0) |
+                               (left > 2 ? (uint32_t)b[i + 2] : 0);
+        out[used++] = digit[three >> 18];
+        out[used++] = digit[three >> 12 & 63];
+        out[used++] = left > 1 ? digit[three >> 6 & 63] : '=';
+        out[used++] = left > 2 ? digit[three & 63] : '=';
+        if (used == sizeof out) {
+            (void)clx_file_write(file, out, used);
+            used = 0;
+        }
+    }
+    (void)clx_file_write(file, out, used);
+}
+
+clast_status clx_vtk_end(clx_vtk_array *array, clx_file *file, const char *type, const char *name,
+                         int components)
+{
+    clast_status status = CLAST_OK;
+    uint64_t *head = NULL;
+    CLX_TRY(pack(array));
+    CLX_TRY(clx_alloc(&head, 3 + array->n_block, sizeof *head));
+    head[0] = (uint64_t)array->n_block;
+    head[1] = CLX_VTK_BLOCK;
+    head[2] = array->last == CLX_VTK_BLOCK ? 0 : (uint64_t)array->last;
+    if (array->n_block > 0) {
+        memcpy(head + 3, array->size, (size_t)array->n_block * sizeof *head);
+    }
+    (void)clx_file_print(file,
+                         "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
+                         "format=\"binary\">\n",
+                         type, name, components);
+    put_base64(file, head, (3 + array->n_block) * (int64_t)sizeof *head);
+    put_base64(file, array->packed, array->n_packed);
+    CLX_TRY(clx_file_print(file, "\n</DataArray>\n"));
+    CLX_TRY(clx_vtk_begin(array));
+done:
+    clx_free(head);
+    return status;
+}

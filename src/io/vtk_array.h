@@ -1,0 +1,24 @@
+#pragma once
+// One DataArray of VTK's XML formats: inline, binary, zlib-compressed in blocks, base64.
+#include "base/file.h"
+
+/// An array being gathered block by block. {0} is empty.
+typedef struct clx_vtk_array {
+    char *block; ///< [CLX_VTK_BLOCK] not yet compressed
+    int64_t used;
+    char *packed; ///< compressed blocks, one after the other
+    int64_t n_packed, packed_capacity;
+    uint64_t *size; ///< [n_block] compressed bytes of each
+    int64_t n_block, size_capacity;
+    int64_t last; ///< bytes of the last block before compression
+} clx_vtk_array;
+
+enum { CLX_VTK_BLOCK = 1 << 18 };
+
+clast_status clx_vtk_begin(clx_vtk_array *array);
+clast_status clx_vtk_add(clx_vtk_array *array, const void *bytes, int64_t n);
+
+/// Writes <DataArray type="TYPE" Name="NAME" ...> and empties the array for the next one.
+clast_status clx_vtk_end(clx_vtk_array *array, clx_file *file, const char *type, const char *name,
+                         int components);
+void clx_vtk_free(clx_vtk_array *array);

@@ -1,0 +1,223 @@
+// VTU: assemblies for ParaView and its like, as surfaces with cell data or as points with poses.
+#include "io/export.h"
+
+#include "base/alloc.h"
+#include "io/vtk_array.h"
+#include <inttypes.h>
+
+static void put_head(clx_file *file, int64_t n_point, int64_t n_cell)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    static const char order[] = "LittleEndian";
+#else
+    static const char order[] = "BigEndian";
+#endif
+    (void)clx_file_print(file,
+                         "<?xml version=\"1.0\"?>\n"
+                         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"%s\" "
+                         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+                         "<UnstructuredGrid>\n"
+                         "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
+                         order, n_point, n_cell);
+}
+
+static void put_tail(clx_file *file)
+{
+    (void)clx_file_print(file, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+}
+
+/// A value a grain.
+typedef union {
+    double f64[4];
+    int64_t i64;
+    int32_t i32;
+} datum;
+
+typedef struct {
+    const char *type, *name;
+    int components;
+    int32_t size; ///< bytes of all components
+    void (*value)(const clast_assembly *assembly, int32_t i, datum *out);
+} property;
+
+static void value_id(const clast_assembly *a, int32_t i, datum *out)
+{
+    out->i64 = a->id[i];
+}
+
+static void value_order(const clast_assembly *a, int32_t i, datum *out)
+{
+    (void)a;
+    out->i32 = i;
+}
+
+static void value_shape(const clast_assembly *a, int32_t i, datum *out)
+{
+    out->i32 = a->shape_id[i];
+}
+
+static void value_size(const clast_assembly *a, int32_t i, datum *out)
+{
+    out->f64[0] = a->scale[i] * a->shape[a->shape_id[i]].length;
+}
+
+static void value_scale(const clast_assembly *a, int32_t i, datum *out)
+{
+    out->f64[0] = a->scale[i];
+}
+
+static void value_density(const clast_assembly *a, int32_t i, datum *out)
+{
+    out->f64[0] = a->density[i];
+}
+
+static void value_orientation(const clast_assembly *a, int32_t i, datum *out)
+{
+    for (int k = 0; k < 4; ++k) {
+        out->f64[k] = a->orientation[i][k];
+    }
+}
+
+static const property common[] = {
+    {"Int64", "grain", 1, 8, value_id},
+    {"Int32", "order", 1, 4, value_order},
+    {"Int32", "shape", 1, 4, value_shape},
+    {"Float64", "size", 1, 8, value_size},
+};
+static const property of_points[] = {
+    {"Float64", "scale", 1, 8, value_scale},
+    {"Float64", "density", 1, 8, value_density},
+    {"Float64", "orientation_wxyz", 4, 32, value_orientation},
+};
+
+/// One property of every grain, once or for each of its triangles.
+static clast_status put_property(clx_export *e, clx_vtk_array *array, const property *p,
+                                 bool per_triangle)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *a = e->assembly;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        datum bytes;
+        const int32_t n = per_triangle ? e->parts.surface[a->shape_id[i]].n_tri : 1;
+        p->value(a, i, &bytes);
+        for (int32_t t = 0; t < n; ++t) {
+            CLX_TRY(clx_vtk_add(array, &bytes, p->size));
+        }
+    }
+    CLX_TRY(clx_vtk_end(array, &e->file, p->type, p->name, p->components));
+done:
+    return status;
+}
+
+static clast_status put_surface_points(clx_export *e, clx_vtk_array *array)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
+        const clast_mesh placed = clx_parts_place(&e->parts, i);
+        CLX_TRY(clx_vtk_add(array, placed.vert, placed.n_vert * (int64_t)sizeof *placed.vert));
+    }
+    (void)clx_file_print(&e->file, "<Points>\n");
+    CLX_TRY(clx_vtk_end(array, &e->file, "Float64", "Points", 3));
+    (void)clx_file_print(&e->file, "</Points>\n");
+done:
+    return status;
+}
+
+static clast_status put_connectivity(clx_export *e, clx_vtk_array *array)
+{
+    clast_status status = CLAST_OK;
+    int64_t first = 0;
+    for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
+        const clast_mesh *surface = &e->parts.surface[e->assembly->shape_id[i]];
+        for (int32_t t = 0; t < surface->n_tri; ++t) {
+            const int32_t *tri = surface->tri[t];
+            const int64_t corner[3] = {first + tri[0], first + tri[1], first + tri[2]};
+            CLX_TRY(clx_vtk_add(array, corner, sizeof corner));
+        }
+        first += surface->n_vert;
+    }
+    CLX_TRY(clx_vtk_end(array, &e->file, "Int64", "connectivity", 1));
+done:
+    return status;
+}
+
+/// Ends of the cells and their VTK type: n cells of `corners` corners each.
+static clast_status put_cells(clx_export *e, clx_vtk_array *array, int64_t n, int64_t corners,
+                              uint8_t type)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 1; i <= n; ++i) {
+        const int64_t end = i * corners;
+        CLX_TRY(clx_vtk_add(array, &end, sizeof end));
+    }
+    CLX_TRY(clx_vtk_end(array, &e->file, "Int64", "offsets", 1));
+    for (int64_t i = 0; i < n; ++i) {
+        CLX_TRY(clx_vtk_add(array, &type, 1));
+    }
+    CLX_TRY(clx_vtk_end(array, &e->file, "UInt8", "types", 1));
+    (void)clx_file_print(&e->file, "</Cells>\n");
+done:
+    return status;
+}
+
+clast_status clx_export_vtu_surfaces(clx_export *e)
+{
+    enum { VTK_TRIANGLE = 5 };
+    clast_status status = CLAST_OK;
+    clx_vtk_array array = {0};
+    CLX_TRY(clx_vtk_begin(&array));
+    put_head(&e->file, e->parts.n_vert, e->parts.n_tri);
+    CLX_TRY(put_surface_points(e, &array));
+    (void)clx_file_print(&e->file, "<Cells>\n");
+    CLX_TRY(put_connectivity(e, &array));
+    CLX_TRY(put_cells(e, &array, e->parts.n_tri, 3, VTK_TRIANGLE));
+    (void)clx_file_print(&e->file, "<CellData>\n");
+    for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
+        CLX_TRY(put_property(e, &array, &common[k], true));
+    }
+    (void)clx_file_print(&e->file, "</CellData>\n");
+    put_tail(&e->file);
+done:
+    clx_vtk_free(&array);
+    return status;
+}
+
+static clast_status put_grain_points(clx_export *e, clx_vtk_array *array)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = e->assembly->n_grain;
+    (void)clx_file_print(&e->file, "<Points>\n");
+    CLX_TRY(clx_vtk_add(array, e->assembly->position, n * (int64_t)sizeof *e->assembly->position));
+    CLX_TRY(clx_vtk_end(array, &e->file, "Float64", "Points", 3));
+    (void)clx_file_print(&e->file, "</Points>\n<Cells>\n");
+    for (int64_t i = 0; i < n; ++i) {
+        CLX_TRY(clx_vtk_add(array, &i, sizeof i));
+    }
+    CLX_TRY(clx_vtk_end(array, &e->file, "Int64", "connectivity", 1));
+done:
+    return status;
+}
+
+clast_status clx_export_vtu_points(clx_export *e)
+{
+    enum { VTK_VERTEX = 1 };
+    clast_status status = CLAST_OK;
+    clx_vtk_array array = {0};
+    const int32_t n = e->assembly->n_grain;
+    CLX_TRY(clx_vtk_begin(&array));
+    put_head(&e->file, n, n);
+    CLX_TRY(put_grain_points(e, &array));
+    CLX_TRY(put_cells(e, &array, n, 1, VTK_VERTEX));
+    (void)clx_file_print(&e->file, "<PointData>\n");
+    for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
+        CLX_TRY(put_property(e, &array, &common[k], false));
+    }
+    for (size_t k = 0; k < sizeof of_points / sizeof of_points[0]; ++k) {
+        CLX_TRY(put_property(e, &array, &of_points[k], false));
+    }
+    (void)clx_file_print(&e->file, "</PointData>\n");
+    put_tail(&e->file);
+done:
+    clx_vtk_free(&array);
+    return status;
+}

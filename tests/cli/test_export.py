@@ -1,0 +1,141 @@
+"""CLI: clast export writes what other programs read, checked with readers of our own in Python's standard library."""
+import base64
+import csv
+import json
+import struct
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+from clitest import ROOT, Case, clast
+
+STATE = ROOT / "data/state/schema1.h5"
+FORMAT = {"Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}
+
+
+def decode(array):
+    """Numbers of a DataArray: base64 of the header, then base64 of zlib blocks."""
+    text = array.text.strip()
+    count = struct.unpack("<Q", base64.b64decode(text[:12])[:8])[0]
+    size = 8 * (3 + count)
+    coded = 4 * ((size + 2) // 3)
+    head = struct.unpack(f"<{3 + count}Q", base64.b64decode(text[:coded])[:size])
+    body, data, at = base64.b64decode(text[coded:]), b"", 0
+    for n in head[3:]:
+        data += zlib.decompress(body[at:at + n])
+        at += n
+    assert at == len(body)
+    full = head[1] * count if head[2] == 0 else head[1] * (count - 1) + head[2]
+    assert len(data) == (full if count else 0)
+    letter = FORMAT[array.get("type")]
+    return struct.unpack(f"<{len(data) // struct.calcsize(letter)}{letter}", data)
+
+
+def read_vtu(path):
+    root = xml.etree.ElementTree.parse(path).getroot()
+    assert root.get("type") == "UnstructuredGrid" and root.get("compressor") == "vtkZLibDataCompressor"
+    piece = root.find("UnstructuredGrid/Piece")
+    arrays = {a.get("Name"): decode(a) for a in piece.iter("DataArray")}
+    return int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells")), arrays
+
+
+class Export(Case):
+    def export(self, name, *options):
+        path = self.folder / name
+        result = clast("export", STATE, "-o", path, *options, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        return path, result.json
+
+    def grains(self):
+        path, _ = self.export("grains.csv")
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_csv_has_a_row_a_grain(self):
+        rows = self.grains()
+        self.assertEqual([row["id"] for row in rows], ["100", "101", "102", "103", "104", "105"])
+        self.assertEqual(rows[0]["shape"], 'egg, "the" <first>')
+        self.assertEqual([row["n_contact"] for row in rows], ["1", "2", "0", "1", "0", "0"])
+        self.assertEqual(float(rows[1]["volume_mm3"]), 6.0 * 1.5**3)
+
+    def test_vtu_surface_encloses_the_volumes(self):
+        path, report = self.export("all.vtu", "--level", 5)
+        n_point, n_cell, arrays = read_vtu(path)
+        self.assertEqual((n_point, n_cell), (report["n_vertex"], report["n_triangle"]))
+        self.assertEqual(len(arrays["Points"]), 3 * n_point)
+        self.assertEqual(set(arrays["types"]), {5})
+        self.assertEqual(arrays["offsets"], tuple(range(3, 3 * n_cell + 1, 3)))
+        self.assertEqual(max(arrays["connectivity"]), n_point - 1)
+        volume = {}
+        for cell, grain in enumerate(arrays["grain"]):
+            corner = arrays["connectivity"][3 * cell:3 * cell + 3]
+            p, q, r = (arrays["Points"][3 * v:3 * v + 3] for v in corner)
+            p, q, r = ((x - 10.0 * (grain - 100), y, z) for x, y, z in (p, q, r))
+            six = (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2])
+                   + p[2] * (q[0] * r[1] - q[1] * r[0]))
+            volume[grain] = volume.get(grain, 0.0) + six / 6.0
+        for order, row in enumerate(self.grains()):
+            grain, cell = int(row["id"]), arrays["grain"].index(int(row["id"]))
+            self.assertEqual(arrays["order"][cell], order)
+            self.assertEqual(arrays["size"][cell], float(row["length_mm"]))
+            if row["shape"] != "clump":  # whose spheres overlap
+                self.assertAlmostEqual(volume[grain] / float(row["volume_mm3"]), 1.0, delta=2e-3)
+
+    def test_vtu_points_hold_poses(self):
+        path, report = self.export("points.vtu", "--points")
+        n_point, n_cell, arrays = read_vtu(path)
+        self.assertEqual((n_point, n_cell, report["n_triangle"]), (6, 6, 0))
+        self.assertEqual(arrays["orientation_wxyz"][4:8], (0.5, -0.5, 0.5, 0.5))
+        self.assertEqual(arrays["scale"], (1.0, 1.5, 2.0, 2.5, 3.0, 3.5))
+        self.assertEqual(arrays["density"][5], 2005.0)
+        self.assertEqual(arrays["shape"], (0, 1, 0, 2, 0, 1))
+        self.assertEqual(arrays["Points"][3:6], (10.0, 0.125, -0.25))
+
+    def test_surfaces_are_readable_by_mesh_check(self):
+        for name in ("a.stl", "a.obj", "a.ply"):
+            path, report = self.export(name, "--level", 1)
+            checked = clast("mesh", "check", path, "--json").json
+            self.assertEqual(checked["n_triangle"], report["n_triangle"], name)
+            self.assertTrue(checked["closed"], name)
+
+    def test_tables_of_the_run_are_written(self):
+        path = self.folder / "history.csv"
+        self.assertEqual(clast("export", STATE, "--table", "history", "-o", path).code, 0)
+        self.assertEqual(path.read_text(encoding="utf-8"), 'porosity,shape\n0,""\n0.25,""\n0.5,"box, turned"\n')
+        path = self.folder / "history.json"
+        self.assertEqual(clast("export", STATE, "--table", "history", "-o", path).code, 0)
+        self.assertEqual(json.loads(path.read_text(encoding="utf-8"))["columns"][0]["values"], [0, 0.25, 0.5])
+
+    def test_a_folder_with_a_state_is_a_run(self):
+        (self.folder / "state.h5").write_bytes(STATE.read_bytes())
+        result = clast("export", self.folder, "-o", self.folder / "a.dump")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("dump of 6 grains", result.out)
+
+    def test_wrong_uses_end_in_one_line(self):
+        out = self.folder / "a.vtu"
+        self.assert_fails(2, "export", STATE, says=["give -o"])
+        self.assert_fails(2, "export", STATE, "-o", self.folder / "a.xyz", says=[".vtu"])
+        self.assert_fails(2, "export", STATE, "-o", self.folder / "a.stl", "--points", says=["points"])
+        self.assert_fails(2, "export", STATE, "-o", out, "--table", "history", says=[".csv or .json"])
+        self.assert_fails(3, "export", self.folder / "absent", "-o", out, says=["cannot read"])
+        self.assert_fails(3, "export", self.folder, "-o", out, says=["state.h5"])
+        self.assert_fails(3, "export", ROOT / "LICENSE", "-o", out, says=["not an HDF5 file"])
+        self.assert_fails(3, "export", STATE, "-o", self.folder / "t.csv", "--table", "none", says=["history"])
+        self.assert_fails(4, "export", STATE, "-o", "/dev/full/a.vtu", says=["cannot write"])
+        self.assert_fails(4, "export", STATE, "-o", self.folder / "absent/a.stl", says=["no folder"])
+        self.assertFalse(out.exists())
+
+    def test_damaged_state_is_refused_anywhere(self):
+        whole = STATE.read_bytes()
+        bad = self.folder / "bad.h5"
+        for share in range(8):
+            at = (2 * share + 1) * len(whole) // 16
+            for damage in (whole[:at], whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:]):
+                bad.write_bytes(damage)
+                self.assert_fails(3, "export", bad, "-o", self.folder / "a.csv", says=[str(bad)])
+        self.assertFalse((self.folder / "a.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
