@@ -4,7 +4,7 @@
 // for a farther partner than the best pair so far, and a box whose farthest corner is nearer is
 // left out. No hull is needed, so flat and tiny point sets work too. Measured on a sphere of 10,242
 // vertices (the worst kind: every vertex has a partner at nearly the greatest distance): see
-// docs/theory/hull.md.
+// docs/theory/mesh-repair.md.
 #include <clast/mesh.h>
 
 #include "base/alloc.h"
