@@ -12,6 +12,7 @@
 #include <clast/envelope.h>
 #include <clast/export.h>
 #include <clast/field.h>
+#include <clast/fill.h>
 #include <clast/hull.h>
 #include <clast/manifest.h>
 #include <clast/mesh.h>
@@ -26,6 +27,7 @@
 #include <clast/render.h>
 #include <clast/settling.h>
 #include <clast/shape.h>
+#include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <clast/status.h>
 #include <clast/structure.h>

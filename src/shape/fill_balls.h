@@ -1,0 +1,41 @@
+#pragma once
+// The spheres placed so far, laid out for scans.
+#include "base/status.h"
+#include <clast/shape.h>
+
+/// Four floats that the compiler keeps in one register (GCC and Clang vectors; any machine).
+typedef float clx_float4 __attribute__((vector_size(16)));
+
+typedef int32_t clx_int4 __attribute__((vector_size(16)));
+typedef int64_t clx_long2 __attribute__((vector_size(16)));
+
+/// True if any of four comparisons holds.
+static inline bool clx_any(clx_int4 mask)
+{
+    const clx_long2 halves = (clx_long2)mask;
+    return (halves[0] | halves[1]) != 0;
+}
+
+/// Four spheres side by side in the float frame (x - middle) * scale.
+typedef struct clx_ball_group {
+    clx_float4 x, y, z, radius; ///< an empty slot has x = INFINITY
+} clx_ball_group;
+
+typedef struct clx_ball_set {
+    double middle[3], scale; ///< the float frame; sizes in it are about 1
+    int32_t n;
+    double (*ball)[4];     ///< [n] centre and radius
+    clx_ball_group *group; ///< [ceil(n / 4)]
+    int64_t ball_capacity, group_capacity;
+} clx_ball_set;
+
+clast_status clx_ball_set_add(clx_ball_set *set, const double centre[3], double radius);
+void clx_ball_set_free(clx_ball_set *set);
+
+/// Least distance of a point to the surfaces of spheres [first, n), or `limit` when none is nearer;
+/// *nearest is then untouched. Where spheres hold the point, that of one of them (negative).
+double clx_ball_set_distance(const clx_ball_set *set, int32_t first, const double point[3],
+                             double limit, int32_t *nearest);
+
+/// Copies the spheres out, in the order of their adding.
+clast_status clx_ball_set_spheres(const clx_ball_set *set, clast_spheres *spheres);

@@ -1,0 +1,86 @@
+#pragma once
+// Fast distance to the surface for clast_fill.
+#include "geom/bvh.h"
+#include "math/vec3.h"
+#include "shape/fill_balls.h"
+
+/// Four children side by side, boxes as middle and half size, in floats; see fill_field.c for the
+/// frame.
+typedef struct clx_fill_node {
+    clx_float4 middle[3], half[3]; ///< an empty slot has half = -INFINITY
+    int32_t child[4];              ///< node number; or -1 - leaf number
+} clx_fill_node;
+
+/// Up to four triangles and their bounding spheres; an empty slot has x = INFINITY.
+typedef struct clx_fill_leaf {
+    clx_float4 centre[3], radius;
+    int32_t first; ///< triangle
+} clx_fill_leaf;
+
+typedef struct clx_fill_field {
+    double middle[3], scale; ///< float frame: (x - middle) * scale
+    clx_fill_node *node;     ///< [n_node] root first
+    clx_fill_leaf *leaf;     ///< [n_leaf]
+    double (*tri)[3][3];     ///< [n_tri] in leaf order: corner 0, edges to corners 1 and 2
+    double *size;            ///< [n_tri] radius of the bounding sphere
+    int64_t n_node, n_leaf;
+    int64_t node_capacity, leaf_capacity;
+} clx_fill_field;
+
+clast_status clx_fill_field_create(const clast_bvh *bvh, clx_fill_field *field);
+void clx_fill_field_free(clx_fill_field *field);
+
+/// Distance to the surface if at most max_distance, else INFINITY; closest and tri (its number in
+/// the field) are then untouched.
+double clx_fill_field_distance(const clx_fill_field *field, const double point[3],
+                               double max_distance, double closest[3], int32_t *tri);
+
+/// Weights of the edges from corner 0 at the closest point; p is relative to that corner.
+static inline void clx_fill_triangle_weights(const double ab[3], const double ac[3],
+                                             const double p[3], double *v, double *w)
+{
+    const double aa = v3_norm2(ab);
+    const double ab_ac = v3_dot(ab, ac);
+    const double cc = v3_norm2(ac);
+    const double d1 = v3_dot(ab, p);
+    const double d2 = v3_dot(ac, p);
+    const double d3 = d1 - aa;    // along ab, seen from b
+    const double d4 = d2 - ab_ac; // along ac, seen from b
+    const double d5 = d1 - ab_ac; // along ab, seen from c
+    const double d6 = d2 - cc;    // along ac, seen from c
+    const double va = d3 * d6 - d5 * d4;
+    const double vb = d5 * d2 - d1 * d6;
+    const double vc = d1 * d4 - d3 * d2;
+    *v = 0.0;
+    *w = 0.0;
+    if (d1 <= 0.0 && d2 <= 0.0) {
+        return;
+    }
+    if (d3 >= 0.0 && d4 <= d3) {
+        *v = 1.0;
+    } else if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+        *v = d1 / (d1 - d3);
+    } else if (d6 >= 0.0 && d5 <= d6) {
+        *w = 1.0;
+    } else if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+        *w = d2 / (d2 - d6);
+    } else if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
+        *w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        *v = 1.0 - *w;
+    } else {
+        const double scale = 1.0 / (va + vb + vc);
+        *v = vb * scale;
+        *w = vc * scale;
+    }
+}
+
+/// Vector from the closest point of a triangle to a point that is p away from its corner 0.
+static inline void clx_fill_triangle_away(double tri[3][3], const double p[3], double away[3])
+{
+    double v;
+    double w;
+    clx_fill_triangle_weights(tri[1], tri[2], p, &v, &w);
+    for (int k = 0; k < 3; ++k) {
+        away[k] = p[k] - v * tri[1][k] - w * tri[2][k];
+    }
+}

@@ -1,0 +1,585 @@
+// Largest-first filling: the greatest sphere that fits between the surface and the placed spheres,
+// again and again.
+//
+// The radius of the sphere centred at x is f(x) = min(signed distance to the surface, distances to
+// the placed spheres). f changes by at most |x - y| between two points, and each surface point p
+// and placed sphere (c, r) bounds it from above by |x - p| and |x - c| - r. Branch and bound over
+// an octree of cubes uses both: cubes wait in a heap by the upper bound of f inside. The top one is
+// bounded by the linear programme of fill_lp.c over the witnesses met so far in its neighbourhood
+// (error of second order in its size, so ridges and summits of f need few cubes); then f is sampled
+// where that bound was reached, which finds the witness that was missing; after a few samples the
+// cube is divided. Placing a sphere only lowers f: old bounds stay valid, and cubes are brought up
+// to date when they come to the top.                                     [docs/theory/fill.md]
+#include "shape/fill.h"
+
+#include "base/alloc.h"
+#include <string.h>
+
+enum { SAMPLES = 2, LEVELS = 60, CUBE_LIMIT = 1 << 26 };
+
+/// f at a point, and what bounds it there.
+typedef struct {
+    double at[3];
+    double nearest[3]; ///< surface point, when `surface` is a number
+    double value;      ///< f(at), as far as the first `seen` spheres go
+    double surface;    ///< signed distance to the surface; NAN when a sphere is nearer
+    int32_t ball;      ///< the nearer sphere, or -1
+    int32_t tri;       ///< nearest triangle of the field, with a known `surface`; -1: not known
+    int32_t seen;
+} sample;
+
+typedef struct {
+    double centre[3];
+    double next[3];          ///< where f is to be sampled next
+    double upper;            ///< no sphere centred in the cube is larger
+    int32_t sample[SAMPLES]; ///< own samples, numbers
+    int32_t best;            ///< sample in the cube with the greatest f known, or -1
+    int32_t parent;          ///< -1 for roots
+    int32_t seen;            ///< spheres that `upper` and the samples know
+    uint8_t n_sample;
+    uint8_t level;
+    bool is_bounded; ///< `upper` and `next` account for all samples
+} cube;
+
+typedef struct {
+    double upper;
+    int32_t cube;
+} entry;
+
+typedef struct {
+    clx_fill *fill;
+    double half[LEVELS]; ///< half an edge by level
+    cube *cubes;         ///< blocks of eight siblings; the roots stand first, padded to eight
+    int64_t n_cube, cube_capacity;
+    sample *samples;
+    int64_t n_sample, sample_capacity;
+    entry *heap;
+    int64_t n_heap, heap_capacity;
+    double floor; ///< smaller spheres are of no interest
+} search;
+
+static bool before(const entry *a, const entry *b)
+{
+    return a->upper > b->upper || (a->upper == b->upper && a->cube < b->cube);
+}
+
+static clast_status heap_push(search *s, int32_t number)
+{
+    clast_status status = CLAST_OK;
+    const entry e = {s->cubes[number].upper, number};
+    CLX_TRY(clx_grow(&s->heap, &s->heap_capacity, s->n_heap + 1, sizeof *s->heap));
+    int64_t i = s->n_heap++;
+    while (i > 0 && before(&e, &s->heap[(i - 1) / 2])) {
+        s->heap[i] = s->heap[(i - 1) / 2];
+        i = (i - 1) / 2;
+    }
+    s->heap[i] = e;
+done:
+    return status;
+}
+
+/// Writes e at the top and lets it sink.
+static void heap_sink(search *s, entry e)
+{
+    int64_t i = 0;
+    for (;;) {
+        int64_t child = 2 * i + 1;
+        if (child >= s->n_heap) {
+            break;
+        }
+        child += child + 1 < s->n_heap && before(&s->heap[child + 1], &s->heap[child]);
+        if (!before(&s->heap[child], &e)) {
+            break;
+        }
+        s->heap[i] = s->heap[child];
+        i = child;
+    }
+    s->heap[i] = e;
+}
+
+static void heap_pop(search *s)
+{
+    const entry last = s->heap[--s->n_heap];
+    if (s->n_heap > 0) {
+        heap_sink(s, last);
+    }
+}
+
+static double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/// Distance of a point to the farthest corner of a cube.
+static double farthest(const double centre[3], double h, const double x[3])
+{
+    const double dx = fabs(centre[0] - x[0]) + h;
+    const double dy = fabs(centre[1] - x[1]) + h;
+    const double dz = fabs(centre[2] - x[2]) + h;
+    return sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+static double farthest_ball(const search *s, const double centre[3], double h, int32_t ball)
+{
+    const double *b = s->fill->balls.ball[ball];
+    return farthest(centre, h, b) - b[3];
+}
+
+/// Upper bound over a cube from one sample: f changes no faster than one moves, and no point is
+/// farther from the witness than the farthest corner.
+static double bound_by(const search *s, const sample *p, const double centre[3], double h)
+{
+    double bound = p->value + farthest(centre, h, p->at);
+    if (!isnan(p->surface)) {
+        bound = lesser(bound, farthest(centre, h, p->nearest));
+    }
+    if (p->ball >= 0) {
+        bound = lesser(bound, farthest_ball(s, centre, h, p->ball));
+    }
+    return bound;
+}
+
+/// Radius of a ball about a sample that the surface does not enter: signed by its side.
+static double clear_radius(const sample *p)
+{
+    return isnan(p->surface) ? fmax(p->value, 0.0) : p->surface;
+}
+
+/// Least distance of the surface from a point, as far as the samples of a cube bound it from above.
+static double reach_by(const search *s, const cube *c, const double point[3])
+{
+    double reach2 = INFINITY;
+    for (int i = 0; i < c->n_sample; ++i) {
+        const sample *p = &s->samples[c->sample[i]];
+        if (!isnan(p->surface)) {
+            reach2 = lesser(reach2, v3_distance2(p->nearest, point));
+        }
+    }
+    return sqrt(reach2) * (1.0 + 1e-12) + 1e-300;
+}
+
+/// Side of a point at distance d from the surface by the samples of a cube: +1 inside, -1 outside,
+/// 0 not known. Two balls that the surface does not enter are on one side when they overlap.
+static int side_by(const search *s, const cube *c, const double point[3], double d)
+{
+    for (int i = 0; i < c->n_sample; ++i) {
+        const sample *p = &s->samples[c->sample[i]];
+        const double clear = clear_radius(p);
+        const double reach = (fabs(clear) + d) * (1.0 - 1e-12);
+        if (clear != 0.0 && v3_distance2(p->at, point) < reach * reach) {
+            return clear > 0.0 ? 1 : -1;
+        }
+    }
+    return 0;
+}
+
+static bool is_inside(const search *s, const cube *c, const double point[3], double d)
+{
+    int side = side_by(s, c, point, d);
+    if (side == 0 && c->parent >= 0) {
+        side = side_by(s, &s->cubes[c->parent], point, d);
+    }
+    return side != 0 ? side > 0 : clast_bvh_inside(s->fill->bvh, point);
+}
+
+/// f at a point of a cube.
+static void measure(search *s, const cube *c, sample *p)
+{
+    clx_fill *fill = s->fill;
+    double reach = reach_by(s, c, p->at);
+    if (c->parent >= 0) {
+        reach = lesser(reach, reach_by(s, &s->cubes[c->parent], p->at));
+    }
+    p->seen = fill->balls.n;
+    p->ball = -1;
+    p->surface = NAN;
+    p->value = clx_ball_set_distance(&fill->balls, 0, p->at, reach, &p->ball);
+    if (p->ball >= 0 && p->value <= 0.0) {
+        return;
+    }
+    ++fill->n_tested;
+    const double d = clx_fill_field_distance(&fill->field, p->at, p->value, p->nearest, &p->tri);
+    if (d > p->value) {
+        return; // nearer to a sphere than to the surface: inside, for spheres are
+    }
+    p->surface = is_inside(s, c, p->at, d) ? d : -d;
+    p->value = p->surface;
+}
+
+static void note_best(search *s, cube *c, int32_t number)
+{
+    if (c->best < 0 || s->samples[number].value > s->samples[c->best].value) {
+        c->best = number;
+    }
+}
+
+/// Samples f at c->next.
+static clast_status take_sample(search *s, cube *c)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&s->samples, &s->sample_capacity, s->n_sample + 1, sizeof *s->samples));
+    const int32_t number = (int32_t)s->n_sample++;
+    sample *p = &s->samples[number];
+    v3_copy(p->at, c->next);
+    measure(s, c, p);
+    c->sample[c->n_sample++] = number;
+    c->upper = lesser(c->upper, bound_by(s, p, c->centre, s->half[c->level]));
+    c->is_bounded = false;
+    note_best(s, c, number);
+done:
+    return status;
+}
+
+/// Lets a sample know the spheres placed since it was last looked at; true when one is nearer.
+static bool renew(search *s, sample *p)
+{
+    const double before_it = p->value;
+    p->value = clx_ball_set_distance(&s->fill->balls, p->seen, p->at, p->value, &p->ball);
+    p->seen = s->fill->balls.n;
+    return p->value < before_it;
+}
+
+static void refresh(search *s, cube *c)
+{
+    bool changed = c->best >= 0 && renew(s, &s->samples[c->best]);
+    for (int i = 0; i < c->n_sample; ++i) {
+        sample *p = &s->samples[c->sample[i]];
+        if (renew(s, p)) {
+            changed = true;
+            c->upper = lesser(c->upper, bound_by(s, p, c->centre, s->half[c->level]));
+        }
+    }
+    for (int i = 0; i < c->n_sample; ++i) {
+        note_best(s, c, c->sample[i]);
+    }
+    c->is_bounded = c->is_bounded && !changed;
+    c->seen = s->fill->balls.n;
+}
+
+/// Bound by one witness, a sphere of radius r (0: a surface point): |x - p| - r over the cube.
+///
+/// With d = |centre - p| and unit g = (centre - p) / d: |centre + e - p| = d + g . e + k, where
+/// k is about (|e|^2 - (g . e)^2) / 2d, at most h^2 / d when the edges are along g. Only a good
+/// guess is needed here: fill_lp.c computes the bound from the distances themselves.
+static void add_plane(clx_fill_planes *planes, const cube *c, double h, const double away[3],
+                      double r)
+{
+    const double d = v3_norm(away);
+    if (planes->n < CLX_FILL_WITNESSES &&
+        d - r - 1.7320508075688773 * h <= c->upper) { // else above all that is known in the cube
+        const int j = planes->n++;
+        v3_copy(planes->away[j], away);
+        planes->radius[j] = r;
+        planes->tri[j] = NULL;
+        planes->value[j] = d - r + h * h / (d + h);
+        v3_scale(planes->gradient[j], d > 0.0 ? 1.0 / d : 0.0, away);
+    }
+}
+
+typedef struct {
+    clx_fill_planes planes;
+    int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
+    int n_known;
+} witnesses;
+
+/// True, and noted, when a sphere or triangle is new and there is room for it.
+static bool is_new(witnesses *w, int32_t name)
+{
+    for (int j = 0; j < w->n_known; ++j) {
+        if (w->known[j] == name) {
+            return false;
+        }
+    }
+    if (w->n_known == CLX_FILL_WITNESSES) {
+        return false;
+    }
+    w->known[w->n_known++] = name;
+    return true;
+}
+
+/// The triangle of a sample: as a whole when it is not small against the cube, else its point.
+static void add_surface(const search *s, witnesses *w, const cube *c, const sample *p)
+{
+    const double h = s->half[c->level];
+    double away[3];
+    if (p->tri >= 0 && !is_new(w, -1 - p->tri)) {
+        return;
+    }
+    const int j = w->planes.n;
+    if (p->tri < 0 || s->fill->field.size[p->tri] < h) {
+        v3_sub(away, c->centre, p->nearest);
+        add_plane(&w->planes, c, h, away, 0.0);
+        return;
+    }
+    double from_corner[3];
+    v3_sub(from_corner, c->centre, s->fill->field.tri[p->tri][0]);
+    clx_fill_triangle_away(s->fill->field.tri[p->tri], from_corner, away);
+    add_plane(&w->planes, c, h, away, 0.0);
+    if (w->planes.n > j) {
+        const double size = s->fill->field.size[p->tri];
+        w->planes.tri[j] = s->fill->field.tri[p->tri];
+        v3_copy(w->planes.away[j], from_corner);
+        w->planes.value[j] -= h * h / (v3_norm(away) + h) * size / (size + h);
+    }
+}
+
+static void add_ball(const search *s, witnesses *w, const cube *c, int32_t ball)
+{
+    if (is_new(w, ball)) {
+        const double *b = s->fill->balls.ball[ball];
+        double away[3];
+        v3_sub(away, c->centre, b);
+        add_plane(&w->planes, c, s->half[c->level], away, b[3]);
+    }
+}
+
+/// Witnesses of all samples of one cube.
+static void add_witnesses(const search *s, witnesses *w, cube *c, const cube *other)
+{
+    const double h = s->half[c->level];
+    for (int i = 0; i < other->n_sample; ++i) {
+        const sample *p = &s->samples[other->sample[i]];
+        if (!isnan(p->surface)) {
+            add_surface(s, w, c, p);
+        }
+        if (p->ball >= 0) {
+            add_ball(s, w, c, p->ball);
+        }
+        if (other != c) {
+            c->upper = lesser(c->upper, p->value + farthest(c->centre, h, p->at));
+        }
+    }
+}
+
+/// Bound of the cube that follows the top one in the heap.
+static double second(const search *s)
+{
+    double upper = -INFINITY;
+    for (int64_t i = 1; i < 3 && i < s->n_heap; ++i) {
+        upper = fmax(upper, s->heap[i].upper);
+    }
+    return upper;
+}
+
+/// Bounds f by the witnesses of the cube, its siblings, and its parent's generation.
+static void bound_cube(search *s, int32_t number)
+{
+    witnesses w;
+    cube *c = &s->cubes[number];
+    const int32_t block[2] = {number & ~7, c->parent & ~7};
+    w.planes.n = 0;
+    w.n_known = 0;
+    add_witnesses(s, &w, c, c);
+    for (int i = 0; i < (c->parent >= 0 ? 16 : 8); ++i) {
+        const int32_t other = block[i / 8] + i % 8;
+        if (other != number) {
+            add_witnesses(s, &w, c, &s->cubes[other]);
+        }
+    }
+    if (c->upper < second(s)) {
+        return; // the samples' reach was enough to sink it
+    }
+    v3_copy(c->next, c->centre);
+    if (w.planes.n > 0) {
+        double step[3];
+        const double bound = clx_fill_bound(&w.planes, s->half[c->level], step);
+        c->upper = lesser(c->upper, bound * (1.0 + 1e-12));
+        v3_add(c->next, c->centre, step);
+    }
+    c->is_bounded = true;
+}
+
+static void make_child(search *s, int32_t parent, int i, cube *child)
+{
+    const cube *c = &s->cubes[parent];
+    const double h = s->half[c->level + 1];
+    *child = (cube){.upper = c->upper,
+                    .best = -1,
+                    .parent = parent,
+                    .seen = c->seen,
+                    .level = (uint8_t)(c->level + 1)};
+    bool holds_best = c->best >= 0 && s->samples[c->best].value > 0.0;
+    for (int k = 0; k < 3; ++k) {
+        child->centre[k] = c->centre[k] + ((i >> k & 1) ? h : -h);
+        holds_best = holds_best && fabs(s->samples[c->best].at[k] - child->centre[k]) <= h;
+    }
+    child->best = holds_best ? c->best : -1;
+    for (int j = 0; j < 8; ++j) {
+        const cube *other = &s->cubes[(parent & ~7) + j];
+        for (int k = 0; k < other->n_sample; ++k) {
+            const sample *p = &s->samples[other->sample[k]];
+            child->upper = lesser(child->upper, bound_by(s, p, child->centre, h));
+        }
+    }
+}
+
+static clast_status divide(search *s, int32_t number)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(s->n_cube + 8 < CUBE_LIMIT, CLAST_E_LIMIT,
+              "the search after %d spheres needs more than %d million cubes; raise --min-share or "
+              "--min-radius",
+              s->fill->balls.n, CUBE_LIMIT >> 20);
+    CLX_CHECK(s->cubes[number].level + 1 < LEVELS, CLAST_E_CONVERGE,
+              "search for the largest sphere went %d levels deep", LEVELS);
+    CLX_TRY(clx_grow(&s->cubes, &s->cube_capacity, s->n_cube + 8, sizeof *s->cubes));
+    const int32_t first = (int32_t)s->n_cube;
+    s->n_cube += 8;
+    for (int i = 0; i < 8; ++i) {
+        make_child(s, number, i, &s->cubes[first + i]);
+        if (s->cubes[first + i].upper > s->floor) {
+            CLX_TRY(heap_push(s, first + i));
+        }
+    }
+done:
+    return status;
+}
+
+/// Roots: cubes over the box, as large as its shortest edge, but at most 32 along the longest.
+static clast_status plant(search *s)
+{
+    clast_status status = CLAST_OK;
+    const clx_fill *fill = s->fill;
+    double size[3];
+    v3_sub(size, fill->high, fill->low);
+    const double longest = fmax(size[0], fmax(size[1], size[2]));
+    const double edge = fmax(longest / 32.0, fmin(size[0], fmin(size[1], size[2])));
+    int n[3];
+    for (int k = 0; k < 3; ++k) {
+        n[k] = (int)ceil(size[k] / edge * (1.0 - 1e-12));
+        n[k] = n[k] > 1 ? n[k] : 1;
+    }
+    for (int level = 0; level < LEVELS; ++level) {
+        s->half[level] = 0.5 * edge * ldexp(1.0, -level);
+    }
+    const int64_t total = (int64_t)n[0] * n[1] * n[2];
+    CLX_TRY(clx_grow(&s->cubes, &s->cube_capacity, (total + 7) / 8 * 8, sizeof *s->cubes));
+    s->n_cube = (total + 7) / 8 * 8;
+    memset(s->cubes, 0, (size_t)s->n_cube * sizeof *s->cubes);
+    for (int64_t i = 0; i < total; ++i) {
+        cube *c = &s->cubes[i];
+        *c = (cube){.upper = INFINITY, .best = -1, .parent = -1};
+        const int64_t at[3] = {i % n[0], i / n[0] % n[1], i / n[0] / n[1]};
+        for (int k = 0; k < 3; ++k) {
+            c->centre[k] = 0.5 * (fill->low[k] + fill->high[k]) +
+                           edge * ((double)at[k] - 0.5 * (double)(n[k] - 1));
+        }
+        CLX_TRY(heap_push(s, (int32_t)i));
+    }
+done:
+    return status;
+}
+
+static void destroy(void *state)
+{
+    search *s = state;
+    if (s != NULL) {
+        clx_free(s->cubes);
+        clx_free(s->samples);
+        clx_free(s->heap);
+        clx_free(s);
+    }
+}
+
+static clast_status create(clx_fill *fill, void **state)
+{
+    clast_status status = CLAST_OK;
+    search *s = NULL;
+    CLX_TRY(clx_alloc(&s, 1, sizeof *s));
+    s->fill = fill;
+    s->floor = fill->floor;
+    CLX_TRY(plant(s));
+    *state = s;
+    s = NULL;
+done:
+    destroy(s);
+    return status;
+}
+
+/// One step on the cube at the top of the heap.
+static clast_status advance(search *s)
+{
+    clast_status status = CLAST_OK;
+    const int32_t number = s->heap[0].cube;
+    cube *c = &s->cubes[number];
+    if (c->seen < s->fill->balls.n) {
+        refresh(s, c);
+    } else if (!c->is_bounded) {
+        bound_cube(s, number);
+    } else if (c->n_sample < SAMPLES) {
+        CLX_TRY(take_sample(s, c));
+    } else {
+        heap_pop(s);
+        CLX_TRY(divide(s, number));
+        goto done;
+    }
+    if (c->upper > s->floor) {
+        heap_sink(s, (entry){c->upper, number});
+    } else {
+        heap_pop(s);
+    }
+done:
+    return status;
+}
+
+/// Runs the search until no cube can hold a sphere larger than the best known by the tolerance.
+static clast_status find_best(search *s, int32_t *best)
+{
+    clast_status status = CLAST_OK;
+    const double slack = 1.0 + s->fill->config->tolerance;
+    double value = 0.0;
+    *best = -1;
+    for (int64_t step = 1; s->n_heap > 0 && s->heap[0].upper > value * slack; ++step) {
+        const int32_t number = s->heap[0].cube;
+        if (step % 4096 == 0) {
+            CLX_TRY(clx_fill_poll(s->fill));
+        }
+        CLX_TRY(advance(s));
+        const cube *c = &s->cubes[number];
+        if (c->seen == s->fill->balls.n && c->best >= 0 && s->samples[c->best].value > value) {
+            *best = c->best;
+            value = s->samples[c->best].value;
+        }
+    }
+done:
+    return status;
+}
+
+/// True when the exact tree agrees with the sample's side and distance; corrects it otherwise.
+static bool is_confirmed(const search *s, sample *p)
+{
+    double closest[3];
+    const bool inside = clast_bvh_inside(s->fill->bvh, p->at);
+    const double d =
+        clast_bvh_closest(s->fill->bvh, p->at, inside ? p->value : (double)INFINITY, closest, NULL);
+    if (inside && d >= p->value * (1.0 - 1e-12)) {
+        p->value = lesser(d, p->value);
+        return true;
+    }
+    p->surface = inside ? d : -d;
+    p->value = p->surface;
+    v3_copy(p->nearest, closest);
+    p->tri = -1;
+    return false;
+}
+
+static clast_status next(clx_fill *fill, void *state, double ball[4], bool *found)
+{
+    clast_status status = CLAST_OK;
+    search *s = state;
+    int32_t best = -1;
+    do {
+        CLX_TRY(find_best(s, &best));
+    } while (best >= 0 && !is_confirmed(s, &s->samples[best]));
+    fill->bound = s->n_heap > 0 ? s->heap[0].upper : 0.0;
+    *found = best >= 0 && s->samples[best].value > s->floor;
+    if (*found) {
+        v3_copy(ball, s->samples[best].at);
+        ball[3] = s->samples[best].value;
+        s->floor = fmax(s->floor, fill->config->min_share * (fill->balls.n == 0 ? ball[3] : 0.0));
+    }
+done:
+    return status;
+}
+
+const clx_fill_strategy clx_fill_largest = {create, next, destroy};
