@@ -47,7 +47,8 @@ CLAST_API clast_status clast_assembly_coordination(const clast_assembly *assembl
                                                    clast_table *table);
 
 /// Area of the shadow along a direction, by n_line scan lines on which the shadow's length is
-/// exact; error from n_line and n_line / 2 lines.
+/// exact; the error is
+/// the difference between its even and its odd lines.
 CLAST_API clast_status clast_assembly_projected_area(const clast_assembly *assembly,
                                                      const double direction[3], int32_t n_line,
                                                      double *area, double *error);
