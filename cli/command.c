@@ -280,7 +280,9 @@ done:
     free((void *)p.touched);
     free(p.config);
     free(p.common.argument);
-    if (fflush(stdout) != 0 && code == 0) {
+    // A failed write in between leaves nothing to flush, only the mark.
+    const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;
+    if (is_lost && code == 0) {
         (void)fputs("clast: cannot write to standard output\n", stderr);
         code = 4;
     }

@@ -1,6 +1,7 @@
 #pragma once
 // All public headers.
 #include <clast/aggregate.h>
+#include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
 #include <clast/assembly.h>
 #include <clast/bvh.h>
@@ -25,6 +26,7 @@
 #include <clast/parallel.h>
 #include <clast/printable.h>
 #include <clast/render.h>
+#include <clast/report.h>
 #include <clast/settling.h>
 #include <clast/shape.h>
 #include <clast/spheres_file.h>

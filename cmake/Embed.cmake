@@ -1,0 +1,12 @@
+# Turns files into C arrays: cmake -DOUT=web.c -DFILES="a;b" -P Embed.cmake makes clx_web_a[] and clx_web_a_size.
+set(text "// Made by cmake/Embed.cmake.\n#include \"report/web.h\"\n")
+foreach(file ${FILES})
+  get_filename_component(name ${file} NAME)
+  string(MAKE_C_IDENTIFIER ${name} name)
+  file(READ ${file} hex HEX)
+  string(LENGTH "${hex}" n)
+  math(EXPR n "${n} / 2")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
+  string(APPEND text "const unsigned char clx_web_${name}[] = {${bytes}};\nconst size_t clx_web_${name}_size = ${n};\n")
+endforeach()
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,32 @@
+#pragma once
+#include <clast/field.h>
+
+// One offline HTML page for one or more run folders: numbers, charts, pictures, an interactive 3-D
+// view, tables, configuration and provenance.
+
+typedef struct clast_report_config {
+    char *title;        ///< of the page; "": from the runs' names
+    int32_t rows;       ///< rows shown of each table
+    bool view;          ///< 3-D view of each run that has a state file
+    int32_t triangles;  ///< of one 3-D view; grains are simplified until they fit
+    int32_t picture_mb; ///< pictures of a run beyond this are left out, and said to be
+} clast_report_config;
+
+/// Table of the fields, ends with {0}.
+CLAST_API extern const clast_field clast_report_fields[];
+
+/// Writes the page, whole or not at all. It needs no network and no other file.
+///
+/// A run folder needs summary.json; manifest.json, history.csv, other tables (*.csv), pictures
+/// (*.png, *.svg) and state.h5 are shown when they are there. All texts from files are escaped and
+/// the page forbids every script but its own.
+///
+/// @param runs    [n_run] folders
+/// @param config  NULL: the defaults
+/// @return CLAST_E_IO for a folder without summary.json, CLAST_E_FORMAT for a malformed file,
+///         CLAST_E_DISK
+CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run,
+                                          const clast_report_config *config, const char *path);
+
+/// FOLDER/report.html of one run, as a command does at its end.
+CLAST_API clast_status clast_report_write_run(const char *folder);

@@ -1,0 +1,190 @@
+// Charts, pictures and tables of a run on a page.
+#include "report/figures.h"
+
+#include "base/alloc.h"
+#include "report/page.h"
+#include "report/quantity.h"
+#include <clast/aggregate_charts.h>
+#include <clast/chart.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PATH_SIZE = 4096 };
+
+/// The table that a chart is drawn from, or NULL when the run does not have it.
+static const clast_table *source_of(const clx_run *run, clast_aggregate_chart chart)
+{
+    const clast_table *table =
+        clx_run_table(run, chart == CLAST_AGGREGATE_CHART_RADIAL ? "radial" : "history");
+    return table != NULL && clast_aggregate_chart_fits(chart, table) ? table : NULL;
+}
+
+static clast_status put_chart(clx_file *file, const clx_run *run, clast_aggregate_chart chart,
+                              int32_t index)
+{
+    clast_status status = CLAST_OK;
+    unsigned char *svg = NULL;
+    size_t n = 0;
+    char prefix[48];
+    const clast_table *wanted =
+        chart == CLAST_AGGREGATE_CHART_SIZES ? clx_run_table(run, "sizes") : NULL;
+    CLX_TRY(clast_aggregate_chart_svg(chart, source_of(run, chart), wanted, &svg, &n));
+    (void)snprintf(prefix, sizeof prefix, "r%d-%s-", (int)index + 1,
+                   clast_aggregate_chart_name(chart));
+    (void)clx_file_print(file, "<figure class=\"chart\"><figcaption>%s</figcaption>",
+                         clast_aggregate_chart_title(chart));
+    clx_page_svg(file, (const char *)svg, n, prefix);
+    (void)clx_file_print(file, "</figure>\n");
+done:
+    clast_bytes_free(svg);
+    return status;
+}
+
+clast_status clx_figures_charts(clx_file *file, const clx_run *run, int32_t index)
+{
+    clast_status status = CLAST_OK;
+    bool is_open = false;
+    for (int32_t k = 0; k < CLAST_N_AGGREGATE_CHART; ++k) {
+        if (source_of(run, (clast_aggregate_chart)k) == NULL) {
+            continue;
+        }
+        (void)clx_file_print(file, "%s", is_open ? "" : "<div class=\"charts\">\n");
+        is_open = true;
+        CLX_TRY(put_chart(file, run, (clast_aggregate_chart)k, index));
+    }
+    (void)clx_file_print(file, "%s", is_open ? "</div>\n" : "");
+done:
+    return status;
+}
+
+/// "history.svg" where the page draws that chart itself.
+static bool is_drawn(const clx_run *run, const char *picture)
+{
+    const size_t n = strlen(picture) - 4;
+    for (int32_t k = 0; k < CLAST_N_AGGREGATE_CHART; ++k) {
+        const char *name = clast_aggregate_chart_name((clast_aggregate_chart)k);
+        if (strlen(name) == n && strncmp(picture, name, n) == 0 &&
+            source_of(run, (clast_aggregate_chart)k) != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_picture(const clx_run *run, const char *name)
+{
+    return (clx_has_extension(name, "png") || clx_has_extension(name, "svg")) &&
+           !is_drawn(run, name);
+}
+
+/// As a data URI: an <img> never runs a script, not even that of an SVG.
+static clast_status put_picture(clx_file *file, const clx_run *run, const char *name, int64_t *left)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_SIZE];
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_run_path(run, name, path, sizeof path));
+    CLX_TRY(clx_file_read_all(path, (int64_t)1 << 30, &bytes, &n));
+    (void)clx_file_print(file, "<figure>");
+    if (n <= *left) {
+        *left -= n;
+        (void)clx_file_print(file, "<img alt=\"");
+        clx_page_text(file, name);
+        (void)clx_file_print(file, "\" src=\"data:image/%s;base64,",
+                             clx_has_extension(name, "png") ? "png" : "svg+xml");
+        clx_page_base64(file, bytes, (size_t)n);
+        (void)clx_file_print(file, "\">");
+    } else {
+        (void)clx_file_print(file, "<p class=\"note\">Left out: %.1f MB is beyond picture_mb.</p>",
+                             1e-6 * (double)n);
+    }
+    (void)clx_file_print(file, "<figcaption>");
+    clx_page_text(file, name);
+    (void)clx_file_print(file, "</figcaption></figure>\n");
+done:
+    clx_free(bytes);
+    return status;
+}
+
+clast_status clx_figures_pictures(clx_file *file, const clx_run *run, int64_t limit)
+{
+    clast_status status = CLAST_OK;
+    bool is_open = false;
+    int64_t left = limit;
+    for (int32_t i = 0; i < run->files.n; ++i) {
+        if (!is_picture(run, run->files.name[i])) {
+            continue;
+        }
+        (void)clx_file_print(file, "%s",
+                             is_open ? "" : "<h3>Pictures</h3>\n<div class=\"pictures\">\n");
+        is_open = true;
+        CLX_TRY(put_picture(file, run, run->files.name[i], &left));
+    }
+    (void)clx_file_print(file, "%s", is_open ? "</div>\n" : "");
+done:
+    return status;
+}
+
+static void put_cell(clx_file *file, const clast_column *column, int64_t row)
+{
+    if (column->number == NULL) {
+        (void)clx_file_print(file, "<td>");
+        clx_page_text(file, column->text[row]);
+    } else if (isfinite(column->number[row])) {
+        (void)clx_file_print(file, "<td class=\"n\">%.6g", column->number[row]);
+    } else {
+        (void)clx_file_print(file, "<td class=\"n\">\342\200\223");
+    }
+    (void)clx_file_print(file, "</td>");
+}
+
+static void put_table(clx_file *file, const clast_table *table, int32_t rows)
+{
+    (void)clx_file_print(file, "<div class=\"scroll\"><table>\n<tr>");
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        (void)clx_file_print(file, table->column[c].number != NULL ? "<th class=\"n\">" : "<th>");
+        clx_page_text(file, table->column[c].name);
+        (void)clx_file_print(file, "</th>");
+    }
+    (void)clx_file_print(file, "</tr>\n");
+    for (int64_t r = 0; r < table->n_row && r < rows; ++r) {
+        (void)clx_file_print(file, "<tr>");
+        for (int32_t c = 0; c < table->n_column; ++c) {
+            put_cell(file, &table->column[c], r);
+        }
+        (void)clx_file_print(file, "</tr>\n");
+    }
+    (void)clx_file_print(file, "</table></div>");
+}
+
+static void put_table_link(clx_file *file, const clx_run *run, const clast_table *table)
+{
+    if (run->can_link) {
+        (void)clx_file_print(file, "<a href=\"");
+        clx_page_href(file, run->link);
+        clx_page_href(file, table->name);
+        (void)clx_file_print(file, ".csv\">");
+    }
+    clx_page_text(file, table->name);
+    (void)clx_file_print(file, ".csv%s", run->can_link ? "</a>" : "");
+}
+
+void clx_figures_tables(clx_file *file, const clx_run *run, int32_t rows)
+{
+    for (int32_t i = 0; i < run->n_table; ++i) {
+        const clast_table *table = &run->table[i];
+        const bool is_history = strcmp(table->name, "history") == 0;
+        (void)clx_file_print(file, "<details class=\"card wide\"%s><summary>",
+                             is_history ? " open" : "");
+        clx_page_text(file, is_history ? "History" : table->name);
+        (void)clx_file_print(file, " <small>%" PRId64 " rows</small></summary>", table->n_row);
+        put_table(file, table, rows);
+        (void)clx_file_print(file, "<p class=\"note\">%s",
+                             table->n_row > rows ? "The first rows of " : "All rows of ");
+        put_table_link(file, run, table);
+        (void)clx_file_print(file, ".</p></details>\n");
+    }
+}

@@ -1,0 +1,14 @@
+#pragma once
+// Charts of the run's tables, the folder's pictures, and the tables' first rows.
+#include "base/file.h"
+#include "report/run.h"
+
+/// Inline SVG of every chart that the run's tables allow; ids begin with "r<index>".
+clast_status clx_figures_charts(clx_file *file, const clx_run *run, int32_t index);
+
+/// The folder's .png and .svg files inside the page, as far as `limit` bytes allow; charts that are
+/// drawn from the tables are left out.
+clast_status clx_figures_pictures(clx_file *file, const clx_run *run, int64_t limit);
+
+/// First rows of each table, with a link to its file.
+void clx_figures_tables(clx_file *file, const clx_run *run, int32_t rows);

@@ -1,0 +1,194 @@
+// One offline page for one or more run folders.
+#include <clast/report.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "report/figures.h"
+#include "report/page.h"
+#include "report/provenance.h"
+#include "report/run.h"
+#include "report/summary.h"
+#include "report/view3d.h"
+#include <clast/state.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FIELD(type, name) #name, offsetof(clast_report_config, name), type
+const clast_field clast_report_fields[] = {
+    {FIELD(CLAST_FIELD_TEXT, title), 0, 0, 0, "-",
+     "title of the page; made from the runs' names when not given", ""},
+    {FIELD(CLAST_FIELD_I32, rows), 12, 1, 1e6, "-", "rows shown of each table", NULL},
+    {FIELD(CLAST_FIELD_BOOL, view), 1, 0, 1, "-",
+     "interactive 3-D view of each run with a state.h5", NULL},
+    {FIELD(CLAST_FIELD_I32, triangles), 400000, 1000, 1e8, "-",
+     "triangles of one 3-D view; grains are simplified to fit", NULL},
+    {FIELD(CLAST_FIELD_I32, picture_mb), 32, 0, 1e4, "-", "most megabytes of pictures of one run",
+     NULL},
+    {0},
+};
+#undef FIELD
+
+enum { PATH_SIZE = 4096, TITLE_SIZE = 512 };
+
+static bool has_view(const clx_run *run, const clast_report_config *config)
+{
+    return config->view && clx_run_has(run, "state.h5");
+}
+
+static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_SIZE];
+    clast_assembly assembly = {0};
+    CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
+    CLX_TRY(clast_state_read_assembly(path, &assembly));
+    (void)clx_file_print(file, "<h3>Assembly</h3>\n");
+    CLX_TRY(clx_view3d_put(file, &assembly, config->triangles));
+done:
+    if (status == CLAST_E_GEOMETRY) {
+        clx_fail_prefix("%s", path);
+    }
+    clast_assembly_free(&assembly);
+    return status;
+}
+
+static const char *word_of(const clx_run *run, const char *key)
+{
+    const char *word = json_string_value(json_object_get(run->manifest, key));
+    return word != NULL ? word : "";
+}
+
+/// Name, command and outcome of the run; index -1: the only run, whose name is above already.
+static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
+{
+    if (index >= 0) {
+        (void)clx_file_print(file, "<section class=\"run\" id=\"run-%d\">\n<h2>", (int)index + 1);
+        clx_page_text(file, run->name);
+        (void)clx_file_print(file, "</h2>\n");
+    } else {
+        (void)clx_file_print(file, "<section>\n");
+    }
+    (void)clx_file_print(file, "<p class=\"sub\">");
+    if (run->manifest != NULL) {
+        (void)clx_file_print(file, "clast ");
+        clx_page_text(file, word_of(run, "command"));
+        (void)clx_file_print(file, " \302\267 version ");
+        clx_page_text(file, word_of(run, "clast_version"));
+        (void)clx_file_print(file, " \302\267 ");
+        clx_page_text(file, word_of(run, "outcome"));
+        (void)clx_file_print(file, " \302\267 ");
+        clx_page_text(file, word_of(run, "started"));
+        (void)clx_file_print(file, " \302\267 ");
+    }
+    (void)clx_file_print(file, "<code>");
+    clx_page_text(file, run->path);
+    (void)clx_file_print(file, "</code></p>\n");
+}
+
+static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,
+                            const clast_report_config *config)
+{
+    clast_status status = CLAST_OK;
+    put_run_head(file, run, index);
+    clx_summary_headline(file, run);
+    if (has_view(run, config)) {
+        CLX_TRY(put_view(file, run, config));
+    }
+    (void)clx_file_print(file, "<h3>Numbers</h3>\n");
+    clx_summary_tables(file, run, config->rows);
+    (void)clx_file_print(file, "<h3>Charts and tables</h3>\n");
+    CLX_TRY(clx_figures_charts(file, run, index));
+    clx_figures_tables(file, run, config->rows);
+    CLX_TRY(clx_figures_pictures(file, run, (int64_t)config->picture_mb * 1000000));
+    (void)clx_file_print(file, "<h3>Origin</h3>\n");
+    clx_provenance_put(file, run);
+    (void)clx_file_print(file, "</section>\n");
+done:
+    return status;
+}
+
+static void make_title(const clx_run *run, int32_t n_run, const clast_report_config *config,
+                       char title[TITLE_SIZE])
+{
+    if (config->title[0] != '\0') {
+        (void)snprintf(title, TITLE_SIZE, "%s", config->title);
+    } else if (n_run == 1) {
+        (void)snprintf(title, TITLE_SIZE, "%s", run[0].name);
+    } else {
+        (void)snprintf(title, TITLE_SIZE, "%d runs: %s to %s", (int)n_run, run[0].name,
+                       run[n_run - 1].name);
+    }
+}
+
+static clast_status put_page(clx_file *file, const clx_run *run, int32_t n_run,
+                             const clast_report_config *config)
+{
+    clast_status status = CLAST_OK;
+    char title[TITLE_SIZE];
+    bool any_view = false;
+    make_title(run, n_run, config, title);
+    clx_page_begin(file, title);
+    (void)clx_file_print(file, "<header><p class=\"brand\">clast report</p>\n<h1>");
+    clx_page_text(file, title);
+    (void)clx_file_print(file, "</h1></header>\n");
+    if (n_run > 1) {
+        (void)clx_file_print(file, "<section><h2>Side by side</h2>\n");
+        clx_summary_compare(file, run, n_run);
+        (void)clx_file_print(file, "</section>\n");
+    }
+    for (int32_t i = 0; i < n_run; ++i) {
+        any_view = any_view || has_view(&run[i], config);
+        CLX_TRY(put_run(file, &run[i], n_run > 1 ? i : -1, config));
+    }
+    clx_page_end(file, any_view);
+done:
+    return status;
+}
+
+static clast_status write_page(const char *const *runs, int32_t n_run,
+                               const clast_report_config *config, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_run *run = NULL;
+    clx_file file = {0};
+    CLX_CHECK(n_run >= 1, CLAST_E_USAGE, "a report needs a run folder");
+    CLX_TRY(clx_alloc(&run, n_run, sizeof *run));
+    for (int32_t i = 0; i < n_run; ++i) {
+        CLX_TRY(clx_run_read(runs[i], path, &run[i]));
+    }
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(put_page(&file, run, n_run, config));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    for (int32_t i = 0; i < n_run && run != NULL; ++i) {
+        clx_run_free(&run[i]);
+    }
+    clx_free(run);
+    return status;
+}
+
+clast_status clast_report_write(const char *const *runs, int32_t n_run,
+                                const clast_report_config *config, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clast_report_config own = {0};
+    if (config != NULL) {
+        return write_page(runs, n_run, config, path);
+    }
+    CLX_TRY(clast_fields_default(clast_report_fields, &own));
+    CLX_TRY(write_page(runs, n_run, &own, path));
+done:
+    clast_fields_free(clast_report_fields, &own);
+    return status;
+}
+
+clast_status clast_report_write_run(const char *folder)
+{
+    char path[PATH_SIZE];
+    const int n = snprintf(path, sizeof path, "%s/report.html", folder);
+    if (n < 0 || n >= (int)sizeof path) {
+        return clx_fail(CLAST_E_DISK, "the path of folder %.40s... is too long", folder);
+    }
+    return clast_report_write(&folder, 1, NULL, path);
+}

@@ -1,0 +1,182 @@
+// Reads a run's folder: summary.json, manifest.json and the tables.
+#include "report/run.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/table_file.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { PATH_SIZE = 4096, MAX_TABLE = 24 };
+static const int64_t JSON_LIMIT = (int64_t)64 << 20;
+
+void clx_run_free(clx_run *run)
+{
+    json_decref(run->summary);
+    json_decref(run->manifest);
+    clx_folder_free(&run->files);
+    for (int32_t i = 0; i < run->n_table; ++i) {
+        clast_table_free(&run->table[i]);
+    }
+    clx_free(run->table);
+    clx_free(run->path);
+    *run = (clx_run){0};
+}
+
+bool clx_has_extension(const char *name, const char *extension)
+{
+    const char *dot = strrchr(name, '.');
+    return dot != NULL && dot != name && strcasecmp(dot + 1, extension) == 0;
+}
+
+bool clx_run_has(const clx_run *run, const char *file)
+{
+    for (int32_t i = 0; i < run->files.n; ++i) {
+        if (strcmp(run->files.name[i], file) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const clast_table *clx_run_table(const clx_run *run, const char *name)
+{
+    for (int32_t i = 0; i < run->n_table; ++i) {
+        if (strcmp(run->table[i].name, name) == 0) {
+            return &run->table[i];
+        }
+    }
+    return NULL;
+}
+
+clast_status clx_run_path(const clx_run *run, const char *file, char *path, size_t size)
+{
+    const int n = snprintf(path, size, "%s/%s", run->path, file);
+    return n >= 0 && (size_t)n < size
+               ? CLAST_OK
+               : clx_fail(CLAST_E_IO, "%.40s...: the path is too long", run->path);
+}
+
+/// Seeds go up to 2^64 - 1, Jansson's integers to 2^63 - 1: such a seed is kept as its digits.
+static void keep_seed(const char *text, json_t *object)
+{
+    static const char mark[] = "\"seed\": ";
+    const char *seed = strstr(text, mark);
+    const char *digits = seed != NULL ? seed + sizeof mark - 1 : "";
+    const size_t n = strspn(digits, "0123456789");
+    if (n > 0 && json_is_real(json_object_get(object, "seed"))) {
+        (void)json_object_set_new(object, "seed", json_stringn(digits, n));
+    }
+}
+
+/// A JSON object from a file.
+static clast_status read_object(const clx_run *run, const char *file, json_t **object)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_SIZE];
+    char *text = NULL;
+    int64_t n = 0;
+    json_error_t error;
+    json_t *made = NULL;
+    CLX_TRY(clx_run_path(run, file, path, sizeof path));
+    CLX_TRY(clx_file_read_all(path, JSON_LIMIT, &text, &n));
+    made = json_loadb(text, (size_t)n, 0, &error);
+    if (made == NULL && json_error_code(&error) == json_error_numeric_overflow) {
+        made = json_loadb(text, (size_t)n, JSON_DECODE_INT_AS_REAL, &error);
+        keep_seed(text, made);
+    }
+    CLX_CHECK(made != NULL || json_error_code(&error) != json_error_out_of_memory, CLAST_E_MEMORY,
+              "not enough memory for %s", path);
+    CLX_CHECK(made != NULL, CLAST_E_FORMAT, "%s:%d:%d: %s", path, error.line, error.column,
+              error.text);
+    CLX_CHECK(json_is_object(made), CLAST_E_FORMAT, "%s: not a JSON object", path);
+    *object = made;
+    made = NULL;
+done:
+    json_decref(made);
+    clx_free(text);
+    return status;
+}
+
+static clast_status read_tables(clx_run *run)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_SIZE];
+    for (int32_t i = 0; i < run->files.n && run->n_table < MAX_TABLE; ++i) {
+        const char *file = run->files.name[i];
+        if (!clx_has_extension(file, "csv")) {
+            continue;
+        }
+        CLX_TRY(clx_run_path(run, file, path, sizeof path));
+        CLX_TRY(clx_realloc(&run->table, run->n_table + 1, sizeof *run->table));
+        clast_table *table = &run->table[run->n_table];
+        *table = (clast_table){0};
+        CLX_TRY(clast_table_read_csv(path, NULL, table, NULL));
+        ++run->n_table;
+        clx_free(table->name);
+        table->name = NULL;
+        CLX_TRY(clx_alloc_text(&table->name, file));
+        table->name[strlen(file) - 4] = '\0';
+    }
+done:
+    return status;
+}
+
+static clast_status set_path(const char *folder, clx_run *run)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(folder[0] != '\0', CLAST_E_IO, "an empty text is no run folder");
+    CLX_TRY(clx_alloc_text(&run->path, folder));
+    size_t n = strlen(run->path);
+    while (n > 1 && run->path[n - 1] == '/') {
+        run->path[--n] = '\0';
+    }
+    const char *slash = strrchr(run->path, '/');
+    run->name = slash != NULL && slash[1] != '\0' ? slash + 1 : run->path;
+done:
+    return status;
+}
+
+/// The way from the page's folder to the run's, where their texts tell it.
+static void set_link(const char *page, clx_run *run)
+{
+    const char *slash = strrchr(page, '/');
+    const size_t n = slash != NULL ? (size_t)(slash - page) : 0;
+    const size_t length = strlen(run->path);
+    int used = 0;
+    if (slash != NULL && length == n && strncmp(run->path, page, n) == 0) {
+        run->link[0] = '\0';
+    } else if (slash != NULL && length > n && strncmp(run->path, page, n) == 0 &&
+               run->path[n] == '/') {
+        used = snprintf(run->link, sizeof run->link, "%s/", run->path + n + 1);
+    } else if (slash == NULL && run->path[0] != '/') {
+        used = snprintf(run->link, sizeof run->link, "%s/", run->path);
+    } else {
+        return;
+    }
+    run->can_link = used >= 0 && used < (int)sizeof run->link;
+}
+
+clast_status clx_run_read(const char *folder, const char *page, clx_run *run)
+{
+    clast_status status = CLAST_OK;
+    clx_run made = {0};
+    CLX_TRY(set_path(folder, &made));
+    set_link(page, &made);
+    CLX_TRY(clx_folder_list(made.path, &made.files));
+    CLX_CHECK(
+        clx_run_has(&made, "summary.json"), CLAST_E_IO,
+        "%s is no run folder: it has no summary.json; name a folder that a clast command wrote",
+        folder);
+    CLX_TRY(read_object(&made, "summary.json", &made.summary));
+    if (clx_run_has(&made, "manifest.json")) {
+        CLX_TRY(read_object(&made, "manifest.json", &made.manifest));
+    }
+    CLX_TRY(read_tables(&made));
+    *run = made;
+    made = (clx_run){0};
+done:
+    clx_run_free(&made);
+    return status;
+}

@@ -1,0 +1,36 @@
+#pragma once
+// A run's folder in memory, as far as a page shows it.
+#include "io/folder.h"
+#include <clast/table.h>
+#include <jansson.h>
+
+typedef struct clx_run {
+    char *path;       ///< of the folder, without '/' at its end
+    const char *name; ///< last part of path
+    char link[512];   ///< from the page to the folder, ends in '/' or is empty
+    bool can_link;    ///< files of the folder can be reached from the page by `link`
+    json_t *summary;  ///< object
+    json_t *manifest; ///< object, or NULL
+    clx_folder files;
+    int32_t n_table;
+    clast_table *table; ///< [n_table] the folder's *.csv, named after the files
+} clx_run;
+
+/// Reads all but pictures and the state. `run` must be {0}.
+///
+/// @param page  where the page will be, for links
+/// @return CLAST_E_IO without summary.json, CLAST_E_FORMAT with file and line if malformed
+clast_status clx_run_read(const char *folder, const char *page, clx_run *run);
+void clx_run_free(clx_run *run);
+
+/// The table of that file name without ".csv", or NULL.
+const clast_table *clx_run_table(const clx_run *run, const char *name);
+
+/// True when the folder holds a file of this name.
+bool clx_run_has(const clx_run *run, const char *file);
+
+/// FOLDER/file into path [size]; CLAST_E_IO if too long.
+clast_status clx_run_path(const clx_run *run, const char *file, char *path, size_t size);
+
+/// True for "name.EXTENSION", any case.
+bool clx_has_extension(const char *name, const char *extension);

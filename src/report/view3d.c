@@ -1,0 +1,301 @@
+// The 3-D view's data: shapes once, grains as poses.
+#include "report/view3d.h"
+
+#include "base/alloc.h"
+#include "io/json.h"
+#include "report/page.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MIN_TRIANGLES = 20, MAX_LEVEL = 4, MAX_GRAINS = 200000, POSE = 9 };
+
+typedef struct {
+    const clast_assembly *assembly;
+    int32_t n_shown; ///< grains in the data
+    int32_t budget;  ///< triangles a grain
+    double centre[3], length;
+} view;
+
+/// Text inside JSON inside <script>: '<' and '>' as \u003c, so that no tag can begin there.
+static void put_text(clx_file *file, const char *text)
+{
+    (void)clx_file_print(file, "\"");
+    while (*text != '\0') {
+        char out[CLX_JSON_STEP];
+        size_t n = 0;
+        text = clx_json_next(text, out, &n);
+        if (n == 1 && (out[0] == '<' || out[0] == '>' || out[0] == '&')) {
+            (void)clx_file_print(file, "\\u%04x", (unsigned)out[0]);
+        } else {
+            (void)clx_file_write(file, out, n);
+        }
+    }
+    (void)clx_file_print(file, "\"");
+}
+
+/// Little-endian, whatever the machine.
+static void store32(unsigned char *at, uint32_t bits)
+{
+    for (int k = 0; k < 4; ++k) {
+        at[k] = (unsigned char)(bits >> 8 * k);
+    }
+}
+
+static void store_float(unsigned char *at, double value)
+{
+    const float single = (float)value;
+    uint32_t bits = 0;
+    memcpy(&bits, &single, sizeof bits);
+    store32(at, bits);
+}
+
+typedef struct {
+    int32_t cell; ///< number of the vertex's cell
+    int32_t vertex;
+} place;
+
+static int by_cell(const void *a, const void *b)
+{
+    const place *p = a;
+    const place *q = b;
+    return p->cell != q->cell ? (p->cell < q->cell ? -1 : 1)
+                              : (p->vertex > q->vertex) - (p->vertex < q->vertex);
+}
+
+/// New vertices, one for each occupied cell of an n^3 grid, and each old vertex's new number.
+static clast_status join_vertices(const clast_mesh *mesh, int32_t n, clast_mesh *simple,
+                                  int32_t *number)
+{
+    clast_status status = CLAST_OK;
+    double low[3];
+    double high[3];
+    place *places = NULL;
+    CLX_TRY(clx_alloc(&places, mesh->n_vert, sizeof *places));
+    clast_mesh_bounds(mesh, low, high);
+    const double edge = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / n;
+    for (int32_t i = 0; i < mesh->n_vert; ++i) {
+        int32_t cell = 0;
+        for (int k = 0; k < 3; ++k) {
+            const int32_t at = edge > 0.0 ? (int32_t)((mesh->vert[i][k] - low[k]) / edge) : 0;
+            cell = cell * n + (at < n ? at : n - 1);
+        }
+        places[i] = (place){cell, i};
+    }
+    qsort(places, (size_t)mesh->n_vert, sizeof *places, by_cell);
+    simple->n_vert = 0;
+    for (int32_t i = 0; i < mesh->n_vert;) {
+        double *mean = simple->vert[simple->n_vert];
+        int32_t end = i;
+        memset(mean, 0, 3 * sizeof *mean);
+        for (; end < mesh->n_vert && places[end].cell == places[i].cell; ++end) {
+            number[places[end].vertex] = simple->n_vert;
+            for (int k = 0; k < 3; ++k) {
+                mean[k] += mesh->vert[places[end].vertex][k];
+            }
+        }
+        for (int k = 0; k < 3; ++k) {
+            mean[k] /= end - i;
+        }
+        ++simple->n_vert;
+        i = end;
+    }
+done:
+    clx_free(places);
+    return status;
+}
+
+static void join_triangles(const clast_mesh *mesh, const int32_t *number, clast_mesh *simple)
+{
+    simple->n_tri = 0;
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        const int32_t a = number[mesh->tri[t][0]];
+        const int32_t b = number[mesh->tri[t][1]];
+        const int32_t c = number[mesh->tri[t][2]];
+        if (a != b && b != c && c != a) {
+            simple->tri[simple->n_tri][0] = a;
+            simple->tri[simple->n_tri][1] = b;
+            simple->tri[simple->n_tri++][2] = c;
+        }
+    }
+}
+
+clast_status clx_view3d_simplify(const clast_mesh *mesh, int32_t limit, clast_mesh *simple)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh made = {0};
+    int32_t *number = NULL;
+    CLX_TRY(clast_mesh_copy(mesh, &made));
+    CLX_TRY(clx_alloc(&number, mesh->n_vert, sizeof *number));
+    for (int32_t n = 256; made.n_tri > limit && n >= 3; n = n * 4 / 5) {
+        CLX_TRY(join_vertices(mesh, n, &made, number));
+        join_triangles(mesh, number, &made);
+    }
+    *simple = made;
+    made = (clast_mesh){0};
+done:
+    clast_mesh_free(&made);
+    clx_free(number);
+    return status;
+}
+
+/// Finest icosphere whose triangles are within the budget.
+static int level_for(int32_t n_ball, int32_t budget)
+{
+    int level = MAX_LEVEL;
+    while (level > 0 && (int64_t)n_ball * 20 * (1 << 2 * level) > budget) {
+        --level;
+    }
+    return level;
+}
+
+static clast_status surface_of(const view *v, const clast_shape *shape, clast_mesh *surface)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh full = {0};
+    const int32_t n_ball = shape->kind == CLAST_SHAPE_CLUMP ? shape->spheres.n : 1;
+    CLX_TRY(clast_shape_surface(shape, level_for(n_ball, v->budget), &full));
+    CLX_TRY(clx_view3d_simplify(&full, v->budget, surface));
+done:
+    clast_mesh_free(&full);
+    return status;
+}
+
+static clast_status put_surface(clx_file *file, const clast_mesh *mesh, double length)
+{
+    clast_status status = CLAST_OK;
+    unsigned char *bytes = NULL;
+    const int64_t n = mesh->n_vert > mesh->n_tri ? mesh->n_vert : mesh->n_tri;
+    CLX_TRY(clx_alloc(&bytes, n, 12));
+    for (int32_t i = 0; i < mesh->n_vert; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            store_float(bytes + 12 * (size_t)i + 4 * k, mesh->vert[i][k] / length);
+        }
+    }
+    (void)clx_file_print(file, ", \"position\": \"");
+    clx_page_base64(file, bytes, 12 * (size_t)mesh->n_vert);
+    for (int32_t i = 0; i < mesh->n_tri; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            store32(bytes + 12 * (size_t)i + 4 * k, (uint32_t)mesh->tri[i][k]);
+        }
+    }
+    (void)clx_file_print(file, "\", \"index\": \"");
+    clx_page_base64(file, bytes, 12 * (size_t)mesh->n_tri);
+    (void)clx_file_print(file, "\"");
+done:
+    clx_free(bytes);
+    return status;
+}
+
+/// Place, turn, scale and size (diameter of the sphere of equal volume) of grain i.
+static void store_pose(const view *v, int32_t i, unsigned char *at)
+{
+    const clast_assembly *a = v->assembly;
+    const double volume = a->shape[a->shape_id[i]].volume;
+    for (int k = 0; k < 3; ++k) {
+        store_float(at + 4 * k, (a->position[i][k] - v->centre[k]) / v->length);
+    }
+    for (int k = 0; k < 4; ++k) {
+        store_float(at + 12 + 4 * k, a->orientation[i][k]);
+    }
+    store_float(at + 28, a->scale[i]);
+    store_float(at + 32, a->scale[i] * cbrt(6.0 * volume / CLAST_PI) / v->length);
+}
+
+static clast_status put_grains(clx_file *file, const view *v, int32_t shape)
+{
+    clast_status status = CLAST_OK;
+    unsigned char *grain = NULL;
+    unsigned char *pose = NULL;
+    size_t n = 0;
+    CLX_TRY(clx_alloc(&grain, v->n_shown, 4));
+    CLX_TRY(clx_alloc(&pose, v->n_shown, 4 * (size_t)POSE));
+    for (int32_t i = 0; i < v->n_shown; ++i) {
+        if (v->assembly->shape_id[i] == shape) {
+            store32(grain + 4 * n, (uint32_t)i);
+            store_pose(v, i, pose + 4 * POSE * n);
+            ++n;
+        }
+    }
+    (void)clx_file_print(file, ", \"grain\": \"");
+    clx_page_base64(file, grain, 4 * n);
+    (void)clx_file_print(file, "\", \"pose\": \"");
+    clx_page_base64(file, pose, 4 * POSE * n);
+    (void)clx_file_print(file, "\"");
+done:
+    clx_free(grain);
+    clx_free(pose);
+    return status;
+}
+
+static clast_status put_shape(clx_file *file, const view *v, int32_t index)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh surface = {0};
+    const clast_shape *shape = &v->assembly->shape[index];
+    CLX_TRY(surface_of(v, shape, &surface));
+    (void)clx_file_print(file, "\n{\"name\": ");
+    put_text(file, shape->name);
+    (void)clx_file_print(file, ", \"smooth\": %s",
+                         shape->kind == CLAST_SHAPE_MESH ? "false" : "true");
+    CLX_TRY(put_surface(file, &surface, v->length));
+    CLX_TRY(put_grains(file, v, index));
+    (void)clx_file_print(file, "}");
+done:
+    clast_mesh_free(&surface);
+    return status;
+}
+
+/// True when a grain of the shape is shown.
+static bool is_used(const view *v, int32_t shape)
+{
+    for (int32_t i = 0; i < v->n_shown; ++i) {
+        if (v->assembly->shape_id[i] == shape) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static view begin(const clast_assembly *assembly, int32_t limit)
+{
+    double low[3];
+    double high[3];
+    view v = {.assembly = assembly, .length = 0.0};
+    v.n_shown = assembly->n_grain < MAX_GRAINS ? assembly->n_grain : MAX_GRAINS;
+    v.budget = limit / v.n_shown > MIN_TRIANGLES ? limit / v.n_shown : MIN_TRIANGLES;
+    clast_assembly_bounds(assembly, low, high);
+    for (int k = 0; k < 3; ++k) {
+        v.centre[k] = 0.5 * (low[k] + high[k]);
+        v.length = fmax(v.length, 0.5 * (high[k] - low[k]));
+    }
+    return v;
+}
+
+clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int32_t limit)
+{
+    clast_status status = CLAST_OK;
+    bool is_first = true;
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY, "the state holds no grains");
+    const view v = begin(assembly, limit);
+    CLX_CHECK(isfinite(v.length) && v.length > 0.0, CLAST_E_GEOMETRY,
+              "the grains of the state have no finite extent");
+    (void)clx_file_print(
+        file, "<div class=\"view-box\"><div class=\"view\"><p class=\"view-wait\">The 3-D view "
+              "needs a browser with WebGL and JavaScript; all else on this page does "
+              "not.</p></div>\n<script type=\"application/json\" class=\"view-data\">{\"unit\": ");
+    put_text(file, assembly->unit);
+    (void)clx_file_print(file,
+                         ", \"length\": %.17g, \"n_grain\": %d, \"n_shown\": %d, \"shapes\": [",
+                         v.length, (int)assembly->n_grain, (int)v.n_shown);
+    for (int32_t s = 0; s < assembly->n_shape; ++s) {
+        if (is_used(&v, s)) {
+            (void)clx_file_print(file, "%s", is_first ? "" : ",");
+            is_first = false;
+            CLX_TRY(put_shape(file, &v, s));
+        }
+    }
+    (void)clx_file_print(file, "]}</script></div>\n");
+done:
+    return status;
+}

@@ -1,0 +1,16 @@
+#pragma once
+// The assembly of a run as data for web/view.js.
+#include "base/file.h"
+#include <clast/assembly.h>
+
+/// Writes the 3-D view's place and data: each shape's surface once, a pose for each grain, both as
+/// base64 of little-endian 32-bit numbers; lengths are divided by half the assembly's extent.
+///
+/// @param limit  triangles drawn at once: balls get a coarser icosphere, meshes are joined on a
+///               grid until all grains together fit (at least 20 triangles a grain stay)
+/// @return CLAST_E_GEOMETRY for no grains, CLAST_E_MEMORY
+clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int32_t limit);
+
+/// A surface with about `limit` triangles or fewer: vertices in one cell of a grid become their
+/// mean, triangles that collapse or repeat go. For pictures only: volume and topology may change.
+clast_status clx_view3d_simplify(const clast_mesh *mesh, int32_t limit, clast_mesh *simple);
