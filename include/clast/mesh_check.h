@@ -59,8 +59,8 @@ typedef struct clast_mesh_check_result {
     double area;                ///< by cross products
     double area_heron;          ///< by the lengths of the sides
     double hull_volume;         ///< of the convex hull; 0 for a flat point set
-    double weld_tolerance;      ///< merging open vertices nearer than this helps; 0: nothing does
-    int32_t n_open_after_weld;  ///< open edges after that
+    double weld_tolerance;      ///< merging open vertices up to this far apart helps, if fewer
+    int32_t n_open_after_weld;  ///< open edges are left after it than n_open_edge
     int32_t n_fault;
     clast_mesh_fault fault[CLAST_MESH_MAX_FAULT];
 } clast_mesh_check_result;

@@ -29,7 +29,7 @@ static const char *s(int64_t n)
 static void open_words(clast_mesh_check_result *r)
 {
     char advice[160] = "merging near vertices does not help; `clast mesh repair` fills holes";
-    if (r->weld_tolerance > 0.0) {
+    if (r->n_open_after_weld < r->n_open_edge) {
         char left[48] = "close";
         if (r->n_open_after_weld > 0) {
             (void)snprintf(left, sizeof left, "fall to %d", r->n_open_after_weld);

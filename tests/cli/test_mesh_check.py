@@ -35,6 +35,18 @@ class MeshCheck(Case):
         self.assertTrue(result.json["closed"])
         self.assertEqual(result.json["n_merged"], 8)
 
+    def test_seams_of_equal_vertices_are_no_holes(self):
+        folder = DATA / "broken-meshes"
+        result = clast("mesh", "check", folder / "trimesh/cube_blender_uv.ply", "--json")
+        self.assertEqual((result.code, result.json["closed"], result.json["n_vertex"]), (0, True, 24))
+        self.assertEqual(result.json["faults"][0]["code"], "equal_vertices")
+        self.assertEqual(result.json["n_merged"], 16)
+        # b, n of the data's README, counted after merging bit-equal vertices
+        for name, n_open, n_over in [("draco/delim_test.ply", 4, 0), ("draco/non_manifold_wrap.obj", 8, 1),
+                                     ("draco/test_nm.obj", 30, 0), ("trimesh/cubevt.obj", 0, 0)]:
+            found = clast("mesh", "check", folder / name, "--json").json
+            self.assertEqual((found["n_open_edge"], found["n_nonmanifold_edge"]), (n_open, n_over), name)
+
     def test_words_hold_the_same_numbers(self):
         result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl")
         self.assertEqual(result.code, 1)
