@@ -59,6 +59,19 @@ static bool pass_items(touch_item *a, touch_item *b, double slack, clx_pass *pas
     return clx_triangles_pass(a->corner, b->corner, slack, pass);
 }
 
+/// Two triangles cannot touch before the highest corner of the moving one reaches the lowest corner
+/// of the lying one.
+static bool comes_too_late(const touch_item *a, const touch_item *b, double t_high)
+{
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (int k = 0; k < 3; ++k) {
+        low = a->corner[k][2] < low ? a->corner[k][2] : low;
+        high = b->corner[k][2] > high ? b->corner[k][2] : high;
+    }
+    return low - high > t_high;
+}
+
 static void try_items(search *s, int32_t i, int32_t j)
 {
     touch_item a;
@@ -66,6 +79,9 @@ static void try_items(search *s, int32_t i, int32_t j)
     clx_pass pass;
     touch_see_item(&s->lying, i, &a);
     touch_see_item(&s->moving, j, &b);
+    if (!a.is_ball && !b.is_ball && comes_too_late(&a, &b, s->wanted.t_high)) {
+        return;
+    }
     if (!pass_items(&a, &b, s->wanted.slack, &pass) || pass.last < s->wanted.t_low ||
         pass.first > s->wanted.t_high) {
         return;
