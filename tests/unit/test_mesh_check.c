@@ -285,6 +285,19 @@ static void cutting_is_an_edge_through_a_face(void **state)
     assert_true(n_cut > 2000);
 }
 
+/* Two roofs, one upside down on the other, meet where their ridges cross: a point, no cut. */
+static void crossing_edges_touch(void **state)
+{
+    (void)state;
+    double below[3][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 0, -1}};
+    double above[3][3] = {{0, -1, 0}, {0, 1, 0}, {0, 0, 1}};
+    assert_false(clx_triangles_cut(below, above));
+    assert_false(clx_triangles_cut(above, below));
+    above[0][2] = -1e-60; /* one corner lower: now they cut */
+    assert_true(clx_triangles_cut(below, above));
+    assert_true(clx_triangles_cut(above, below));
+}
+
 static void edge_on_a_face_touches(void **state)
 {
     (void)state;
@@ -407,6 +420,7 @@ int main(void)
         cmocka_unit_test(degenerate_and_repeated_triangles_are_counted),
         cmocka_unit_test(overlapping_boxes_cut_each_other_and_touching_ones_do_not),
         cmocka_unit_test(cutting_is_an_edge_through_a_face),
+        cmocka_unit_test(crossing_edges_touch),
         cmocka_unit_test(edge_on_a_face_touches),
         cmocka_unit_test(flat_and_empty_surfaces_are_findings),
         cmocka_unit_test(unusable_arrays_are_refused),
