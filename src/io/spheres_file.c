@@ -58,13 +58,13 @@ static clast_status read_csv(const char *path, clast_spheres *spheres)
     clast_status status = CLAST_OK;
     clast_table table = {0};
     clast_spheres made = {0};
-    const double *number[4];
+    const double *number[4] = {NULL};
     CLX_TRY(clast_table_read_csv(path, NULL, &table, NULL));
     CLX_TRY(find_columns(&table, number));
     CLX_CHECK(table.n_row > 0 && table.n_row <= INT32_MAX, CLAST_E_FORMAT, "%lld spheres",
               (long long)table.n_row);
     CLX_TRY(clast_spheres_alloc((int32_t)table.n_row, &made));
-    for (int32_t i = 0; i < made.n; ++i) {
+    for (int32_t i = 0; i < made.n && number[3] != NULL; ++i) { // NULL only for the analyser
         v3_set(made.centre[i], number[0][i], number[1][i], number[2][i]);
         made.radius[i] = number[3][i];
         CLX_CHECK(isfinite(made.centre[i][0]) && isfinite(made.centre[i][1]) &&
@@ -76,7 +76,7 @@ static clast_status read_csv(const char *path, clast_spheres *spheres)
     *spheres = made;
     made = (clast_spheres){0};
 done:
-    if (status != CLAST_OK && status != CLAST_E_IO) {
+    if (status != CLAST_OK && table.n_column > 0) { // the reader names the file itself
         clx_fail_prefix("%s", path);
     }
     clast_spheres_free(&made);

@@ -48,9 +48,11 @@ static void lattice_kernel(int64_t begin, int64_t end, int32_t worker, void *con
     (void)worker;
     for (int64_t row = begin; row < end; ++row) {
         for (int64_t i = 0; i < w->n[0]; ++i) {
+            const int64_t j = row % w->n[1];
+            const int64_t k = row / w->n[1];
             const double p[3] = {w->first[0] + w->step * (double)i,
-                                 w->first[1] + w->step * (double)(row % w->n[1]),
-                                 w->first[2] + w->step * (double)(row / w->n[1])};
+                                 w->first[1] + w->step * (double)j,
+                                 w->first[2] + w->step * (double)k};
             w->open[row * w->n[0] + i] = clast_bvh_inside(w->fill->bvh, p);
         }
     }

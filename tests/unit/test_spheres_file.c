@@ -1,0 +1,108 @@
+/* Unit: sphere sets survive files; odd headers are understood; bad rows are named. */
+#include "support.h"
+
+#include <clast/spheres_file.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *scratch(const char *name)
+{
+    static char path[600];
+    (void)snprintf(path, sizeof path, "%s/%s", support_scratch(), name);
+    return path;
+}
+
+static void put(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fputs(text, file);
+    (void)fclose(file);
+}
+
+static void csv_gives_back_the_same_doubles(void **state)
+{
+    (void)state;
+    double centre[2][3] = {{1.0 / 3.0, -2.0e-17, 3.0}, {1e300, 0.1, -0.0}};
+    double radius[2] = {0.7, 1e-12};
+    const clast_spheres s = {2, centre, radius};
+    clast_spheres back = {0};
+    const char *path = scratch("round.csv");
+    CHECK_OK(clast_spheres_write(path, "any", &s, NULL));
+    CHECK_OK(clast_spheres_read(path, NULL, &back));
+    assert_int_equal(back.n, 2);
+    assert_memory_equal(back.centre, centre, sizeof centre);
+    assert_memory_equal(back.radius, radius, sizeof radius);
+    clast_spheres_free(&back);
+}
+
+static void columns_are_found_by_name_or_place(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x_um,y_um,z_um,r_um\n1,2,3,4\n", "radius,z,y,x\n4,3,2,1\n",
+                                        "1 2 3 4\n", "a,b,c,d\n1,2,3,4\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        clast_spheres s = {0};
+        const char *path = scratch("columns.csv");
+        put(path, texts[i]);
+        CHECK_OK(clast_spheres_read(path, NULL, &s));
+        for (int k = 0; k < 3; ++k) {
+            CHECK_ABS(s.centre[0][k], k + 1.0, 0.0);
+        }
+        CHECK_ABS(s.radius[0], 4.0, 0.0);
+        clast_spheres_free(&s);
+    }
+}
+
+static void bad_rows_and_columns_are_refused(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x,y,z\n1,2,3\n", "x,y,z,radius\n1,2,3,0\n",
+                                        "x,y,z,radius\n1,nan,3,1\n", "x,y,z,radius\n1,2,3,big\n",
+                                        "x,y,z,radius\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        clast_spheres s = {0};
+        const char *path = scratch("bad.csv");
+        put(path, texts[i]);
+        CHECK_STATUS(clast_spheres_read(path, NULL, &s), CLAST_E_FORMAT);
+        assert_non_null(strstr(clast_error_detail(), "bad.csv"));
+        assert_null(s.centre);
+    }
+}
+
+static void state_file_gains_and_replaces_sets(void **state)
+{
+    (void)state;
+    double centre[2][3] = {{1, 2, 3}, {4, 5, 6}};
+    double radius[2] = {7, 8};
+    const clast_spheres two = {2, centre, radius};
+    const clast_spheres one = {1, centre, radius};
+    clast_spheres back = {0};
+    char path[600];
+    (void)snprintf(path, sizeof path, "%s", scratch("sets.h5"));
+    CHECK_OK(clast_spheres_write(path, "a", &two, NULL));
+    CHECK_OK(clast_spheres_write(path, "b", &one, NULL));
+    CHECK_OK(clast_spheres_read(path, "a", &back));
+    assert_int_equal(back.n, 2);
+    clast_spheres_free(&back);
+    CHECK_OK(clast_spheres_write(path, "a", &one, NULL));
+    CHECK_OK(clast_spheres_read(path, "a", &back));
+    assert_int_equal(back.n, 1);
+    clast_spheres_free(&back);
+    CHECK_STATUS(clast_spheres_write(path, "c", &one, "um"), CLAST_E_USAGE);
+    put(path, "no state file");
+    CHECK_STATUS(clast_spheres_write(path, "a", &one, NULL), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_spheres_write(scratch("a.xyz"), "a", &one, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_spheres_read(scratch("a.csv"), "a", &back), CLAST_E_USAGE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(csv_gives_back_the_same_doubles),
+        cmocka_unit_test(columns_are_found_by_name_or_place),
+        cmocka_unit_test(bad_rows_and_columns_are_refused),
+        cmocka_unit_test(state_file_gains_and_replaces_sets),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
