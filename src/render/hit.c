@@ -164,6 +164,10 @@ static bool travel(journey *j, double t_low, double t_high)
         return false;
     }
     j->t_low = t_low;
+    if (j->scene->n_grain == 1) {
+        (void)visit_grain(j, 0, t_high);
+        return j->found;
+    }
     const clx_wide_ray wide = clx_wide_ray_of(&j->scene->wide, j->origin, j->direction);
     (void)clx_wide_walk(&j->scene->wide, &wide, t_low, t_high, visit_grains, j);
     return j->found;
@@ -254,10 +258,12 @@ static void describe(const journey *j, clx_scene_hit *hit)
     turn_to_world(grain, hit->face);
     turn_to_world(grain, hit->normal);
     v3_axpy(hit->point, grain->position, grain->scale, at);
+    hit->is_lifted = j->scene->shape[grain->shape].normal != NULL;
     if (v3_dot(hit->face, j->direction) > 0.0) {
         v3_scale(hit->face, -1.0, hit->face);
         v3_scale(hit->normal, -1.0, hit->normal);
         v3_axpy(hit->point, j->origin, hit->t, j->direction); // the lift is for fronts only
+        hit->is_lifted = false;
     }
 }
 

@@ -173,6 +173,7 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
     clx_scene scene = {0};
     clx_legend legend = {0};
     clx_layout layout = {0};
+    clx_shader shader;
     clast_image made = {0};
     double metre = 0.0;
     CLX_TRY(length_unit(assembly, config->unit, &metre));
@@ -182,7 +183,7 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
     CLX_TRY(clast_image_alloc(config->width, config->height, &made));
     const clx_camera camera = clx_camera_fit(&scene, config, &layout.frame);
     set_cut(config, &scene);
-    const clx_shader shader = clx_shader_of(&scene, config, &camera);
+    clx_shader_set(&shader, &scene, config, &camera);
     picture p = {.shader = &shader, .config = config, .image = &made};
     made.pixel_size = camera.pixel;
     CLX_TRY(draw(&p, monitor));

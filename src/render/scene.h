@@ -53,6 +53,7 @@ typedef struct clx_scene_hit {
     double bary[3];   ///< triangles
     double point[3];  ///< world; where to start further rays (lifted off coarse facets)
     double face[3];   ///< unit normal of the true surface, towards the viewer
+    bool is_lifted;   ///< point lies above the true surface, on the smooth one meant
     double normal[3]; ///< unit normal for shading, towards the viewer
 } clx_scene_hit;
 

@@ -1,15 +1,12 @@
 // One pixel: camera samples from a low-discrepancy sequence, each with one ray to the sun's disc
 // and a few to the sky.
 //
-// Samples: additive recurrences of the plastic-number family (Roberts 2018). Neighbouring pixels
-// shift them along a lattice of the same family, which spreads what error is left like a fine
-// dither instead of clumps; the seed's Philox numbers shift the whole. A pixel's value depends on
-// nothing but its place. Light:
-// Lambert, plus a faint highlight; the sky is a vertical gradient sampled by the cosine law; a
-// blocked sky ray returns a share of the surface's own colour (light passed between grains).
+// Samples: additive recurrences of the plastic-number family (Roberts 2018), shifted for each pixel
+// by a dither square made from the seed, so a pixel's value depends on nothing but its place.
+// Light: Lambert, plus a faint highlight; the sky is a vertical gradient sampled by the cosine law;
+// a blocked sky ray returns a share of the surface's own colour (light passed between grains).
 #include "render/shade.h"
 
-#include "math/rng.h"
 #include "math/vec3.h"
 
 /// Powers of 1 / (real root of x^5 = x + 1): the four-dimensional recurrence.
@@ -17,12 +14,6 @@ static const double step4[4] = {0.8566748838545029, 0.7338918566271260, 0.628706
                                 0.5385972572236101};
 /// Powers of 1 / plastic number (x^3 = x + 1): the two-dimensional one.
 static const double step2[2] = {0.7548776662466927, 0.5698402909980532};
-
-/// Shift per pixel to the right and down, for each of the six numbers that a sample takes.
-static const double lattice[6][2] = {
-    {0.7548776662466927, 0.5698402909980532},  {0.5698402909980532, 0.7548776662466927},
-    {0.7548776662466927, -0.5698402909980532}, {-0.5698402909980532, 0.7548776662466927},
-    {0.3819660112501051, 0.7236067977499790},  {0.7236067977499790, -0.3819660112501051}};
 
 /// One camera ray's numbers.
 typedef struct {
@@ -36,35 +27,31 @@ static double fraction(double x)
     return x - floor(x);
 }
 
-clx_shader clx_shader_of(const clx_scene *scene, const clast_render_config *config,
-                         const clx_camera *camera)
+void clx_shader_set(clx_shader *shader, const clx_scene *scene, const clast_render_config *config,
+                    const clx_camera *camera)
 {
     const double strength = 1.4; // of all light: a grain that faces the sun shows its own colour
-    clx_shader shader = {.scene = scene,
-                         .camera = *camera,
-                         .sun_tangent = tan(config->sun_radius),
-                         .sun_light = strength * (1.0 - config->ambient),
-                         .sky_light = strength * config->ambient,
-                         .lift = 1e-6 * scene->radius,
-                         .has_ground = config->ground,
-                         .up = config->up,
-                         .ground = scene->low[config->up],
-                         .samples = config->samples,
-                         .ambient_rays = config->ambient_rays};
-    clx_rng rng = clx_rng_at(config->seed, CLX_STREAM_RENDER, 0);
-    for (int k = 0; k < 6; ++k) {
-        shader.shift[k] = clx_rng_uniform(&rng);
-    }
+    *shader = (clx_shader){.scene = scene,
+                           .camera = *camera,
+                           .sun_tangent = tan(config->sun_radius),
+                           .sun_light = strength * (1.0 - config->ambient),
+                           .sky_light = strength * config->ambient,
+                           .lift = 1e-6 * scene->radius,
+                           .has_ground = config->ground,
+                           .up = config->up,
+                           .ground = scene->low[config->up],
+                           .samples = config->samples,
+                           .ambient_rays = config->ambient_rays};
+    clx_dither_fill(config->seed, &shader->dither);
     // Sun and sky turn with the viewer, so that every side of an object is seen in the same light.
-    v3_scale(shader.sun, cos(config->sun_elevation) * cos(config->sun_azimuth), camera->back);
-    v3_axpy(shader.sun, shader.sun, cos(config->sun_elevation) * sin(config->sun_azimuth),
+    v3_scale(shader->sun, cos(config->sun_elevation) * cos(config->sun_azimuth), camera->back);
+    v3_axpy(shader->sun, shader->sun, cos(config->sun_elevation) * sin(config->sun_azimuth),
             camera->right);
-    v3_axpy(shader.sun, shader.sun, sin(config->sun_elevation), camera->up);
-    (void)v3_unit(shader.sun, shader.sun);
-    v3_frame(shader.sun, shader.sun_a, shader.sun_b);
-    v3_axpy(shader.zenith, camera->up, 0.35, camera->back);
-    (void)v3_unit(shader.zenith, shader.zenith);
-    return shader;
+    v3_axpy(shader->sun, shader->sun, sin(config->sun_elevation), camera->up);
+    (void)v3_unit(shader->sun, shader->sun);
+    v3_frame(shader->sun, shader->sun_a, shader->sun_b);
+    v3_axpy(shader->zenith, camera->up, 0.35, camera->back);
+    (void)v3_unit(shader->zenith, shader->zenith);
 }
 
 /// Sky in a direction, 1 at the zenith.
@@ -136,7 +123,7 @@ static void sun_seen(const clx_shader *shader, const double u[2], const clx_scen
     const double cosine = v3_dot(direction, hit->normal);
     *diffuse = 0.0;
     *glint = 0.0;
-    if (cosine <= 0.0 || v3_dot(direction, hit->face) <= 0.0 ||
+    if (cosine <= 0.0 || (!hit->is_lifted && v3_dot(direction, hit->face) <= 0.0) ||
         clx_scene_blocked(shader->scene, hit->point, direction, shader->lift, INFINITY)) {
         return;
     }
@@ -223,7 +210,7 @@ static void shade_sample(const clx_shader *shader, const sample_numbers *sample,
         double point[3];
         const double height = origin[shader->up] - shader->ground;
         v3_axpy(point, origin, -height / direction[shader->up], direction);
-        if (height > 0.0) {
+        if (height > 0.0 || !shader->camera.is_perspective) {
             shade_ground(shader, sample, point, rgba);
         }
     }
@@ -239,7 +226,7 @@ void clx_shade_pixel(const clx_shader *shader, int32_t x, int32_t y, double rgba
 {
     double shift[6];
     for (int k = 0; k < 6; ++k) {
-        shift[k] = fraction(shader->shift[k] + x * lattice[k][0] + y * lattice[k][1]);
+        shift[k] = clx_dither_at(&shader->dither, x, y, k);
     }
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     for (int32_t s = 0; s < shader->samples; ++s) {

@@ -1,6 +1,7 @@
 #pragma once
 // Light: a sun with a soft edge, a sky that brightens upwards, and what grains hide of both.
 #include "render/camera.h"
+#include "render/dither.h"
 
 typedef struct clx_shader {
     const clx_scene *scene;
@@ -17,11 +18,11 @@ typedef struct clx_shader {
     double ground; ///< height of the ground along it
     int32_t samples;
     int32_t ambient_rays;
-    double shift[6]; ///< of all samples, by the seed
+    clx_dither dither; ///< shifts of the pixels' samples
 } clx_shader;
 
-clx_shader clx_shader_of(const clx_scene *scene, const clast_render_config *config,
-                         const clx_camera *camera);
+void clx_shader_set(clx_shader *shader, const clx_scene *scene, const clast_render_config *config,
+                    const clx_camera *camera);
 
 /// Mean of a pixel's samples: linear light times alpha, and alpha.
 void clx_shade_pixel(const clx_shader *shader, int32_t x, int32_t y, double rgba[4]);

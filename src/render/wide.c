@@ -56,8 +56,8 @@ static int32_t collapse(const clx_tree *tree, int32_t at, clx_wide *wide)
     for (int i = 0; i < CLX_WIDE; ++i) {
         const clx_tree_node *from = i < n ? &tree->node[child[i]] : NULL;
         for (int k = 0; k < 3; ++k) {
-            wide->node[self].low[k][i] = from != NULL ? round_down(from->low[k]) : INFINITY;
-            wide->node[self].high[k][i] = from != NULL ? round_up(from->high[k]) : -INFINITY;
+            wide->node[self].bound[0][k][i] = from != NULL ? round_down(from->low[k]) : INFINITY;
+            wide->node[self].bound[1][k][i] = from != NULL ? round_up(from->high[k]) : -INFINITY;
         }
     }
     for (int i = 0; i < n; ++i) {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-enum { CLX_WIDE = 4, CLX_WIDE_STACK = 3 * CLX_TREE_DEPTH + 2 };
+enum { CLX_WIDE = 4, CLX_WIDE_STACK = 3 * CLX_TREE_DEPTH + 4 };
 
 /// Four floats that one instruction handles (GCC and Clang vector types, portable to any target).
 typedef float clx_float4 __attribute__((vector_size(16)));
@@ -14,8 +14,7 @@ typedef int32_t clx_mask4 __attribute__((vector_size(16)));
 
 /// 128 bytes, two cache lines. An empty lane has low > high.
 typedef struct clx_wide_node {
-    clx_float4 low[3];
-    clx_float4 high[3];
+    clx_float4 bound[2][3];  ///< low and high ends along the axes
     int32_t child[CLX_WIDE]; ///< node, or first item of a leaf
     int32_t count[CLX_WIDE]; ///< items of a leaf; 0 for an inner child
 } clx_wide_node;
@@ -60,14 +59,22 @@ static inline clx_wide_ray clx_wide_ray_of(const clx_wide *wide, const double or
 /// a > b ? a : b in each lane: b where either is no number.
 static inline clx_float4 clx_max4(clx_float4 a, clx_float4 b)
 {
+#ifdef __SSE__
+    return __builtin_ia32_maxps(a, b);
+#else
     const clx_mask4 m = a > b;
     return (clx_float4)((m & (clx_mask4)a) | (~m & (clx_mask4)b));
+#endif
 }
 
 static inline clx_float4 clx_min4(clx_float4 a, clx_float4 b)
 {
+#ifdef __SSE__
+    return __builtin_ia32_minps(a, b);
+#else
     const clx_mask4 m = a < b;
     return (clx_float4)((m & (clx_mask4)a) | (~m & (clx_mask4)b));
+#endif
 }
 
 /// Where the ray enters the four boxes, and a mask of those it meets at all. NaN (0 * infinity)
@@ -78,10 +85,9 @@ static inline clx_mask4 clx_wide_enter(const clx_wide_node *node, const clx_wide
     clx_float4 in = {t_low, t_low, t_low, t_low};
     clx_float4 out = {t_high, t_high, t_high, t_high};
     for (int k = 0; k < 3; ++k) {
-        const clx_float4 a = ray->is_negative[k] ? node->high[k] : node->low[k];
-        const clx_float4 b = ray->is_negative[k] ? node->low[k] : node->high[k];
-        in = clx_max4((a - ray->near[k]) * ray->inverse[k], in);
-        out = clx_min4((b - ray->far[k]) * ray->inverse[k], out);
+        const int side = ray->is_negative[k];
+        in = clx_max4((node->bound[side][k] - ray->near[k]) * ray->inverse[k], in);
+        out = clx_min4((node->bound[1 - side][k] - ray->far[k]) * ray->inverse[k], out);
     }
     *t = in;
     return in <= out * (1.0F + 0x1p-20F);
