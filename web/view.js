@@ -322,13 +322,20 @@ function offer(host, data) {
   host.append(made);
 }
 
+const MARGIN = 200; // px beyond the window at which a view starts
+
 for (const host of document.querySelectorAll('.view')) {
   const data = JSON.parse(host.parentElement.querySelector('.view-data').textContent);
-  const seen = new IntersectionObserver((entries) => {
-    if (entries.some((e) => e.isIntersecting)) {
-      seen.disconnect();
-      start(host, data);
-    }
-  }, { rootMargin: '200px' });
-  seen.observe(host);
+  const box = host.getBoundingClientRect();
+  if (box.top < window.innerHeight + MARGIN && box.bottom > -MARGIN) {
+    start(host, data);
+  } else {
+    const seen = new IntersectionObserver((entries) => {
+      if (entries.some((e) => e.isIntersecting)) {
+        seen.disconnect();
+        start(host, data);
+      }
+    }, { rootMargin: `${MARGIN}px` });
+    seen.observe(host);
+  }
 }

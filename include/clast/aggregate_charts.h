@@ -9,7 +9,8 @@ typedef enum {
     CLAST_AGGREGATE_CHART_DIAMETER, ///< history: d_agg_m over n
     CLAST_AGGREGATE_CHART_DENSITY,  ///< history: density_kg/m^3 over n
     CLAST_AGGREGATE_CHART_SIZES,    ///< history: distribution of size_m, beside the wanted one
-    CLAST_AGGREGATE_CHART_RADIAL,   ///< radial: solid_fraction over radius_m
+    CLAST_AGGREGATE_CHART_RADIAL,   ///< radial: solid_fraction over radius_low_m
+                                    ///< (clast_assembly_radial_profile)
     CLAST_N_AGGREGATE_CHART
 } clast_aggregate_chart;
 

@@ -30,7 +30,7 @@ static const struct {
 /// Points of one line, with a band; all arrays [n].
 typedef struct {
     int64_t n;
-    bool has_band;
+    bool has_band, is_step;
     double *x, *y, *low, *high;
     char label[LABEL_SIZE];
 } line;
@@ -56,7 +56,7 @@ const char *clast_aggregate_chart_title(clast_aggregate_chart chart)
 
 static const char *x_column(clast_aggregate_chart chart)
 {
-    return chart == CLAST_AGGREGATE_CHART_RADIAL  ? "radius_m"
+    return chart == CLAST_AGGREGATE_CHART_RADIAL  ? "radius_low_m"
            : chart == CLAST_AGGREGATE_CHART_SIZES ? "size_m"
                                                   : "n";
 }
@@ -227,6 +227,7 @@ static clast_status lines_of_table(clast_aggregate_chart chart, const clast_tabl
         line *l = &d->lines[d->n_line];
         CLX_TRY(mean_line(x, column->number, table->n_row, l));
         ++d->n_line;
+        l->is_step = chart == CLAST_AGGREGATE_CHART_RADIAL;
         label_of(chart, column->name, l->label);
     }
 done:
@@ -239,7 +240,7 @@ static clast_status placed_line(const clast_table *history, line *out)
     clast_status status = CLAST_OK;
     const double *size = clast_table_numbers(history, "size_m");
     const double *place = clast_table_numbers(history, "n");
-    line l = {.label = "placed"};
+    line l = {.label = "placed", .is_step = true};
     CLX_TRY(room(&l, history->n_row));
     for (int64_t i = 0; i < history->n_row; ++i) {
         if (isfinite(size[i]) && (place == NULL || place[i] > 0.0)) {
@@ -360,13 +361,14 @@ static void make_series(drawing *d)
     }
     for (int32_t i = 0; i < d->n_line; ++i) {
         const line *l = &d->lines[i];
-        d->series[d->n_series++] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                                  .label = l->label[0] != '\0' ? l->label : NULL,
-                                                  .x = l->x,
-                                                  .y = l->y,
-                                                  .n = l->n,
-                                                  .colour = i % 8,
-                                                  .dashed = strcmp(l->label, "wanted") == 0};
+        d->series[d->n_series++] =
+            (clast_series){.kind = l->is_step ? CLAST_SERIES_STEP : CLAST_SERIES_LINE,
+                           .label = l->label[0] != '\0' ? l->label : NULL,
+                           .x = l->x,
+                           .y = l->y,
+                           .n = l->n,
+                           .colour = i % 8,
+                           .dashed = strcmp(l->label, "wanted") == 0};
     }
 }
 

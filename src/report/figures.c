@@ -59,6 +59,82 @@ done:
     return status;
 }
 
+/// First porosity_* column of a run's history, or NULL.
+static const clast_column *porosity_of(const clx_run *run)
+{
+    const clast_table *history = source_of(run, CLAST_AGGREGATE_CHART_POROSITY);
+    for (int32_t c = 0; history != NULL && c < history->n_column; ++c) {
+        const clast_column *column = &history->column[c];
+        if (column->number != NULL && strncmp(column->name, "porosity_", 9) == 0) {
+            return column;
+        }
+    }
+    return NULL;
+}
+
+/// Adds a column "porosity_<k> <run>" to `all`, filled from row `begin` on, nan elsewhere.
+static clast_status add_run(const clx_run *run, int32_t k, int64_t begin, clast_table *all)
+{
+    clast_status status = CLAST_OK;
+    const clast_table *history = clx_run_table(run, "history");
+    const clast_column *porosity = porosity_of(run);
+    const double *n = clast_table_numbers(history, "n");
+    char name[128];
+    double *out = NULL;
+    (void)snprintf(name, sizeof name, "porosity_%d: %.100s", (int)k + 1, run->name);
+    CLX_TRY(clast_table_add_number(all, name, "-", &out));
+    double *x = clast_table_numbers(all, "n");
+    for (int64_t i = 0; i < all->n_row; ++i) {
+        const bool is_own = i >= begin && i < begin + history->n_row;
+        out[i] = is_own ? porosity->number[i - begin] : (double)NAN;
+        x[i] = is_own ? n[i - begin] : x[i];
+    }
+done:
+    return status;
+}
+
+clast_status clx_figures_compare(clx_file *file, const clx_run *run, int32_t n_run)
+{
+    enum { MAX_RUN = 8 };
+    clast_status status = CLAST_OK;
+    clast_table all = {0};
+    unsigned char *svg = NULL;
+    size_t n_byte = 0;
+    int64_t n_row = 0;
+    int32_t n_shown = 0;
+    for (int32_t i = 0; i < n_run && n_shown < MAX_RUN; ++i) {
+        if (porosity_of(&run[i]) != NULL) {
+            n_row += clx_run_table(&run[i], "history")->n_row;
+            ++n_shown;
+        }
+    }
+    if (n_shown < 2) {
+        goto done;
+    }
+    CLX_TRY(clast_table_init(&all, "comparison", n_row));
+    CLX_TRY(clast_table_add_number(&all, "n", "-", NULL));
+    n_row = 0;
+    for (int32_t i = 0, k = 0; i < n_run && k < n_shown; ++i) {
+        if (porosity_of(&run[i]) != NULL) {
+            CLX_TRY(add_run(&run[i], i, n_row, &all));
+            n_row += clx_run_table(&run[i], "history")->n_row;
+            ++k;
+        }
+    }
+    CLX_TRY(clast_aggregate_chart_svg(CLAST_AGGREGATE_CHART_POROSITY, &all, NULL, &svg, &n_byte));
+    (void)clx_file_print(file,
+                         "<figure class=\"chart alone\"><figcaption>%s "
+                         "<small>first envelope of each run%s</small></figcaption>",
+                         clast_aggregate_chart_title(CLAST_AGGREGATE_CHART_POROSITY),
+                         n_run > MAX_RUN ? ", first 8 runs" : "");
+    clx_page_svg(file, (const char *)svg, n_byte, "all-");
+    (void)clx_file_print(file, "</figure>\n");
+done:
+    clast_bytes_free(svg);
+    clast_table_free(&all);
+    return status;
+}
+
 /// "history.svg" where the page draws that chart itself.
 static bool is_drawn(const clx_run *run, const char *picture)
 {

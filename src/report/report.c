@@ -134,6 +134,7 @@ static clast_status put_page(clx_file *file, const clx_run *run, int32_t n_run,
     if (n_run > 1) {
         (void)clx_file_print(file, "<section><h2>Side by side</h2>\n");
         clx_summary_compare(file, run, n_run);
+        CLX_TRY(clx_figures_compare(file, run, n_run));
         (void)clx_file_print(file, "</section>\n");
     }
     for (int32_t i = 0; i < n_run; ++i) {

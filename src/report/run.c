@@ -126,7 +126,6 @@ done:
 static clast_status set_path(const char *folder, clx_run *run)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(folder[0] != '\0', CLAST_E_IO, "an empty text is no run folder");
     CLX_TRY(clx_alloc_text(&run->path, folder));
     size_t n = strlen(run->path);
     while (n > 1 && run->path[n - 1] == '/') {

@@ -4,11 +4,12 @@
 #include "base/alloc.h"
 #include "io/json.h"
 #include "report/page.h"
+#include <clast/mesh_simplify.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MIN_TRIANGLES = 20, MAX_LEVEL = 4, MAX_GRAINS = 200000, POSE = 9 };
+enum { MIN_TRIANGLES = 20, MAX_LEVEL = 4, MAX_GRAINS = 200000, POSE = 9, COLLAPSE_LIMIT = 200000 };
 
 typedef struct {
     const clast_assembly *assembly;
@@ -149,12 +150,20 @@ static int level_for(int32_t n_ball, int32_t budget)
     return level;
 }
 
+/// A surface within the budget: edges of a solid collapse (its silhouette stays), all else, and
+/// scans too large for that, are joined on a grid.
 static clast_status surface_of(const view *v, const clast_shape *shape, clast_mesh *surface)
 {
     clast_status status = CLAST_OK;
     clast_mesh full = {0};
     const int32_t n_ball = shape->kind == CLAST_SHAPE_CLUMP ? shape->spheres.n : 1;
     CLX_TRY(clast_shape_surface(shape, level_for(n_ball, v->budget), &full));
+    if (full.n_tri > v->budget && full.n_tri <= COLLAPSE_LIMIT) {
+        status = clast_mesh_simplify(&full, v->budget, surface, NULL);
+        if (status != CLAST_E_GEOMETRY) {
+            goto done; // CLAST_E_GEOMETRY: no single solid, which the grid below can do
+        }
+    }
     CLX_TRY(clx_view3d_simplify(&full, v->budget, surface));
 done:
     clast_mesh_free(&full);

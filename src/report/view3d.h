@@ -6,8 +6,8 @@
 /// Writes the 3-D view's place and data: each shape's surface once, a pose for each grain, both as
 /// base64 of little-endian 32-bit numbers; lengths are divided by half the assembly's extent.
 ///
-/// @param limit  triangles drawn at once: balls get a coarser icosphere, meshes are joined on a
-///               grid until all grains together fit (at least 20 triangles a grain stay)
+/// @param limit  triangles drawn at once: balls get a coarser icosphere, other surfaces are
+///               simplified until all grains together fit (at least 20 triangles a grain stay)
 /// @return CLAST_E_GEOMETRY for no grains, CLAST_E_MEMORY
 clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int32_t limit);
 

@@ -170,6 +170,7 @@ static void two_runs_are_compared(void **state)
     check_has(page, "<a href=\"#run-2\">second</a>");
     check_has(page, "id=\"r2-history-glyph");
     check_has(page, "<a href=\"first/history.csv\">");
+    check_has(page, "id=\"all-glyph");
     free(page);
 }
 
