@@ -2,39 +2,77 @@
 #include "command.h"
 
 #include "aggregate_report.h"
-#include <stdlib.h>
+#include <stdio.h>
+#include <string.h>
 
-/// Grows repeat `repeat` to its end.
-static clast_status grow(const clast_aggregate_config *config, const clast_aggregate_input *input,
-                         int32_t repeat, const clast_monitor *monitor, aggregate_report *report)
+/// An option that --resume would overrule, or NULL.
+static const char *changed_option(const clast_aggregate_config *config)
 {
-    clast_aggregate *aggregate = NULL;
-    clast_status status = clast_aggregate_create(config, input, repeat, &aggregate);
-    if (status == CLAST_OK) {
-        status = clast_aggregate_grow(aggregate, INT32_MAX, monitor);
+    clast_aggregate_config fresh;
+    const char *changed = NULL;
+    if (clast_fields_default(clast_aggregate_fields, &fresh) != CLAST_OK) {
+        return NULL;
     }
-    if (status == CLAST_OK) {
-        status = aggregate_report_add(report, aggregate);
+    for (const clast_field *f = clast_aggregate_fields; f->name != NULL && changed == NULL; ++f) {
+        char a[512] = "";
+        char b[512] = "";
+        const int32_t n = clast_field_count(f, config);
+        if (strcmp(f->name, "resume") == 0) {
+            continue;
+        }
+        changed = n != clast_field_count(f, &fresh) ? f->name : NULL;
+        for (int32_t i = 0; i < n && changed == NULL; ++i) {
+            (void)clast_field_format(f, config, i, a, sizeof a);
+            (void)clast_field_format(f, &fresh, i, b, sizeof b);
+            changed = strcmp(a, b) != 0 ? f->name : NULL;
+        }
     }
-    clast_aggregate_destroy(aggregate);
+    clast_fields_free(clast_aggregate_fields, &fresh);
+    return changed;
+}
+
+static clast_status resume(const cli_common *common, const clast_aggregate_config *config,
+                           const clast_monitor *monitor, clast_aggregate_report *report)
+{
+    const char *changed = changed_option(config);
+    if (changed != NULL) {
+        return cli_fail(CLAST_E_USAGE, "--resume takes every option from %s; drop %s",
+                        config->resume, changed);
+    }
+    if (common->output != NULL) {
+        return cli_fail(CLAST_E_USAGE, "--resume writes into %s; drop -o", config->resume);
+    }
+    return clast_aggregate_resume(config->resume, monitor, report);
+}
+
+static clast_status print(const cli_common *common, const clast_aggregate_report *report)
+{
+    char *text = NULL;
+    if (!common->json) {
+        aggregate_report_print(report);
+        return CLAST_OK;
+    }
+    const clast_status status = clast_aggregate_report_json(report, true, &text);
+    if (status == CLAST_OK) {
+        (void)puts(text);
+    }
+    clast_text_free(text);
     return status;
 }
 
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_aggregate_config *config = context;
-    clast_aggregate_source source = {0};
-    aggregate_report report = {.config = config};
+    clast_aggregate_report report = {0};
     const clast_monitor monitor = cli_monitor(common);
-    clast_status status = clast_aggregate_load(config, &source);
-    for (int32_t r = 0; r < config->repeats && status == CLAST_OK; ++r) {
-        status = grow(config, &source.input, r, &monitor, &report);
+    clast_status status = config->resume[0] != '\0'
+                              ? resume(common, config, &monitor, &report)
+                              : clast_aggregate_run(config, common->output, &monitor, &report);
+    if (report.n > 0) {
+        const clast_status printed = print(common, &report);
+        status = status == CLAST_OK ? printed : status;
     }
-    if (status == CLAST_OK) {
-        status = aggregate_report_print(&report, common);
-    }
-    aggregate_report_free(&report);
-    clast_aggregate_unload(&source);
+    clast_aggregate_report_free(&report);
     return status;
 }
 
@@ -42,7 +80,8 @@ static const char details[] =
     "The core lies at the origin. Each particle is tried along N_r rays in a cone about an axis,\n"
     "in N_o orientations on each ray, comes from outside to its first touch, and stays where its\n"
     "centre of mass ends nearest to the target. Nothing moves after that.\n"
-    "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.";
+    "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
+    "With -o RUN: state.h5, history.csv, summary.json, aggregate.stl (um) and manifest.json.";
 
 const cli_command cli_aggregate = {
     .name = "aggregate",

@@ -68,6 +68,7 @@ typedef struct clast_aggregate_config {
     clast_text_list coat_spheres; ///< the same for each coat shape
     int32_t fill_spheres;         ///< spheres of a composite made here
     char *unit;                   ///< of the coordinates in surface files
+    bool accept_faults;           ///< take surfaces that are open or cross themselves
 
     char *sizes; ///< CSV file of sizes or of a histogram
     char *size_column;
@@ -157,7 +158,9 @@ typedef struct clast_aggregate_result {
     int32_t n_contact;
     int32_t n_cluster;
     double mass;
-    double solid_sum; ///< sum of the grains' volumes
+    double solid_sum;         ///< sum of the grains' volumes
+    double solid_union;       ///< of the space that they fill: less where they overlap
+    double solid_union_error; ///< one standard deviation, 0 when exact
     int32_t n_envelope;
     clast_envelope envelope[CLAST_N_ENVELOPE]; ///< [n_envelope] in the order of the configuration
     double porosity[CLAST_N_ENVELOPE];         ///< 1 - solid_sum / envelope
@@ -237,3 +240,8 @@ typedef struct clast_interval {
 } clast_interval;
 
 CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, double confidence);
+
+/// Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, ...
+/// particles, from the histories of several repeats one below the other.
+CLAST_API clast_status clast_aggregate_band(const clast_table *history, double confidence,
+                                            clast_table *band);

@@ -3,6 +3,7 @@
 #include <clast/aggregate.h>
 #include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 #include <clast/assembly.h>
 #include <clast/bvh.h>
 #include <clast/chart.h>

@@ -9,3 +9,7 @@
 /// out of range, a
 ///         duplicate key or nested mapping; CLAST_E_IO if unreadable; files over 16 MiB are refused
 CLAST_API clast_status clast_config_read(const char *path, const clast_field *fields, void *config);
+
+/// The same from a text, YAML or JSON (what clast_config_json writes); `name` stands for the path.
+CLAST_API clast_status clast_config_parse(const char *name, const char *text,
+                                          const clast_field *fields, void *config);

@@ -53,6 +53,7 @@ const clast_field clast_aggregate_fields[] = {
     TEXTS(coat_spheres, "", "sphere composite of each coating shape"),
     COUNT(fill_spheres, 100, 1, 1e6, "spheres of each composite that is filled here"),
     TEXT(unit, "", "length unit of coordinates in surface files"),
+    FLAG(accept_faults, "use surfaces that are open or cross themselves as they are"),
 
     TEXT(sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts"),
     TEXT(size_column, "", "its column; none: the first"),

@@ -149,9 +149,11 @@ clast_status clast_aggregate_create(const clast_aggregate_config *config,
 {
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
+    const double begun = clx_clock();
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));
     CLX_TRY(clx_aggregate_begin(config, input, repeat, a));
     CLX_TRY(first_grains(a));
+    a->wall_s = clx_clock() - begun;
     *aggregate = a;
     a = NULL;
 done:

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include <clast/overlap.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -129,21 +130,15 @@ static void free_view(clast_assembly *grains)
     clast_assembly_free(grains);
 }
 
-static clast_status measure(const clast_aggregate *a, const clx_cluster *cluster, double tolerance,
-                            clast_envelope *envelope)
+static clast_status measure(const clast_aggregate *a, const clast_assembly *grains,
+                            double tolerance, clast_envelope *envelope)
 {
     clast_status status = CLAST_OK;
-    clast_assembly grains = {0};
     const clast_envelope_options options = options_of(a, tolerance);
-    if (cluster != NULL) {
-        CLX_TRY(view(a, cluster, &grains));
-    }
-    const clast_assembly *measured = cluster != NULL ? &grains : &a->assembly;
     for (int32_t k = 0; k < a->n_kind; ++k) {
-        CLX_TRY(clast_assembly_envelope(measured, a->kind[k], &options, &envelope[k]));
+        CLX_TRY(clast_assembly_envelope(grains, a->kind[k], &options, &envelope[k]));
     }
 done:
-    free_view(&grains);
     return status;
 }
 
@@ -152,22 +147,44 @@ clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster
 {
     clast_status status = CLAST_OK;
     clast_envelope envelope[CLAST_N_ENVELOPE];
+    clast_assembly grains = {0};
     const double begun = clx_clock();
     if (is_measured(a, row)) {
-        CLX_TRY(measure(a, cluster, ROW_TOLERANCE, envelope));
+        CLX_TRY(view(a, cluster, &grains));
+        CLX_TRY(measure(a, &grains, ROW_TOLERANCE, envelope));
         fill_row(a, cluster->mass, cluster->volume, envelope, row);
     }
 done:
+    free_view(&grains);
     a->envelope_s += clx_clock() - begun;
+    return status;
+}
+
+static clast_status measure_solid(const clast_aggregate *a, const clast_assembly *grains,
+                                  clast_aggregate_result *result)
+{
+    clast_status status = CLAST_OK;
+    clast_union_options options = clast_union_options_default();
+    clast_union solid;
+    options.seed = a->seed;
+    CLX_TRY(clast_assembly_union(grains, &options, &solid));
+    result->solid_union = solid.volume;
+    result->solid_union_error = solid.error;
+done:
     return status;
 }
 
 clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result)
 {
     clast_status status = CLAST_OK;
-    const bool clusters = a->config->mode == CLAST_AGGREGATE_CLUSTER;
-    const clx_cluster *largest = clusters ? clx_clusters_largest(&a->clusters) : NULL;
-    CLX_TRY(measure(a, largest, END_TOLERANCE, result->envelope));
+    clast_assembly part = {0};
+    const clast_assembly *grains = &a->assembly;
+    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
+        CLX_TRY(view(a, clx_clusters_largest(&a->clusters), &part));
+        grains = &part;
+    }
+    CLX_TRY(measure(a, grains, END_TOLERANCE, result->envelope));
+    CLX_TRY(measure_solid(a, grains, result));
     for (int32_t k = 0; k < a->n_kind; ++k) {
         result->porosity[k] = 1.0 - result->solid_sum / result->envelope[k].volume;
     }
@@ -175,5 +192,6 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     result->d_agg = equivalent_diameter(result->envelope[0].volume);
     result->density = result->mass / result->envelope[0].volume;
 done:
+    free_view(&part);
     return status;
 }

@@ -3,7 +3,10 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
+#include <clast/mesh_repair.h>
+#include <clast/state.h>
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,13 +40,57 @@ static void stem(const char *path, char *name, size_t size)
     (void)snprintf(name, size, "%.*s", n, base);
 }
 
-static clast_status read_surface(const char *path, double factor, clast_shape *shape)
+/// Whether the surface bounds a solid; says what is wrong and what to run.
+static clast_status check_surface(const char *path, const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh_check_result found = {0};
+    CLX_TRY(clast_mesh_check(mesh, &found));
+    CLX_CHECK(found.closed && found.oriented, CLAST_E_GEOMETRY,
+              "%s is not a closed, outward surface: %d open edges, %d misoriented, %d parts inside "
+              "out; run clast mesh repair, or --accept-faults",
+              path, found.n_open_edge, found.n_misoriented_edge, found.n_inside_out);
+    CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
+              "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",
+              path, (long long)found.n_intersection);
+done:
+    clast_mesh_check_free(&found);
+    return status;
+}
+
+/// Vertices that rounding parted are joined, nothing else is touched.
+static clast_status weld(clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh welded = {0};
+    clast_mesh_repair_config steps;
+    CLX_TRY(clast_fields_default(clast_mesh_repair_fields, &steps));
+    steps.drop = false;
+    steps.split = false;
+    steps.loose = false;
+    steps.orient = false;
+    steps.fill = false;
+    steps.separate = false;
+    CLX_TRY(clast_mesh_repair(mesh, &steps, &welded, NULL));
+    clast_mesh_free(mesh);
+    *mesh = welded;
+done:
+    return status;
+}
+
+static clast_status read_surface(const clast_aggregate_config *config, const char *path,
+                                 double factor, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     char name[200];
     stem(path, name, sizeof name);
     CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
+    if (!config->accept_faults) {
+        CLX_TRY(weld(&mesh));
+        CLX_TRY(check_surface(path, &mesh));
+    }
     clast_mesh_transform(&mesh, factor, UNTURNED, NOWHERE);
     CLX_TRY(clast_shape_mesh(name, &mesh, shape));
 done:
@@ -102,12 +149,19 @@ static bool is_ellipsoid(const char *text)
     return strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0;
 }
 
-static clast_status read_shape(const char *text, double factor, clast_shape *shape)
+static bool is_file(const char *text)
+{
+    return text[0] != '\0' && strcmp(text, "sphere") != 0 && !is_ellipsoid(text);
+}
+
+static clast_status read_shape(const clast_aggregate_config *config, const char *text,
+                               double factor, clast_shape *shape)
 {
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(text, 0.5, shape);
     }
-    return is_ellipsoid(text) ? read_ellipsoid(text, shape) : read_surface(text, factor, shape);
+    return is_ellipsoid(text) ? read_ellipsoid(text, shape)
+                              : read_surface(config, text, factor, shape);
 }
 
 static clast_status load_shape(const clast_aggregate_config *config, const char *text,
@@ -116,12 +170,11 @@ static clast_status load_shape(const clast_aggregate_config *config, const char 
     clast_status status = CLAST_OK;
     clast_shape shape = {0};
     double factor = 1.0;
-    const bool is_file = strcmp(text, "sphere") != 0 && !is_ellipsoid(text);
-    const bool has_unit = is_file && config->unit[0] != '\0';
+    const bool has_unit = is_file(text) && config->unit[0] != '\0';
     if (has_unit) {
         CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
     }
-    CLX_TRY(read_shape(text, factor, &shape));
+    CLX_TRY(read_shape(config, text, factor, &shape));
     if (spheres[0] != '\0') {
         CLX_TRY(read_spheres(spheres, factor, &shape));
     }
@@ -133,11 +186,32 @@ done:
     return status;
 }
 
+static bool ends_in(const char *text, const char *end)
+{
+    const size_t n = strlen(text);
+    const size_t m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/// An earlier run's aggregate, with the densities that it has.
+static clast_status load_state(const char *path, const char *spheres, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(spheres[0] == '\0', CLAST_E_CONFIG, "%s keeps its own composites; drop %s", path,
+              spheres);
+    CLX_TRY(clast_state_read_assembly(path, assembly));
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_FORMAT, "%s holds no grains", path);
+done:
+    return status;
+}
+
 static clast_status load_named(const char *role, const clast_aggregate_config *config,
                                const char *text, const char *spheres, double density,
                                clast_assembly *assembly)
 {
-    const clast_status status = load_shape(config, text, spheres, density, assembly);
+    const clast_status status = ends_in(text, ".h5")
+                                    ? load_state(text, spheres, assembly)
+                                    : load_shape(config, text, spheres, density, assembly);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", role);
     }
@@ -210,4 +284,36 @@ clast_status clast_aggregate_load(const clast_aggregate_config *config,
 done:
     clast_aggregate_unload(&made);
     return status;
+}
+
+const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
+{
+    const struct {
+        const char *role;
+        int32_t n;
+        char *const *text;
+    } lists[] = {{"core", 1, &config->core},
+                 {"coat", config->coat.n, config->coat.item},
+                 {"core_spheres", 1, &config->core_spheres},
+                 {"coat_spheres", config->coat_spheres.n, config->coat_spheres.item},
+                 {"sizes", 1, &config->sizes}};
+    for (size_t k = 0; k < sizeof lists / sizeof lists[0]; ++k) {
+        for (int32_t j = 0; j < lists[k].n; ++j) {
+            if (is_file(lists[k].text[j]) && i-- == 0) {
+                *role = lists[k].role;
+                return lists[k].text[j];
+            }
+        }
+    }
+    return NULL;
+}
+
+int32_t clast_aggregate_n_file(const clast_aggregate_config *config)
+{
+    int32_t n = 0;
+    const char *role = NULL;
+    while (clast_aggregate_file(config, n, &role) != NULL) {
+        ++n;
+    }
+    return n;
 }

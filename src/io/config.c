@@ -105,38 +105,66 @@ done:
     return status;
 }
 
+/// Reads the document that the parser's input holds.
+static clast_status read_input(yaml_parser_t *parser, reader *r)
+{
+    clast_status status = CLAST_OK;
+    yaml_document_t document;
+    bool has_document = false;
+    int64_t n = 0;
+    while (r->fields[n].name != NULL) {
+        ++n;
+    }
+    CLX_TRY(clx_alloc(&r->seen, n, sizeof *r->seen));
+    CLX_CHECK(yaml_parser_load(parser, &document) == 1, CLAST_E_CONFIG, "%s:%zu: %s", r->path,
+              parser->problem_mark.line + 1,
+              parser->problem != NULL ? parser->problem : "not YAML");
+    has_document = true;
+    CLX_TRY(read_document(r, &document));
+done:
+    if (has_document) {
+        yaml_document_delete(&document);
+    }
+    clx_free(r->seen);
+    return status;
+}
+
 clast_status clast_config_read(const char *path, const clast_field *fields, void *config)
 {
     clast_status status = CLAST_OK;
     FILE *file = NULL;
     yaml_parser_t parser;
-    yaml_document_t document;
     bool has_parser = false;
-    bool has_document = false;
     reader r = {.path = path, .fields = fields, .config = config};
-    int64_t n = 0;
-    while (fields[n].name != NULL) {
-        ++n;
-    }
-    CLX_TRY(clx_alloc(&r.seen, n, sizeof *r.seen));
     CLX_TRY(open_file(path, &file));
     CLX_CHECK(yaml_parser_initialize(&parser) == 1, CLAST_E_MEMORY, "no memory to read %s", path);
     has_parser = true;
     yaml_parser_set_input_file(&parser, file);
-    CLX_CHECK(yaml_parser_load(&parser, &document) == 1, CLAST_E_CONFIG, "%s:%zu: %s", path,
-              parser.problem_mark.line + 1, parser.problem != NULL ? parser.problem : "not YAML");
-    has_document = true;
-    CLX_TRY(read_document(&r, &document));
+    CLX_TRY(read_input(&parser, &r));
 done:
-    if (has_document) {
-        yaml_document_delete(&document);
-    }
     if (has_parser) {
         yaml_parser_delete(&parser);
     }
     if (file != NULL) {
         (void)fclose(file);
     }
-    clx_free(r.seen);
+    return status;
+}
+
+clast_status clast_config_parse(const char *name, const char *text, const clast_field *fields,
+                                void *config)
+{
+    clast_status status = CLAST_OK;
+    yaml_parser_t parser;
+    bool has_parser = false;
+    reader r = {.path = name, .fields = fields, .config = config};
+    CLX_CHECK(yaml_parser_initialize(&parser) == 1, CLAST_E_MEMORY, "no memory to read %s", name);
+    has_parser = true;
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+    CLX_TRY(read_input(&parser, &r));
+done:
+    if (has_parser) {
+        yaml_parser_delete(&parser);
+    }
     return status;
 }

@@ -20,3 +20,6 @@ clast_status clx_state_put_table(clx_h5 *h5, const char *folder, const clast_tab
 clast_status clx_state_take_assembly(clx_h5 *h5, const char *folder, clast_assembly *assembly);
 clast_status clx_state_take_spheres(clx_h5 *h5, const char *folder, clast_spheres *spheres);
 clast_status clx_state_take_table(clx_h5 *h5, const char *folder, clast_table *table);
+
+/// Keeps all of a state, as clast_state_write does, in a file being built.
+clast_status clx_state_put(clx_h5 *h5, const clast_state *state);

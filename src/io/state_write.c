@@ -187,7 +187,7 @@ done:
     return status;
 }
 
-static clast_status put_all(clx_h5 *h5, const clast_state *state)
+clast_status clx_state_put(clx_h5 *h5, const clast_state *state)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -219,7 +219,7 @@ clast_status clast_state_write(const clast_state *state, const char *path)
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_create(&h5));
-    CLX_TRY(put_all(h5, state));
+    CLX_TRY(clx_state_put(h5, state));
     CLX_TRY(clx_h5_commit(h5, path));
 done:
     clx_h5_close(h5);

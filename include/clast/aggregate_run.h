@@ -1,0 +1,38 @@
+#pragma once
+// A whole run of an aggregation: all repeats, their folder, checkpoints and going on.
+#include <clast/aggregate.h>
+
+/// Results of the repeats, in order. {0} is empty.
+typedef struct clast_aggregate_report {
+    int32_t n;
+    clast_aggregate_result *result; ///< [n]
+    double confidence;              ///< of intervals over repeats
+} clast_aggregate_report;
+
+CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);
+
+/// The report as one JSON object: means over repeats under the names of DESIGN section 7, each
+/// repeat under `repeats`, intervals under `interval` when there are several.
+///
+/// @param times  with the clocks (wall_s, contact_s, envelope_s), which differ from run to run
+/// @param text   free it with clast_text_free
+CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report *report, bool times,
+                                                   char **text);
+
+/// Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and
+/// manifest.json into it, and checkpoints on the way.
+///
+/// Nothing is written before the configuration and all inputs have been found good. All files but
+/// manifest.json are the same bytes for equal runs.
+///
+/// @param folder   NULL for no files    @param monitor  may be NULL
+/// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
+///         CLAST_E_CONVERGE when a stop criterion was not reached (all files are written);
+///         CLAST_E_USAGE when the folder holds an unfinished run
+CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
+                                           const clast_monitor *monitor,
+                                           clast_aggregate_report *report);
+
+/// Goes on from the newest checkpoint of a folder; ends in the same bytes as an uninterrupted run.
+CLAST_API clast_status clast_aggregate_resume(const char *folder, const clast_monitor *monitor,
+                                              clast_aggregate_report *report);

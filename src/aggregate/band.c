@@ -1,0 +1,93 @@
+// Histories of several repeats as one: mean and interval of each quantity after n particles.
+#include <clast/aggregate.h>
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool is_banded(const char *name)
+{
+    return strncmp(name, "porosity_", 9) == 0 || strcmp(name, "d_agg_m") == 0 ||
+           strncmp(name, "density_", 8) == 0 || strcmp(name, "radius_of_gyration_m") == 0;
+}
+
+static int64_t greatest(const double *n, int64_t n_row)
+{
+    double best = 0.0;
+    for (int64_t i = 0; i < n_row; ++i) {
+        best = fmax(best, n[i]);
+    }
+    return (int64_t)best;
+}
+
+/// Values of all repeats after `wanted` particles; rows that were not measured are left out.
+static int32_t collect(const double *n, const double *value, int64_t n_row, int64_t wanted,
+                       double *found)
+{
+    int32_t count = 0;
+    for (int64_t i = 0; i < n_row; ++i) {
+        if ((int64_t)n[i] == wanted && isfinite(value[i])) {
+            found[count++] = value[i];
+        }
+    }
+    return count;
+}
+
+static clast_status add_three(clast_table *band, const clast_column *column)
+{
+    clast_status status = CLAST_OK;
+    static const char *const suffix[] = {"mean", "low", "high"};
+    char name[128];
+    for (int k = 0; k < 3; ++k) {
+        (void)snprintf(name, sizeof name, "%s_%s", suffix[k], column->name);
+        CLX_TRY(clast_table_add_number(band, name, column->unit, NULL));
+    }
+done:
+    return status;
+}
+
+static void fill(const clast_table *history, const double *n, double confidence, double *found,
+                 clast_table *band)
+{
+    int32_t at = 1;
+    for (int32_t c = 0; c < history->n_column; ++c) {
+        if (!is_banded(history->column[c].name)) {
+            continue;
+        }
+        for (int64_t row = 0; row < band->n_row; ++row) {
+            const int32_t count = collect(n, history->column[c].number, history->n_row, row, found);
+            const clast_interval i = clast_interval_of(count, found, confidence);
+            band->column[0].number[row] = (double)row;
+            band->column[at].number[row] = count > 0 ? i.mean : (double)NAN;
+            band->column[at + 1].number[row] = count > 1 ? i.low : (double)NAN;
+            band->column[at + 2].number[row] = count > 1 ? i.high : (double)NAN;
+        }
+        at += 3;
+    }
+}
+
+clast_status clast_aggregate_band(const clast_table *history, double confidence, clast_table *band)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    double *found = NULL;
+    const double *n = clast_table_numbers(history, "n");
+    CLX_CHECK(n != NULL, CLAST_E_USAGE, "%s has no column n", history->name);
+    CLX_TRY(clx_alloc(&found, history->n_row, sizeof *found));
+    CLX_TRY(clast_table_init(&made, "band", greatest(n, history->n_row) + 1));
+    CLX_TRY(clast_table_add_number(&made, "n", "-", NULL));
+    for (int32_t c = 0; c < history->n_column; ++c) {
+        if (is_banded(history->column[c].name)) {
+            CLX_TRY(add_three(&made, &history->column[c]));
+        }
+    }
+    fill(history, n, confidence, found, &made);
+    *band = made;
+    made = (clast_table){0};
+done:
+    clx_free(found);
+    clast_table_free(&made);
+    return status;
+}

@@ -1,0 +1,227 @@
+// Files of an aggregation's run folder.
+#include "study/aggregate_folder.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "io/checkpoint.h"
+#include "io/state.h"
+#include <clast/manifest.h>
+#include <clast/mesh_file.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PATH_LIMIT = 4096 };
+
+/// Triangles of all parts together that a file should not exceed by much.
+static const int64_t TRIANGLE_AIM = 2000000;
+
+static clast_status join(char path[PATH_LIMIT], const char *folder, const char *name)
+{
+    const int n = snprintf(path, PATH_LIMIT, "%s/%s", folder, name);
+    return n > 0 && n < PATH_LIMIT
+               ? CLAST_OK
+               : clx_fail(CLAST_E_USAGE, "the path %.60s... is longer than %d bytes", folder,
+                          PATH_LIMIT);
+}
+
+static clast_status state_path(const char *folder, int32_t repeat, char path[PATH_LIMIT])
+{
+    char name[32] = "state.h5";
+    if (repeat > 0) {
+        (void)snprintf(name, sizeof name, "state-%04d.h5", repeat + 1);
+    }
+    return join(path, folder, name);
+}
+
+/// The parts of a state, which borrows the assembly and owns tables and configuration.
+static clast_status gather(const clast_aggregate_config *config, const clast_aggregate *aggregate,
+                           clast_table table[2], clast_state *state)
+{
+    clast_status status = CLAST_OK;
+    clast_state made = {.table = table};
+    CLX_TRY(clast_config_json(clast_aggregate_fields, config, &made.config));
+    CLX_TRY(clast_aggregate_history(aggregate, &table[0]));
+    made.n_table = 1;
+    if (config->mode == CLAST_AGGREGATE_CLUSTER) {
+        CLX_TRY(clast_aggregate_members(aggregate, &table[1]));
+        made.n_table = 2;
+    }
+    // clast_state borrows what it writes; it has no const for what it owns when read
+    memcpy(&made.assembly, &(const clast_assembly *){clast_aggregate_assembly(aggregate)},
+           sizeof made.assembly);
+    *state = made;
+    made = (clast_state){0};
+done:
+    clast_text_free(made.config);
+    return status;
+}
+
+static void free_gathered(clast_table table[2], clast_state *state)
+{
+    clast_table_free(&table[0]);
+    clast_table_free(&table[1]);
+    clast_text_free(state->config);
+}
+
+clast_status clx_folder_write_state(const char *folder, const clast_aggregate_config *config,
+                                    int32_t repeat, const clast_aggregate *aggregate)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_LIMIT];
+    clast_table table[2] = {{0}, {0}};
+    clast_state state = {0};
+    CLX_TRY(gather(config, aggregate, table, &state));
+    CLX_TRY(state_path(folder, repeat, path));
+    CLX_TRY(clast_state_write(&state, path));
+done:
+    free_gathered(table, &state);
+    return status;
+}
+
+clast_status clx_folder_read_state(const char *folder, int32_t repeat, clast_state *state)
+{
+    char path[PATH_LIMIT];
+    const clast_status status = state_path(folder, repeat, path);
+    return status == CLAST_OK ? clast_state_read(path, state) : status;
+}
+
+clast_status clx_folder_write_checkpoint(const char *folder, const clast_aggregate_config *config,
+                                         int32_t repeat, const clast_aggregate *aggregate)
+{
+    clast_status status = CLAST_OK;
+    clast_table table[2] = {{0}, {0}};
+    clast_state state = {0};
+    clx_h5 *h5 = NULL;
+    CLX_TRY(gather(config, aggregate, table, &state));
+    const int64_t whole = (int64_t)clast_aggregate_n_particle(aggregate) + 1;
+    CLX_TRY(clx_h5_create(&h5));
+    CLX_TRY(clx_state_put(h5, &state));
+    CLX_TRY(clx_checkpoint_write(h5, folder, repeat * whole + table[0].n_row));
+done:
+    clx_h5_close(h5);
+    free_gathered(table, &state);
+    return status;
+}
+
+clast_status clx_folder_read_checkpoint(const char *folder, clast_state *state)
+{
+    clast_status status = CLAST_OK;
+    char *path = NULL;
+    int64_t step = 0;
+    CLX_TRY(clx_checkpoint_newest(folder, &path, &step, NULL));
+    CLX_TRY(clast_state_read(path, state));
+done:
+    clx_free(path);
+    return status;
+}
+
+static const clast_table *find_table(const clast_state *state, const char *name)
+{
+    for (int32_t i = 0; i < state->n_table; ++i) {
+        if (strcmp(state->table[i].name, name) == 0) {
+            return &state->table[i];
+        }
+    }
+    return NULL;
+}
+
+clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *saved)
+{
+    clast_status status = CLAST_OK;
+    const clast_table *history = find_table(state, "history");
+    const double *repeat = history != NULL ? clast_table_numbers(history, "repeat") : NULL;
+    CLX_CHECK(state->assembly != NULL && state->config != NULL && history != NULL, CLAST_E_FORMAT,
+              "the state is not one of clast aggregate");
+    *saved = (clast_aggregate_saved){
+        .repeat = repeat != NULL && history->n_row > 0 ? (int32_t)repeat[0] : 0,
+        .placed = state->assembly,
+        .history = history,
+        .members = find_table(state, "members")};
+done:
+    return status;
+}
+
+clast_status clx_folder_check_free(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    char *path = NULL;
+    int64_t step = 0;
+    if (clx_checkpoint_newest(folder, &path, &step, NULL) == CLAST_OK) {
+        status = clx_fail(CLAST_E_USAGE,
+                          "%s holds a run that has not ended; go on with --resume %s, or take "
+                          "another folder",
+                          folder, folder);
+    }
+    clx_free(path);
+    return status;
+}
+
+static int level_for(const clast_assembly *assembly)
+{
+    int level = 3;
+    while (level > 1 && ((int64_t)assembly->n_grain * 20) << (2 * level) > TRIANGLE_AIM) {
+        --level;
+    }
+    return level;
+}
+
+/// All parts as one STL in micrometres.
+static clast_status write_stl(const char *folder, const clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_LIMIT];
+    clast_mesh mesh = {0};
+    const double none[3] = {0.0, 0.0, 0.0};
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    const clast_mesh_write_options options = {.unit = "um", .name = "aggregate"};
+    const int level = level_for(assembly);
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &mesh));
+    }
+    clast_mesh_transform(&mesh, 1e6, unturned, none);
+    CLX_TRY(join(path, folder, "aggregate.stl"));
+    CLX_TRY(clast_mesh_write(path, &mesh, &options));
+done:
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static clast_status write_summary(const char *folder, const clast_aggregate_report *report)
+{
+    clast_status status = CLAST_OK;
+    char path[PATH_LIMIT];
+    char *text = NULL;
+    CLX_TRY(clast_aggregate_report_json(report, false, &text));
+    CLX_TRY(join(path, folder, "summary.json"));
+    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+done:
+    clast_text_free(text);
+    return status;
+}
+
+static clast_status write_table(const char *folder, const char *name, const clast_table *table)
+{
+    char path[PATH_LIMIT];
+    const clast_status status = join(path, folder, name);
+    return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
+}
+
+clast_status clx_folder_write_results(const char *folder, const clast_aggregate_report *report,
+                                      const clast_table *history, const clast_assembly *first)
+{
+    clast_status status = CLAST_OK;
+    clast_table band = {0};
+    CLX_TRY(write_table(folder, "history.csv", history));
+    if (report->n > 1) {
+        CLX_TRY(clast_aggregate_band(history, report->confidence, &band));
+        CLX_TRY(write_table(folder, "history_band.csv", &band));
+    }
+    CLX_TRY(write_stl(folder, first));
+    CLX_TRY(write_summary(folder, report));
+    CLX_TRY(clx_checkpoint_clear(folder));
+done:
+    clast_table_free(&band);
+    return status;
+}

@@ -1,0 +1,27 @@
+#pragma once
+// Files of an aggregation's run folder.
+#include <clast/aggregate_run.h>
+#include <clast/state.h>
+
+/// State of one repeat: `folder`/state.h5 for the first, state-0002.h5 for the second, ...
+clast_status clx_folder_write_state(const char *folder, const clast_aggregate_config *config,
+                                    int32_t repeat, const clast_aggregate *aggregate);
+clast_status clx_folder_read_state(const char *folder, int32_t repeat, clast_state *state);
+
+/// The same contents as a checkpoint.
+clast_status clx_folder_write_checkpoint(const char *folder, const clast_aggregate_config *config,
+                                         int32_t repeat, const clast_aggregate *aggregate);
+
+/// Newest whole checkpoint; CLAST_E_IO when there is none.
+clast_status clx_folder_read_checkpoint(const char *folder, clast_state *state);
+
+/// What clast_aggregate_restore takes, borrowed from a state; CLAST_E_FORMAT when parts are
+/// missing.
+clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *saved);
+
+/// CLAST_E_USAGE when a run in the folder has not ended.
+clast_status clx_folder_check_free(const char *folder);
+
+/// history.csv, history_band.csv (several repeats), summary.json, aggregate.stl.
+clast_status clx_folder_write_results(const char *folder, const clast_aggregate_report *report,
+                                      const clast_table *history, const clast_assembly *first);

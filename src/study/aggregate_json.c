@@ -1,0 +1,204 @@
+// An aggregation's results as JSON.
+#include <clast/aggregate_run.h>
+
+#include "base/alloc.h"
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void clast_aggregate_report_free(clast_aggregate_report *report)
+{
+    clx_free(report->result);
+    *report = (clast_aggregate_report){0};
+}
+
+typedef double (*reader)(const clast_aggregate_result *result, int32_t index);
+
+#define READER(name, field)                                                                        \
+    static double name(const clast_aggregate_result *r, int32_t k)                                 \
+    {                                                                                              \
+        (void)k;                                                                                   \
+        return r->field;                                                                           \
+    }
+READER(read_n_grain, n_grain)
+READER(read_mass, mass)
+READER(read_solid, solid_sum)
+READER(read_union, solid_union)
+READER(read_d_agg, d_agg)
+READER(read_density, density)
+READER(read_gyration, radius_of_gyration)
+READER(read_porosity, porosity[k])
+READER(read_envelope, envelope[k].volume)
+
+static const struct {
+    const char *name;
+    reader read;
+} numbers[] = {
+    {"n_grain", read_n_grain},
+    {"mass", read_mass},
+    {"solid_sum", read_solid},
+    {"solid_union", read_union},
+    {"d_agg", read_d_agg},
+    {"density", read_density},
+    {"radius_of_gyration", read_gyration},
+};
+enum { N_NUMBER = sizeof numbers / sizeof numbers[0] };
+
+static void set(json_t *object, const char *key, double value)
+{
+    if (value == floor(value) && fabs(value) < 1e15 && key[0] == 'n' && key[1] == '_') {
+        (void)json_object_set_new(object, key, json_integer((json_int_t)value));
+        return;
+    }
+    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+/// Interval of one quantity over the repeats; `value` is scratch of n numbers.
+static clast_interval interval(const clast_aggregate_report *report, reader read, int32_t k,
+                               double *value)
+{
+    for (int32_t i = 0; i < report->n; ++i) {
+        value[i] = read(&report->result[i], k);
+    }
+    return clast_interval_of(report->n, value, report->confidence);
+}
+
+static json_t *interval_json(clast_interval i)
+{
+    json_t *object = json_object();
+    set(object, "mean", i.mean);
+    set(object, "deviation", i.deviation);
+    set(object, "low", i.low);
+    set(object, "high", i.high);
+    return object;
+}
+
+static const char *envelope_name(const clast_aggregate_report *report, int32_t k)
+{
+    return clast_envelope_name(report->result[0].envelope[k].kind);
+}
+
+static json_t *means_by_envelope(const clast_aggregate_report *report, reader read, double *value)
+{
+    json_t *object = json_object();
+    for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
+        set(object, envelope_name(report, k), interval(report, read, k, value).mean);
+    }
+    return object;
+}
+
+static json_t *intervals(const clast_aggregate_report *report, double *value)
+{
+    json_t *object = json_object();
+    json_t *porosity = json_object();
+    set(object, "confidence", report->confidence);
+    for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
+        (void)json_object_set_new(porosity, envelope_name(report, k),
+                                  interval_json(interval(report, read_porosity, k, value)));
+    }
+    (void)json_object_set_new(object, "porosity", porosity);
+    for (int i = 0; i < N_NUMBER; ++i) {
+        (void)json_object_set_new(object, numbers[i].name,
+                                  interval_json(interval(report, numbers[i].read, 0, value)));
+    }
+    return object;
+}
+
+static const char *stop_name(clast_aggregate_stop stop)
+{
+    static const char *const names[] = {"not", "list", "mass", "size", "porosity"};
+    return names[stop];
+}
+
+static json_t *one_repeat(const clast_aggregate_result *r)
+{
+    json_t *object = json_object();
+    json_t *envelope = json_object();
+    json_t *error = json_object();
+    json_t *porosity = json_object();
+    for (int32_t k = 0; k < r->n_envelope; ++k) {
+        const char *name = clast_envelope_name(r->envelope[k].kind);
+        set(envelope, name, r->envelope[k].volume);
+        set(error, name, r->envelope[k].error);
+        set(porosity, name, r->porosity[k]);
+    }
+    (void)json_object_set_new(object, "n_grain", json_integer(r->n_grain));
+    (void)json_object_set_new(object, "n_particle", json_integer(r->n_particle));
+    (void)json_object_set_new(object, "n_contact", json_integer(r->n_contact));
+    (void)json_object_set_new(object, "n_cluster", json_integer(r->n_cluster));
+    (void)json_object_set_new(object, "n_lost", json_integer(r->n_lost));
+    (void)json_object_set_new(object, "stopped_by", json_string(stop_name(r->stop)));
+    for (int i = 1; i < N_NUMBER; ++i) {
+        set(object, numbers[i].name, numbers[i].read(r, 0));
+    }
+    set(object, "solid_union_error", r->solid_union_error);
+    (void)json_object_set_new(object, "envelope", envelope);
+    (void)json_object_set_new(object, "envelope_error", error);
+    (void)json_object_set_new(object, "porosity", porosity);
+    set(object, "max_overlap", r->max_overlap);
+    set(object, "max_overlap_relative", r->max_overlap_relative);
+    return object;
+}
+
+/// Sums of the clocks, the worst overlap and the lost ones of all repeats.
+static void add_totals(const clast_aggregate_report *report, bool times, json_t *object)
+{
+    clast_aggregate_result sum = {0};
+    for (int32_t i = 0; i < report->n; ++i) {
+        const clast_aggregate_result *r = &report->result[i];
+        sum.max_overlap = fmax(sum.max_overlap, r->max_overlap);
+        sum.n_lost += r->n_lost;
+        sum.wall_s += r->wall_s;
+        sum.contact_s += r->contact_s;
+        sum.envelope_s += r->envelope_s;
+    }
+    set(object, "max_overlap", sum.max_overlap);
+    (void)json_object_set_new(object, "n_lost", json_integer(sum.n_lost));
+    if (times) {
+        set(object, "wall_s", sum.wall_s);
+        set(object, "contact_s", sum.contact_s);
+        set(object, "envelope_s", sum.envelope_s);
+    }
+}
+
+static json_t *whole(const clast_aggregate_report *report, bool times, double *value)
+{
+    json_t *object = json_object();
+    json_t *repeats = json_array();
+    (void)json_object_set_new(object, "n_repeat", json_integer(report->n));
+    for (int i = 0; i < N_NUMBER; ++i) {
+        set(object, numbers[i].name, interval(report, numbers[i].read, 0, value).mean);
+    }
+    (void)json_object_set_new(object, "envelope", means_by_envelope(report, read_envelope, value));
+    (void)json_object_set_new(object, "porosity", means_by_envelope(report, read_porosity, value));
+    add_totals(report, times, object);
+    for (int32_t i = 0; i < report->n; ++i) {
+        (void)json_array_append_new(repeats, one_repeat(&report->result[i]));
+    }
+    if (report->n > 1) {
+        (void)json_object_set_new(object, "interval", intervals(report, value));
+    }
+    (void)json_object_set_new(object, "repeats", repeats);
+    return object;
+}
+
+clast_status clast_aggregate_report_json(const clast_aggregate_report *report, bool times,
+                                         char **text)
+{
+    clast_status status = CLAST_OK;
+    double *value = NULL;
+    json_t *object = NULL;
+    char *dumped = NULL;
+    CLX_CHECK(report->n > 0, CLAST_E_USAGE, "a report of no aggregates");
+    CLX_TRY(clx_alloc(&value, report->n, sizeof *value));
+    object = whole(report, times, value);
+    dumped = json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the report");
+    CLX_TRY(clx_alloc_text(text, dumped));
+done:
+    free(dumped); // Jansson's own block
+    json_decref(object);
+    clx_free(value);
+    return status;
+}

@@ -1,0 +1,237 @@
+"""clast aggregate: does it do what its help says, and does it refuse what it must?"""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import CLAST, Case, clast
+
+SPHERES = ("aggregate", "--core", "sphere", "--core-size", "10um", "--coat", "sphere", "--size", "5um")
+CUBE = """OFF
+8 6 0
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+"""
+
+
+class Results(Case):
+    def test_tangent_spheres_have_the_known_porosity(self):
+        for q, phi in ((1, 0.2), (2, 4 / 31), (5, 25 / 781), (10, 100 / 11111)):
+            result = clast("aggregate", "--core", "sphere", "--core-size", f"{q}um", "--coat", "sphere",
+                           "--size", "1um", "--json")
+            self.assertEqual(result.code, 0, result.err)
+            self.assertAlmostEqual(result.json["porosity"]["surface_hull"], phi, delta=1e-6)
+
+    def test_json_has_the_promised_keys(self):
+        found = clast(*SPHERES, "--replicate", 5, "--repeats", 3, "--envelope", "surface_hull",
+                      "--envelope", "enclosing_sphere", "--json").json
+        for key in ("n_grain", "solid_sum", "solid_union", "envelope", "porosity", "d_agg", "density",
+                    "radius_of_gyration", "max_overlap", "repeats", "wall_s", "contact_s", "envelope_s"):
+            self.assertIn(key, found)
+        self.assertEqual(found["n_grain"], 6)
+        self.assertEqual(len(found["repeats"]), 3)
+        self.assertEqual(set(found["porosity"]), {"surface_hull", "enclosing_sphere"})
+        middle = found["interval"]["porosity"]["surface_hull"]
+        self.assertLess(middle["low"], middle["mean"])
+        self.assertLess(middle["mean"], middle["high"])
+
+    def test_the_folder_holds_the_run(self):
+        run = self.folder / "run"
+        result = clast(*SPHERES, "--replicate", 20, "--repeats", 2, "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("porosity, surface_hull", result.out)
+        names = {path.name for path in run.iterdir()}
+        self.assertLessEqual({"state.h5", "state-0002.h5", "history.csv", "history_band.csv", "summary.json",
+                              "aggregate.stl", "manifest.json"}, names)
+        with open(run / "history.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 2 * 21)
+        summary = json.loads((run / "summary.json").read_text())
+        ends = [float(row["porosity_surface_hull"]) for row in rows if row["n"] == "20"]
+        self.assertAlmostEqual(sum(ends) / 2, summary["porosity"]["surface_hull"], delta=2e-3)
+        manifest = json.loads((run / "manifest.json").read_text())
+        self.assertEqual(manifest["outcome"], "done")
+        self.assertEqual(manifest["config"]["core"], "sphere")
+
+    def test_a_run_is_a_core_and_a_coating(self):
+        run = self.folder / "run"
+        self.assertEqual(clast(*SPHERES, "--replicate", 4, "-o", run).code, 0)
+        state = run / "state.h5"
+        on_core = clast("aggregate", "--core", state, "--coat", "sphere", "--size", "2um", "--replicate", 3,
+                        "--json")
+        self.assertEqual(on_core.code, 0, on_core.err)
+        self.assertEqual(on_core.json["n_grain"], 5 + 3)
+        thrown = clast("aggregate", "--core", "sphere", "--core-size", "20um", "--coat", state, "--size",
+                       "10um", "--replicate", 3, "--json")
+        self.assertEqual(thrown.code, 0, thrown.err)
+        self.assertEqual(thrown.json["n_grain"], 1 + 3 * 5)
+        self.assertLess(thrown.json["max_overlap"], 1e-15)
+
+    def test_clusters_merge_to_one(self):
+        found = clast("aggregate", "--mode", "cluster", "--coat", "sphere", "--size", "1um", "--replicate", 64,
+                      "--json").json
+        self.assertEqual(found["n_grain"], 64)
+        self.assertEqual(found["repeats"][0]["n_cluster"], 1)
+        self.assertEqual(found["repeats"][0]["n_contact"], 63)
+        self.assertLess(found["max_overlap"], 1e-15)
+
+    def test_surfaces_touch_exactly(self):
+        cube = self.folder / "cube.off"
+        cube.write_text(CUBE)
+        found = clast("aggregate", "--core", cube, "--core-size", "10um", "--coat", cube, "--size", "6um",
+                      "--replicate", 10, "--rays", 3, "--orientations", 3, "--cone", "40deg", "--json").json
+        self.assertEqual(found["n_grain"], 11)
+        self.assertLess(found["max_overlap"], 1e-15)
+        self.assertGreater(found["porosity"]["surface_hull"], 0.0)
+
+    def test_stop_criteria(self):
+        stopped = clast(*SPHERES, "--replicate", 500, "--stop-size", "25um", "--json").json
+        self.assertEqual(stopped["repeats"][0]["stopped_by"], "size")
+        self.assertGreaterEqual(stopped["d_agg"], 24.9e-6)
+        stopped = clast(*SPHERES, "--replicate", 500, "--stop-porosity", "0.5", "--json").json
+        self.assertEqual(stopped["repeats"][0]["stopped_by"], "porosity")
+        short = clast(*SPHERES, "--replicate", 5, "--stop-size", "1mm", "--json")
+        self.assertEqual(short.code, 5)
+        self.assertIn("replicate", short.err)
+
+
+class Repeatable(Case):
+    def run_with(self, name, *options):
+        run = self.folder / name
+        result = clast("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "30um", "--coat",
+                       "ellipsoid:2,1.5,1", "--coat", "sphere", "--size-law", "lognormal", "--size-mean", "8um",
+                       "--size-shape", "0.4", "--n-particle", 40, "--cone", "60deg", "--rays", 6,
+                       "--orientations", 3, "-o", run, *options)
+        self.assertEqual(result.code, 0, result.err)
+        return run
+
+    def assert_same(self, one, other):
+        names = sorted(path.name for path in one.iterdir() if path.name != "manifest.json")
+        self.assertEqual(names, sorted(p.name for p in other.iterdir() if p.name != "manifest.json"))
+        for name in names:
+            self.assertEqual((one / name).read_bytes(), (other / name).read_bytes(), name)
+
+    def test_threads_change_no_byte(self):
+        one = self.run_with("one", "-j1")
+        for threads in (2, 4):
+            self.assert_same(one, self.run_with(f"{threads}", f"-j{threads}"))
+
+    def test_seed_changes_the_aggregate(self):
+        one = self.run_with("one")
+        other = self.run_with("other", "--seed", 2)
+        self.assertNotEqual((one / "history.csv").read_bytes(), (other / "history.csv").read_bytes())
+
+    def interrupted(self, run, command, number):
+        process = subprocess.Popen([CLAST, *command, "-o", str(run)], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        limit = time.time() + 60
+        while not list(run.glob("checkpoint-*.h5")) and process.poll() is None and time.time() < limit:
+            time.sleep(0.005)
+        os.kill(process.pid, number)
+        _, said = process.communicate(timeout=60)
+        return process.returncode, said
+
+    def test_a_stopped_run_ends_in_the_same_bytes(self):
+        command = ("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "30um", "--coat",
+                   "ellipsoid:2,1.5,1", "--size", "8um", "--replicate", "60", "--cone", "90deg", "--rays", "40",
+                   "--orientations", "10", "--repeats", "2", "--checkpoint-every", "3", "--envelope-every", "20")
+        whole = self.folder / "whole"
+        self.assertEqual(clast(*command, "-o", whole).code, 0)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = self.folder / f"stopped-{number}"
+            code, said = self.interrupted(run, command, number)
+            self.assertEqual(code, 128 + number, said)
+            self.assertIn("--resume", said)
+            self.assertFalse((run / "summary.json").exists())
+            self.assertLessEqual(len(list(run.glob("checkpoint-*.h5"))), 2)
+            self.assert_fails(2, *command, "-o", run, says=("--resume",))
+            self.assert_fails(2, "aggregate", "--resume", run, "--rays", 3, says=("rays",))
+            resumed = clast("aggregate", "--resume", run)
+            self.assertEqual(resumed.code, 0, resumed.err)
+            self.assert_same(whole, run)
+
+    def test_a_killed_run_goes_on_from_its_checkpoint(self):
+        command = (*SPHERES, "--replicate", "400", "--cone", "90deg", "--rays", "200", "--checkpoint-every", "20",
+                   "--envelope-every", "100")
+        run, whole = self.folder / "killed", self.folder / "whole"
+        self.assertEqual(self.interrupted(run, command, signal.SIGKILL)[0], -signal.SIGKILL)
+        newest = max(run.glob("checkpoint-*.h5"))
+        newest.write_bytes(newest.read_bytes()[:-100])  # as if the disk had lost its end
+        if len(list(run.glob("checkpoint-*.h5"))) == 1:
+            self.assert_fails(3, "aggregate", "--resume", run, says=("checkpoint",))
+            return
+        self.assertEqual(clast("aggregate", "--resume", run).code, 0)
+        self.assertEqual(clast(*command, "-o", whole).code, 0)
+        self.assert_same(whole, run)
+
+
+class BadInput(Case):
+    def sizes(self, text):
+        path = self.folder / "sizes.csv"
+        path.write_text(text)
+        return ("aggregate", "--core", "sphere", "--core-size", "1mm", "--coat", "sphere", "--sizes", path)
+
+    def test_sizes_are_read_in_their_unit(self):
+        for text in ("d_um\n20\n10\n", "d_mm;count\n0.02;1\n0.01;1\n", "low_um,high_um,n\n20,20,1\n10,10,1\n",
+                     "# phi\nd_phi\n5.643856189774724\n6.643856189774724\n"):
+            found = clast(*self.sizes(text), "--json")
+            self.assertEqual(found.code, 0, found.err)
+            solid = 3.141592653589793 / 6 * (1e-9 + 8e-15 + 1e-15)
+            self.assertAlmostEqual(found.json["solid_sum"] / solid, 1.0, delta=1e-12)
+
+    def test_bad_sizes_name_their_line(self):
+        for text, says in (("d_um\n20\n0\n", "sizes.csv:3"), ("d_um\n-4\n", "sizes.csv:2"),
+                           ("d_um\n1\n2\nnan\n", "sizes.csv:4"), ("d_um\n1\nbig\n", "'big' is not a number"),
+                           ("d_um,count\n10,-1\n", "sizes.csv:2"), ("d_um\n1,2\n", "columns"),
+                           ("d_um\ninf\n", "not finite"), ("", "no sizes")):
+            self.assert_fails(3, *self.sizes(text), says=(says,))
+        self.assert_fails(2, *self.sizes("20\n10\n"), says=("size_unit",))
+        self.assert_fails(2, *self.sizes("d_um,count\n20,1.5\n"), says=("whole",))
+
+    def test_bad_options(self):
+        for options, says in ((("--rayz", "3"), "--rays"), (("--cone", "200deg"), "cone"),
+                              (("--axis", "0,0,0"), "axis"), (("--envelope", "hull"), "envelope"),
+                              (("--class-limit", "3um"), "class_limit"), (("--n-particle", "5"), "n_particle"),
+                              (("--stop-mass", "1kg"), "stop_mass"), (("--origin", "sphere"), "origin"),
+                              (("--size-law", "normal"), "size_law"), (("--stop-porosity", "2"), "stop_porosity"),
+                              (("--core-size", "1e-13m"), "1e-6"), (("--mode", "cluster", "--n-final", "9"),
+                                                                    "n_final")):
+            self.assert_fails(2, *SPHERES, *options, says=(says,))
+
+    def test_bad_shapes(self):
+        base = ("aggregate", "--core-size", "1mm", "--size", "1um", "--coat")
+        self.assert_fails(3, *base, "sphere", "--core", self.folder / "none.stl", says=("none.stl",))
+        self.assert_fails(3, *base, self.folder / "none.stl", "--core", "sphere", says=("none.stl", "coat"))
+        self.assert_fails(2, *base, "ellipsoid:1,2", "--core", "sphere", says=("ellipsoid",))
+        self.assert_fails(2, "aggregate", "--coat", "sphere", "--size", "1um", says=("core",))
+        empty = self.folder / "empty.stl"
+        empty.write_bytes(b"")
+        self.assert_fails(3, *base, "sphere", "--core", empty, says=("empty.stl",))
+        opened = self.folder / "open.off"
+        opened.write_text(CUBE.replace("8 6 0", "8 5 0").replace("4 3 0 4 7\n", ""))
+        self.assert_fails(3, *base, "sphere", "--core", opened, says=("open.off", "repair"))
+
+    def test_refused_runs_leave_nothing(self):
+        run = self.folder / "run"
+        self.assert_fails(2, *SPHERES, "--stop-mass", "1kg", "-o", run)
+        self.assertFalse(run.exists())
+        self.assert_fails(4, *SPHERES, "-o", "/proc/run", says=("/proc/run",))
+
+
+if __name__ == "__main__":
+    unittest.main()
