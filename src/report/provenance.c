@@ -67,7 +67,7 @@ static void put_facts(clx_file *file, const json_t *manifest)
     json_object_foreach((json_t *)manifest, key, value)
     {
         if (strcmp(key, "config") == 0 || strcmp(key, "inputs") == 0 ||
-            strcmp(key, "format") == 0) {
+            strcmp(key, "format") == 0 || (json_is_array(value) && json_array_size(value) == 0)) {
             continue;
         }
         (void)clx_file_print(file, "<tr><th>");

@@ -6,7 +6,6 @@ typedef struct clx_quantity {
     const char *key, *label;
     const char *unit; ///< SI unit; "" for none
     bool is_headline; ///< one of the few large figures at the top
-    bool is_timing;
 } clx_quantity;
 
 enum { CLX_QUANTITY_SIZE = 96 };

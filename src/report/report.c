@@ -35,6 +35,16 @@ static bool has_view(const clx_run *run, const clast_report_config *config)
     return config->view && clx_run_has(run, "state.h5");
 }
 
+static int32_t count_states(const clx_run *run)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < run->files.n; ++i) {
+        const char *name = run->files.name[i];
+        n += strncmp(name, "state", 5) == 0 && clx_has_extension(name, "h5") ? 1 : 0;
+    }
+    return n;
+}
+
 static clast_status put_view(clx_file *file, const clx_run *run, const clast_report_config *config)
 {
     clast_status status = CLAST_OK;
@@ -42,7 +52,8 @@ static clast_status put_view(clx_file *file, const clx_run *run, const clast_rep
     clast_assembly assembly = {0};
     CLX_TRY(clx_run_path(run, "state.h5", path, sizeof path));
     CLX_TRY(clast_state_read_assembly(path, &assembly));
-    (void)clx_file_print(file, "<h3>Assembly</h3>\n");
+    (void)clx_file_print(file, "<h3>Assembly <small>state.h5%s</small></h3>\n",
+                         count_states(run) > 1 ? ", the first of the folder's states" : "");
     CLX_TRY(clx_view3d_put(file, &assembly, config->triangles));
 done:
     if (status == CLAST_E_GEOMETRY) {

@@ -188,7 +188,8 @@ static void put_intervals(clx_file *file, const json_t *intervals)
     json_t *inner = NULL;
     (void)clx_file_print(
         file,
-        "<div class=\"card\"><h4>Mean of the repeats, interval at level %g</h4><table>\n"
+        "<div class=\"card wide\"><h4>Mean of the repeats, interval at level %g</h4>"
+        "<div class=\"scroll\"><table>\n"
         "<tr><th>Quantity</th><th class=\"n\">Mean</th><th class=\"n\">s.d.</th>"
         "<th class=\"n\">Low</th><th class=\"n\">High</th></tr>\n",
         json_number_value(json_object_get(intervals, "confidence")));
@@ -203,7 +204,7 @@ static void put_intervals(clx_file *file, const json_t *intervals)
             }
         }
     }
-    (void)clx_file_print(file, "</table></div>\n");
+    (void)clx_file_print(file, "</table></div></div>\n");
 }
 
 static void put_item_head(clx_file *file, const json_t *item)
