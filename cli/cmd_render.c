@@ -2,8 +2,6 @@
 #include "command.h"
 #include "json.h"
 
-#include "base/status.h"
-
 #include <clast/mesh_file.h>
 #include <clast/render.h>
 #include <clast/state.h>
@@ -99,7 +97,7 @@ static clast_status load_state(const char *path, clast_assembly *assembly)
         memcpy(assembly->unit, state.unit, sizeof assembly->unit);
         status = add_spheres(&state.spheres[0].spheres, assembly);
     } else {
-        status = clx_fail(CLAST_E_FORMAT, "%s holds neither grains nor spheres", path);
+        status = cli_fail(CLAST_E_FORMAT, "%s holds neither grains nor spheres", path);
     }
     clast_state_free(&state);
     return status;
@@ -130,7 +128,7 @@ static clast_status load(const cli_common *common, clast_assembly *assembly)
         } else if (common->n_argument == 1) {
             status = load_state(path, assembly);
         } else {
-            status = clx_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
+            status = cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
         }
     }
     return status;
@@ -181,7 +179,7 @@ static clast_status run(const cli_common *common, void *config)
     const double start = now();
     const clast_monitor monitor = cli_monitor(common);
     if (common->output == NULL) {
-        return clx_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
+        return cli_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
     }
     clast_status status = load(common, &assembly);
     if (status == CLAST_OK) {

@@ -40,6 +40,6 @@ CLAST_API clast_status clast_aggregate_chart_svg(clast_aggregate_chart chart,
                                                  const clast_table *wanted, unsigned char **bytes,
                                                  size_t *n);
 
-/// All charts that fit as FOLDER/<name>.svg: history.svg, diameter.svg, density.svg, sizes.svg.
+/// All charts that fit as FOLDER/NAME.svg: history.svg, diameter.svg, density.svg, sizes.svg.
 CLAST_API clast_status clast_aggregate_charts_write(const clast_table *history,
                                                     const clast_table *wanted, const char *folder);

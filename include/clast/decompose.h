@@ -86,12 +86,13 @@ typedef enum {
 /// domain, in the unit cube for mapped domains; components and labels give their bounding box.
 typedef struct clast_cells {
     int32_t n;
-    double (*low)[3], (*high)[3]; ///< [n][3]
-    double *volume;               ///< [n] m^d
-    int64_t *count;               ///< [n] real points
-    uint8_t *label, *pass;        ///< [n] 0..7 and 1.. (0: ambient)
-    double *events;               ///< [n] after the cap
-    int32_t *of_point;            ///< [n_point] cell of each point, -1 for points left out
+    double (*low)[3];      ///< [n][3]
+    double (*high)[3];     ///< [n][3]
+    double *volume;        ///< [n] m^d
+    int64_t *count;        ///< [n] real points
+    uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
+    double *events;        ///< [n] after the cap
+    int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
 } clast_cells;
 
 typedef struct clast_decomposition {

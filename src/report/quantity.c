@@ -140,8 +140,9 @@ static void raise_digits(int power, char out[32])
     char plain[16];
     out[0] = '\0';
     (void)snprintf(plain, sizeof plain, "%d", power);
-    for (const char *c = plain; *c != '\0' && strlen(out) < 26; ++c) {
-        (void)strncat(out, *c == '-' ? "\342\201\273" : digit[*c - '0'], 3);
+    for (const char *c = plain; *c != '\0'; ++c) {
+        const size_t used = strlen(out);
+        (void)snprintf(out + used, 32 - used, "%s", *c == '-' ? "\342\201\273" : digit[*c - '0']);
     }
 }
 
