@@ -106,13 +106,24 @@ done:
     return status;
 }
 
+/// Share of its radius by which a sphere leaves the surface, at least 0.
+static double protrusion_of(const clx_fill *fill, const double centre[3], double radius)
+{
+    const bool inside = clast_bvh_inside(fill->bvh, centre);
+    // inside, only a surface nearer than the radius matters: a short search
+    const double reach = inside ? radius : (double)INFINITY;
+    const double d = clast_bvh_closest(fill->bvh, centre, reach, NULL, NULL);
+    if (inside) {
+        return d < radius ? (radius - d) / radius : 0.0;
+    }
+    return (radius + d) / radius;
+}
+
 static void measure_protrusion(const clx_fill *fill, const clast_spheres *s,
                                clast_fill_report *report)
 {
     for (int32_t i = 0; i < s->n; ++i) {
-        const double d = clast_bvh_closest(fill->bvh, s->centre[i], INFINITY, NULL, NULL);
-        const double depth = clast_bvh_inside(fill->bvh, s->centre[i]) ? d : -d;
-        const double protrusion = (s->radius[i] - depth) / s->radius[i];
+        const double protrusion = protrusion_of(fill, s->centre[i], s->radius[i]);
         report->max_protrusion = fmax(report->max_protrusion, protrusion);
         report->n_protruding += protrusion > PROTRUSION_LIMIT;
     }

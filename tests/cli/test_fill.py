@@ -37,7 +37,7 @@ class Fill(Case):
         self.cube.write_text(CUBE)
 
     def test_json_has_the_promised_keys(self):
-        result = clast("fill", self.cube, "--spheres", 9, "--json")
+        result = clast("fill", self.cube, "--spheres", 9, "--tolerance", 1e-5, "--json")
         self.assertEqual(result.code, 0, result.err)
         for key in ("n_sphere", "filled_fraction", "max_protrusion", "volume_error", "inertia_error", "wall_s"):
             self.assertIn(key, result.json)

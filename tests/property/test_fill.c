@@ -19,6 +19,7 @@ static void fill(const clast_mesh *mesh, int32_t n, int32_t strategy, uint64_t s
     config.strategy = strategy;
     config.seed = seed;
     config.candidates = 3;
+    config.tolerance = 1e-3;
     CHECK_OK(clast_fill(mesh, &config, NULL, spheres, report));
     clast_fields_free(clast_fill_fields, &config);
 }

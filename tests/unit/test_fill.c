@@ -11,6 +11,7 @@ static clast_fill_config settings(int32_t spheres)
     clast_fill_config config;
     CHECK_OK(clast_fields_default(clast_fill_fields, &config));
     config.spheres = spheres;
+    config.tolerance = 1e-3;
     return config;
 }
 
