@@ -32,6 +32,17 @@ class Report(Case):
         self.assertIn("2.500", page)
         self.assertNotIn("<script", page)  # no state.h5, no 3-D view, no script
 
+    def test_an_aggregate_comes_with_charts_and_page(self):
+        grown = os.path.join(self.folder.name, "grown")
+        result = clast("aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--size", "30um",
+                       "--n-particle", "5", "--replicate", "5", "-q", "-o", grown)
+        self.assertEqual(result.code, 0, result.err)
+        for name in ["history", "diameter", "density", "sizes"]:
+            self.assertIn("<svg", self.page(os.path.join(grown, name + ".svg")))
+        page = self.page(os.path.join(grown, "report.html"))
+        for part in ["Porosity while the aggregate grows", 'class="view-data"', '"n_grain": 6,', "half-angle"]:
+            self.assertIn(part, page)
+
     def test_two_runs_need_a_name(self):
         self.assert_fails(2, "report", self.run_path, self.run_path, says=["-o NAME.html", "2 runs"])
 
