@@ -6,6 +6,7 @@
     X(SURFACE_HULL, "surface_hull", "convex hull of the true surfaces")                            \
     X(SPHERE_HULL, "sphere_hull", "convex hull of the sphere composites")                          \
     X(SPHERE_RAYS, "sphere_rays", "convex hull of the outermost ray hits on the spheres")          \
+    X(WRAP, "wrap", "what a ball of the stated radius cannot reach from outside")                  \
     X(ENCLOSING_SPHERE, "enclosing_sphere", "smallest sphere about the true surfaces")             \
     X(GYRATION_SPHERE, "gyration_sphere", "uniform sphere of equal radius of gyration")
 
@@ -25,9 +26,11 @@ typedef struct clast_envelope_options {
     double tolerance; ///< widest relative gap between the bounds of a hull of smooth bodies
     int32_t n_ray;    ///< rays of sphere_rays
     uint64_t seed;    ///< of their directions
+    double length;    ///< radius of the ball of `wrap` [m]; 0: none stated, `wrap` is refused
+    int32_t n_cell;   ///< cells of its grid along the longest side, 12 to 320
 } clast_envelope_options;
 
-/// tolerance 1e-3, 10000 rays, seed 1.
+/// tolerance 1e-3, 10000 rays, seed 1, no length, 128 cells.
 CLAST_API clast_envelope_options clast_envelope_options_default(void);
 
 /// "surface_hull" and so on.
@@ -47,6 +50,8 @@ CLAST_API clast_status clast_envelope_parse(const char *name, clast_envelope_kin
 /// sphere_rays   as published: rays through the r^3-weighted centroid of all spheres; along each
 ///               the farthest hit is kept, where a line that meets no sphere is moved to the centre
 ///               of the nearest one; error from two halves of the rays
+/// wrap          space that no ball of radius `length` can cover that comes from outside without
+///               overlapping a grain; on a grid, error from two spacings
 /// enclosing_sphere  to 1e-12
 /// gyration_sphere   4/3 pi (5/3)^(3/2) Rg^3, grains weighted by their mass
 ///                                                                  [docs/theory/envelope.md]

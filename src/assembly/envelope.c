@@ -3,12 +3,13 @@
 
 #include "assembly/hull_part.h"
 #include "assembly/sphere_rays.h"
+#include "assembly/wrap.h"
 #include "base/status.h"
 #include <string.h>
 
 clast_envelope_options clast_envelope_options_default(void)
 {
-    return (clast_envelope_options){.tolerance = 1e-3, .n_ray = 10000, .seed = 1};
+    return (clast_envelope_options){.tolerance = 1e-3, .n_ray = 10000, .seed = 1, .n_cell = 128};
 }
 
 const char *clast_envelope_name(clast_envelope_kind kind)
@@ -135,6 +136,9 @@ clast_status clast_assembly_envelope(const clast_assembly *assembly, clast_envel
         break;
     case CLAST_ENVELOPE_SPHERE_RAYS:
         CLX_TRY(clx_envelope_sphere_rays(assembly, options, envelope));
+        break;
+    case CLAST_ENVELOPE_WRAP:
+        CLX_TRY(clx_envelope_wrap(assembly, options, envelope));
         break;
     case CLAST_ENVELOPE_ENCLOSING_SPHERE:
         CLX_TRY(clast_assembly_enclosing_sphere(assembly, centre, &radius));

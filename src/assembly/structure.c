@@ -240,7 +240,8 @@ static clast_status fill_rows(const clast_assembly *a, const clast_structure_opt
         clast_envelope envelope;
         const bool of_spheres =
             kind == CLAST_ENVELOPE_SPHERE_HULL || kind == CLAST_ENVELOPE_SPHERE_RAYS;
-        if (of_spheres && !spheres) {
+        if ((of_spheres && !spheres) ||
+            (kind == CLAST_ENVELOPE_WRAP && !(options->envelope.length > 0.0))) {
             continue;
         }
         CLX_TRY(clast_assembly_envelope(a, kind, &options->envelope, &envelope));

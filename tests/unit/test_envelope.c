@@ -121,6 +121,80 @@ static void spheres_are_asked_for_by_name(void **state)
     clast_assembly_free(&a);
 }
 
+static clast_envelope wrap_of(const clast_assembly *a, double length, int32_t n_cell)
+{
+    clast_envelope_options options = clast_envelope_options_default();
+    clast_envelope e = {0};
+    options.length = length;
+    options.n_cell = n_cell;
+    CHECK_OK(clast_assembly_envelope(a, CLAST_ENVELOPE_WRAP, &options, &e));
+    return e;
+}
+
+/* A ball of radius R rolled about two touching unit balls leaves a neck: outside the heights
+ * -+ R / (1 + R) the balls' caps, between them the torus pi (rho - sqrt(R^2 - z^2))^2 with
+ * rho^2 = (1 + R)^2 - 1. */
+static double rolled_pair(double ball)
+{
+    const double rho = sqrt((1.0 + ball) * (1.0 + ball) - 1.0);
+    const double top = ball / (1.0 + ball);
+    const double cap = CLAST_PI * (top * top * (1.0 - top / 3.0)); /* ball below height `top` */
+    double neck = 0.0;
+    const int n = 20000;
+    for (int i = 0; i < n; ++i) {
+        const double z = top * (i + 0.5) / n;
+        const double r = rho - sqrt(ball * ball - z * z);
+        neck += CLAST_PI * r * r * top / n;
+    }
+    return 2.0 * (4.0 / 3.0 * CLAST_PI - cap + neck);
+}
+
+static void wrap_rolls_a_ball_about_the_grains(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    two_spheres(1.0, &a);
+    for (int k = 0; k < 3; ++k) {
+        const double ball = 0.25 * (k + 1) * (k + 1);
+        const clast_envelope e = wrap_of(&a, ball, 48);
+        assert_true(e.error < 0.02 * e.volume);
+        CHECK_ABS(e.volume, rolled_pair(ball), 1.5 * e.error);
+    }
+    clast_envelope_options wide = clast_envelope_options_default();
+    clast_envelope e = {0};
+    wide.length = 1e3;
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_WRAP, &wide, &e), CLAST_E_LIMIT);
+    clast_assembly_free(&a);
+}
+
+/* Six slabs round a hollow of edge 2: the ball cannot get in, whatever its size. */
+static void wrap_counts_closed_hollows(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_mesh box = {0};
+    clast_shape shape = {0};
+    const double h = 0.5 * 0.70710678118654752440;
+    const double turns[3][4] = {{1, 0, 0, 0}, {2 * h, 2 * h, 0, 0}, {2 * h, 0, 2 * h, 0}};
+    CHECK_OK(clast_mesh_box(3.0, 3.0, 0.5, &box));
+    CHECK_OK(clast_shape_mesh("slab", &box, &shape));
+    CHECK_OK(clast_assembly_add_shape(&a, &shape, NULL));
+    for (int i = 0; i < 6; ++i) {
+        const int axis = i / 2 == 0 ? 2 : i / 2 == 1 ? 1 : 0;
+        double at[3] = {0.0, 0.0, 0.0};
+        at[axis] = i % 2 == 0 ? 1.25 : -1.25;
+        CHECK_OK(clast_assembly_add_grain(&a, 0, at, turns[i / 2], 1.0, 1.0));
+    }
+    const clast_envelope e = wrap_of(&a, 0.2, 36);
+    CHECK_REL(e.volume, 27.0, 0.01);
+    const clast_envelope_options none = clast_envelope_options_default();
+    clast_envelope out = {0};
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_WRAP, &none, &out), CLAST_E_USAGE);
+    clast_shape_free(&shape);
+    clast_mesh_free(&box);
+    clast_assembly_free(&a);
+}
+
 /* A loose heap of n ellipsoids: directions and turns at random, distances that grow. */
 static void heap_of(int n, clast_shape_kind kind, clast_assembly *a)
 {
@@ -221,6 +295,8 @@ int main(void)
         cmocka_unit_test(gyration_counts_the_grains_own_extent),
         cmocka_unit_test(ellipsoid_is_its_own_hull_and_fits_its_long_axis),
         cmocka_unit_test(spheres_are_asked_for_by_name),
+        cmocka_unit_test(wrap_rolls_a_ball_about_the_grains),
+        cmocka_unit_test(wrap_counts_closed_hollows),
         cmocka_unit_test(tracker_agrees_with_the_assembly),
         cmocka_unit_test(envelopes_survive_refused_memory),
     };
