@@ -76,7 +76,7 @@ static int crossing(double corner[3][3], const double point[3])
     return below * s > 0.0 ? s : 0;
 }
 
-/// Signed or unsigned crossings of the ray; *is_on_surface as soon as a triangle holds the point.
+/// Sum of the crossings of the ray; *is_on_surface as soon as a triangle holds the point.
 static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool *is_on_surface)
 {
     int32_t stack[CLX_TREE_DEPTH + 1];
@@ -100,8 +100,7 @@ static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool
                 *is_on_surface = true;
                 return 0;
             }
-            const int c = crossing(bvh->corner[i], point);
-            sum += bvh->rule == CLX_BVH_WINDING ? c : c != 0;
+            sum += crossing(bvh->corner[i], point);
         }
     }
     return sum;
@@ -114,7 +113,7 @@ bool clast_bvh_inside(const clast_bvh *bvh, const double point[3])
     }
     bool is_on_surface = false;
     const int64_t n = count_crossings(bvh, point, &is_on_surface);
-    return is_on_surface || (bvh->rule == CLX_BVH_WINDING ? n != 0 : n % 2 != 0);
+    return is_on_surface || (bvh->rule == CLX_BVH_WINDING ? n != 0 : n % 2 != 0); // signs drop out
 }
 
 /// Solid angle of a triangle over 4 pi. [Oosterom1983]

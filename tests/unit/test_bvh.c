@@ -135,6 +135,42 @@ static void rays_at_edges_and_vertices_do_not_slip_through(void **state)
     clast_mesh_free(&mesh);
 }
 
+/* A flat grid whose edges lie along the axes, so that the boxes of neighbours end on the very edge
+   that they share; rays at its edges from far away, where rounding is largest. */
+static void rays_at_box_borders_do_not_slip_through(void **state)
+{
+    (void)state;
+    enum { SIDE = 9 };
+    clast_mesh grid = {0};
+    clast_bvh *bvh = NULL;
+    clx_rng rng = clx_rng_at(14, CLX_STREAM_TEST, 0);
+    CHECK_OK(clast_mesh_alloc(SIDE * SIDE, 2 * (SIDE - 1) * (SIDE - 1), &grid));
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        v3_set(grid.vert[i], i % SIDE / 3.0, i / SIDE / 3.0, 0.1);
+    }
+    for (int i = 0; i < (SIDE - 1) * (SIDE - 1); ++i) {
+        const int32_t v = i % (SIDE - 1) + SIDE * (i / (SIDE - 1));
+        const int32_t tri[2][3] = {{v, v + 1, v + SIDE}, {v + 1, v + SIDE + 1, v + SIDE}};
+        memcpy(grid.tri[2 * i], tri, sizeof tri);
+    }
+    CHECK_OK(clast_bvh_create(&grid, &bvh));
+    for (int trial = 0; trial < 20000; ++trial) {
+        const double distance = pow(10.0, 8.0 * clx_rng_uniform(&rng));
+        double target[3] = {(double)(1 + clx_rng_below(&rng, SIDE - 2)) / 3.0,
+                            0.1 + 2.4 * clx_rng_uniform(&rng), 0.1};
+        double origin[3];
+        double direction[3];
+        clast_hit hit;
+        draw_point(&rng, 1.0, direction);
+        v3_axpy(origin, target, -distance, direction);
+        v3_sub(direction, target, origin);
+        assert_true(clast_bvh_ray(bvh, origin, direction, 0.0, INFINITY, &hit));
+        CHECK_REL(hit.t, 1.0, 1e-6);
+    }
+    clast_bvh_destroy(bvh);
+    clast_mesh_free(&grid);
+}
+
 static void cube_hits_are_exact_along_axes(void **state)
 {
     (void)state;
@@ -317,6 +353,44 @@ static void solid_angle_expansion_is_close(void **state)
     clast_mesh_free(&mesh);
 }
 
+/// Longest path from the root; every item is in one leaf.
+static int depth_of(const clx_tree *tree)
+{
+    int depth[2 * 1000] = {0};
+    int deepest = 0;
+    int64_t n_item = 0;
+    for (int32_t i = 0; i < tree->n_node; ++i) {
+        const clx_tree_node *node = &tree->node[i];
+        deepest = depth[i] > deepest ? depth[i] : deepest;
+        if (node->right != 0) {
+            depth[i + 1] = depth[i] + 1;
+            depth[node->right] = depth[i] + 1;
+        } else {
+            assert_int_equal(node->first, n_item);
+            n_item += node->count;
+        }
+    }
+    assert_int_equal(n_item, tree->n_item);
+    return deepest;
+}
+
+/* Boxes at 32^-k: every plane between bins parts off just one, so without the bound the tree would
+   be a list 190 deep. */
+static void depth_is_bounded_for_a_geometric_series(void **state)
+{
+    (void)state;
+    enum { N = 190 };
+    clx_tree_box box[N];
+    clx_tree tree = {0};
+    for (int32_t k = 0; k < N; ++k) {
+        const double x = ldexp(1.0, -5 * k);
+        box[k] = (clx_tree_box){{x, 0.0, 0.0}, {x, 1.0, 1.0}, k};
+    }
+    CHECK_OK(clx_tree_build(box, N, 4, &tree));
+    assert_in_range(depth_of(&tree), 30, CLX_TREE_DEPTH);
+    clx_tree_free(&tree);
+}
+
 /* Depth is bounded and queries work when all triangles are the same, or lie at 2^-k. */
 static void degenerate_meshes_keep_the_depth(void **state)
 {
@@ -336,21 +410,7 @@ static void degenerate_meshes_keep_the_depth(void **state)
             }
         }
         CHECK_OK(clast_bvh_create(&mesh, &bvh));
-        int depth[2 * 1000] = {0};
-        int deepest = 0;
-        int64_t n_item = 0;
-        for (int32_t i = 0; i < bvh->tree.n_node; ++i) {
-            const clx_tree_node *node = &bvh->tree.node[i];
-            deepest = depth[i] > deepest ? depth[i] : deepest;
-            if (node->right != 0) {
-                depth[i + 1] = depth[i] + 1;
-                depth[node->right] = depth[i] + 1;
-            } else {
-                n_item += node->count;
-            }
-        }
-        assert_int_equal(n_item, n);
-        assert_true(deepest <= CLX_TREE_DEPTH);
+        assert_in_range(depth_of(&bvh->tree), 8, CLX_TREE_DEPTH);
         const double point[3] = {0.3, 0.4, 0.5};
         CHECK_REL(clast_bvh_closest(bvh, point, INFINITY, NULL, NULL), brute_closest(&mesh, point),
                   1e-13);
@@ -403,11 +463,13 @@ int main(void)
         cmocka_unit_test(closest_agrees_with_brute_force),
         cmocka_unit_test(rays_agree_with_brute_force),
         cmocka_unit_test(rays_at_edges_and_vertices_do_not_slip_through),
+        cmocka_unit_test(rays_at_box_borders_do_not_slip_through),
         cmocka_unit_test(cube_hits_are_exact_along_axes),
         cmocka_unit_test(inside_a_cube_is_exact),
         cmocka_unit_test(inside_agrees_with_solid_angle),
         cmocka_unit_test(inside_follows_its_three_rules),
         cmocka_unit_test(solid_angle_expansion_is_close),
+        cmocka_unit_test(depth_is_bounded_for_a_geometric_series),
         cmocka_unit_test(degenerate_meshes_keep_the_depth),
         cmocka_unit_test(bad_meshes_are_refused),
         cmocka_unit_test(create_survives_refused_memory),
