@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format golden install clean
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -17,6 +17,14 @@ fuzz:
 	@tools/fuzz.sh
 docs:
 	@tools/docs.sh
+bench:
+	@tools/setup.sh build
+	@tools/bench.sh
+paper: paper-aggregate
+paper-aggregate:
+	@tools/setup.sh build
+	@tools/build.sh release clast_cli
+	@tools/paper_aggregate.py
 format:
 	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
 clean:

@@ -23,6 +23,7 @@ say "release build and exported symbols"
 tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
 rm -f build-release.log
 tools/check_symbols.sh
+say "bundle of the 3-D view"; tools/check_web.sh
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
 say "documents"; skip docs || tools/docs.sh
 say "done"
