@@ -83,7 +83,7 @@ def two_ellipsoids(r):
         e, f = float(row["e"]), float(row["f"])
         axes = f"ellipsoid:10,{10 * e},{10 * e * f}"
         setup = ("--cone", "1deg") if row["setup"] == "1" else ("--cone", "90deg", "--rays", 30, "--orientations", 10)
-        n = r.repeats(300 if row["setup"] == "1" else 60)
+        n = r.repeats(150 if row["setup"] == "1" else 60)
         _, phi, sd, _, n = r.aggregate("--core", axes, "--core-size", f"{row['ratio']}mm", "--coat", axes, "--size", "1mm",
                                        "--repeats", n, "--seed", 11, *setup)
         mean, deviation, count = float(row["porosity"]), float(row["deviation"]), int(row["repeats"])
