@@ -30,6 +30,12 @@ static double read_gyration(const clast_aggregate_result *r, int32_t k)
     return r->radius_of_gyration;
 }
 
+static double read_settling(const clast_aggregate_result *r, int32_t k)
+{
+    (void)k;
+    return r->settling_velocity;
+}
+
 static double read_porosity(const clast_aggregate_result *r, int32_t k)
 {
     return r->porosity[k];
@@ -65,7 +71,8 @@ void aggregate_report_print(const clast_aggregate_report *report)
     const line lines[] = {{"grains", "", 1.0, read_n_grain, 0},
                           {"d_agg", "um", 1e6, read_d_agg, 0},
                           {"density", "kg/m^3", 1.0, read_density, 0},
-                          {"radius of gyration", "um", 1e6, read_gyration, 0}};
+                          {"radius of gyration", "um", 1e6, read_gyration, 0},
+                          {"settling velocity in air", "m/s", 1.0, read_settling, 0}};
     char name[64];
     if (report->n > 1) {
         (void)printf("%d aggregates, intervals of the mean at level %g\n", report->n,

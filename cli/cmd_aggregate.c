@@ -60,26 +60,6 @@ static clast_status print(const cli_common *common, const clast_aggregate_report
     return status;
 }
 
-/// Charts and page of a finished run's folder.
-static clast_status illustrate(const char *folder)
-{
-    char path[4096];
-    clast_table history = {0};
-    const int n = snprintf(path, sizeof path, "%s/history.csv", folder);
-    if (n < 0 || n >= (int)sizeof path) {
-        return cli_fail(CLAST_E_DISK, "the path of the run's folder is too long");
-    }
-    clast_status status = clast_table_read_csv(path, NULL, &history, NULL);
-    if (status == CLAST_OK) {
-        status = clast_aggregate_charts_write(&history, NULL, folder);
-    }
-    if (status == CLAST_OK) {
-        status = clast_report_write_run(folder);
-    }
-    clast_table_free(&history);
-    return status;
-}
-
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_aggregate_config *config = context;
@@ -90,7 +70,7 @@ static clast_status run(const cli_common *common, void *context)
                               : clast_aggregate_run(config, common->output, &monitor, &report);
     const char *folder = config->resume[0] != '\0' ? config->resume : common->output;
     if (status == CLAST_OK && folder != NULL) {
-        status = illustrate(folder);
+        status = clast_report_write_run(folder);
     }
     if (report.n > 0) {
         const clast_status printed = print(common, &report);
@@ -105,8 +85,11 @@ static const char details[] =
     "in N_o orientations on each ray, comes from outside to its first touch, and stays where its\n"
     "centre of mass ends nearest to the target. Nothing moves after that.\n"
     "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
-    "With -o RUN: state.h5, history.csv, summary.json, aggregate.stl (um), manifest.json,\n"
-    "charts (history.svg, diameter.svg, density.svg, sizes.svg) and the page report.html.";
+    "With -o RUN: state.h5, history.csv, structure.csv, radial.csv, summary.json, aggregate.stl "
+    "(um),\n"
+    "manifest.json, charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and "
+    "the\n"
+    "page report.html; --printable adds printable.stl.";
 
 const cli_command cli_aggregate = {
     .name = "aggregate",

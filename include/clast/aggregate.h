@@ -67,6 +67,7 @@ typedef struct clast_aggregate_config {
     char *core_spheres;           ///< sphere composite of the core (CSV), "" to fill it
     clast_text_list coat_spheres; ///< the same for each coat shape
     int32_t fill_spheres;         ///< spheres of a composite made here
+    int32_t fill;                 ///< clast_fill_strategy
     char *unit;                   ///< of the coordinates in surface files
     bool accept_faults;           ///< take surfaces that are open or cross themselves
 
@@ -113,6 +114,8 @@ typedef struct clast_aggregate_config {
     double confidence;
     uint64_t seed;
     int32_t checkpoint_every;
+    bool picture, printable;
+    double neck, spacing; ///< of the printable surface
     char *resume;
 } clast_aggregate_config;
 
@@ -167,6 +170,7 @@ typedef struct clast_aggregate_result {
     double d_agg;                ///< diameter of the sphere of the first envelope's volume
     double density;              ///< mass by the first envelope's volume
     double radius_of_gyration;   ///< of the mass, each grain's own extent included
+    double settling_velocity;    ///< in air at sea level [Bagheri2016], by d_agg and density [m/s]
     double max_overlap;          ///< greatest step back that frees a particle; 0 within rounding
     double max_overlap_relative; ///< the same by the particle's size
     int32_t n_lost;              ///< particles that the published march left at a step limit

@@ -52,6 +52,7 @@ const clast_field clast_aggregate_fields[] = {
     TEXT(core_spheres, "", "sphere composite of the core (CSV x,y,z,r); none: filled"),
     TEXTS(coat_spheres, "", "sphere composite of each coating shape"),
     COUNT(fill_spheres, 100, 1, 1e6, "spheres of each composite that is filled here"),
+    CHOICE(fill, 0, "largest|random|published", "how it is filled (see clast fill)"),
     TEXT(unit, "", "length unit of coordinates in surface files"),
     FLAG(accept_faults, "use surfaces that are open or cross themselves as they are"),
 
@@ -114,6 +115,10 @@ const clast_field clast_aggregate_fields[] = {
     NUMBER(confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
     {FIELD(U64, seed), 1, 0, 0, "-", "seed of every random number", NULL},
     COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints"),
+    {FIELD(BOOL, picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},
+    FLAG(printable, "printable.stl: one closed surface around all grains and necks at contacts"),
+    NUMBER(neck, 0, 0, 1e6, "m", "printable: thickness of the necks; 0: half the thinnest grain"),
+    NUMBER(spacing, 0, 0, 1e6, "m", "printable: spacing of the sampling grid; 0: a quarter neck"),
     TEXT(resume, "", "run folder to go on with; all other options come from it"),
     {0},
 };

@@ -108,35 +108,50 @@ done:
     return status;
 }
 
+/// The length of a single shape is known; width and thickness take a search, made only if needed.
+static clast_status measure_form(const clx_kit *kit, bool need_mean, clx_kit_group *group)
+{
+    clast_status status = CLAST_OK;
+    double form[3];
+    const clx_kit_part *part = &group->part[0];
+    group->length = part->scale * kit->shape[part->shape].shape->length;
+    if (group->n_part > 1 || need_mean) {
+        CLX_TRY(clx_form_dimensions(kit, group, form));
+        group->length = form[0];
+        group->mean_diameter = cbrt(form[0] * form[1] * form[2]);
+    }
+done:
+    return status;
+}
+
 static clast_status make_group(const clx_kit *kit, const clast_assembly *assembly,
                                int32_t first_shape, clx_kit_group *group)
 {
     clast_status status = CLAST_OK;
-    double form[3];
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_GEOMETRY,
               "an aggregate of no grains cannot be thrown");
     CLX_TRY(make_parts(kit, assembly, first_shape, group));
     CLX_TRY(copy_contacts(assembly, group));
-    CLX_TRY(clx_form_dimensions(kit, group, form));
-    group->length = form[0];
-    group->mean_diameter = cbrt(form[0] * form[1] * form[2]);
 done:
     return status;
 }
 
 /// Shapes and group of one assembly; an absent one leaves the group empty.
-static clast_status add_group(int32_t contact, const clast_assembly *assembly, clx_kit *kit)
+static clast_status add_group(const clast_aggregate_config *config, const clast_assembly *assembly,
+                              clx_kit *kit)
 {
     clast_status status = CLAST_OK;
+    const int32_t meaning = kit->n_group == 0 ? config->core_meaning : config->size_meaning;
     const int32_t first_shape = kit->n_shape;
     clx_kit_group *group = &kit->group[kit->n_group++];
     for (int32_t i = 0; assembly != NULL && i < assembly->n_shape; ++i) {
         clx_kit_shape *shape = &kit->shape[kit->n_shape++];
         shape->group = kit->n_group - 1;
-        CLX_TRY(make_shape(contact, &assembly->shape[i], shape));
+        CLX_TRY(make_shape(config->contact, &assembly->shape[i], shape));
     }
     if (assembly != NULL) {
         CLX_TRY(make_group(kit, assembly, first_shape, group));
+        CLX_TRY(measure_form(kit, meaning == CLAST_SIZE_MEAN, group));
     }
 done:
     return status;
@@ -153,9 +168,9 @@ clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggr
     }
     CLX_TRY(clx_alloc(&made.shape, n_shape, sizeof *made.shape));
     CLX_TRY(clx_alloc(&made.group, 1 + input->n_coat, sizeof *made.group));
-    CLX_TRY(add_group(config->contact, input->core, &made)); // none in cluster mode
+    CLX_TRY(add_group(config, input->core, &made)); // none in cluster mode
     for (int32_t k = 0; k < input->n_coat; ++k) {
-        CLX_TRY(add_group(config->contact, &input->coat[k], &made));
+        CLX_TRY(add_group(config, &input->coat[k], &made));
     }
     *kit = made;
     made = (clx_kit){0};

@@ -4,6 +4,8 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include <clast/overlap.h>
+#include <clast/settling.h>
+#include <clast/structure.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -174,6 +176,23 @@ done:
     return status;
 }
 
+/// Terminal velocity in air of a body with the first envelope's volume and the aggregate's form.
+static clast_status measure_settling(const clast_assembly *grains, clast_aggregate_result *result)
+{
+    clast_status status = CLAST_OK;
+    clast_extent extent;
+    clast_drag drag;
+    clast_settling settling;
+    const clast_fluid air = clast_fluid_air();
+    CLX_TRY(clast_assembly_extent(grains, &extent));
+    CLX_TRY(clast_drag_of_form(extent.width[0], extent.width[1], extent.width[2], result->d_agg,
+                               &drag));
+    CLX_TRY(clast_terminal_velocity(result->d_agg, result->density, &drag, &air, &settling));
+    result->settling_velocity = settling.velocity;
+done:
+    return status;
+}
+
 clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result)
 {
     clast_status status = CLAST_OK;
@@ -191,6 +210,7 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     result->n_envelope = a->n_kind;
     result->d_agg = equivalent_diameter(result->envelope[0].volume);
     result->density = result->mass / result->envelope[0].volume;
+    CLX_TRY(measure_settling(grains, result));
 done:
     free_view(&part);
     return status;

@@ -3,11 +3,12 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include <clast/fill.h>
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
+#include <clast/spheres_file.h>
 #include <clast/state.h>
-#include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -98,49 +99,59 @@ done:
     return status;
 }
 
-/// Column of a sphere table whose name begins with `letter` (x_um, r), or NULL.
-static const double *sphere_column(const clast_table *table, char letter)
-{
-    for (int32_t c = 0; c < table->n_column; ++c) {
-        if (table->column[c].name[0] == letter && table->column[c].number != NULL) {
-            return table->column[c].number;
-        }
-    }
-    return NULL;
-}
-
 /// Spheres x, y, z, r in the coordinates of the shape's file.
 static clast_status read_spheres(const char *path, double factor, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
-    clast_table table = {0};
     clast_spheres made = {0};
-    CLX_TRY(clast_table_read_csv(path, NULL, &table, NULL));
-    const double *column[4];
-    for (int k = 0; k < 4; ++k) {
-        column[k] = sphere_column(&table, "xyzr"[k]);
-        CLX_CHECK(column[k] != NULL, CLAST_E_FORMAT, "%s: no number column that begins with %c",
-                  path, "xyzr"[k]);
-    }
-    CLX_CHECK(table.n_row >= 1 && table.n_row <= 10000000, CLAST_E_FORMAT,
-              "%s: %lld spheres; 1 to 1e7 make a composite", path, (long long)table.n_row);
-    CLX_TRY(clast_spheres_alloc((int32_t)table.n_row, &made));
+    CLX_TRY(clast_spheres_read(path, NULL, &made));
     for (int32_t i = 0; i < made.n; ++i) {
         for (int k = 0; k < 3; ++k) {
-            made.centre[i][k] = factor * column[k][i] - shape->source_origin[k];
-            CLX_CHECK(isfinite(made.centre[i][k]), CLAST_E_FORMAT, "%s: sphere %d has no centre",
-                      path, i + 1);
+            made.centre[i][k] = factor * made.centre[i][k] - shape->source_origin[k];
         }
-        made.radius[i] = factor * column[3][i];
-        CLX_CHECK(made.radius[i] > 0.0 && isfinite(made.radius[i]), CLAST_E_FORMAT,
-                  "%s: the radius of sphere %d is not above 0", path, i + 1);
+        made.radius[i] *= factor;
     }
     clast_spheres_free(&shape->spheres);
     shape->spheres = made;
-    made = (clast_spheres){0};
 done:
-    clast_spheres_free(&made);
-    clast_table_free(&table);
+    return status;
+}
+
+/// Whether contacts or an envelope ask for composites.
+static bool needs_spheres(const clast_aggregate_config *config)
+{
+    bool needed = config->contact != CLAST_CONTACT_EXACT;
+    for (int32_t i = 0; i < config->envelope.n; ++i) {
+        needed = needed || strncmp(config->envelope.item[i], "sphere_", 7) == 0;
+    }
+    return needed;
+}
+
+enum { FILL_LEVEL = 4 };
+
+/// A composite of the shape's surface, made here; a sphere is its own.
+static clast_status fill_shape(const clast_aggregate_config *config, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh surface = {0};
+    clast_fill_config fill;
+    bool has_fill = false;
+    if (shape->kind == CLAST_SHAPE_SPHERE || shape->spheres.n > 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_fields_default(clast_fill_fields, &fill));
+    has_fill = true;
+    fill.spheres = config->fill_spheres;
+    fill.strategy = config->fill;
+    fill.allow_open = config->accept_faults;
+    fill.seed = config->seed;
+    CLX_TRY(clast_shape_surface(shape, FILL_LEVEL, &surface));
+    CLX_TRY(clast_fill(&surface, &fill, NULL, &shape->spheres, NULL));
+done:
+    if (has_fill) {
+        clast_fields_free(clast_fill_fields, &fill);
+    }
+    clast_mesh_free(&surface);
     return status;
 }
 
@@ -177,6 +188,8 @@ static clast_status load_shape(const clast_aggregate_config *config, const char 
     CLX_TRY(read_shape(config, text, factor, &shape));
     if (spheres[0] != '\0') {
         CLX_TRY(read_spheres(spheres, factor, &shape));
+    } else if (needs_spheres(config)) {
+        CLX_TRY(fill_shape(config, &shape));
     }
     CLX_TRY(clast_assembly_add_shape(assembly, &shape, NULL));
     CLX_TRY(clast_assembly_add_grain(assembly, 0, NOWHERE, UNTURNED, 1.0, density));

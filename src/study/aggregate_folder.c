@@ -7,32 +7,33 @@
 #include "io/state.h"
 #include <clast/manifest.h>
 #include <clast/mesh_file.h>
+#include <clast/structure.h>
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { PATH_LIMIT = 4096 };
+enum { RADIAL_BINS = 20 };
 
 /// Triangles of all parts together that a file should not exceed by much.
 static const int64_t TRIANGLE_AIM = 2000000;
 
-static clast_status join(char path[PATH_LIMIT], const char *folder, const char *name)
+clast_status clx_folder_join(char *path, const char *folder, const char *name)
 {
-    const int n = snprintf(path, PATH_LIMIT, "%s/%s", folder, name);
-    return n > 0 && n < PATH_LIMIT
+    const int n = snprintf(path, CLX_PATH_LIMIT, "%s/%s", folder, name);
+    return n > 0 && n < CLX_PATH_LIMIT
                ? CLAST_OK
                : clx_fail(CLAST_E_USAGE, "the path %.60s... is longer than %d bytes", folder,
-                          PATH_LIMIT);
+                          CLX_PATH_LIMIT);
 }
 
-static clast_status state_path(const char *folder, int32_t repeat, char path[PATH_LIMIT])
+static clast_status state_path(const char *folder, int32_t repeat, char path[CLX_PATH_LIMIT])
 {
     char name[32] = "state.h5";
     if (repeat > 0) {
         (void)snprintf(name, sizeof name, "state-%04d.h5", repeat + 1);
     }
-    return join(path, folder, name);
+    return clx_folder_join(path, folder, name);
 }
 
 /// The parts of a state, which borrows the assembly and owns tables and configuration.
@@ -69,7 +70,7 @@ clast_status clx_folder_write_state(const char *folder, const clast_aggregate_co
                                     int32_t repeat, const clast_aggregate *aggregate)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     clast_table table[2] = {{0}, {0}};
     clast_state state = {0};
     CLX_TRY(gather(config, aggregate, table, &state));
@@ -82,7 +83,7 @@ done:
 
 clast_status clx_folder_read_state(const char *folder, int32_t repeat, clast_state *state)
 {
-    char path[PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     const clast_status status = state_path(folder, repeat, path);
     return status == CLAST_OK ? clast_state_read(path, state) : status;
 }
@@ -171,7 +172,7 @@ static int level_for(const clast_assembly *assembly)
 static clast_status write_stl(const char *folder, const clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     clast_mesh mesh = {0};
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
@@ -181,7 +182,7 @@ static clast_status write_stl(const char *folder, const clast_assembly *assembly
         CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &mesh));
     }
     clast_mesh_transform(&mesh, 1e6, unturned, none);
-    CLX_TRY(join(path, folder, "aggregate.stl"));
+    CLX_TRY(clx_folder_join(path, folder, "aggregate.stl"));
     CLX_TRY(clast_mesh_write(path, &mesh, &options));
 done:
     clast_mesh_free(&mesh);
@@ -191,10 +192,10 @@ done:
 static clast_status write_summary(const char *folder, const clast_aggregate_report *report)
 {
     clast_status status = CLAST_OK;
-    char path[PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
     CLX_TRY(clast_aggregate_report_json(report, false, &text));
-    CLX_TRY(join(path, folder, "summary.json"));
+    CLX_TRY(clx_folder_join(path, folder, "summary.json"));
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));
 done:
     clast_text_free(text);
@@ -203,23 +204,43 @@ done:
 
 static clast_status write_table(const char *folder, const char *name, const clast_table *table)
 {
-    char path[PATH_LIMIT];
-    const clast_status status = join(path, folder, name);
+    char path[CLX_PATH_LIMIT];
+    const clast_status status = clx_folder_join(path, folder, name);
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
-clast_status clx_folder_write_results(const char *folder, const clast_aggregate_report *report,
-                                      const clast_table *history, const clast_assembly *first)
+/// structure.csv and radial.csv of the first repeat.
+static clast_status write_structure(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    clast_structure_options options = clast_structure_options_default();
+    options.envelope.seed = r->config->seed;
+    options.envelope.n_ray = r->config->envelope_rays;
+    options.solid.seed = r->config->seed;
+    CLX_TRY(clast_structure(r->first, &options, &table));
+    CLX_TRY(write_table(folder, "structure.csv", &table));
+    clast_table_free(&table);
+    CLX_TRY(clast_assembly_radial_profile(r->first, NULL, RADIAL_BINS, &table));
+    CLX_TRY(write_table(folder, "radial.csv", &table));
+done:
+    clast_table_free(&table);
+    return status;
+}
+
+clast_status clx_folder_write_results(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
     clast_table band = {0};
-    CLX_TRY(write_table(folder, "history.csv", history));
-    if (report->n > 1) {
-        CLX_TRY(clast_aggregate_band(history, report->confidence, &band));
+    CLX_TRY(write_table(folder, "history.csv", r->history));
+    if (r->report->n > 1) {
+        CLX_TRY(clast_aggregate_band(r->history, r->report->confidence, &band));
         CLX_TRY(write_table(folder, "history_band.csv", &band));
     }
-    CLX_TRY(write_stl(folder, first));
-    CLX_TRY(write_summary(folder, report));
+    CLX_TRY(write_structure(folder, r));
+    CLX_TRY(write_stl(folder, r->first));
+    CLX_TRY(clx_folder_write_pictures(folder, r));
+    CLX_TRY(write_summary(folder, r->report));
     CLX_TRY(clx_checkpoint_clear(folder));
 done:
     clast_table_free(&band);

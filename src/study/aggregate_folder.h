@@ -22,6 +22,23 @@ clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *s
 /// CLAST_E_USAGE when a run in the folder has not ended.
 clast_status clx_folder_check_free(const char *folder);
 
-/// history.csv, history_band.csv (several repeats), summary.json, aggregate.stl.
-clast_status clx_folder_write_results(const char *folder, const clast_aggregate_report *report,
-                                      const clast_table *history, const clast_assembly *first);
+/// Everything that a finished run leaves but its states.
+typedef struct clx_folder_results {
+    const clast_aggregate_config *config;
+    const clast_aggregate_report *report;
+    const clast_sizes *sizes;     ///< wanted, or NULL when a law draws them
+    const clast_table *history;   ///< rows of all repeats
+    const clast_assembly *first;  ///< grains of the first repeat
+    const clast_monitor *monitor; ///< or NULL
+} clx_folder_results;
+
+/// history.csv, history_band.csv (several repeats), structure.csv, radial.csv, summary.json,
+/// aggregate.stl, charts, picture.png, printable.stl; the checkpoints go last.
+clast_status clx_folder_write_results(const char *folder, const clx_folder_results *results);
+
+/// The pictures among them.
+clast_status clx_folder_write_pictures(const char *folder, const clx_folder_results *results);
+
+/// FOLDER/NAME into path [CLX_PATH_LIMIT].
+enum { CLX_PATH_LIMIT = 4096 };
+clast_status clx_folder_join(char *path, const char *folder, const char *name);

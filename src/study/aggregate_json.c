@@ -28,6 +28,7 @@ READER(read_union, solid_union)
 READER(read_d_agg, d_agg)
 READER(read_density, density)
 READER(read_gyration, radius_of_gyration)
+READER(read_settling, settling_velocity)
 READER(read_porosity, porosity[k])
 READER(read_envelope, envelope[k].volume)
 
@@ -42,6 +43,7 @@ static const struct {
     {"d_agg", read_d_agg},
     {"density", read_density},
     {"radius_of_gyration", read_gyration},
+    {"settling_velocity", read_settling},
 };
 enum { N_NUMBER = sizeof numbers / sizeof numbers[0] };
 

@@ -163,7 +163,13 @@ static const char *outcome_of(clast_status status)
 static clast_status finish(run *r, clast_status status)
 {
     if (status == CLAST_OK && r->folder != NULL) {
-        status = clx_folder_write_results(r->folder, &r->report, &r->history, &r->first);
+        const clx_folder_results results = {.config = r->config,
+                                            .report = &r->report,
+                                            .sizes = r->source.input.sizes,
+                                            .history = &r->history,
+                                            .first = &r->first,
+                                            .monitor = r->monitor};
+        status = clx_folder_write_results(r->folder, &results);
     }
     if (status == CLAST_OK) {
         status = check_stop(r);

@@ -9,6 +9,8 @@ import unittest
 
 from clitest import CLAST, Case, clast
 
+# Pictures are slow under sanitizers; test_render looks at them.
+QUICK = ("--picture=false",)
 SPHERES = ("aggregate", "--core", "sphere", "--core-size", "10um", "--coat", "sphere", "--size", "5um")
 CUBE = """OFF
 8 6 0
@@ -52,12 +54,14 @@ class Results(Case):
 
     def test_the_folder_holds_the_run(self):
         run = self.folder / "run"
-        result = clast(*SPHERES, "--replicate", 20, "--repeats", 2, "-o", run)
+        result = clast(*SPHERES, "--replicate", 20, "--repeats", 2, "-o", run, "--printable", *QUICK)
         self.assertEqual(result.code, 0, result.err)
         self.assertIn("porosity, surface_hull", result.out)
         names = {path.name for path in run.iterdir()}
         self.assertLessEqual({"state.h5", "state-0002.h5", "history.csv", "history_band.csv", "summary.json",
-                              "aggregate.stl", "manifest.json"}, names)
+                              "aggregate.stl", "manifest.json", "printable.stl", "structure.csv", "radial.csv",
+                              "history.svg"}, names)
+        self.assertEqual(clast("mesh", "check", run / "printable.stl").code, 0)
         with open(run / "history.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 2 * 21)
@@ -70,7 +74,7 @@ class Results(Case):
 
     def test_a_run_is_a_core_and_a_coating(self):
         run = self.folder / "run"
-        self.assertEqual(clast(*SPHERES, "--replicate", 4, "-o", run).code, 0)
+        self.assertEqual(clast(*SPHERES, "--replicate", 4, "-o", run, *QUICK).code, 0)
         state = run / "state.h5"
         on_core = clast("aggregate", "--core", state, "--coat", "sphere", "--size", "2um", "--replicate", 3,
                         "--json")
@@ -116,7 +120,7 @@ class Repeatable(Case):
         result = clast("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "30um", "--coat",
                        "ellipsoid:2,1.5,1", "--coat", "sphere", "--size-law", "lognormal", "--size-mean", "8um",
                        "--size-shape", "0.4", "--n-particle", 40, "--cone", "60deg", "--rays", 6,
-                       "--orientations", 3, "-o", run, *options)
+                       "--orientations", 3, "-o", run, *QUICK, *options)
         self.assertEqual(result.code, 0, result.err)
         return run
 
@@ -150,7 +154,7 @@ class Repeatable(Case):
     def test_a_stopped_run_ends_in_the_same_bytes(self):
         command = ("aggregate", "--core", "ellipsoid:3,2,1", "--core-size", "30um", "--coat",
                    "ellipsoid:2,1.5,1", "--size", "8um", "--replicate", "60", "--cone", "90deg", "--rays", "40",
-                   "--orientations", "10", "--repeats", "2", "--checkpoint-every", "3", "--envelope-every", "20")
+                   "--orientations", "10", "--repeats", "2", "--checkpoint-every", "3", "--envelope-every", "20", *QUICK)
         whole = self.folder / "whole"
         self.assertEqual(clast(*command, "-o", whole).code, 0)
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -168,7 +172,7 @@ class Repeatable(Case):
 
     def test_a_killed_run_goes_on_from_its_checkpoint(self):
         command = (*SPHERES, "--replicate", "400", "--cone", "90deg", "--rays", "200", "--checkpoint-every", "20",
-                   "--envelope-every", "100")
+                   "--envelope-every", "100", *QUICK)
         run, whole = self.folder / "killed", self.folder / "whole"
         self.assertEqual(self.interrupted(run, command, signal.SIGKILL)[0], -signal.SIGKILL)
         newest = max(run.glob("checkpoint-*.h5"))

@@ -35,7 +35,7 @@ class Report(Case):
     def test_an_aggregate_comes_with_charts_and_page(self):
         grown = os.path.join(self.folder.name, "grown")
         result = clast("aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--size", "30um",
-                       "--n-particle", "5", "--replicate", "5", "-q", "-o", grown)
+                       "--n-particle", "5", "--replicate", "5", "-q", "--picture=false", "-o", grown)
         self.assertEqual(result.code, 0, result.err)
         for name in ["history", "diameter", "density", "sizes"]:
             self.assertIn("<svg", self.page(os.path.join(grown, name + ".svg")))

@@ -1,0 +1,126 @@
+// What a run folder shows: charts, a picture, a printable body.
+#include "study/aggregate_folder.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include <clast/aggregate_charts.h>
+#include <clast/mesh_check.h>
+#include <clast/mesh_file.h>
+#include <clast/printable.h>
+#include <clast/render.h>
+
+enum { PICTURE_WIDTH = 960, PICTURE_HEIGHT = 720 };
+
+static clast_status write_picture(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
+    clast_render_config config;
+    clast_image image = {0};
+    bool has_config = false;
+    CLX_TRY(clast_fields_default(clast_render_fields, &config));
+    has_config = true;
+    config.width = PICTURE_WIDTH;
+    config.height = PICTURE_HEIGHT;
+    CLX_TRY(clast_render_assembly(r->first, &config, r->monitor, &image));
+    CLX_TRY(clx_folder_join(path, folder, "picture.png"));
+    CLX_TRY(clast_image_write_png(&image, path));
+done:
+    if (has_config) {
+        clast_fields_free(clast_render_fields, &config);
+    }
+    clast_image_free(&image);
+    return status;
+}
+
+/// Reads back what was written: a printer takes nothing but one closed, outward surface.
+static clast_status verify(const char *path)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh mesh = {0};
+    clast_mesh_check_result found = {0};
+    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLX_TRY(clast_mesh_check(&mesh, &found));
+    CLX_CHECK(found.closed && found.oriented && found.manifold && found.n_part == 1,
+              CLAST_E_GEOMETRY,
+              "%s is not one closed, oriented surface (%d parts, %d open edges): choose a smaller "
+              "spacing",
+              path, found.n_part, found.n_open_edge);
+done:
+    clast_mesh_check_free(&found);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static clast_status write_printable(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
+    clast_mesh mesh = {0};
+    clast_printable_report report;
+    const clast_printable_config config = {.neck = r->config->neck, .spacing = r->config->spacing};
+    const clast_mesh_write_options options = {.unit = "um", .name = "printable"};
+    const double none[3] = {0.0, 0.0, 0.0};
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    CLX_TRY(clast_assembly_printable(r->first, &config, r->monitor, &mesh, &report));
+    clast_mesh_transform(&mesh, 1e6, unturned, none);
+    CLX_TRY(clx_folder_join(path, folder, "printable.stl"));
+    CLX_TRY(clast_mesh_write(path, &mesh, &options));
+    CLX_TRY(verify(path));
+done:
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+/// Sizes as they were wanted, for the chart that compares them with those placed.
+static clast_status wanted_sizes(const clast_sizes *sizes, double replicate, clast_table *wanted)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    double *column[3];
+    static const char *const name[3] = {"low_m", "high_m", "count"};
+    CLX_TRY(clast_table_init(&made, "wanted", sizes->n));
+    for (int k = 0; k < 3; ++k) {
+        CLX_TRY(clast_table_add_number(&made, name[k], k < 2 ? "m" : "-", NULL));
+    }
+    for (int k = 0; k < 3; ++k) {
+        column[k] = made.column[k].number;
+    }
+    for (int64_t i = 0; i < sizes->n; ++i) {
+        column[0][i] = sizes->low[i];
+        column[1][i] = sizes->high[i];
+        column[2][i] = replicate * sizes->count[i];
+    }
+    *wanted = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}
+
+static clast_status write_charts(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    clast_table wanted = {0};
+    if (r->sizes != NULL) {
+        CLX_TRY(wanted_sizes(r->sizes, r->config->replicate, &wanted));
+    }
+    CLX_TRY(clast_aggregate_charts_write(r->history, r->sizes != NULL ? &wanted : NULL, folder));
+done:
+    clast_table_free(&wanted);
+    return status;
+}
+
+clast_status clx_folder_write_pictures(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(write_charts(folder, r));
+    if (r->config->picture) {
+        CLX_TRY(write_picture(folder, r));
+    }
+    if (r->config->printable) {
+        CLX_TRY(write_printable(folder, r));
+    }
+done:
+    return status;
+}
