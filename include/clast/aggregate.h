@@ -102,6 +102,7 @@ typedef struct clast_aggregate_config {
     clast_text_list envelope; ///< names; the first gives d_agg and density
     int32_t envelope_every;
     int32_t envelope_rays;
+    double envelope_length; ///< radius of the ball of `wrap`
 
     double stop_mass;     ///< kg; 0: never
     double stop_size;     ///< D_agg; 0: never

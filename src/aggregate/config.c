@@ -100,9 +100,12 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(march_vertices, 1000, 2, 1e9, "vertices that the march measures a length from"),
 
     TEXTS(envelope, "surface_hull",
-          "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, ..."),
+          "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, "
+          "enclosing_sphere, gyration_sphere"),
     COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
+    NUMBER(envelope_length, 0, 0, 1e6, "m",
+           "radius of the ball of the wrap envelope, which needs it"),
 
     NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never"),
     NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),

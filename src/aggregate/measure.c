@@ -19,6 +19,7 @@ static clast_envelope_options options_of(const clast_aggregate *a, double tolera
     options.tolerance = tolerance;
     options.n_ray = a->config->envelope_rays;
     options.seed = a->seed;
+    options.length = a->config->envelope_length;
     return options;
 }
 

@@ -217,6 +217,7 @@ static clast_status write_structure(const char *folder, const clx_folder_results
     clast_structure_options options = clast_structure_options_default();
     options.envelope.seed = r->config->seed;
     options.envelope.n_ray = r->config->envelope_rays;
+    options.envelope.length = r->config->envelope_length;
     options.solid.seed = r->config->seed;
     CLX_TRY(clast_structure(r->first, &options, &table));
     CLX_TRY(write_table(folder, "structure.csv", &table));
