@@ -14,7 +14,7 @@ const clast_field clast_render_fields[] = {
     {FIELD(CLAST_FIELD_I32, width), 1600, 64, 16384, "-", "pixels", NULL},
     {FIELD(CLAST_FIELD_I32, height), 1200, 64, 16384, "-", "pixels", NULL},
     {FIELD(CLAST_FIELD_I32, samples), 16, 1, 4096, "-", "camera rays a pixel", NULL},
-    {FIELD(CLAST_FIELD_I32, ambient_rays), 2, 1, 256, "-", "sky rays a camera ray", NULL},
+    {FIELD(CLAST_FIELD_I32, ambient_rays), 1, 1, 256, "-", "sky rays a camera ray", NULL},
     {FIELD(CLAST_FIELD_CHOICE, projection), 0, 0, 0, "-", "how depth is shown",
      "orthographic|perspective"},
     {FIELD(CLAST_FIELD_CHOICE, up), CLAST_RENDER_UP_Z, 0, 0, "-", "axis that points up", "x|y|z"},

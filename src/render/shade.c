@@ -54,16 +54,28 @@ void clx_shader_set(clx_shader *shader, const clx_scene *scene, const clast_rend
     (void)v3_unit(shader->zenith, shader->zenith);
 }
 
-/// Sky in a direction, 1 at the zenith.
-static void sky(const clx_shader *shader, const double direction[3], double rgb[3])
+/// Sky colour at height t of its gradient: 0 at the nadir, 1 at the zenith.
+static void sky_colour(double t, double rgb[3])
 {
     static const double below[3] = {0.36, 0.36, 0.37};
     static const double above[3] = {1.02, 1.10, 1.20};
-    const double s = 0.5 + 0.5 * v3_dot(direction, shader->zenith);
-    const double t = s * s * (3.0 - 2.0 * s);
     for (int k = 0; k < 3; ++k) {
         rgb[k] = below[k] + t * (above[k] - below[k]);
     }
+}
+
+/// Sky in a direction: height s^2 (3 - 2 s), s = (1 + cosine) / 2, which is (2 + 3 c - c^3) / 4.
+static void sky_at(const clx_shader *shader, const double direction[3], double rgb[3])
+{
+    const double c = v3_dot(direction, shader->zenith);
+    sky_colour(0.25 * (2.0 + 3.0 * c - c * c * c), rgb);
+}
+
+/// Mean of the whole sky over a surface by the cosine law: the means of c and c^3 are 2/3 and 2/5
+/// of the normal's own cosine.
+static void sky_mean(const clx_shader *shader, const double normal[3], double rgb[3])
+{
+    sky_colour(0.5 + 0.4 * v3_dot(normal, shader->zenith), rgb);
 }
 
 /// Direction to a point of the sun's disc; u, v in [0, 1).
@@ -89,27 +101,26 @@ static void cosine_direction(const double normal[3], double u, double v, double 
     v3_axpy(direction, direction, r * sin(angle), b);
 }
 
-/// Mean sky over the free directions, and the share of blocked ones.
+/// Mean sky over the free directions, and the share of blocked ones. Only what is blocked is
+/// sampled: an open surface gets its exact mean.
 static double sky_seen(const clx_shader *shader, const sample_numbers *sample,
                        const clx_scene_hit *hit, double rgb[3])
 {
     int32_t n_blocked = 0;
-    v3_set(rgb, 0.0, 0.0, 0.0);
+    sky_mean(shader, hit->normal, rgb);
     for (int32_t i = 0; i < shader->ambient_rays; ++i) {
         const double index = 1.0 + (double)sample->number * shader->ambient_rays + i;
         double direction[3];
         double light[3];
         cosine_direction(hit->normal, fraction(sample->sky_shift[0] + index * step2[0]),
                          fraction(sample->sky_shift[1] + index * step2[1]), direction);
-        if (v3_dot(direction, hit->face) <= 0.0 ||
+        if ((!hit->is_lifted && v3_dot(direction, hit->face) <= 0.0) ||
             clx_scene_blocked(shader->scene, hit->point, direction, shader->lift, INFINITY)) {
             ++n_blocked;
-            continue;
+            sky_at(shader, direction, light);
+            v3_axpy(rgb, rgb, -1.0 / shader->ambient_rays, light);
         }
-        sky(shader, direction, light);
-        v3_add(rgb, rgb, light);
     }
-    v3_scale(rgb, 1.0 / shader->ambient_rays, rgb);
     return (double)n_blocked / shader->ambient_rays;
 }
 
@@ -133,9 +144,17 @@ static void sun_seen(const clx_shader *shader, const double u[2], const clx_scen
     *glint = 0.10 * pow(fmax(0.0, v3_dot(middle, hit->normal)), 24.0);
 }
 
+/// What a sample saw: nothing, the ground or a grain; in the sun or not; under the whole sky or
+/// not. A pixel of equal open samples has converged but for the gradient of its shading.
+typedef struct {
+    int32_t grain; ///< -1: nothing, -2: ground
+    bool in_sun;
+    bool is_open;
+} sighting;
+
 /// Light that a surface sends to the viewer.
-static void shade_surface(const clx_shader *shader, const sample_numbers *sample,
-                          const clx_scene_hit *hit, const double view[3], double rgba[4])
+static sighting shade_surface(const clx_shader *shader, const sample_numbers *sample,
+                              const clx_scene_hit *hit, const double view[3], double rgba[4])
 {
     static const double sun_colour[3] = {1.06, 1.0, 0.91};
     const double *albedo = shader->scene->grain[hit->grain].albedo;
@@ -151,11 +170,12 @@ static void shade_surface(const clx_shader *shader, const sample_numbers *sample
                   shader->sun_light * glint * sun_colour[k];
     }
     rgba[3] = 1.0;
+    return (sighting){hit->grain, diffuse > 0.0, blocked == 0.0};
 }
 
 /// Shadow on the ground: black, as opaque as light is missing.
-static void shade_ground(const clx_shader *shader, const sample_numbers *sample,
-                         const double point[3], double rgba[4])
+static sighting shade_ground(const clx_shader *shader, const sample_numbers *sample,
+                             const double point[3], double rgba[4])
 {
     const double depth = 0.75;
     clx_scene_hit hit = {.grain = -1};
@@ -172,6 +192,7 @@ static void shade_ground(const clx_shader *shader, const sample_numbers *sample,
     const double all = shader->sun_light * cosine + shader->sky_light;
     const double missing = shader->sky_light * blocked + (dark ? shader->sun_light * cosine : 0.0);
     rgba[3] = depth * missing / all;
+    return (sighting){-2, !dark, blocked == 0.0};
 }
 
 /// The section of a grain that the cut opens, if the ray enters the kept side inside one.
@@ -191,8 +212,8 @@ static bool hit_section(const clx_shader *shader, const double origin[3], const 
     return true;
 }
 
-static void shade_sample(const clx_shader *shader, const sample_numbers *sample, const double at[2],
-                         double rgba[4])
+static sighting shade_sample(const clx_shader *shader, const sample_numbers *sample,
+                             const double at[2], double rgba[4])
 {
     double origin[3];
     double direction[3];
@@ -205,15 +226,17 @@ static void shade_sample(const clx_shader *shader, const sample_numbers *sample,
     if (clx_scene_clip(shader->scene, origin, direction, &t_low, &t_high, &is_entered) &&
         ((is_entered && hit_section(shader, origin, direction, t_low, &hit)) ||
          clx_scene_hit_first(shader->scene, origin, direction, 0.0, INFINITY, &hit))) {
-        shade_surface(shader, sample, &hit, direction, rgba);
-    } else if (shader->has_ground && direction[shader->up] < 0.0) {
+        return shade_surface(shader, sample, &hit, direction, rgba);
+    }
+    if (shader->has_ground && direction[shader->up] < 0.0) {
         double point[3];
         const double height = origin[shader->up] - shader->ground;
         v3_axpy(point, origin, -height / direction[shader->up], direction);
         if (height > 0.0 || !shader->camera.is_perspective) {
-            shade_ground(shader, sample, point, rgba);
+            return shade_ground(shader, sample, point, rgba);
         }
     }
+    return (sighting){-1, false, true};
 }
 
 /// Offset in [-1, 1] with the density of a tent: soft edges without a blur.
@@ -222,27 +245,39 @@ static double tent(double u)
     return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u);
 }
 
+static bool is_same(const sighting *a, const sighting *b)
+{
+    return a->grain == b->grain && a->in_sun == b->in_sun;
+}
+
 void clx_shade_pixel(const clx_shader *shader, int32_t x, int32_t y, double rgba[4])
 {
+    const int32_t enough = shader->samples > 6 ? (shader->samples + 2) / 3 : shader->samples;
     double shift[6];
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    sighting first = {0};
+    bool is_plain = true;
+    int32_t n = 0;
     for (int k = 0; k < 6; ++k) {
         shift[k] = clx_dither_at(&shader->dither, x, y, k);
     }
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int32_t s = 0; s < shader->samples; ++s) {
-        sample_numbers sample = {.number = s, .sky_shift = {shift[4], shift[5]}};
+    // A third of the samples will do where all of them see the same thing in the same light.
+    for (; n < shader->samples && !(is_plain && n >= enough); ++n) {
+        sample_numbers sample = {.number = n, .sky_shift = {shift[4], shift[5]}};
         double one[4];
         for (int k = 0; k < 4; ++k) {
-            sample.u[k] = fraction(shift[k] + (s + 1) * step4[k]);
+            sample.u[k] = fraction(shift[k] + (n + 1) * step4[k]);
         }
         const double at[2] = {x + 0.5 + 0.75 * tent(sample.u[0]),
                               y + 0.5 + 0.75 * tent(sample.u[1])};
-        shade_sample(shader, &sample, at, one);
+        const sighting seen = shade_sample(shader, &sample, at, one);
+        first = n == 0 ? seen : first;
+        is_plain = is_plain && seen.is_open && is_same(&seen, &first);
         for (int k = 0; k < 4; ++k) {
             sum[k] += one[k];
         }
     }
     for (int k = 0; k < 4; ++k) {
-        rgba[k] = sum[k] / shader->samples;
+        rgba[k] = sum[k] / n;
     }
 }
