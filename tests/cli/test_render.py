@@ -55,6 +55,23 @@ class Render(Case):
             self.assertEqual(result.code, 0, result.err)
         self.assertEqual(pictures[0].read_bytes(), pictures[1].read_bytes())
 
+    def test_fillings_and_runs_are_drawn(self):
+        state = self.folder / "fill.h5"
+        done = clast("fill", STL / "27sk21_shape_fine.stl", "--spheres", 12, "-o", state, "-q")
+        self.assertEqual(done.code, 0, done.err)
+        result = clast("render", state, "-o", self.folder / "fill.png", "--json", *SMALL)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual((result.json["n_grain"], result.json["n_triangle"]), (12, 0))
+        run = self.folder / "run"
+        done = clast("aggregate", "--core", STL / "27sk21_shape_coarse.stl", "--core-size", "100um", "--coat",
+                     STL / "27sk21_shape_fine.stl", "--size", "30um", "--size", "40um", "--unit", "um", "-o", run, "-q")
+        self.assertEqual(done.code, 0, done.err)
+        result = clast("render", run, "-o", self.folder / "run.png", "--cut", "view", "--json", *SMALL)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual((result.json["n_grain"], result.json["unit"]), (3, "m"))
+        self.assertEqual(result.json["n_triangle"], 578 + 2 * 650)
+        self.assertEqual(read_png(self.folder / "run.png"), (200, 150, 3))
+
     def test_failures_are_one_line(self):
         picture = self.folder / "a.png"
         menger = STL / "Menger2.stl"
