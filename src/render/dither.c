@@ -4,42 +4,46 @@
 
 #include "math/rng.h"
 #include <math.h>
-#include <stdbool.h>
 
 enum { REACH = 8, N = CLX_DITHER * CLX_DITHER };
 
 typedef struct {
-    float energy[CLX_DITHER][CLX_DITHER];
-    bool set[CLX_DITHER][CLX_DITHER];
+    float energy[CLX_DITHER][CLX_DITHER]; ///< infinite where a number is set
+    int emptiest[CLX_DITHER];             ///< of each row
     float weight[2 * REACH + 1][2 * REACH + 1];
 } voids;
+
+static void find_emptiest(voids *v, int y)
+{
+    int best = 0;
+    for (int x = 1; x < CLX_DITHER; ++x) {
+        best = v->energy[y][x] < v->energy[y][best] ? x : best;
+    }
+    v->emptiest[y] = best;
+}
 
 static void put(voids *v, int at, float value, clx_dither *dither)
 {
     const int x = at % CLX_DITHER;
     const int y = at / CLX_DITHER;
-    v->set[y][x] = true;
     dither->value[y][x] = value;
+    v->energy[y][x] = INFINITY;
     for (int j = -REACH; j <= REACH; ++j) {
+        const int row = (y + j + CLX_DITHER) % CLX_DITHER;
         for (int i = -REACH; i <= REACH; ++i) {
-            v->energy[(y + j + CLX_DITHER) % CLX_DITHER][(x + i + CLX_DITHER) % CLX_DITHER] +=
-                v->weight[j + REACH][i + REACH];
+            v->energy[row][(x + i + CLX_DITHER) % CLX_DITHER] += v->weight[j + REACH][i + REACH];
         }
+        find_emptiest(v, row);
     }
 }
 
 static int largest_void(const voids *v)
 {
-    int best = -1;
-    float least = INFINITY;
-    for (int at = 0; at < N; ++at) {
-        const float e = v->energy[at / CLX_DITHER][at % CLX_DITHER];
-        if (!v->set[at / CLX_DITHER][at % CLX_DITHER] && e < least) {
-            least = e;
-            best = at;
-        }
+    int best = 0;
+    for (int y = 1; y < CLX_DITHER; ++y) {
+        best = v->energy[y][v->emptiest[y]] < v->energy[best][v->emptiest[best]] ? y : best;
     }
-    return best;
+    return best * CLX_DITHER + v->emptiest[best];
 }
 
 void clx_dither_fill(uint64_t seed, clx_dither *dither)

@@ -136,6 +136,7 @@ static void everything_fits_into_the_frame(void **state)
     clast_render_config config = {0};
     four_kinds(&a);
     small_config(&config);
+    config.samples = 2;
     for (int view = 0; view < 12; ++view) {
         clast_image image = {0};
         config.projection = view % 2;
