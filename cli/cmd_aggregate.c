@@ -1,6 +1,7 @@
 // clast aggregate: grow virtual aggregates grain by grain.
 #include "command.h"
 
+#include "aggregate_fit.h"
 #include "aggregate_report.h"
 #include <stdio.h>
 #include <string.h>
@@ -65,6 +66,9 @@ static clast_status run(const cli_common *common, void *context)
     const clast_aggregate_config *config = context;
     clast_aggregate_report report = {0};
     const clast_monitor monitor = cli_monitor(common);
+    if (config->fit) {
+        return aggregate_fit(common, config);
+    }
     clast_status status = config->resume[0] != '\0'
                               ? resume(common, config, &monitor, &report)
                               : clast_aggregate_run(config, common->output, &monitor, &report);
@@ -84,6 +88,8 @@ static const char details[] =
     "The core lies at the origin. Each particle is tried along N_r rays in a cone about an axis,\n"
     "in N_o orientations on each ray, comes from outside to its first touch, and stays where its\n"
     "centre of mass ends nearest to the target. Nothing moves after that.\n"
+    "--fit finds rays, orientations, cone and replicate that explain an observed size, density or\n"
+    "settling velocity, with their spread, and says when none do (exit code 1).\n"
     "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
     "With -o RUN: state.h5, history.csv, structure.csv, radial.csv, summary.json, aggregate.stl "
     "(um),\n"

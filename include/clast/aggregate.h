@@ -108,6 +108,13 @@ typedef struct clast_aggregate_config {
     double stop_size;     ///< D_agg; 0: never
     double stop_porosity; ///< 0: never
 
+    bool fit; ///< find packing and N_A that explain what was observed (aggregate_fit.h)
+    double observed_size, observed_size_error; ///< D_agg [m]; 0: not observed
+    double observed_density, observed_density_error;
+    double observed_velocity, observed_velocity_error; ///< terminal, in air
+    clast_text_list fit_packing; ///< "cone:rays:orientations", loose to tight; empty: built in
+    int32_t fit_repeats, fit_replicate_max;
+
     int32_t pick;    ///< cluster mode: which two clusters meet
     int32_t n_final; ///< cluster mode: clusters left at the end
 

@@ -1,6 +1,7 @@
 #pragma once
 // All public headers.
 #include <clast/aggregate.h>
+#include <clast/aggregate_fit.h>
 #include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
 #include <clast/aggregate_run.h>

@@ -111,6 +111,17 @@ const clast_field clast_aggregate_fields[] = {
     NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),
     NUMBER(stop_porosity, 0, 0, 1, "-", "stop when the porosity reaches this; 0: never"),
 
+    FLAG(fit, "find packing and replicate that explain the observed size, density or velocity"),
+    NUMBER(observed_size, 0, 0, 1e6, "m", "fit: observed D_agg; 0: not observed"),
+    NUMBER(observed_size_error, 0, 0, 1e6, "m", "fit: its standard error"),
+    NUMBER(observed_density, 0, 0, 1e6, "kg/m^3", "fit: observed density; 0: not observed"),
+    NUMBER(observed_density_error, 0, 0, 1e6, "kg/m^3", "fit: its standard error"),
+    NUMBER(observed_velocity, 0, 0, 1e6, "m/s", "fit: observed settling velocity; 0: not observed"),
+    NUMBER(observed_velocity_error, 0, 0, 1e6, "m/s", "fit: its standard error"),
+    TEXTS(fit_packing, "", "fit: a packing cone:rays:orientations to try; none: 1 to 64 trials"),
+    COUNT(fit_repeats, 3, 2, 1000, "fit: aggregates grown at each packing and replicate"),
+    COUNT(fit_replicate_max, 32, 1, 1e6, "fit: greatest replicate tried"),
+
     CHOICE(pick, 0, "random|mass|brownian", "cluster mode: how two clusters are chosen"),
     COUNT(n_final, 1, 1, 1e8, "cluster mode: clusters left at the end"),
 

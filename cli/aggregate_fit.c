@@ -1,0 +1,51 @@
+// clast aggregate --fit, printed.
+#include "aggregate_fit.h"
+
+#include <stdio.h>
+
+static void print_estimate(const char *name, const clast_fit_estimate *e, double factor,
+                           const char *unit)
+{
+    (void)printf("%-18s %10.4g   %10.4g .. %-10.4g %s\n", name, e->best * factor, e->low * factor,
+                 e->high * factor, unit);
+}
+
+static void print_fit(const clast_aggregate_fit *fit)
+{
+    (void)printf("%s\n\n", fit->words);
+    (void)printf("%-18s %10s   %s\n", "", "best", "68 % of the weight between");
+    print_estimate("rays x orient.", &fit->trials, 1.0, "");
+    print_estimate("replicate (N_A)", &fit->n_replica, 1.0, "");
+    print_estimate("D_agg", &fit->model[CLAST_FIT_SIZE], 1e6, "um");
+    print_estimate("density", &fit->model[CLAST_FIT_DENSITY], 1.0, "kg/m^3");
+    print_estimate("settling velocity", &fit->model[CLAST_FIT_VELOCITY], 1.0, "m/s");
+    print_estimate("porosity", &fit->porosity, 1.0, "");
+    (void)printf(
+        "\nchi2 %.3g for %d observed (chance %.2g); %d aggregates grown at %d packings%s\n",
+        fit->chi2, fit->n_observed, fit->chance, fit->n_run, fit->n_level,
+        fit->cut_short ? ", tighter ones left out" : "");
+}
+
+clast_status aggregate_fit(const cli_common *common, const clast_aggregate_config *config)
+{
+    const clast_monitor monitor = cli_monitor(common);
+    clast_aggregate_fit fit;
+    char *text = NULL;
+    if (config->resume[0] != '\0') {
+        return cli_fail(CLAST_E_USAGE, "--fit cannot --resume: start it again");
+    }
+    clast_status status = clast_aggregate_fit_study(config, common->output, &monitor, &fit);
+    if (status == CLAST_OK && common->json) {
+        status = clast_aggregate_fit_json(&fit, &text);
+        if (status == CLAST_OK) {
+            (void)puts(text);
+        }
+    } else if (status == CLAST_OK) {
+        print_fit(&fit);
+    }
+    clast_text_free(text);
+    if (status == CLAST_OK && !fit.reached) {
+        return cli_fail(CLAST_E_NO, "the observation cannot be reached");
+    }
+    return status;
+}

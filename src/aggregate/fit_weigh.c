@@ -1,0 +1,399 @@
+// What a fit's nodes say together: interpolation, chi2, weights, and the outcome in words.
+#include "aggregate/fit.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Relative scatter of repeats, pooled over all grown nodes: a few repeats at one node know it
+/// poorly.
+static double pooled_scatter(const clx_fit *fit, int32_t observable)
+{
+    double sum = 0.0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        const clx_fit_node *node = &fit->node[i];
+        if (node->n_run > 0) {
+            const double share = node->deviation[observable] / node->mean[observable];
+            sum += share * share;
+            ++n;
+        }
+    }
+    return n > 0 ? sqrt(sum / n) : 0.0;
+}
+
+static double total_error(const clx_fit *fit, int32_t observable, double model)
+{
+    // one observed aggregate scatters like one repeat; the model's mean like one over their root
+    const double scatter = pooled_scatter(fit, observable) * model;
+    const double repeats = fit->config->fit_repeats;
+    return sqrt(fit->error[observable] * fit->error[observable] +
+                scatter * scatter * (1.0 + 1.0 / repeats));
+}
+
+static int by_place(const void *p, const void *q)
+{
+    const clx_fit_node *a = p;
+    const clx_fit_node *b = q;
+    if (a->level != b->level) {
+        return a->level < b->level ? -1 : 1;
+    }
+    return (a->replicate > b->replicate) - (a->replicate < b->replicate);
+}
+
+static void sort_nodes(clx_fit *fit)
+{
+    qsort(fit->node, (size_t)fit->n_node, sizeof *fit->node, by_place);
+}
+
+/// Adds the N_A between neighbours of one packing, linear in ln N_A.
+static clast_status fill_between(clx_fit *fit)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n_grown = fit->n_node;
+    sort_nodes(fit);
+    for (int32_t i = 0; i + 1 < n_grown; ++i) {
+        if (fit->node[i].level != fit->node[i + 1].level) {
+            continue;
+        }
+        const int32_t low = fit->node[i].replicate;
+        const int32_t high = fit->node[i + 1].replicate;
+        for (int32_t r = low + 1; r < high; ++r) {
+            const double t = log((double)r / low) / log((double)high / low);
+            clx_fit_node made = {.level = fit->node[i].level, .replicate = r};
+            for (int k = 0; k < CLX_FIT_N_MODEL; ++k) {
+                made.mean[k] = (1.0 - t) * fit->node[i].mean[k] + t * fit->node[i + 1].mean[k];
+                made.deviation[k] =
+                    (1.0 - t) * fit->node[i].deviation[k] + t * fit->node[i + 1].deviation[k];
+            }
+            CLX_TRY(
+                clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
+            fit->node[fit->n_node++] = made;
+        }
+    }
+    sort_nodes(fit);
+done:
+    return status;
+}
+
+void clx_fit_set_chi2(clx_fit *fit)
+{
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        clx_fit_node *node = &fit->node[i];
+        node->chi2 = 0.0;
+        for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+            if (isfinite(fit->observed[k])) {
+                const double off =
+                    (node->mean[k] - fit->observed[k]) / total_error(fit, k, node->mean[k]);
+                node->chi2 += off * off;
+            }
+        }
+    }
+}
+
+/// Weights under even chances for packings and ln N_A, summing to 1; returns the best node.
+static int32_t set_weights(clx_fit *fit)
+{
+    int32_t best = 0;
+    double sum = 0.0;
+    for (int32_t i = 1; i < fit->n_node; ++i) {
+        best = fit->node[i].chi2 < fit->node[best].chi2 ? i : best;
+    }
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        clx_fit_node *node = &fit->node[i];
+        node->weight = exp(-0.5 * (node->chi2 - fit->node[best].chi2)) / node->replicate;
+        sum += node->weight;
+    }
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        fit->node[i].weight /= sum;
+    }
+    return best;
+}
+
+typedef struct weighed {
+    double value, weight;
+} weighed;
+
+static int by_value(const void *p, const void *q)
+{
+    const weighed *a = p;
+    const weighed *b = q;
+    return (a->value > b->value) - (a->value < b->value);
+}
+
+/// A quantity of the nodes by weight; `list` is scratch [n_node] that holds the values.
+static clast_fit_estimate estimate(const clx_fit *fit, weighed *list, int32_t best)
+{
+    clast_fit_estimate e = {.best = list[best].value};
+    double squares = 0.0;
+    double sum = 0.0;
+    bool has_low = false;
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        list[i].weight = fit->node[i].weight;
+        e.mean += list[i].weight * list[i].value;
+    }
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        squares += list[i].weight * (list[i].value - e.mean) * (list[i].value - e.mean);
+    }
+    e.deviation = sqrt(squares);
+    qsort(list, (size_t)fit->n_node, sizeof *list, by_value);
+    e.high = list[fit->n_node - 1].value;
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        sum += list[i].weight;
+        if (!has_low && sum >= 0.16) {
+            e.low = list[i].value;
+            has_low = true;
+        }
+        if (sum >= 0.84) {
+            e.high = list[i].value;
+            break;
+        }
+    }
+    return e;
+}
+
+static clast_status estimate_all(const clx_fit *fit, int32_t best, clast_aggregate_fit *result)
+{
+    clast_status status = CLAST_OK;
+    weighed *list = NULL;
+    CLX_TRY(clx_alloc(&list, fit->n_node, sizeof *list));
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        const clx_fit_packing *p = &fit->packing[fit->node[i].level];
+        list[i].value = log((double)p->rays * p->orientations);
+    }
+    result->trials = estimate(fit, list, best);
+    result->trials.best = exp(result->trials.best);
+    result->trials.mean = exp(result->trials.mean);
+    result->trials.low = exp(result->trials.low);
+    result->trials.high = exp(result->trials.high);
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        list[i].value = fit->node[i].replicate;
+    }
+    result->n_replica = estimate(fit, list, best);
+    for (int k = 0; k < CLX_FIT_N_MODEL; ++k) {
+        for (int32_t i = 0; i < fit->n_node; ++i) {
+            list[i].value = fit->node[i].mean[k];
+        }
+        *(k == CLX_FIT_POROSITY ? &result->porosity : &result->model[k]) =
+            estimate(fit, list, best);
+    }
+done:
+    clx_free(list);
+    return status;
+}
+
+/// Pulls at the best node and the range of all grown nodes.
+static void compare(const clx_fit *fit, const clx_fit_node *best, clast_aggregate_fit *result)
+{
+    result->reached = true;
+    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        result->observed[k] = fit->observed[k];
+        result->error[k] = fit->error[k];
+        result->least[k] = INFINITY;
+        result->most[k] = -INFINITY;
+        for (int32_t i = 0; i < fit->n_node; ++i) {
+            if (fit->node[i].n_run > 0) {
+                result->least[k] = fmin(result->least[k], fit->node[i].mean[k]);
+                result->most[k] = fmax(result->most[k], fit->node[i].mean[k]);
+            }
+        }
+        if (isfinite(fit->observed[k])) {
+            result->pull[k] =
+                (best->mean[k] - fit->observed[k]) / total_error(fit, k, best->mean[k]);
+            result->reached = result->reached && fabs(result->pull[k]) <= 2.0;
+            ++result->n_observed;
+        }
+    }
+}
+
+/// Chance of a chi2 this great or greater with n = 1, 2 or 3.
+static double chance_of(double chi2, int32_t n)
+{
+    const double half = 0.5 * chi2;
+    if (n == 2) {
+        return exp(-half);
+    }
+    const double tail = erfc(sqrt(half));
+    return n == 1 ? tail : tail + 2.0 * sqrt(half / CLAST_PI) * exp(-half);
+}
+
+static void append(char *text, size_t size, const char *more)
+{
+    const size_t n = strlen(text);
+    (void)snprintf(text + n, size - n, "%s", more);
+}
+
+static void say_pulls(clast_aggregate_fit *r)
+{
+    char part[160];
+    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        if (isfinite(r->observed[k])) {
+            (void)snprintf(part, sizeof part, "%s %.4g against %.4g +- %.2g %s (%+.1f errors); ",
+                           clast_fit_observable_name(k), r->model[k].best, r->observed[k],
+                           r->error[k], clast_fit_observable_unit(k), r->pull[k]);
+            append(r->words, sizeof r->words, part);
+        }
+    }
+}
+
+static void say(clast_aggregate_fit *r)
+{
+    char part[200];
+    append(r->words, sizeof r->words,
+           r->reached ? "the observation is reached: " : "the observation cannot be reached: ");
+    say_pulls(r);
+    (void)snprintf(part, sizeof part,
+                   "porosity %.3f with cone %.3g deg, rays %d, orientations %d, "
+                   "replicate %d",
+                   r->porosity.best, r->cone * 180.0 / CLAST_PI, r->rays, r->orientations,
+                   r->replicate);
+    append(r->words, sizeof r->words, part);
+    if (!r->reached && r->at_level == 0) {
+        append(r->words, sizeof r->words, "; this is the loosest packing tried");
+    }
+    if (!r->reached && r->at_level == r->n_level - 1 && r->n_level > 1 && !r->cut_short) {
+        append(r->words, sizeof r->words, "; this is the tightest packing tried");
+    }
+    if (r->at_limit) {
+        append(r->words, sizeof r->words, "; replicate is at its limit: raise fit_replicate_max");
+    }
+}
+
+clast_status clx_fit_weigh(clx_fit *fit, clast_aggregate_fit *result)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_fit made = {
+        .n_level = fit->n_tried, .n_run = fit->n_run, .cut_short = fit->n_tried < fit->n_level};
+    CLX_TRY(fill_between(fit));
+    clx_fit_set_chi2(fit);
+    const int32_t best = set_weights(fit);
+    const clx_fit_node *node = &fit->node[best];
+    const clx_fit_packing *packing = &fit->packing[node->level];
+    made.cone = packing->cone;
+    made.rays = packing->rays;
+    made.orientations = packing->orientations;
+    made.replicate = node->replicate;
+    made.chi2 = node->chi2;
+    made.at_level = node->level;
+    made.at_limit = node->replicate == fit->config->fit_replicate_max;
+    compare(fit, node, &made);
+    made.chance = chance_of(made.chi2, made.n_observed);
+    made.reached = made.reached && made.chance >= 0.05;
+    CLX_TRY(estimate_all(fit, best, &made));
+    say(&made);
+    *result = made;
+done:
+    return status;
+}
+
+static clast_status check_observed(clx_fit *fit)
+{
+    clast_status status = CLAST_OK;
+    const clast_aggregate_config *c = fit->config;
+    const double value[] = {c->observed_size, c->observed_density, c->observed_velocity};
+    const double error[] = {c->observed_size_error, c->observed_density_error,
+                            c->observed_velocity_error};
+    int32_t n = 0;
+    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        CLX_CHECK((value[k] > 0.0) == (error[k] > 0.0), CLAST_E_CONFIG,
+                  "fit: observed %s %g %s with error %g: give both or neither",
+                  clast_fit_observable_name(k), value[k], clast_fit_observable_unit(k), error[k]);
+        fit->observed[k] = value[k] > 0.0 ? value[k] : (double)NAN;
+        fit->error[k] = error[k];
+        n += value[k] > 0.0;
+    }
+    CLX_CHECK(n > 0, CLAST_E_CONFIG,
+              "fit: give observed_size, observed_density or observed_velocity with their errors");
+done:
+    return status;
+}
+
+/// Options that the fit is to find, or that would end growth before it is measured.
+static clast_status check_options(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_config fresh;
+    CLX_TRY(clast_fields_default(clast_aggregate_fields, &fresh));
+    CLX_CHECK(c->cone == fresh.cone && c->rays == fresh.rays &&
+                  c->orientations == fresh.orientations,
+              CLAST_E_CONFIG,
+              "fit finds cone, rays and orientations: drop them, or give packings by fit_packing");
+    CLX_CHECK(c->replicate == fresh.replicate, CLAST_E_CONFIG,
+              "fit finds replicate: drop it, or bound it by fit_replicate_max");
+    CLX_CHECK(c->mode == CLAST_AGGREGATE_CORE, CLAST_E_CONFIG,
+              "fit grows on a core; mode: cluster has no packing to find");
+    CLX_CHECK(c->size_law == CLAST_SIZE_LIST && c->n_particle == 0, CLAST_E_CONFIG,
+              "fit takes a whole list of sizes, N_A times: drop size_law and n_particle");
+    CLX_CHECK(!(c->stop_mass > 0.0 || c->stop_size > 0.0 || c->stop_porosity > 0.0), CLAST_E_CONFIG,
+              "fit grows to the end of the list: drop stop_mass, stop_size, stop_porosity");
+done:
+    clast_fields_free(clast_aggregate_fields, &fresh);
+    return status;
+}
+
+static clast_status make_table(const clx_fit *fit, clast_table *table)
+{
+    static const char *const column[][2] = {{"cone_rad", "rad"},
+                                            {"rays", "-"},
+                                            {"orientations", "-"},
+                                            {"replicate", "-"},
+                                            {"n_run", "-"},
+                                            {"d_agg_m", "m"},
+                                            {"d_agg_deviation_m", "m"},
+                                            {"density_kg/m^3", "kg/m^3"},
+                                            {"density_deviation_kg/m^3", "kg/m^3"},
+                                            {"settling_velocity_m/s", "m/s"},
+                                            {"settling_velocity_deviation_m/s", "m/s"},
+                                            {"porosity", "-"},
+                                            {"porosity_deviation", "-"},
+                                            {"chi2", "-"},
+                                            {"weight", "-"}};
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    CLX_TRY(clast_table_init(&made, "fit", fit->n_node));
+    for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
+        CLX_TRY(clast_table_add_number(&made, column[k][0], column[k][1], NULL));
+    }
+    for (int32_t i = 0; i < fit->n_node; ++i) {
+        const clx_fit_node *node = &fit->node[i];
+        const clx_fit_packing *p = &fit->packing[node->level];
+        const double first[] = {p->cone, p->rays, p->orientations, node->replicate, node->n_run};
+        int c = 0;
+        for (; c < 5; ++c) {
+            made.column[c].number[i] = first[c];
+        }
+        for (int k = 0; k < CLX_FIT_N_MODEL; ++k) {
+            made.column[c++].number[i] = node->mean[k];
+            made.column[c++].number[i] = node->deviation[k];
+        }
+        made.column[c++].number[i] = node->chi2;
+        made.column[c].number[i] = node->weight;
+    }
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}
+
+clast_status clast_aggregate_fit_run(const clast_aggregate_config *config,
+                                     const clast_aggregate_input *input,
+                                     const clast_monitor *monitor, clast_aggregate_fit *fit,
+                                     clast_table *nodes)
+{
+    clast_status status = CLAST_OK;
+    clx_fit f = {.config = config, .input = input, .monitor = monitor};
+    clast_aggregate_fit made;
+    CLX_TRY(check_observed(&f));
+    CLX_TRY(check_options(config));
+    CLX_TRY(clx_fit_packings(&f));
+    CLX_TRY(clx_fit_grow(&f));
+    CLX_TRY(clx_fit_weigh(&f, &made));
+    CLX_TRY(make_table(&f, nodes));
+    *fit = made;
+done:
+    clx_fit_free(&f);
+    return status;
+}

@@ -1,0 +1,157 @@
+// A fit from a configuration to a folder of results.
+#include <clast/aggregate_fit.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "study/aggregate_folder.h"
+#include <clast/aggregate_file.h>
+#include <clast/manifest.h>
+#include <clast/table_file.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void set(json_t *object, const char *key, double value)
+{
+    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+static json_t *estimate_json(const clast_fit_estimate *e)
+{
+    json_t *object = json_object();
+    set(object, "best", e->best);
+    set(object, "mean", e->mean);
+    set(object, "deviation", e->deviation);
+    set(object, "low", e->low);
+    set(object, "high", e->high);
+    return object;
+}
+
+static json_t *observed_json(const clast_aggregate_fit *fit)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        if (isfinite(fit->observed[k])) {
+            json_t *one = json_object();
+            set(one, "observed", fit->observed[k]);
+            set(one, "error", fit->error[k]);
+            set(one, "model", fit->model[k].best);
+            set(one, "pull", fit->pull[k]);
+            set(one, "least_model", fit->least[k]);
+            set(one, "most_model", fit->most[k]);
+            (void)json_object_set_new(object, clast_fit_observable_name(k), one);
+        }
+    }
+    return object;
+}
+
+clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text)
+{
+    clast_status status = CLAST_OK;
+    json_t *root = json_object();
+    json_t *best = json_object();
+    json_t *spread = json_object();
+    char *made = NULL;
+    char *copy = NULL;
+    (void)json_object_set_new(root, "reached", json_boolean(fit->reached));
+    (void)json_object_set_new(root, "words", json_string(fit->words));
+    set(root, "chi2", fit->chi2);
+    set(root, "chance", fit->chance);
+    (void)json_object_set_new(root, "n_observed", json_integer(fit->n_observed));
+    (void)json_object_set_new(root, "n_run", json_integer(fit->n_run));
+    set(best, "cone_deg", fit->cone * 180.0 / CLAST_PI);
+    (void)json_object_set_new(best, "rays", json_integer(fit->rays));
+    (void)json_object_set_new(best, "orientations", json_integer(fit->orientations));
+    (void)json_object_set_new(best, "replicate", json_integer(fit->replicate));
+    (void)json_object_set_new(root, "best", best);
+    (void)json_object_set_new(root, "observables", observed_json(fit));
+    (void)json_object_set_new(spread, "trials", estimate_json(&fit->trials));
+    (void)json_object_set_new(spread, "replicate", estimate_json(&fit->n_replica));
+    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
+        (void)json_object_set_new(spread, clast_fit_observable_name(k),
+                                  estimate_json(&fit->model[k]));
+    }
+    (void)json_object_set_new(spread, "porosity", estimate_json(&fit->porosity));
+    (void)json_object_set_new(root, "spread", spread);
+    made = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    CLX_CHECK(made != NULL, CLAST_E_MEMORY, "no memory for the fit's summary");
+    CLX_TRY(clx_alloc_text(&copy, made));
+    *text = copy;
+done:
+    json_decref(root);
+    free(made); // Jansson's own allocator
+    return status;
+}
+
+static clast_status note_inputs(const clast_aggregate_config *config, clast_manifest *manifest)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
+    clast_manifest_seed(manifest, config->seed);
+    for (int32_t i = 0; i < clast_aggregate_n_file(config); ++i) {
+        const char *role = NULL;
+        const char *path = clast_aggregate_file(config, i, &role);
+        CLX_TRY(clast_manifest_input(manifest, role, path));
+    }
+done:
+    return status;
+}
+
+static clast_status path_in(char path[4096], const char *folder, const char *name)
+{
+    const int n = snprintf(path, 4096, "%s/%s", folder, name);
+    return n > 0 && n < 4096 ? CLAST_OK
+                             : clx_fail(CLAST_E_USAGE, "the path %.60s... is too long", folder);
+}
+
+static clast_status write_results(const char *folder, const clast_aggregate_fit *fit,
+                                  const clast_table *nodes)
+{
+    clast_status status = CLAST_OK;
+    char path[4096];
+    char *text = NULL;
+    CLX_TRY(path_in(path, folder, "fit.csv"));
+    CLX_TRY(clast_table_write_csv(nodes, path));
+    CLX_TRY(clast_aggregate_fit_json(fit, &text));
+    CLX_TRY(path_in(path, folder, "summary.json"));
+    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+done:
+    clast_text_free(text);
+    return status;
+}
+
+static clast_status write_manifest(const clast_manifest *manifest, const char *folder,
+                                   const char *outcome)
+{
+    char path[4096];
+    const clast_status status = path_in(path, folder, "manifest.json");
+    return status == CLAST_OK ? clast_manifest_write(manifest, outcome, path) : status;
+}
+
+clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, const char *folder,
+                                       const clast_monitor *monitor, clast_aggregate_fit *fit)
+{
+    clast_status status = CLAST_OK;
+    clast_aggregate_source source = {0};
+    clast_manifest *manifest = NULL;
+    clast_table nodes = {0};
+    CLX_TRY(clast_aggregate_load(config, &source));
+    if (folder != NULL) {
+        CLX_TRY(clx_folder_check_free(folder));
+        CLX_TRY(clast_manifest_create("aggregate", 0, NULL, &manifest));
+        CLX_TRY(note_inputs(config, manifest));
+    }
+    CLX_TRY(clast_aggregate_fit_run(config, &source.input, monitor, fit, &nodes));
+    if (folder != NULL) {
+        CLX_TRY(clx_folder_make(folder));
+        CLX_TRY(write_results(folder, fit, &nodes));
+        CLX_TRY(write_manifest(manifest, folder, "done"));
+    }
+done:
+    clast_table_free(&nodes);
+    clast_manifest_destroy(manifest);
+    clast_aggregate_unload(&source);
+    return status;
+}
