@@ -1,9 +1,9 @@
 #pragma once
 // All public headers.
 #include <clast/aggregate.h>
-#include <clast/aggregate_fit.h>
 #include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
+#include <clast/aggregate_fit.h>
 #include <clast/aggregate_run.h>
 #include <clast/assembly.h>
 #include <clast/bvh.h>
