@@ -103,6 +103,7 @@ typedef struct clast_aggregate_config {
     int32_t envelope_every;
     int32_t envelope_rays;
     double envelope_length; ///< radius of the ball of `wrap`
+    bool solid_union; ///< measure the volume of the union
 
     double stop_mass;     ///< kg; 0: never
     double stop_size;     ///< D_agg; 0: never
@@ -170,7 +171,8 @@ typedef struct clast_aggregate_result {
     int32_t n_cluster;
     double mass;
     double solid_sum;         ///< sum of the grains' volumes
-    double solid_union;       ///< of the space that they fill: less where they overlap
+    double solid_union;       ///< of the space that they fill: less where they overlap; NAN when
+                              ///< not asked for
     double solid_union_error; ///< one standard deviation, 0 when exact
     int32_t n_envelope;
     clast_envelope envelope[CLAST_N_ENVELOPE]; ///< [n_envelope] in the order of the configuration

@@ -6,9 +6,10 @@ typedef struct clast_union_options {
     double tolerance; ///< wanted relative standard error of the union's volume
     int64_t n_sample; ///< most sample points in all
     uint64_t seed;    ///< of the sample points
+    bool find_depth;  ///< search for the depths of overlaps too; else max_overlap is NAN
 } clast_union_options;
 
-/// tolerance 1e-4, 2^24 points, seed 1.
+/// tolerance 1e-4, 2^24 points, seed 1, with depths.
 CLAST_API clast_union_options clast_union_options_default(void);
 
 /// The space that the grains fill, and by how much they overlap.

@@ -103,6 +103,8 @@ const clast_field clast_aggregate_fields[] = {
           "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, "
           "enclosing_sphere, gyration_sphere"),
     COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
+    {FIELD(BOOL, solid_union), 1, 0, 1, "-",
+     "measure the volume of the union too, which takes sampling where grains overlap", NULL},
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(envelope_length, 0, 0, 1e6, "m",
            "radius of the ball of the wrap envelope, which needs it"),

@@ -13,6 +13,10 @@
 static const double ROW_TOLERANCE = 2e-3;
 static const double END_TOLERANCE = 1e-3;
 
+/// Where grains overlap (the march, composites), the union is sampled to this standard error.
+static const double SOLID_TOLERANCE = 1e-3;
+enum { SOLID_SAMPLES = 1 << 16 };
+
 static clast_envelope_options options_of(const clast_aggregate *a, double tolerance)
 {
     clast_envelope_options options = clast_envelope_options_default();
@@ -169,7 +173,14 @@ static clast_status measure_solid(const clast_aggregate *a, const clast_assembly
     clast_status status = CLAST_OK;
     clast_union_options options = clast_union_options_default();
     clast_union solid;
+    result->solid_union = (double)NAN;
+    if (!a->config->solid_union) {
+        return CLAST_OK;
+    }
     options.seed = a->seed;
+    options.tolerance = SOLID_TOLERANCE;
+    options.n_sample = SOLID_SAMPLES;
+    options.find_depth = false; // the rows know how far each particle must step back
     CLX_TRY(clast_assembly_union(grains, &options, &solid));
     result->solid_union = solid.volume;
     result->solid_union_error = solid.error;

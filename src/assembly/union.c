@@ -40,7 +40,8 @@ typedef struct group {
 
 clast_union_options clast_union_options_default(void)
 {
-    return (clast_union_options){.tolerance = 1e-4, .n_sample = 1 << 24, .seed = 1};
+    return (clast_union_options){
+        .tolerance = 1e-4, .n_sample = 1 << 24, .seed = 1, .find_depth = true};
 }
 
 static double grain_volume(const clast_assembly *a, int32_t i)
@@ -162,8 +163,10 @@ done:
     return status;
 }
 
-/// Depth of an overlap: exact for round pairs, else the least shift found, by halving.
-static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least)
+/// Depth of an overlap: exact for round pairs, else the least shift found, by halving; any value
+/// above `least` where the depth is not wanted.
+static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least,
+                            bool wanted)
 {
     clx_gap gap;
     if (!clx_touch_gap(a, b, 0.0, &gap)) {
@@ -174,6 +177,9 @@ static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, do
     }
     if (!clx_touch_overlap(a, b, least, NULL)) {
         return 0.0;
+    }
+    if (!wanted) {
+        return 2.0 * least;
     }
     double low = least;
     double high = a->radius + b->radius + v3_distance(a->position, b->position);
@@ -186,21 +192,26 @@ static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, do
 
 /// Keeps the pairs that overlap, and their depths.
 static void find_overlaps(const clast_assembly *assembly, const clx_touch_set *set,
-                          clx_pairs *pairs, clast_union *out)
+                          const clast_union_options *options, clx_pairs *pairs, clast_union *out)
 {
     int32_t n = 0;
     for (int32_t p = 0; p < pairs->n; ++p) {
         const int32_t i = pairs->pair[p][0];
         const int32_t j = pairs->pair[p][1];
         const double radius = fmin(grain_radius(assembly, i), grain_radius(assembly, j));
-        const double depth = overlap_depth(clx_touch_scene_body(set->scene, i),
-                                           clx_touch_scene_body(set->scene, j), touching * radius);
+        const double depth =
+            overlap_depth(clx_touch_scene_body(set->scene, i), clx_touch_scene_body(set->scene, j),
+                          touching * radius, options->find_depth);
         if (depth > touching * radius) {
             out->max_overlap = fmax(out->max_overlap, depth);
             out->max_overlap_share = fmax(out->max_overlap_share, depth / radius);
             pairs->pair[n][0] = i;
             pairs->pair[n++][1] = j;
         }
+    }
+    if (n > 0 && !options->find_depth) {
+        out->max_overlap = (double)NAN;
+        out->max_overlap_share = (double)NAN;
     }
     pairs->n = n;
     out->n_overlap = n;
@@ -283,7 +294,7 @@ clast_status clast_assembly_union(const clast_assembly *assembly,
     CLX_TRY(clx_touch_set_near(&set, &pairs));
     made.sum = clast_assembly_volume(assembly);
     made.volume = made.sum;
-    find_overlaps(assembly, &set, &pairs, &made);
+    find_overlaps(assembly, &set, options, &pairs, &made);
     if (pairs.n > 0) {
         CLX_TRY(make_group(&pairs, &g));
         CLX_TRY(add_group(&g, options, &made));

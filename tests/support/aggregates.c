@@ -33,7 +33,7 @@ static void one_grain(const char *name, const double *axes, clast_assembly *asse
     clast_shape_free(&shape);
 }
 
-static void set_options(clast_aggregate_config *config, const char *options)
+void support_aggregate_options(clast_aggregate_config *config, const char *options)
 {
     char text[1024];
     const clast_field *seen[64];
@@ -65,15 +65,15 @@ void support_aggregate_make(support_aggregate *s, const double (*axes)[3], int32
     *s = (support_aggregate){0};
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &s->config));
     one_grain("core", axes != NULL ? axes[0] : NULL, &s->core);
-    set_options(&s->config, "core=core;core_size=1");
+    support_aggregate_options(&s->config, "core=core;core_size=1");
     char names[64] = "";
     for (int32_t i = 0; i < n_coat; ++i) {
         (void)snprintf(name, sizeof name, "coat%d", i);
         one_grain(name, axes != NULL ? axes[i] : NULL, &s->coat[i]);
         (void)snprintf(names + strlen(names), sizeof names - strlen(names), "coat=%s;", name);
     }
-    set_options(&s->config, names);
-    set_options(&s->config, options);
+    support_aggregate_options(&s->config, names);
+    support_aggregate_options(&s->config, options);
     s->input = (clast_aggregate_input){.core = &s->core, .n_coat = n_coat, .coat = s->coat};
 }
 

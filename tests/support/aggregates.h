@@ -15,6 +15,8 @@ typedef struct support_aggregate {
 /// "key=value;key=value"; lists grow by repeating the key.
 void support_aggregate_make(support_aggregate *s, const double (*axes)[3], int32_t n_coat,
                             const char *options);
+/// Sets "key=value;key=value"; a list's first value here replaces what it had.
+void support_aggregate_options(clast_aggregate_config *config, const char *options);
 void support_aggregate_free(support_aggregate *s);
 
 /// Runs repeat `repeat` to its end.

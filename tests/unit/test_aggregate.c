@@ -62,11 +62,55 @@ static void spheres_never_overlap(void **state)
     support_aggregate_free(&s);
 }
 
+/// Creates, grows, restores and measures; frees all.
+static clast_status whole_life(void *context)
+{
+    support_aggregate *s = context;
+    clast_aggregate *a = NULL;
+    clast_aggregate *b = NULL;
+    clast_table history = {0};
+    clast_table members = {0};
+    clast_aggregate_result result;
+    clast_aggregate_saved saved = {.history = &history, .members = &members};
+    clast_status status = clast_aggregate_create(&s->config, &s->input, 0, &a);
+    status = status == CLAST_OK ? clast_aggregate_grow(a, 2, NULL) : status;
+    status = status == CLAST_OK ? clast_aggregate_history(a, &history) : status;
+    status = status == CLAST_OK ? clast_aggregate_members(a, &members) : status;
+    if (status == CLAST_OK) {
+        saved.placed = clast_aggregate_assembly(a);
+        status = clast_aggregate_restore(&s->config, &s->input, &saved, &b);
+    }
+    status = status == CLAST_OK ? clast_aggregate_measure(b, &result) : status;
+    clast_table_free(&history);
+    clast_table_free(&members);
+    clast_aggregate_destroy(a);
+    clast_aggregate_destroy(b);
+    return status;
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    static const char *const runs[] = {
+        "n_particle=3;size_law=uniform;size_low=1;size_high=2;envelope=enclosing_sphere",
+        "n_particle=3;size_law=uniform;size_low=1;size_high=2;contact=march;"
+        "envelope=enclosing_sphere;march_vertices=10",
+        "n_particle=4;size_law=uniform;size_low=1;size_high=2;mode=cluster;"
+        "envelope=enclosing_sphere"};
+    for (int r = 0; r < 3; ++r) {
+        support_aggregate s;
+        support_aggregate_make(&s, NULL, 1, runs[r]);
+        support_refuse_each_allocation(whole_life, &s);
+        support_aggregate_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_spheres_touch_with_the_known_porosity),
         cmocka_unit_test(spheres_never_overlap),
+        cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -174,7 +174,7 @@ static clast_status measure(void *context)
 {
     clast_assembly a = {0};
     clast_union u = {0};
-    const clast_union_options options = {1e-1, 4096, 1};
+    const clast_union_options options = {1e-1, 4096, 1, true};
     clast_status status = clast_assembly_copy(context, &a);
     if (status == CLAST_OK) {
         status = clast_assembly_union(&a, &options, &u);

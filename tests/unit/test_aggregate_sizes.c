@@ -1,0 +1,213 @@
+/* Unit: sizes, shapes by size, forms of groups, intervals: numbers that can be worked out. */
+#include "aggregates.h"
+
+#include "aggregate/form.h"
+#include "aggregate/sizes.h"
+#include "base/alloc.h"
+#include <clast/aggregate_file.h>
+
+static void default_config(clast_aggregate_config *config)
+{
+    CHECK_OK(clast_fields_default(clast_aggregate_fields, config));
+}
+
+static void lists_are_repeated_and_ordered(void **state)
+{
+    (void)state;
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    double *size = NULL;
+    int32_t n = 0;
+    default_config(&c);
+    CHECK_OK(clast_sizes_parse("list", "d_um,count\n30,1\n10,2\n20,1\n", "", "", &sizes));
+    c.replicate = 3;
+    c.order = CLAST_ORDER_DESCENDING;
+    CHECK_OK(clx_sizes_plan(&c, &sizes, 1, &size, &n));
+    assert_int_equal(n, 12);
+    CHECK_REL(size[0], 30e-6, 1e-15);
+    CHECK_REL(size[3], 20e-6, 1e-15);
+    CHECK_REL(size[11], 10e-6, 1e-15);
+    clx_free(size);
+    c.order = CLAST_ORDER_SHUFFLED;
+    CHECK_OK(clx_sizes_plan(&c, &sizes, 1, &size, &n));
+    double sum = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        sum += size[i];
+    }
+    CHECK_REL(sum, 3.0 * 70e-6, 1e-14);
+    clx_free(size);
+    clast_sizes_free(&sizes);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
+static void histograms_are_drawn_by_number_or_mass(void **state)
+{
+    (void)state;
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    default_config(&c);
+    // one bin at 1 mm and one at 2 mm: equal masses mean 8 of 9 grains are small
+    CHECK_OK(
+        clast_sizes_parse("bins", "low_mm high_mm weight\n1 1 0.5\n2 2 0.5\n", "", "", &sizes));
+    c.size_draw = true;
+    c.n_particle = 20000;
+    for (int by_mass = 0; by_mass < 2; ++by_mass) {
+        double *size = NULL;
+        int32_t n = 0;
+        double small = 0.0;
+        c.size_by_mass = by_mass == 1;
+        CHECK_OK(clx_sizes_plan(&c, &sizes, 7, &size, &n));
+        for (int32_t i = 0; i < n; ++i) {
+            small += size[i] < 1.5e-3 ? 1.0 : 0.0;
+        }
+        const double share = by_mass == 1 ? 8.0 / 9.0 : 0.5;
+        CHECK_ABS(small / n, share, 5.0 * sqrt(share * (1.0 - share) / n));
+        clx_free(size);
+    }
+    clast_sizes_free(&sizes);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
+/// Mean of f(size) over many draws of a law.
+static void check_law(int32_t law, double mean_of_log, double deviation_of_log)
+{
+    clast_aggregate_config c;
+    double *size = NULL;
+    double sum = 0.0;
+    double squares = 0.0;
+    int32_t n = 0;
+    default_config(&c);
+    c.size_law = law;
+    c.size_mean = 2e-3;
+    c.size_deviation = 1e-5;
+    c.size_shape = law == CLAST_SIZE_WEIBULL ? 2.0 : 0.3;
+    c.size_low = law <= CLAST_SIZE_LOGUNIFORM ? 1e-3 : 0.0;
+    c.size_high = law <= CLAST_SIZE_LOGUNIFORM ? 4e-3 : 0.0;
+    c.n_particle = 40000;
+    CHECK_OK(clx_sizes_plan(&c, NULL, 3, &size, &n));
+    for (int32_t i = 0; i < n; ++i) {
+        sum += log(size[i]);
+        squares += log(size[i]) * log(size[i]);
+    }
+    const double mean = sum / n;
+    CHECK_ABS(mean, mean_of_log, 5.0 * deviation_of_log / sqrt(n));
+    CHECK_REL(sqrt(squares / n - mean * mean), deviation_of_log, 0.03);
+    clx_free(size);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
+static void laws_have_their_moments(void **state)
+{
+    (void)state;
+    const double euler = 0.57721566490153286;
+    check_law(CLAST_SIZE_LOGUNIFORM, log(2e-3), log(4.0) / sqrt(12.0));
+    check_law(CLAST_SIZE_NORMAL, log(2e-3), 5e-3); // narrow: ln is linear
+    check_law(CLAST_SIZE_LOGNORMAL, log(2e-3), 0.3);
+    check_law(CLAST_SIZE_WEIBULL, log(2e-3) - euler / 2.0, CLAST_PI / sqrt(6.0) / 2.0);
+}
+
+static void classes_and_weights_choose_shapes(void **state)
+{
+    (void)state;
+    support_aggregate s;
+    support_aggregate_make(&s, NULL, 3, "class_limit=1;class_limit=2");
+    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 1.0), 0); // a limit belongs to its class
+    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 1.5), 1);
+    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 9.0), 2);
+    support_aggregate_free(&s);
+    support_aggregate_make(&s, NULL, 3, "coat_weight=1;coat_weight=0;coat_weight=3");
+    int32_t count[3] = {0};
+    for (int64_t i = 0; i < 4000; ++i) {
+        ++count[clx_sizes_shape(&s.config, 1, i, 1.0)];
+    }
+    assert_int_equal(count[1], 0);
+    CHECK_ABS(count[2] / 4000.0, 0.75, 5.0 * sqrt(0.75 * 0.25 / 4000.0));
+    support_aggregate_free(&s);
+}
+
+static void form_of_groups_is_exact(void **state)
+{
+    (void)state;
+    support_aggregate s;
+    clx_kit kit = {0};
+    double form[3];
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    const double at[3] = {1.0, 2.0, 2.0};
+    support_aggregate_make(&s, NULL, 1, "size_meaning=mean_diameter");
+    CHECK_OK(clast_assembly_add_grain(&s.core, 0, at, unturned, 2.0, 2500.0));
+    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    CHECK_OK(clx_form_dimensions(&kit, &kit.group[0], form));
+    CHECK_REL(form[0], 3.0 + 0.5 + 1.0, 1e-12); // radii 0.5 and 1, centres 3 apart
+    CHECK_REL(form[1], 2.0, 1e-2);              // of points on the spheres
+    CHECK_REL(form[2], 2.0, 1e-2);
+    CHECK_REL(kit.group[0].length, 4.5, 1e-12);
+    CHECK_REL(kit.group[1].mean_diameter, 1.0, 1e-15);
+    clx_kit_free(&kit);
+    support_aggregate_free(&s);
+}
+
+static void meanings_of_size_agree_for_an_ellipsoid(void **state)
+{
+    (void)state;
+    const double axes[1][3] = {{4.0, 2.0, 1.0}};
+    const double wanted[] = {4.0, 2.0, 2.0}; // length, volume-equivalent, (L I S)^(1/3)
+    support_aggregate s;
+    clx_kit kit = {0};
+    support_aggregate_make(&s, axes, 1, "size_meaning=mean_diameter");
+    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    for (int32_t meaning = 0; meaning < 3; ++meaning) {
+        CHECK_REL(clx_kit_size(&kit.group[1], meaning), wanted[meaning], 1e-14);
+    }
+    clx_kit_free(&kit);
+    support_aggregate_free(&s);
+}
+
+static void intervals_are_students(void **state)
+{
+    (void)state;
+    const double value[3] = {1.0, 2.0, 6.0};
+    const clast_interval i = clast_interval_of(3, value, 0.95);
+    CHECK_REL(i.mean, 3.0, 1e-15);
+    CHECK_REL(i.deviation, sqrt(7.0), 1e-15);
+    CHECK_REL(i.high - i.mean, 4.302652729911275 * sqrt(7.0 / 3.0), 1e-10); // t(0.975, 2)
+    const clast_interval one = clast_interval_of(1, value, 0.95);
+    assert_true(one.mean == 1.0 && one.deviation == 0.0 && isinf(one.high));
+}
+
+static void bands_are_means_over_repeats(void **state)
+{
+    (void)state;
+    clast_table history = {0};
+    clast_table band = {0};
+    double *n = NULL;
+    double *porosity = NULL;
+    CHECK_OK(clast_table_init(&history, "history", 4));
+    CHECK_OK(clast_table_add_number(&history, "n", "-", NULL));
+    CHECK_OK(clast_table_add_number(&history, "porosity_surface_hull", "-", &porosity));
+    n = clast_table_numbers(&history, "n");
+    for (int i = 0; i < 4; ++i) {
+        n[i] = i % 2;
+        porosity[i] = 0.1 * i;
+    }
+    CHECK_OK(clast_aggregate_band(&history, 0.95, &band));
+    assert_int_equal(band.n_row, 2);
+    CHECK_REL(clast_table_numbers(&band, "mean_porosity_surface_hull")[1], 0.2, 1e-14);
+    assert_true(clast_table_numbers(&band, "low_porosity_surface_hull")[1] < 0.2);
+    clast_table_free(&band);
+    clast_table_free(&history);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_are_repeated_and_ordered),
+        cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
+        cmocka_unit_test(laws_have_their_moments),
+        cmocka_unit_test(classes_and_weights_choose_shapes),
+        cmocka_unit_test(form_of_groups_is_exact),
+        cmocka_unit_test(meanings_of_size_agree_for_an_ellipsoid),
+        cmocka_unit_test(intervals_are_students),
+        cmocka_unit_test(bands_are_means_over_repeats),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
