@@ -168,7 +168,8 @@ def write(r):
     lines = ["# Virtual aggregates: the paper beside ours", "",
              "Made by `make paper-aggregate`. *published*: Rossi and Bonadonna; *original*: their programs, run for our",
              "specification; *exact*: closed form or exact geometry; *ours*: mean (spread: standard deviation of one aggregate).",
-             "A row with a limit is a test; the others are for comparison.", "",
+             "A row with a limit is a test; the others are for comparison.",
+             "Repeats were cut to a tenth (--quick)." if r.quick else "All repeats were run.", "",
              f"{len(judged)} rows are judged, {len(failed)} fail" + (f"; skipped: {'; '.join(r.skipped)}." if r.skipped else "."),
              "", "| Fig. | case | quantity | published | original | exact | ours | spread | deviation | limit | | why |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]

@@ -103,7 +103,7 @@ typedef struct clast_aggregate_config {
     int32_t envelope_every;
     int32_t envelope_rays;
     double envelope_length; ///< radius of the ball of `wrap`
-    bool solid_union; ///< measure the volume of the union
+    bool solid_union;       ///< measure the volume of the union
 
     double stop_mass;     ///< kg; 0: never
     double stop_size;     ///< D_agg; 0: never
