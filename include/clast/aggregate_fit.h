@@ -59,14 +59,3 @@ CLAST_API clast_status clast_aggregate_fit_run(const clast_aggregate_config *con
                                                const clast_aggregate_input *input,
                                                const clast_monitor *monitor,
                                                clast_aggregate_fit *fit, clast_table *nodes);
-
-/// The outcome as one JSON object; free the text with clast_text_free.
-CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text);
-
-/// Loads what the configuration names and fits; with a folder writes fit.csv, summary.json and
-/// manifest.json into it (the first two are the same bytes for equal runs).
-///
-/// @param folder  NULL for no files; made if missing; refused when it holds an unfinished run
-CLAST_API clast_status clast_aggregate_fit_study(const clast_aggregate_config *config,
-                                                 const char *folder, const clast_monitor *monitor,
-                                                 clast_aggregate_fit *fit);

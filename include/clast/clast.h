@@ -4,6 +4,7 @@
 #include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
 #include <clast/aggregate_fit.h>
+#include <clast/aggregate_fit_file.h>
 #include <clast/aggregate_run.h>
 #include <clast/assembly.h>
 #include <clast/bvh.h>

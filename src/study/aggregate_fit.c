@@ -1,5 +1,5 @@
 // A fit from a configuration to a folder of results.
-#include <clast/aggregate_fit.h>
+#include <clast/aggregate_fit_file.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
