@@ -24,9 +24,9 @@ typedef struct clast_drag {
 ///     F_S = f e^1.3 d^3 / (L I S)     k_S = (F_S^(1/3) + F_S^(-1/3)) / 2
 ///     F_N = f^2 e d^3 / (L I S)       k_N = 10^(0.45 (-log10 F_N)^0.99)
 ///
-/// with elongation e = I / L and flatness f = S / I.  [Bagheri2016 eq. 19-29, for bodies in gases;
-/// docs/theory/settling.md]  F_N above 1 (bodies fuller than their ellipsoid) counts as 1, since
-/// the law knows no body with less drag than the sphere.
+/// with elongation e = I / L and flatness f = S / I.  [Bagheri2016, for bodies in gases;
+/// coefficients as in two public codes; docs/theory/settling.md]  F_N above 1 (bodies fuller than
+/// their ellipsoid) counts as 1, since the law knows no body with less drag than the sphere.
 /// @return CLAST_E_GEOMETRY unless L >= I >= S > 0 and d > 0
 CLAST_API clast_status clast_drag_of_form(double length, double intermediate, double shortest,
                                           double diameter, clast_drag *drag);
