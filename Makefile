@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format install clean
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -27,5 +27,7 @@ paper-aggregate:
 	@tools/paper_aggregate.py
 format:
 	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
+hooks:
+	@git config core.hooksPath tools/hooks
 clean:
 	rm -rf build

@@ -56,6 +56,22 @@ static int unknown(char **argv)
     return 2;
 }
 
+/// Lists the commands whose first word is this one ("mesh"); false when there are none.
+static bool print_group(FILE *out, const char *word)
+{
+    const size_t n = strlen(word);
+    bool found = false;
+    for (const cli_command *const *c = commands; *c != NULL; ++c) {
+        if (strncmp((*c)->name, word, n) != 0 || (*c)->name[n] != ' ') {
+            continue;
+        }
+        (void)fprintf(out, "%s  clast %-16s %s\n", found ? "" : "commands:\n", (*c)->name,
+                      (*c)->summary);
+        found = true;
+    }
+    return found;
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2) {
@@ -75,6 +91,10 @@ int main(int argc, char **argv)
         if (words > 0) {
             return cli_run(*c, argc - 1 - words, argv + 1 + words);
         }
+    }
+    const bool asked = argc > 2 && (strcmp(argv[2], "--help") == 0 || strcmp(argv[2], "-h") == 0);
+    if ((argc == 2 || asked) && print_group(asked ? stdout : stderr, argv[1])) {
+        return asked ? 0 : 2;
     }
     return unknown(argv);
 }

@@ -13,7 +13,7 @@ bad=$(git ls-files '*.c' '*.h' | xargs clang-format-14 --dry-run -Werror 2>&1 | 
 [ -z "$bad" ] || { echo "not formatted (run make format): $bad"; exit 1; }
 say "spelling"
 git ls-files '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs codespell --ignore-words=tools/spelling.txt
-say "layers"; python3 tools/check_layers.py
+say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 tools/build.sh dev > build-dev.log 2>&1 || { grep -E 'error|warning' build-dev.log | head -40; exit 1; }
 rm -f build-dev.log

@@ -23,6 +23,15 @@ class Frame(Case):
     def test_unknown_command_is_named(self):
         self.assert_fails(2, "comple", says=["unknown command 'comple'", "clast completion"])
 
+    def test_first_word_alone_lists_its_commands(self):
+        page = clast("mesh", "--help")
+        self.assertEqual(page.code, 0)
+        for verb in ("check", "repair", "hull", "simplify", "convert"):
+            self.assertIn(f"clast mesh {verb}", page.out)
+        alone = clast("mesh")
+        self.assertEqual((alone.code, alone.out), (2, ""))
+        self.assertIn("clast mesh check", alone.err)
+
     def test_unknown_option_names_the_nearest(self):
         self.assert_fails(2, "completion", "--shel", "bash", says=["--shel", "did you mean --shell"])
 

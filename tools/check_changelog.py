@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""Fails when a public header that changed since the last release is not named in CHANGELOG's Unreleased *Interface*.
+
+Before the first release tag (v*) every header counts as changed.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def git(*arguments):
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False).stdout
+
+
+def changed_headers():
+    tag = git("describe", "--tags", "--abbrev=0", "--match", "v*").strip()
+    listing = git("diff", "--name-only", tag, "--", "include/clast") if tag else git("ls-files", "include/clast")
+    return [pathlib.PurePath(name).name for name in listing.split()]
+
+
+def interface_text():
+    unreleased = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)[1]
+    sections = re.split(r"^### ", unreleased, flags=re.M)
+    return next((s for s in sections if s.startswith("Interface")), "")
+
+
+def main():
+    named = set(re.findall(r"[\w]+\.h", interface_text()))
+    missing = [name for name in changed_headers() if name not in named and name != "clast.h"]
+    if missing:
+        print(f"CHANGELOG.md, Unreleased, Interface: name these changed headers: {', '.join(missing)}")
+    return 1 if missing else 0
+
+
+sys.exit(main())
