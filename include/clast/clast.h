@@ -17,6 +17,7 @@
 #include <clast/export.h>
 #include <clast/field.h>
 #include <clast/fill.h>
+#include <clast/form.h>
 #include <clast/hull.h>
 #include <clast/manifest.h>
 #include <clast/mesh.h>

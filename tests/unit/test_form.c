@@ -1,0 +1,153 @@
+/* Unit: form factors against values worked out by hand and the ranges of the paper's Table 1. */
+#include "support.h"
+
+#include "math/rng.h"
+#include <string.h>
+
+/* L, I, S = 4, 2, 1: every factor is a short closed form. */
+static void factors_of_4_2_1_are_those_worked_by_hand(void **state)
+{
+    (void)state;
+    const double by_hand[CLAST_N_FORM_FACTOR] = {
+        0.5,             /* S/I */
+        0.5,             /* I/L */
+        0.25,            /* S/L */
+        1.0,             /* 4 1 / 4 */
+        1.0 / sqrt(8.0), /* S/sqrt(LI) */
+        2.0 / 3.0,       /* 2/3 */
+        2.5,             /* 5/2 */
+        0.75,            /* 3/4 */
+        1.0 / sqrt(7.0), /* sqrt(21/3) */
+        0.5,             /* cbrt(2/16) */
+        0.5,             /* cbrt(1/8) */
+        20.0 / 3.0,      /* 10 (1/6) 4 */
+        3.0,             /* 6/2 */
+    };
+    double value[CLAST_N_FORM_FACTOR];
+    double feature[CLAST_N_FORM_FEATURE];
+    clast_form_factors(4.0, 2.0, 1.0, value);
+    clast_form_features(4.0, 2.0, 1.0, feature);
+    for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+        CHECK_REL(value[f], by_hand[f], 1e-15);
+        assert_true(feature[f] == value[f]);
+        CHECK_REL(feature[CLAST_N_FORM_FACTOR + f], 1.0 / by_hand[f], 1e-15);
+    }
+}
+
+static void a_sphere_has_the_ends_of_the_ranges(void **state)
+{
+    (void)state;
+    const double expected[CLAST_N_FORM_FACTOR] = {1, 1, 1, 1, 1, NAN, 2, 2, 1, 1, 1, NAN, 1};
+    double value[CLAST_N_FORM_FACTOR];
+    clast_form_factors(3.0, 3.0, 3.0, value);
+    for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+        if (isnan(expected[f])) {
+            assert_true(isnan(value[f]));
+        } else {
+            CHECK_REL(value[f], expected[f], 1e-15);
+        }
+    }
+}
+
+static void factors_stay_in_their_ranges_and_forget_the_scale(void **state)
+{
+    (void)state;
+    for (uint64_t k = 0; k < 2000; ++k) {
+        clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, k);
+        const double l = exp(4.0 * clx_rng_uniform(&rng));
+        const double i = l * clx_rng_uniform(&rng);
+        const double s = i * clx_rng_uniform(&rng);
+        double value[CLAST_N_FORM_FACTOR];
+        double scaled[CLAST_N_FORM_FACTOR];
+        clast_form_factors(l, i, s, value);
+        clast_form_factors(1e-6 * l, 1e-6 * i, 1e-6 * s, scaled);
+        for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+            const clast_form_factor_entry *about = clast_form_factor_about(f);
+            assert_true(value[f] >= about->low && value[f] <= about->high);
+            /* L - I and L - S cancel; the index may also pass through zero */
+            const double cancel = l / fmin(l - i, l - s);
+            CHECK_ABS(scaled[f], value[f], 1e-15 * (4.0 + cancel) * (10.0 * l / s + 1.0));
+        }
+    }
+}
+
+static void lengths_out_of_order_have_no_form(void **state)
+{
+    (void)state;
+    const double bad[][3] = {{1, 2, 1},
+                             {2, 1, 1.5},
+                             {1, 1, 0},
+                             {1, 1, -1},
+                             {INFINITY, 1, 1},
+                             {NAN, 1, 1},
+                             {INFINITY, INFINITY, INFINITY}};
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        double value[CLAST_N_FORM_FACTOR];
+        clast_form_factors(bad[k][0], bad[k][1], bad[k][2], value);
+        for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+            assert_true(isnan(value[f]));
+        }
+    }
+}
+
+static void names_and_symbols_find_their_factor(void **state)
+{
+    (void)state;
+    for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+        const clast_form_factor_entry *about = clast_form_factor_about(f);
+        assert_int_equal(clast_form_factor_find(about->name), f);
+        assert_int_equal(clast_form_factor_find(about->symbol), f);
+        assert_string_equal(clast_form_feature_name(f), about->name);
+        assert_string_equal(clast_form_feature_name(CLAST_N_FORM_FACTOR + f), about->inverse);
+        assert_int_equal(strncmp(about->inverse, "inverse_", 8), 0);
+    }
+    assert_int_equal(clast_form_factor_find("Disc-Rod-Index"), CLAST_FORM_DISC_ROD);
+    assert_int_equal(clast_form_factor_find("flat"), -1);
+    assert_int_equal(clast_form_factor_find(""), -1);
+    assert_null(clast_form_factor_about(-1));
+    assert_null(clast_form_factor_about(CLAST_N_FORM_FACTOR));
+    assert_null(clast_form_feature_name(CLAST_N_FORM_FEATURE));
+}
+
+/* The two Rhine scans are stored with D = 1 [data README of the scans]. */
+static void sieve_size_of_the_rhine_scans_is_one(void **state)
+{
+    (void)state;
+    CHECK_ABS(clast_form_sieve_size(1.291653, 0.575876), 1.0, 5e-7);
+    CHECK_ABS(clast_form_sieve_size(1.074475, 0.919513), 1.0, 5e-7);
+}
+
+static void lengths_give_back_flatness_elongation_and_size(void **state)
+{
+    (void)state;
+    double lis[3];
+    clast_form_lengths(0.647, 0.682, 0.011, lis);
+    CHECK_REL(lis[2] / lis[1], 0.647, 1e-15);
+    CHECK_REL(lis[1] / lis[0], 0.682, 1e-15);
+    CHECK_REL(clast_form_sieve_size(lis[1], lis[2]), 0.011, 1e-15);
+}
+
+static void zingg_has_four_corners(void **state)
+{
+    (void)state;
+    assert_string_equal(clast_zingg_name(clast_form_zingg(0.9, 0.9)), "sphere");
+    assert_string_equal(clast_zingg_name(clast_form_zingg(0.3, 0.9)), "disc");
+    assert_string_equal(clast_zingg_name(clast_form_zingg(0.9, 0.3)), "rod");
+    assert_string_equal(clast_zingg_name(clast_form_zingg(0.3, 0.3)), "blade");
+    assert_int_equal(clast_form_zingg(2.0 / 3.0, 2.0 / 3.0), CLAST_ZINGG_SPHERE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(factors_of_4_2_1_are_those_worked_by_hand),
+        cmocka_unit_test(a_sphere_has_the_ends_of_the_ranges),
+        cmocka_unit_test(factors_stay_in_their_ranges_and_forget_the_scale),
+        cmocka_unit_test(lengths_out_of_order_have_no_form),
+        cmocka_unit_test(names_and_symbols_find_their_factor),
+        cmocka_unit_test(sieve_size_of_the_rhine_scans_is_one),
+        cmocka_unit_test(lengths_give_back_flatness_elongation_and_size),
+        cmocka_unit_test(zingg_has_four_corners),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
