@@ -35,6 +35,7 @@
 #include <clast/shape.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
+#include <clast/statistics.h>
 #include <clast/status.h>
 #include <clast/structure.h>
 #include <clast/table.h>

@@ -35,7 +35,9 @@ enum clx_stream {
     CLX_STREAM_BOOTSTRAP = 21,
     CLX_STREAM_COLLISION = 22,
     CLX_STREAM_SHAPE = 30,
-    CLX_STREAM_GRADING = 31
+    CLX_STREAM_GRADING = 31,
+    CLX_STREAM_RESAMPLE = 40,
+    CLX_STREAM_FOLD = 41
 };
 
 /// Cursor at the first draw of (seed, stream, index).
