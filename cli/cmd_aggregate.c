@@ -105,5 +105,6 @@ const cli_command cli_aggregate = {
     .fields = clast_aggregate_fields,
     .config_size = sizeof(clast_aggregate_config),
     .takes_config = true,
+    .writes_folder = true,
     .run = run,
 };

@@ -317,5 +317,6 @@ const cli_command cli_decompose = {
     .config_size = sizeof(config),
     .n_min = 1,
     .n_max = 1,
+    .writes_folder = true,
     .run = run,
 };

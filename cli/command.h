@@ -24,6 +24,7 @@ typedef struct cli_command {
     /// First positional argument may be a YAML configuration (name ends in .yaml or .yml), read
     /// before the options.
     bool takes_config;
+    bool writes_folder; ///< -o names a run folder
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 

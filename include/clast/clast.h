@@ -38,6 +38,7 @@
 #include <clast/statistics.h>
 #include <clast/status.h>
 #include <clast/structure.h>
+#include <clast/study.h>
 #include <clast/table.h>
 #include <clast/table_file.h>
 #include <clast/uniformity.h>

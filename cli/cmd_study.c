@@ -1,0 +1,173 @@
+// clast study: many runs of one command, one table of results.
+#include "command.h"
+#include "json.h"
+#include "workers.h"
+
+#include <clast/study.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_command *find_command(const char *name)
+{
+    const cli_command *command = NULL;
+    for (int32_t i = 0; (command = cli_command_at(i)) != NULL; ++i) {
+        if (strcmp(command->name, name) == 0) {
+            return command;
+        }
+    }
+    return NULL;
+}
+
+/// Refuses a key that the command does not have.
+static clast_status check_key(const cli_command *command, const char *key, size_t n)
+{
+    char name[256];
+    (void)snprintf(name, sizeof name, "%.*s", (int)n, key);
+    if (command->fields == NULL || clast_fields_find(command->fields, name) == NULL) {
+        const char *near =
+            command->fields != NULL ? clast_fields_nearest(command->fields, name) : NULL;
+        return cli_fail(CLAST_E_CONFIG, "clast %s has no key '%s'%s%s%s", command->name, name,
+                        near != NULL ? " (did you mean '" : "", near != NULL ? near : "",
+                        near != NULL ? "'?)" : "");
+    }
+    return CLAST_OK;
+}
+
+/// Refuses keys before the first run rather than in every run.
+static clast_status check_keys(const cli_command *command, const clast_study_config *config,
+                               const clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t c = 0; c < plan->n_column && status == CLAST_OK; ++c) {
+        if (plan->column[c].text != NULL) {
+            status = check_key(command, plan->column[c].name, strlen(plan->column[c].name));
+        }
+    }
+    for (int32_t i = 0; i < config->set.n && status == CLAST_OK; ++i) {
+        const char *pair = config->set.item[i];
+        if (strchr(pair, '=') == NULL) {
+            return cli_fail(CLAST_E_CONFIG, "fix takes key=value, not '%s'", pair);
+        }
+        status = check_key(command, pair, strcspn(pair, "="));
+    }
+    return status;
+}
+
+static bool has_field(const cli_command *command, const char *name)
+{
+    return command->fields != NULL && clast_fields_find(command->fields, name) != NULL;
+}
+
+static clast_status check(const clast_study_config *config, const cli_command **command)
+{
+    clast_table plan = {0};
+    *command = find_command(config->run);
+    if (config->run[0] == '\0' || *command == NULL || strcmp(config->run, "study") == 0) {
+        return cli_fail(CLAST_E_CONFIG,
+                        "run: '%s' is no command that a study can run; see clast "
+                        "--help",
+                        config->run);
+    }
+    clast_status status = clast_study_plan(config, &plan);
+    if (status == CLAST_OK) {
+        status = check_keys(*command, config, &plan);
+    }
+    if (status == CLAST_OK && config->seeds > 1 && !has_field(*command, "seed")) {
+        status = cli_fail(CLAST_E_CONFIG, "clast %s draws nothing at random: seeds must be 1",
+                          config->run);
+    }
+    clast_table_free(&plan);
+    return status;
+}
+
+static clast_status print(const cli_common *common, const clast_study_report *report)
+{
+    if (common->json) {
+        json_t *object = json_object();
+        cli_json_text(object, "folder", common->output);
+        cli_json_count(object, "n_run", report->n_run);
+        cli_json_count(object, "n_before", report->n_before);
+        cli_json_count(object, "n_done", report->n_done);
+        cli_json_count(object, "n_failed", report->n_failed);
+        cli_json_count(object, "n_other", report->n_other);
+        return cli_print_json(object);
+    }
+    (void)printf("%lld runs: %lld done now, %lld before", (long long)report->n_run,
+                 (long long)report->n_done, (long long)report->n_before);
+    if (report->n_other > 0) {
+        (void)printf(", %lld left to other shards", (long long)report->n_other);
+    }
+    (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", common->output,
+                 common->output);
+    if (report->n_failed > 0) {
+        (void)printf(
+            "%lld failed; the first says why in %s/runs/%06lld.part/messages.txt; the same "
+            "call tries them again\n",
+            (long long)report->n_failed, common->output, (long long)report->first_failed);
+    }
+    return CLAST_OK;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    const clast_study_config *config = context;
+    const cli_command *command = NULL;
+    clast_study_report report = {0};
+    clast_status status = check(config, &command);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    if (common->output == NULL) {
+        return cli_fail(CLAST_E_USAGE, "-o FOLDER is missing: a study needs a place for its runs");
+    }
+    cli_workers *workers = calloc(1, sizeof *workers);
+    if (workers == NULL) {
+        return CLAST_E_MEMORY;
+    }
+    const clast_monitor monitor = cli_monitor(common);
+    const clast_study_worker worker = {.has_folder = command->writes_folder,
+                                       .has_seed = has_field(command, "seed"),
+                                       .has_resume = has_field(command, "resume"),
+                                       .start = cli_workers_start,
+                                       .wait = cli_workers_wait,
+                                       .stop = cli_workers_stop,
+                                       .context = workers};
+    status = cli_workers_init(workers);
+    if (status == CLAST_OK) {
+        status = clast_study_run(config, common->output, &worker, &monitor, &report);
+    }
+    if (status == CLAST_OK || status == CLAST_E_NO) {
+        const clast_status printed = print(common, &report);
+        status = printed == CLAST_OK ? status : printed;
+    }
+    free(workers);
+    return status;
+}
+
+static const char details[] =
+    "A study's YAML names the command and what varies:\n"
+    "  run: aggregate\n"
+    "  config: examples/27sk21.yaml\n"
+    "  fix: [repeats=1]\n"
+    "  vary: [cone = 1 deg | 20 deg | 90 deg, rays = 1 | 10 | 100]\n"
+    "  seeds: 3\n"
+    "Runs are processes of one thread, -j of them at once. The same call goes on where it was\n"
+    "stopped: whole runs stay, cut-off runs resume from their checkpoint. --shard K/N takes every\n"
+    "N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared disk.\n"
+    "-o FOLDER holds plan.csv, runs/NNNNNN (result.json, messages.txt, out/), results.csv (a row "
+    "a\n"
+    "run: what varied, seed, exit code, every number of its --json object) and times.csv.\n"
+    "Exit code 1 when runs failed; they are tried again by the same call.";
+
+const cli_command cli_study = {
+    .name = "study",
+    .arguments = "",
+    .summary = "many runs of a command, in parallel, resumable, one table out",
+    .details = details,
+    .fields = clast_study_fields,
+    .config_size = sizeof(clast_study_config),
+    .takes_config = true,
+    .writes_folder = true,
+    .run = run,
+};

@@ -1,0 +1,78 @@
+#pragma once
+// Many runs of one command: what varies, who has been run, one table of results.
+#include <clast/field.h>
+#include <clast/monitor.h>
+#include <clast/table.h>
+
+typedef struct clast_study_config {
+    char *run;                ///< the command, "aggregate" or "mesh check"
+    char *config;             ///< YAML that all runs share, or ""
+    clast_text_list argument; ///< positional arguments that all runs share
+    clast_text_list set;      ///< "key=value" that all runs share
+    clast_text_list vary;     ///< "key = a | b | c"
+    int32_t design;           ///< clast_study_design
+    char *table;              ///< CSV of runs, its columns are keys; or ""
+    int32_t seeds;            ///< realisations of each run
+    uint64_t seed;            ///< of the first realisation; then one more each
+    clast_text_list keep;     ///< keys of the runs' results to tabulate; none: every number
+    char *shard;              ///< "K/N": this call does every N-th run from the K-th; or ""
+} clast_study_config;
+
+/// Values of several `vary` entries: all combinations (the last varies fastest), or one by one.
+typedef enum { CLAST_STUDY_GRID, CLAST_STUDY_ZIP } clast_study_design;
+
+extern CLAST_API const clast_field clast_study_fields[];
+
+/// The runs as a table: number column `run` (from 1), a text column for each varied key, number
+/// column `seed`. Rows of a CSV come first, each combined with the `vary` design, then seeds.
+///
+/// @param table  must be empty; written only on success
+/// @return CLAST_E_CONFIG for a malformed or repeated key, lists of unequal length in a zip design,
+///         CLAST_E_LIMIT beyond 1,000,000 runs; errors of the CSV reader
+CLAST_API clast_status clast_study_plan(const clast_study_config *config, clast_table *plan);
+
+/// One run as its worker gets it. Borrowed for the call.
+typedef struct clast_study_item {
+    int64_t row;           ///< of the plan
+    const char *folder;    ///< made; the run writes into FOLDER/out when it has a run folder
+    int32_t n_argument;    ///< words after the program's name
+    char *const *argument; ///< [n_argument + 1], NULL at the end
+} clast_study_item;
+
+/// Who runs. Callbacks are called from the calling thread only.
+typedef struct clast_study_worker {
+    bool has_folder; ///< the command takes -o FOLDER
+    bool has_seed;   ///< the command takes --seed
+    bool has_resume; ///< the command takes --resume FOLDER
+    /// Starts a run whose standard output goes to FOLDER/result.json and standard error to
+    /// FOLDER/messages.txt.
+    clast_status (*start)(void *context, const clast_study_item *item);
+    /// Waits at most a fifth of a second for a run to end; *row is -1 when none did.
+    clast_status (*wait)(void *context, int64_t *row, int *exit_code);
+    /// Asks all runs to stop; wait() still reports each.
+    void (*stop)(void *context);
+    void *context;
+} clast_study_worker;
+
+typedef struct clast_study_report {
+    int64_t n_run;        ///< of the whole plan
+    int64_t n_before;     ///< that were whole already when this call began
+    int64_t n_done;       ///< of this call that ended with 0
+    int64_t n_failed;     ///< of this call that ended otherwise
+    int64_t n_other;      ///< left to other shards and not there yet
+    int64_t first_failed; ///< number of the first run that failed, or 0
+} clast_study_report;
+
+/// Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.
+///
+/// FOLDER/plan.csv names the runs, FOLDER/runs/NNNNNN holds each, FOLDER/results.csv the plan with
+/// exit codes and results, FOLDER/times.csv the results that differ from run to run (wall_s, ...).
+/// The same call again goes on: whole runs stay, runs that were cut off resume from their
+/// checkpoint where the command can, and start anew where not. A run that fails is noted and the
+/// study goes on; it is tried again by the next call.
+///
+/// @return CLAST_E_USAGE when the folder holds another plan, CLAST_E_STOPPED after a stop,
+///         CLAST_E_NO when runs failed, and errors of the disk
+CLAST_API clast_status clast_study_run(const clast_study_config *config, const char *folder,
+                                       const clast_study_worker *worker,
+                                       const clast_monitor *monitor, clast_study_report *report);

@@ -1,0 +1,42 @@
+#pragma once
+// Files of a study's folder.
+#include <clast/study.h>
+
+enum { CLX_STUDY_PATH = 4096 };
+
+/// FOLDER/runs/NNNNNN of a row of the plan, with `suffix` ("" or ".part").
+clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
+                                  char path[CLX_STUDY_PATH]);
+
+/// True when the row's run is whole: its folder was renamed from .part.
+bool clx_study_is_done(const char *folder, int64_t row);
+
+/// Exit codes with which a run has an answer: done, answered no, did not converge.
+bool clx_study_is_answer(int exit_code);
+
+/// Keeps what the study is (study.json, plan.csv), or checks that the folder holds the same.
+///
+/// @return CLAST_E_USAGE when it holds another
+clast_status clx_study_keep(const clast_study_config *config, const char *folder,
+                            const clast_table *plan);
+
+/// FOLDER/exit_code of a run.
+clast_status clx_study_write_exit(const char *run_folder, int exit_code);
+
+/// Writes FOLDER/results.csv and FOLDER/times.csv from the runs that are there.
+clast_status clx_study_collect(const clast_study_config *config, const char *folder,
+                               const clast_table *plan);
+
+/// What all runs of a study share.
+typedef struct {
+    const clast_study_config *config;
+    const clast_study_worker *worker;
+    const clast_table *plan;
+} clx_study_words_of;
+
+/// Words of a run's command line; free with clx_study_words_free.
+///
+/// @param resume  go on from the checkpoint in the run's folder
+clast_status clx_study_words(const clx_study_words_of *of, int64_t row, const char *folder,
+                             bool resume, clast_text_list *words);
+void clx_study_words_free(clast_text_list *words);

@@ -1,0 +1,203 @@
+// Results of a study's runs as one table.
+#include "study/study.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/table_file.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { KEY = 256, RESULT_LIMIT = 1 << 28, COLUMN_LIMIT = 4096 };
+
+/// Tables under construction: what is equal in equal runs, and what is not.
+typedef struct {
+    const clast_study_config *config;
+    clast_table results, times;
+    int64_t row;
+    clast_status status;
+} gatherer;
+
+/// Clocks differ from run to run.
+static bool is_time(const char *key)
+{
+    static const char *const clocks[] = {"wall_s", "contact_s", "envelope_s", "ns_per_grain_step"};
+    const char *dot = strrchr(key, '.');
+    for (size_t i = 0; i < sizeof clocks / sizeof clocks[0]; ++i) {
+        if (strcmp(dot != NULL ? dot + 1 : key, clocks[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void put(gatherer *g, const char *key, double value)
+{
+    clast_table *to = is_time(key) ? &g->times : &g->results;
+    double *number = clast_table_numbers(to, key);
+    if (g->status != CLAST_OK) {
+        return;
+    }
+    if (number == NULL && clast_table_find(to, key) >= 0) {
+        g->status = clx_fail(CLAST_E_CONFIG, "result '%s' has the name of a varied key", key);
+        return;
+    }
+    if (number == NULL) {
+        if (to->n_column >= COLUMN_LIMIT) {
+            g->status = clx_fail(CLAST_E_LIMIT, "more than %d results a run; name some by --keep",
+                                 COLUMN_LIMIT);
+            return;
+        }
+        g->status = clast_table_add_number(to, key, "-", &number);
+        for (int64_t r = 0; r < to->n_row && g->status == CLAST_OK; ++r) {
+            number[r] = NAN;
+        }
+    }
+    if (g->status == CLAST_OK) {
+        number[g->row] = value;
+    }
+}
+
+static bool as_number(const json_t *value, double *number)
+{
+    *number = json_is_boolean(value) ? (double)json_is_true(value) : json_number_value(value);
+    return json_is_number(value) || json_is_boolean(value);
+}
+
+/// Every number of an object and of objects within; lists are left to --keep.
+static void put_all(gatherer *g, const char *prefix, json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    char name[KEY];
+    double number = 0.0;
+    json_object_foreach(object, key, value)
+    {
+        const int n =
+            snprintf(name, sizeof name, "%s%s%s", prefix, prefix[0] != '\0' ? "." : "", key);
+        if (n < 0 || n >= KEY) {
+            continue;
+        }
+        if (json_is_object(value)) {
+            put_all(g, name, value);
+        } else if (as_number(value, &number)) {
+            put(g, name, number);
+        }
+    }
+}
+
+/// The value at "a.b.0"; NULL when there is none.
+static json_t *find(json_t *root, const char *path)
+{
+    char part[KEY];
+    while (root != NULL && *path != '\0') {
+        const size_t n = strcspn(path, ".");
+        (void)snprintf(part, sizeof part, "%.*s", (int)n, path);
+        root = json_is_array(root) ? json_array_get(root, strtoul(part, NULL, 10))
+                                   : json_object_get(root, part);
+        path += n + (path[n] == '.');
+    }
+    return root;
+}
+
+static void put_kept(gatherer *g, json_t *root)
+{
+    for (int32_t i = 0; i < g->config->keep.n; ++i) {
+        double number = NAN;
+        if (!as_number(find(root, g->config->keep.item[i]), &number)) {
+            number = NAN;
+        }
+        put(g, g->config->keep.item[i], number);
+    }
+}
+
+static clast_status read_run(gatherer *g, const char *folder, bool whole)
+{
+    clast_status status = CLAST_OK;
+    char run[CLX_STUDY_PATH];
+    char path[CLX_STUDY_PATH + 16];
+    char *text = NULL;
+    int64_t n = 0;
+    json_t *root = NULL;
+    json_error_t error;
+    CLX_TRY(clx_study_run_folder(folder, g->row, whole ? "" : ".part", run));
+    (void)snprintf(path, sizeof path, "%s/exit_code", run);
+    if (access(path, F_OK) != 0) {
+        goto done; // never begun, or under way
+    }
+    CLX_TRY(clx_file_read_all(path, 64, &text, &n));
+    put(g, "exit_code", strtod(text, NULL));
+    clx_free(text);
+    text = NULL;
+    (void)snprintf(path, sizeof path, "%s/result.json", run);
+    if (whole) {
+        CLX_TRY(clx_file_read_all(path, RESULT_LIMIT, &text, &n));
+        root = json_loadb(text, (size_t)n, 0, &error);
+        CLX_CHECK(json_is_object(root), CLAST_E_FORMAT, "%s: not one JSON object (line %d: %s)",
+                  path, error.line, error.text);
+        if (g->config->keep.n > 0) {
+            put_kept(g, root);
+        } else {
+            put_all(g, "", root);
+        }
+    }
+    status = g->status;
+done:
+    clx_free(text);
+    json_decref(root);
+    return status;
+}
+
+/// A copy of the plan's columns.
+static clast_status copy_plan(const clast_table *plan, const char *name, clast_table *copy)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_table_init(copy, name, plan->n_row));
+    for (int32_t c = 0; c < plan->n_column; ++c) {
+        const clast_column *from = &plan->column[c];
+        if (from->text != NULL) {
+            CLX_TRY(clast_table_add_text(copy, from->name));
+            for (int64_t r = 0; r < plan->n_row; ++r) {
+                CLX_TRY(clast_table_set_text(copy, c, r, from->text[r]));
+            }
+        } else {
+            double *number = NULL;
+            CLX_TRY(clast_table_add_number(copy, from->name, from->unit, &number));
+            memcpy(number, from->number, (size_t)plan->n_row * sizeof *number);
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status write_in(const char *folder, const char *name, const clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH];
+    CLX_CHECK(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path, CLAST_E_DISK,
+              "path too long: %s", folder);
+    CLX_TRY(clast_table_write_csv(table, path));
+done:
+    return status;
+}
+
+clast_status clx_study_collect(const clast_study_config *config, const char *folder,
+                               const clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    gatherer g = {.config = config};
+    CLX_TRY(copy_plan(plan, "results", &g.results));
+    CLX_TRY(copy_plan(plan, "times", &g.times));
+    for (g.row = 0; g.row < plan->n_row; ++g.row) {
+        CLX_TRY(read_run(&g, folder, clx_study_is_done(folder, g.row)));
+    }
+    CLX_TRY(write_in(folder, "results.csv", &g.results));
+    CLX_TRY(write_in(folder, "times.csv", &g.times));
+done:
+    clast_table_free(&g.results);
+    clast_table_free(&g.times);
+    return status;
+}

@@ -1,0 +1,117 @@
+// The folder of a study: what it is, and where its runs lie.
+#include "study/study.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/manifest.h>
+#include <clast/table_file.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { STUDY_LIMIT = 1 << 28 };
+
+clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
+                                  char path[CLX_STUDY_PATH])
+{
+    clast_status status = CLAST_OK;
+    const int n =
+        snprintf(path, CLX_STUDY_PATH, "%s/runs/%06lld%s", folder, (long long)row + 1, suffix);
+    CLX_CHECK(n > 0 && n < CLX_STUDY_PATH, CLAST_E_DISK, "path too long: %s", folder);
+done:
+    return status;
+}
+
+bool clx_study_is_done(const char *folder, int64_t row)
+{
+    char path[CLX_STUDY_PATH];
+    struct stat found;
+    return clx_study_run_folder(folder, row, "", path) == CLAST_OK && stat(path, &found) == 0;
+}
+
+bool clx_study_is_answer(int exit_code)
+{
+    return exit_code == 0 || exit_code == 1 || exit_code == 5;
+}
+
+clast_status clx_study_write_exit(const char *run_folder, int exit_code)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH];
+    char text[32];
+    const int n = snprintf(path, sizeof path, "%s/exit_code", run_folder);
+    CLX_CHECK(n > 0 && n < CLX_STUDY_PATH, CLAST_E_DISK, "path too long: %s", run_folder);
+    (void)snprintf(text, sizeof text, "%d\n", exit_code);
+    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+done:
+    return status;
+}
+
+/// Writes `text` as the file, or checks that the file holds it.
+static clast_status keep_text(const char *folder, const char *name, const char *text, size_t n)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH];
+    char *old = NULL;
+    int64_t n_old = 0;
+    CLX_CHECK(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path, CLAST_E_DISK,
+              "path too long: %s", folder);
+    if (access(path, F_OK) != 0) {
+        return clx_file_write_all(path, text, n);
+    }
+    CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &old, &n_old));
+    CLX_CHECK((size_t)n_old == n && memcmp(old, text, n) == 0, CLAST_E_USAGE,
+              "%s holds another study (%s differs); give another folder by -o", folder, name);
+done:
+    clx_free(old);
+    return status;
+}
+
+static clast_status keep_plan(const char *folder, const clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_STUDY_PATH];
+    char *text = NULL;
+    int64_t n = 0;
+    CLX_CHECK(snprintf(path, sizeof path, "%s/plan-%ld.csv", folder, (long)getpid()) <
+                  (int)sizeof path,
+              CLAST_E_DISK, "path too long: %s", folder);
+    CLX_TRY(clast_table_write_csv(plan, path));
+    CLX_TRY(clx_file_read_all(path, STUDY_LIMIT, &text, &n));
+    CLX_TRY(keep_text(folder, "plan.csv", text, (size_t)n));
+done:
+    (void)unlink(path);
+    clx_free(text);
+    return status;
+}
+
+clast_status clx_study_keep(const clast_study_config *config, const char *folder,
+                            const clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    char hex[65] = "";
+    char *json = NULL;
+    char *text = NULL;
+    char path[CLX_STUDY_PATH];
+    int64_t n_byte = 0;
+    clast_study_config same = *config; // who works, and what is tabulated, may change
+    same.shard = "";
+    same.keep = (clast_text_list){0};
+    CLX_CHECK(snprintf(path, sizeof path, "%s/runs", folder) < (int)sizeof path, CLAST_E_DISK,
+              "path too long: %s", folder);
+    CLX_TRY(clx_folder_make(path));
+    if (config->config[0] != '\0') {
+        CLX_TRY(clast_sha256_file(config->config, hex, &n_byte));
+    }
+    CLX_TRY(clast_config_json(clast_study_fields, &same, &json));
+    const int64_t n = (int64_t)strlen(json) + 100;
+    CLX_TRY(clx_alloc(&text, n, 1));
+    (void)snprintf(text, (size_t)n, "{\"study\": %s,\n\"config_sha256\": \"%s\"}\n", json, hex);
+    CLX_TRY(keep_text(folder, "study.json", text, strlen(text)));
+    CLX_TRY(keep_plan(folder, plan));
+done:
+    clx_free(text);
+    clast_text_free(json);
+    return status;
+}

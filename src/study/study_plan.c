@@ -1,0 +1,236 @@
+// The runs of a study: rows of a table, lists of values, realisations.
+//
+// A design is a list of axes, each a list of rows that give values to some keys. The CSV is one
+// axis; a grid makes an axis of each `vary` entry, a zip makes one of them all; seeds are the last.
+#include "study/study.h"
+
+#include "base/alloc.h"
+#include "base/number.h"
+#include <clast/table_file.h>
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+const clast_field clast_study_fields[] = {
+    {"run", offsetof(clast_study_config, run), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "command to run: aggregate, decompose, fill, ...", ""},
+    {"config", offsetof(clast_study_config, config), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "YAML configuration that all runs share", ""},
+    {"argument", offsetof(clast_study_config, argument), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
+     "argument that all runs share, such as an input file", ""},
+    {"fix", offsetof(clast_study_config, set), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
+     "key=value that all runs share", ""},
+    {"vary", offsetof(clast_study_config, vary), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
+     "key=a|b|c: values that the runs take", ""},
+    {"design", offsetof(clast_study_config, design), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+     "several vary: all combinations, or first with first, second with second", "grid|zip"},
+    {"table", offsetof(clast_study_config, table), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "CSV with a run a row, a key a column", ""},
+    {"seeds", offsetof(clast_study_config, seeds), CLAST_FIELD_I32, 1, 1, 1e6, "-",
+     "realisations of each", NULL},
+    {"seed", offsetof(clast_study_config, seed), CLAST_FIELD_U64, 1, 0, 9007199254740992.0, "-",
+     "seed of the first realisation, then one more each", NULL},
+    {"keep", offsetof(clast_study_config, keep), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
+     "result to tabulate, a.b for b within a; none: every number", ""},
+    {"shard", offsetof(clast_study_config, shard), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "K/N: do every N-th run from the K-th, for job arrays", ""},
+    {0}};
+
+enum { RUN_LIMIT = 1000000, KEY_LIMIT = 256 };
+
+/// Values of some keys: columns of a text table.
+typedef struct {
+    clast_table values;
+} axis;
+
+typedef struct {
+    int32_t n;
+    axis *item;
+} axes;
+
+static void axes_free(axes *all)
+{
+    for (int32_t i = 0; i < all->n; ++i) {
+        clast_table_free(&all->item[i].values);
+    }
+    clx_free(all->item);
+    *all = (axes){0};
+}
+
+/// Without blanks at both ends: moves *begin and *end.
+static void trim(const char **begin, const char **end)
+{
+    while (*begin < *end && isspace((unsigned char)**begin)) {
+        ++*begin;
+    }
+    while (*end > *begin && isspace((unsigned char)(*end)[-1])) {
+        --*end;
+    }
+}
+
+static clast_status copy_trimmed(const char *begin, const char *end, char out[KEY_LIMIT])
+{
+    clast_status status = CLAST_OK;
+    trim(&begin, &end);
+    CLX_CHECK(end > begin, CLAST_E_CONFIG, "vary: an empty key or value");
+    CLX_CHECK(end - begin < KEY_LIMIT, CLAST_E_CONFIG, "vary: '%.40s...' is too long", begin);
+    memcpy(out, begin, (size_t)(end - begin));
+    out[end - begin] = '\0';
+done:
+    return status;
+}
+
+static bool has_key(const axes *all, const char *key)
+{
+    for (int32_t i = 0; i < all->n; ++i) {
+        if (clast_table_find(&all->item[i].values, key) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// "key = a | b" as a column of an axis: a new one, or the one that is there (zip).
+static clast_status add_vary(axes *all, const char *text, bool join)
+{
+    clast_status status = CLAST_OK;
+    const char *equals = strchr(text, '=');
+    char word[KEY_LIMIT];
+    int64_t n = 1;
+    CLX_CHECK(equals != NULL, CLAST_E_CONFIG, "vary takes 'key = a | b | c', not '%s'", text);
+    CLX_TRY(copy_trimmed(text, equals, word));
+    CLX_CHECK(!has_key(all, word), CLAST_E_CONFIG, "key '%s' varies twice", word);
+    for (const char *c = equals; *c != '\0'; ++c) {
+        n += *c == '|';
+    }
+    axis *to = &all->item[all->n - (join ? 1 : 0)];
+    if (!join) {
+        CLX_TRY(clast_table_init(&to->values, "vary", n));
+        ++all->n;
+    }
+    CLX_CHECK(to->values.n_row == n, CLAST_E_CONFIG,
+              "design zip needs lists of one length: '%s' has %lld values, the one before %lld",
+              word, (long long)n, (long long)to->values.n_row);
+    CLX_TRY(clast_table_add_text(&to->values, word));
+    const char *begin = equals + 1;
+    for (int64_t i = 0; i < n; ++i) {
+        const char *end = begin + strcspn(begin, "|");
+        CLX_TRY(copy_trimmed(begin, end, word));
+        CLX_TRY(clast_table_set_text(&to->values, to->values.n_column - 1, i, word));
+        begin = end + 1;
+    }
+done:
+    return status;
+}
+
+/// A cell as the text that a command reads; numbers in the fewest digits that keep them.
+static clast_status cell_text(const clast_column *column, int64_t row, char out[KEY_LIMIT])
+{
+    clast_status status = CLAST_OK;
+    if (column->text != NULL) {
+        CLX_CHECK(strlen(column->text[row]) < KEY_LIMIT, CLAST_E_CONFIG,
+                  "column '%s', row %lld: the text is too long", column->name, (long long)row + 1);
+        (void)snprintf(out, KEY_LIMIT, "%s", column->text[row]);
+    } else {
+        CLX_CHECK(column->number[row] == column->number[row], CLAST_E_CONFIG,
+                  "column '%s', row %lld: no value", column->name, (long long)row + 1);
+        (void)clx_number_format(column->number[row], out);
+    }
+done:
+    return status;
+}
+
+static clast_status add_table(axes *all, const char *path)
+{
+    clast_status status = CLAST_OK;
+    clast_table read = {0};
+    char text[KEY_LIMIT];
+    axis *to = &all->item[all->n];
+    CLX_TRY(clast_table_read_csv(path, NULL, &read, NULL));
+    CLX_TRY(clast_table_init(&to->values, "table", read.n_row));
+    ++all->n;
+    for (int32_t c = 0; c < read.n_column; ++c) {
+        CLX_TRY(clast_table_add_text(&to->values, read.column[c].name));
+        for (int64_t r = 0; r < read.n_row; ++r) {
+            CLX_TRY(cell_text(&read.column[c], r, text));
+            CLX_TRY(clast_table_set_text(&to->values, c, r, text));
+        }
+    }
+done:
+    clast_table_free(&read);
+    return status;
+}
+
+static clast_status find_axes(const clast_study_config *config, axes *all)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&all->item, config->vary.n + 1, sizeof *all->item));
+    if (config->table[0] != '\0') {
+        CLX_TRY(add_table(all, config->table));
+    }
+    for (int32_t i = 0; i < config->vary.n; ++i) {
+        const bool join = config->design == CLAST_STUDY_ZIP && i > 0;
+        CLX_TRY(add_vary(all, config->vary.item[i], join));
+    }
+    CLX_CHECK(!has_key(all, "run") && (config->seeds == 1 || !has_key(all, "seed")), CLAST_E_CONFIG,
+              "'%s' cannot vary: it names the %s", has_key(all, "run") ? "run" : "seed",
+              has_key(all, "run") ? "run's number" : "realisation (option seeds)");
+done:
+    return status;
+}
+
+static clast_status fill_plan(const clast_study_config *config, const axes *all, clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    double *seed = NULL;
+    double *number = NULL;
+    int32_t at = 1;
+    int64_t inner = plan->n_row;
+    CLX_TRY(clast_table_add_number(plan, "run", "-", &number));
+    for (int64_t r = 0; r < plan->n_row; ++r) {
+        number[r] = (double)(r + 1);
+    }
+    for (int32_t a = 0; a < all->n; ++a) {
+        const clast_table *values = &all->item[a].values;
+        inner /= values->n_row;
+        for (int32_t c = 0; c < values->n_column; ++c) {
+            CLX_TRY(clast_table_add_text(plan, values->column[c].name));
+            for (int64_t r = 0; r < plan->n_row; ++r) {
+                const int64_t from = r / inner % values->n_row;
+                CLX_TRY(clast_table_set_text(plan, at, r, values->column[c].text[from]));
+            }
+            ++at;
+        }
+    }
+    if (!has_key(all, "seed")) {
+        CLX_TRY(clast_table_add_number(plan, "seed", "-", &seed));
+        for (int64_t r = 0; r < plan->n_row; ++r) {
+            seed[r] = (double)(config->seed + (uint64_t)(r % config->seeds));
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clast_study_plan(const clast_study_config *config, clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    axes all = {0};
+    clast_table made = {0};
+    int64_t n_run = config->seeds;
+    CLX_CHECK(config->run[0] != '\0', CLAST_E_CONFIG,
+              "run is not set: name the command, such as run: aggregate");
+    CLX_TRY(find_axes(config, &all));
+    for (int32_t a = 0; a < all.n; ++a) {
+        n_run *= all.item[a].values.n_row;
+        CLX_CHECK(n_run <= RUN_LIMIT, CLAST_E_LIMIT, "more than %d runs", RUN_LIMIT);
+    }
+    CLX_TRY(clast_table_init(&made, "plan", n_run));
+    CLX_TRY(fill_plan(config, &all, &made));
+    *plan = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    axes_free(&all);
+    return status;
+}

@@ -1,0 +1,116 @@
+// Command line of one run of a study.
+#include "study/study.h"
+
+#include "base/alloc.h"
+#include <stdio.h>
+#include <string.h>
+
+void clx_study_words_free(clast_text_list *words)
+{
+    for (int32_t i = 0; i < words->n; ++i) {
+        clx_free(words->item[i]);
+    }
+    clx_free(words->item);
+    *words = (clast_text_list){0};
+}
+
+typedef struct {
+    clast_text_list *words;
+    clast_status status;
+} sink;
+
+static void add(sink *to, const char *text)
+{
+    if (to->status == CLAST_OK) {
+        to->status = clx_alloc_text(&to->words->item[to->words->n], text);
+        to->words->n += to->status == CLAST_OK;
+    }
+}
+
+static void add_set(sink *to, const char *key, const char *value)
+{
+    char pair[1024];
+    const int n = snprintf(pair, sizeof pair, "%s=%s", key, value);
+    if (to->status == CLAST_OK && (n < 0 || n >= (int)sizeof pair)) {
+        to->status = clx_fail(CLAST_E_CONFIG, "%s: the value is too long", key);
+    }
+    add(to, "--set");
+    add(to, pair);
+}
+
+static void add_command(sink *to, const char *command)
+{
+    char word[64];
+    while (*command != '\0') {
+        const size_t n = strcspn(command, " ");
+        (void)snprintf(word, sizeof word, "%.*s", (int)n, command);
+        if (n > 0) {
+            add(to, word);
+        }
+        command += n + (command[n] == ' ');
+    }
+}
+
+static void add_settings(sink *to, const clast_study_config *config,
+                         const clast_study_worker *worker, const clast_table *plan, int64_t row)
+{
+    char seed[32];
+    for (int32_t i = 0; i < config->set.n; ++i) {
+        add(to, "--set");
+        add(to, config->set.item[i]);
+    }
+    for (int32_t c = 0; c < plan->n_column; ++c) {
+        if (plan->column[c].text != NULL) {
+            add_set(to, plan->column[c].name, plan->column[c].text[row]);
+        }
+    }
+    const double *number = clast_table_numbers(plan, "seed");
+    if (worker->has_seed && number != NULL) {
+        (void)snprintf(seed, sizeof seed, "%.0f", number[row]);
+        add_set(to, "seed", seed);
+    }
+}
+
+clast_status clx_study_words(const clx_study_words_of *of, int64_t row, const char *folder,
+                             bool resume, clast_text_list *words)
+{
+    clast_status status = CLAST_OK;
+    clast_text_list made = {0};
+    sink to = {&made, CLAST_OK};
+    char out[CLX_STUDY_PATH];
+    const clast_study_config *config = of->config;
+    const clast_study_worker *worker = of->worker;
+    const clast_table *plan = of->plan;
+    const int32_t most = 24 + config->argument.n + 2 * config->set.n + 2 * plan->n_column +
+                         (int32_t)strlen(config->run);
+    CLX_TRY(clx_alloc(&made.item, most, sizeof *made.item));
+    CLX_CHECK(snprintf(out, sizeof out, "%s/out", folder) < (int)sizeof out, CLAST_E_DISK,
+              "path too long: %s", folder);
+    add_command(&to, config->run);
+    if (resume) {
+        add(&to, "--resume");
+        add(&to, out);
+    } else {
+        if (config->config[0] != '\0') {
+            add(&to, config->config);
+        }
+        for (int32_t i = 0; i < config->argument.n; ++i) {
+            add(&to, config->argument.item[i]);
+        }
+        add_settings(&to, config, worker, plan, row);
+        if (worker->has_folder) {
+            add(&to, "-o");
+            add(&to, out);
+        }
+    }
+    add(&to, "-j");
+    add(&to, "1");
+    add(&to, "--quiet");
+    add(&to, "--json");
+    CLX_TRY(to.status);
+    *words = made;
+    made = (clast_text_list){0};
+done:
+    clx_study_words_free(&made);
+    return status;
+}

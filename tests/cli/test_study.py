@@ -1,0 +1,72 @@
+"""CLI: clast study runs, resumes and tabulates."""
+import csv
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import CLAST, Case, clast
+
+SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
+
+
+class Study(Case):
+    def plan(self, text):
+        path = self.folder / "study.yaml"
+        path.write_text(text)
+        return path
+
+    def rows(self, name="results.csv"):
+        with open(self.folder / "out" / name, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_results_equal_the_command_alone(self):
+        plan = self.plan(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 5 | 9, strategy = random | largest]\n")
+        done = clast("study", plan, "-o", self.folder / "out", "--json")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(done.json["n_done"], 4)
+        rows = self.rows()
+        alone = clast("fill", SURFACE, "--spheres", 9, "--strategy", "random", "--json").json
+        self.assertEqual([row["spheres"] for row in rows], ["5", "5", "9", "9"])
+        self.assertEqual(float(rows[2]["filled_fraction"]), alone["filled_fraction"])
+        self.assertNotIn("wall_s", rows[0])
+        self.assertIn("wall_s", self.rows("times.csv")[0])
+        first = (self.folder / "out/results.csv").read_bytes()
+        again = clast("study", plan, "-o", self.folder / "other", "-j", 1)
+        self.assertEqual(again.code, 0, again.err)
+        self.assertEqual((self.folder / "other/results.csv").read_bytes(), first)
+
+    def test_bad_plans_say_so_before_any_run(self):
+        plan = self.plan(f"run: fill\nargument: [{SURFACE}]\n")
+        out = ["-o", self.folder / "out"]
+        self.assert_fails(2, "study", plan, *out, "--vary", "sphere=1|2", says=["no key 'sphere'", "spheres"])
+        self.assert_fails(2, "study", plan, *out, "--run", "fil", says=["'fil' is no command"])
+        self.assert_fails(2, "study", plan, *out, "--run", "study", says=["no command that a study can run"])
+        self.assert_fails(2, "study", plan, "--vary", "spheres=1|2", says=["-o FOLDER"])
+        self.assert_fails(3, "study", plan, *out, "--table", self.folder / "absent.csv", says=["absent.csv"])
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_a_run_that_fails_is_named(self):
+        plan = self.plan("run: fill\nargument: [absent.stl]\nvary: [spheres = 5 | 9]\n")
+        done = clast("study", plan, "-o", self.folder / "out")
+        self.assertEqual(done.code, 1)
+        self.assertIn("2 failed", done.out)
+        self.assertIn("absent.stl", (self.folder / "out/runs/000001.part/messages.txt").read_text())
+        self.assertEqual(self.rows()[0]["exit_code"], "3")
+
+    def test_stop_and_go_on_give_the_same_table(self):
+        plan = self.plan(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 40 | 41 | 42 | 43 | 44 | 45]\n")
+        with subprocess.Popen([CLAST, "study", plan, "-o", self.folder / "out", "-q", "-j", "1"]) as study:
+            until = time.time() + 60
+            while not (self.folder / "out/runs/000001").exists() and time.time() < until:
+                time.sleep(0.01)
+            study.send_signal(signal.SIGTERM)
+            self.assertIn(study.wait(60), (143, 0))
+        self.assertEqual(clast("study", plan, "-o", self.folder / "out").code, 0)
+        self.assertEqual(clast("study", plan, "-o", self.folder / "whole").code, 0)
+        self.assertEqual((self.folder / "out/results.csv").read_bytes(),
+                         (self.folder / "whole/results.csv").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
