@@ -6,6 +6,7 @@
 #include <clast/envelope.h>
 #include <clast/field.h>
 #include <clast/monitor.h>
+#include <clast/sizes.h>
 #include <clast/table.h>
 
 typedef enum { CLAST_AGGREGATE_CORE, CLAST_AGGREGATE_CLUSTER } clast_aggregate_mode;
@@ -130,16 +131,6 @@ typedef struct clast_aggregate_config {
 
 /// The table behind YAML keys, options, defaults, ranges and manifest.
 extern CLAST_API const clast_field clast_aggregate_fields[];
-
-/// Sizes as they came: sizes or bins with counts. [m]
-typedef struct clast_sizes {
-    int64_t n;
-    double *low, *high; ///< [n] m; equal for a plain size
-    double *count;      ///< [n] > 0
-} clast_sizes;
-
-CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
-CLAST_API void clast_sizes_free(clast_sizes *sizes);
 
 /// Combinations of options that a single field's range cannot see.
 ///

@@ -18,6 +18,8 @@
 #include <clast/field.h>
 #include <clast/fill.h>
 #include <clast/form.h>
+#include <clast/grading.h>
+#include <clast/grading_file.h>
 #include <clast/hull.h>
 #include <clast/manifest.h>
 #include <clast/mesh.h>
@@ -33,6 +35,8 @@
 #include <clast/report.h>
 #include <clast/settling.h>
 #include <clast/shape.h>
+#include <clast/sizes.h>
+#include <clast/sizes_file.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <clast/statistics.h>

@@ -9,28 +9,6 @@
 
 enum { SIZE_LIMIT = 100000000 };
 
-clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes)
-{
-    clast_status status = CLAST_OK;
-    clast_sizes got = {.n = n};
-    CLX_TRY(clx_alloc(&got.low, n, sizeof *got.low));
-    CLX_TRY(clx_alloc(&got.high, n, sizeof *got.high));
-    CLX_TRY(clx_alloc(&got.count, n, sizeof *got.count));
-    *sizes = got;
-    got = (clast_sizes){0};
-done:
-    clast_sizes_free(&got);
-    return status;
-}
-
-void clast_sizes_free(clast_sizes *sizes)
-{
-    clx_free(sizes->low);
-    clx_free(sizes->high);
-    clx_free(sizes->count);
-    *sizes = (clast_sizes){0};
-}
-
 static double draw_in_bin(const clast_sizes *sizes, int64_t bin, clx_rng *rng)
 {
     const double low = sizes->low[bin];

@@ -1,0 +1,12 @@
+#pragma once
+#include <clast/status.h>
+
+/// Sizes as they came: sizes or bins with counts. [m]
+typedef struct clast_sizes {
+    int64_t n;
+    double *low, *high; ///< [n] m; equal for a plain size
+    double *count;      ///< [n] > 0
+} clast_sizes;
+
+CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
+CLAST_API void clast_sizes_free(clast_sizes *sizes);

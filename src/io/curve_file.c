@@ -1,0 +1,384 @@
+// Sieve curves from delimited text, and sizes from one text of the command line.
+#include <clast/grading_file.h>
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/field.h>
+#include <clast/sizes_file.h>
+#include <clast/table_file.h>
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIEVE_LIMIT = 10000 };
+static const int64_t BYTE_LIMIT = (int64_t)1 << 24;
+
+/// One sieve of the file: what stays on it, or what passes it.
+typedef struct {
+    double size;  ///< m, 0 for a pan
+    double value; ///< as in the file
+    int64_t row;  ///< in the file, from 1
+} sieve_row;
+
+typedef struct {
+    const char *name; ///< of the file, for messages
+    sieve_row *row;   ///< [n] ascending
+    int32_t n;
+    bool is_passing;
+    char unit[32]; ///< of the values
+    double *sieve, *mass;
+} curve_reader;
+
+/// Whether a column's name is this word, alone or followed by its unit ("sieve_mm", "Size (um)").
+static bool is_called(const char *column, const char *word)
+{
+    size_t i = 0;
+    for (; word[i] != '\0'; ++i) {
+        if (tolower((unsigned char)column[i]) != word[i]) {
+            return false;
+        }
+    }
+    return !isalnum((unsigned char)column[i]);
+}
+
+static int32_t find_called(const clast_table *table, const char *const *words, int32_t *n_found)
+{
+    int32_t found = -1;
+    *n_found = 0;
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        for (const char *const *word = words; *word != NULL; ++word) {
+            if (is_called(table->column[c].name, *word)) {
+                found = c;
+                ++*n_found;
+                break;
+            }
+        }
+    }
+    return found;
+}
+
+static const char *const size_words[] = {"sieve", "size", "diameter", "opening", "d", "phi", NULL};
+static const char *const retained_words[] = {"retained", "mass", "weight", "fraction", NULL};
+static const char *const passing_words[] = {"passing", "finer", "undersize", NULL};
+
+static clast_status find_columns(curve_reader *r, const clast_table *table, int32_t *size,
+                                 int32_t *value)
+{
+    clast_status status = CLAST_OK;
+    int32_t n_size = 0;
+    int32_t n_retained = 0;
+    int32_t n_passing = 0;
+    *size = find_called(table, size_words, &n_size);
+    const int32_t retained = find_called(table, retained_words, &n_retained);
+    const int32_t passing = find_called(table, passing_words, &n_passing);
+    CLX_CHECK(n_size == 1, CLAST_E_FORMAT,
+              "%s: %d columns are called sieve, size, diameter, opening, d or phi; a sieve curve "
+              "has one, with its unit (sieve_mm)",
+              r->name, n_size);
+    CLX_CHECK(n_retained + n_passing == 1, CLAST_E_FORMAT,
+              "%s: %d columns are called retained, mass, weight or fraction and %d passing, finer "
+              "or undersize; a sieve curve has one of them",
+              r->name, n_retained, n_passing);
+    r->is_passing = n_passing == 1;
+    *value = r->is_passing ? passing : retained;
+    for (int k = 0; k < 2; ++k) {
+        const clast_column *column = &table->column[k == 0 ? *size : *value];
+        CLX_CHECK(column->number != NULL, CLAST_E_FORMAT,
+                  "%s: column %s holds cells that are no numbers", r->name, column->name);
+    }
+    (void)snprintf(r->unit, sizeof r->unit, "%s", table->column[*value].unit);
+done:
+    return status;
+}
+
+static clast_status size_in_metres(const curve_reader *r, const clast_column *column, int64_t i,
+                                   double *size)
+{
+    clast_status status = CLAST_OK;
+    const double number = column->number[i];
+    const bool is_phi = strcmp(column->unit, "phi") == 0 || is_called(column->name, "phi");
+    double factor = 0.0;
+    CLX_CHECK(isfinite(number), CLAST_E_FORMAT,
+              "%s: row %lld: the sieve size is missing or not "
+              "finite",
+              r->name, (long long)i + 1);
+    if (is_phi) {
+        *size = clast_phi_size(number);
+        return CLAST_OK;
+    }
+    CLX_CHECK(strcmp(column->unit, "-") != 0, CLAST_E_FORMAT,
+              "%s: column %s has no unit; call it %s_mm, %s_um or phi", r->name, column->name,
+              column->name, column->name);
+    CLX_TRY(clast_unit_factor(column->unit, "m", &factor));
+    CLX_CHECK(number >= 0.0, CLAST_E_FORMAT, "%s: row %lld: a sieve size of %g %s", r->name,
+              (long long)i + 1, number, column->unit);
+    *size = number * factor;
+done:
+    return status;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = ((const sieve_row *)a)->size;
+    const double y = ((const sieve_row *)b)->size;
+    return (x > y) - (x < y);
+}
+
+static clast_status take_rows(curve_reader *r, const clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    int32_t size = 0;
+    int32_t value = 0;
+    CLX_TRY(find_columns(r, table, &size, &value));
+    CLX_CHECK(table->n_row >= 2 && table->n_row <= SIEVE_LIMIT, CLAST_E_FORMAT,
+              "%s: %lld sieves; a curve has 2 to %d", r->name, (long long)table->n_row,
+              SIEVE_LIMIT);
+    CLX_TRY(clx_alloc(&r->row, table->n_row, sizeof *r->row));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        sieve_row *row = &r->row[r->n++];
+        row->row = i + 1;
+        row->value = table->column[value].number[i];
+        CLX_TRY(size_in_metres(r, &table->column[size], i, &row->size));
+        CLX_CHECK(isfinite(row->value) && row->value >= 0.0, CLAST_E_FORMAT,
+                  "%s: row %lld: %s is missing, negative or not finite", r->name, (long long)i + 1,
+                  table->column[value].name);
+    }
+    qsort(r->row, (size_t)r->n, sizeof *r->row, by_size);
+    for (int32_t i = 1; i < r->n; ++i) {
+        CLX_CHECK(r->row[i].size > r->row[i - 1].size, CLAST_E_FORMAT,
+                  "%s: rows %lld and %lld are the same sieve of %g mm", r->name,
+                  (long long)r->row[i - 1].row, (long long)r->row[i].row, 1e3 * r->row[i].size);
+    }
+done:
+    return status;
+}
+
+/// A pan (size 0) may be there if nothing is in it: its grains would have no smallest size.
+static clast_status drop_pan(curve_reader *r)
+{
+    clast_status status = CLAST_OK;
+    if (r->row[0].size <= 0.0) {
+        CLX_CHECK(r->row[0].value <= 0.0, CLAST_E_FORMAT,
+                  "%s: row %lld: %g is finer than every sieve; give a smallest size instead of the "
+                  "pan",
+                  r->name, (long long)r->row[0].row, r->row[0].value);
+        --r->n;
+        memmove(r->row, r->row + 1, (size_t)r->n * sizeof *r->row);
+    }
+    CLX_CHECK(r->n >= 2, CLAST_E_FORMAT, "%s: one sieve is no curve", r->name);
+done:
+    return status;
+}
+
+static clast_status retained_masses(curve_reader *r)
+{
+    const sieve_row *last = &r->row[r->n - 1];
+    if (last->value > 0.0) {
+        return clx_fail(CLAST_E_FORMAT,
+                        "%s: row %lld: %g stays on the largest sieve of %g mm; add a larger one "
+                        "that all passes",
+                        r->name, (long long)last->row, last->value, 1e3 * last->size);
+    }
+    for (int32_t i = 0; i + 1 < r->n; ++i) {
+        r->mass[i] = r->row[i].value;
+    }
+    return CLAST_OK;
+}
+
+/// What all grains together are in the unit of the column.
+static double all_of(const curve_reader *r)
+{
+    const double most = r->row[r->n - 1].value;
+    if (strcmp(r->unit, "%") == 0) {
+        return 100.0;
+    }
+    if (strcmp(r->unit, "-") == 0) {
+        return most <= 1.0 + 1e-9 ? 1.0 : 100.0;
+    }
+    return most;
+}
+
+static clast_status passing_masses(curve_reader *r)
+{
+    clast_status status = CLAST_OK;
+    const sieve_row *last = &r->row[r->n - 1];
+    const double all = all_of(r);
+    CLX_CHECK(r->row[0].value <= 0.0, CLAST_E_FORMAT,
+              "%s: row %lld: %g pass the smallest sieve of %g mm; add the size that nothing passes",
+              r->name, (long long)r->row[0].row, r->row[0].value, 1e3 * r->row[0].size);
+    CLX_CHECK(
+        fabs(last->value - all) <= 1e-9 * all, CLAST_E_FORMAT,
+        "%s: row %lld: %g of %g pass the largest sieve of %g mm; add the size that all passes",
+        r->name, (long long)last->row, last->value, all, 1e3 * last->size);
+    for (int32_t i = 0; i + 1 < r->n; ++i) {
+        r->mass[i] = r->row[i + 1].value - r->row[i].value;
+        CLX_CHECK(r->mass[i] >= 0.0, CLAST_E_FORMAT,
+                  "%s: row %lld: %g pass %g mm, less than the %g that pass %g mm", r->name,
+                  (long long)r->row[i + 1].row, r->row[i + 1].value, 1e3 * r->row[i + 1].size,
+                  r->row[i].value, 1e3 * r->row[i].size);
+    }
+done:
+    return status;
+}
+
+static clast_status make_curve(curve_reader *r, clast_curve *curve)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&r->sieve, r->n, sizeof *r->sieve));
+    CLX_TRY(clx_alloc(&r->mass, r->n, sizeof *r->mass));
+    CLX_TRY(r->is_passing ? passing_masses(r) : retained_masses(r));
+    for (int32_t i = 0; i < r->n; ++i) {
+        r->sieve[i] = r->row[i].size;
+    }
+    status = clast_curve_make(r->n - 1, r->sieve, r->mass, curve);
+    if (status == CLAST_E_CONFIG) {
+        clx_fail_prefix("%s", r->name);
+        status = CLAST_E_FORMAT;
+    }
+done:
+    return status;
+}
+
+clast_status clast_curve_parse(const char *name, const void *bytes, size_t n, clast_curve *curve)
+{
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    curve_reader r = {.name = name};
+    CLX_TRY(clast_table_parse_csv(name, bytes, n, NULL, &table, NULL));
+    CLX_TRY(take_rows(&r, &table));
+    CLX_TRY(drop_pan(&r));
+    CLX_TRY(make_curve(&r, curve));
+done:
+    clast_table_free(&table);
+    clx_free(r.row);
+    clx_free(r.sieve);
+    clx_free(r.mass);
+    return status;
+}
+
+clast_status clast_curve_read(const char *path, clast_curve *curve)
+{
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
+    CLX_TRY(clast_curve_parse(path, bytes, (size_t)n, curve));
+done:
+    clx_free(bytes);
+    return status;
+}
+
+enum { N_LAW_NUMBER = 4 };
+
+/// Lengths "5mm, 8mm" after the name of a law.
+static clast_status law_numbers(const char *text, const char *at, int32_t *n,
+                                double number[N_LAW_NUMBER])
+{
+    clast_status status = CLAST_OK;
+    *n = 0;
+    while (at != NULL) {
+        char word[64];
+        const char *comma = strchr(at, ',');
+        const int length = comma != NULL ? (int)(comma - at) : (int)strlen(at);
+        CLX_CHECK(*n < N_LAW_NUMBER && length < (int)sizeof word, CLAST_E_CONFIG,
+                  "'%s': more than %d numbers, or a long one", text, N_LAW_NUMBER);
+        (void)snprintf(word, sizeof word, "%.*s", length, at);
+        CLX_TRY(clast_unit_parse(word, "m", &number[(*n)++]));
+        at = comma != NULL ? comma + 1 : NULL;
+    }
+done:
+    return status;
+}
+
+static clast_status load_law(const char *text, bool is_lognormal, clast_grading **grading)
+{
+    clast_status status = CLAST_OK;
+    double v[N_LAW_NUMBER] = {0.0};
+    int32_t n = 0;
+    CLX_TRY(law_numbers(text, strchr(text, ':') + 1, &n, v));
+    if (is_lognormal) {
+        CLX_CHECK(n == 2 || n == 4, CLAST_E_CONFIG,
+                  "'%s': expected lognormal:MEAN,DEVIATION or lognormal:MEAN,DEVIATION,LOW,HIGH",
+                  text);
+        CLX_TRY(clast_grading_lognormal(v[0], v[1], v[2], n == 4 ? v[3] : HUGE_VAL, grading));
+    } else {
+        CLX_CHECK(n == 2, CLAST_E_CONFIG, "'%s': expected uniform:LOW,HIGH", text);
+        CLX_TRY(clast_grading_uniform(v[0], v[1], grading));
+    }
+done:
+    return status;
+}
+
+static clast_status load_list(const char *path, clast_grading **grading)
+{
+    clast_status status = CLAST_OK;
+    clast_sizes sizes = {0};
+    CLX_TRY(clast_sizes_read(path, "", "", &sizes));
+    status = clast_grading_of_sizes(&sizes, false, grading);
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", path);
+    }
+done:
+    clast_sizes_free(&sizes);
+    return status;
+}
+
+static bool is_case(const char *text)
+{
+    for (int32_t i = 0; clast_curve_case_at(i) != NULL; ++i) {
+        if (strcmp(clast_curve_case_at(i)->name, text) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// A text that begins like a number and is no file's name.
+static bool is_one_size(const char *text)
+{
+    char *end = NULL;
+    (void)strtod(text, &end);
+    return end != text && strchr(end, '.') == NULL && strchr(end, '/') == NULL;
+}
+
+static clast_status load_curve(const char *text, clast_grading_spread spread,
+                               clast_grading_count count, clast_curve *curve,
+                               clast_grading **grading)
+{
+    clast_status status = CLAST_OK;
+    clast_curve made = {0};
+    CLX_TRY(is_case(text) ? clast_curve_named(text, &made) : clast_curve_read(text, &made));
+    CLX_TRY(clast_grading_of_curve(&made, spread, count, grading));
+    *curve = made;
+    made = (clast_curve){0};
+done:
+    clast_curve_free(&made);
+    return status;
+}
+
+clast_status clast_grading_load(const char *text, clast_grading_spread spread,
+                                clast_grading_count count, clast_curve *curve,
+                                clast_grading **grading)
+{
+    clast_status status = CLAST_OK;
+    double size = 0.0;
+    if (strncmp(text, "uniform:", 8) == 0 || strncmp(text, "lognormal:", 10) == 0) {
+        return load_law(text, text[0] == 'l', grading);
+    }
+    if (strncmp(text, "list:", 5) == 0) {
+        return load_list(text + 5, grading);
+    }
+    if (!is_case(text) && is_one_size(text)) {
+        CLX_TRY(clast_unit_parse(text, "m", &size));
+        return clast_grading_uniform(size, size, grading);
+    }
+    CLX_TRY(load_curve(text, spread, count, curve, grading));
+done:
+    if (status == CLAST_E_IO) {
+        clx_fail_prefix("neither a published curve (U1, U3, U5, U7, B30, B50, B70), uniform:, "
+                        "lognormal:, list: nor a size, so a file");
+    }
+    return status;
+}

@@ -1,0 +1,26 @@
+// Lists of sizes: rows of a size or a bin with a count.
+#include <clast/sizes.h>
+
+#include "base/alloc.h"
+
+clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    clast_sizes got = {.n = n};
+    CLX_TRY(clx_alloc(&got.low, n, sizeof *got.low));
+    CLX_TRY(clx_alloc(&got.high, n, sizeof *got.high));
+    CLX_TRY(clx_alloc(&got.count, n, sizeof *got.count));
+    *sizes = got;
+    got = (clast_sizes){0};
+done:
+    clast_sizes_free(&got);
+    return status;
+}
+
+void clast_sizes_free(clast_sizes *sizes)
+{
+    clx_free(sizes->low);
+    clx_free(sizes->high);
+    clx_free(sizes->count);
+    *sizes = (clast_sizes){0};
+}

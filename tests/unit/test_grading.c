@@ -1,0 +1,577 @@
+/* Unit: sieve curves, their numbers of grains and draws from them, against closed forms. */
+#include "support.h"
+
+#include <clast/grading_file.h>
+#include <stdlib.h>
+#include <string.h>
+
+static clast_grading *of_case(const char *name, clast_grading_spread spread,
+                              clast_grading_count count)
+{
+    clast_curve curve = {0};
+    clast_grading *grading = NULL;
+    CHECK_OK(clast_curve_named(name, &curve));
+    CHECK_OK(clast_grading_of_curve(&curve, spread, count, &grading));
+    clast_curve_free(&curve);
+    return grading;
+}
+
+static void published_curves_hold_all_mass(void **state)
+{
+    (void)state;
+    int32_t n = 0;
+    for (; clast_curve_case_at(n) != NULL; ++n) {
+        double sum = 0.0;
+        for (int i = 0; i < 7; ++i) {
+            sum += clast_curve_case_at(n)->mass[i];
+        }
+        CHECK_ABS(sum, 1.0, 1e-15 * 7);
+    }
+    assert_int_equal(n, 7);
+    assert_null(clast_curve_case_at(-1));
+    // bimodal cases are named after their percentage of fines: half of the middle class is fine
+    const double *b30 = clast_curve_case_at(4)->mass;
+    CHECK_ABS(b30[0] + b30[1] + b30[2] + 0.5 * b30[3], 0.32, 1e-15);
+    CHECK_REL(clast_curve_case_sieve[7], 31.5e-3, 0.0);
+}
+
+static void counts_follow_equations_8_and_9(void **state)
+{
+    (void)state;
+    clast_curve curve = {0};
+    CHECK_OK(clast_curve_named("U3", &curve));
+    // d^2 = 5.6 * 8 mm2, and each class is twice the one before: d^3 goes with 2^1.5
+    CHECK_REL(clast_curve_class_size(&curve, 2), 1e-3 * sqrt(44.8), 1e-15);
+    const double first = 16.0 * 0.21 / (2650.0 * CLAST_PI / 6.0 * pow(44.8e-6, 1.5));
+    const double wanted[3] = {first, first * (58.0 / 21.0) / pow(2.0, 1.5), first / 8.0};
+    for (int i = 0; i < 3; ++i) {
+        CHECK_REL(clast_curve_count(&curve, i + 2, 16.0, 2650.0, CLAST_PI / 6.0), wanted[i], 1e-14);
+        // the program's variant: shapes of volume 0.9 at D = 1
+        CHECK_REL(clast_curve_count(&curve, i + 2, 16.0, 2650.0, 0.9), wanted[i] * CLAST_PI / 5.4,
+                  1e-14);
+    }
+    assert_true(clast_curve_count(&curve, 0, 16.0, 2650.0, 0.9) == 0.0);
+    clast_grading *g = of_case("U3", CLAST_SPREAD_STEP, CLAST_COUNT_MEAN);
+    const double all = wanted[0] + wanted[1] + wanted[2];
+    CHECK_REL(clast_grading_share(g, 8e-3), wanted[0] / all, 1e-14);
+    CHECK_REL(clast_grading_share(g, 11.2e-3), (wanted[0] + wanted[1]) / all, 1e-14);
+    assert_true(clast_grading_share(g, 5.6e-3) == 0.0 && clast_grading_share(g, 16e-3) == 1.0);
+    clast_grading_destroy(g);
+    clast_curve_free(&curve);
+}
+
+static void medians_have_closed_forms(void **state)
+{
+    (void)state;
+    clast_curve curve = {0};
+    CHECK_OK(clast_curve_named("U3", &curve));
+    CHECK_REL(clast_curve_size(&curve, 0.5), 1e-3 * sqrt(8.0 * 11.2), 1e-14);
+    CHECK_REL(clast_curve_size(&curve, 0.1), 5.6e-3 * pow(8.0 / 5.6, 10.0 / 21.0), 1e-14);
+    CHECK_REL(clast_curve_size(&curve, 0.9), 11.2e-3 * pow(16.0 / 11.2, 11.0 / 21.0), 1e-14);
+    CHECK_REL(clast_curve_passing(&curve, clast_curve_size(&curve, 0.37)), 0.37, 1e-14);
+    assert_true(clast_curve_size(&curve, 0.0) == 5.6e-3 && clast_curve_passing(&curve, 1.0) == 1.0);
+    clast_curve_free(&curve);
+    clast_grading *g = of_case("U1", CLAST_SPREAD_STEP, CLAST_COUNT_MEAN);
+    CHECK_REL(clast_grading_size(g, 0.5), 1e-3 * sqrt(44.8), 1e-14);
+    const double low = pow(5.6e-3, 3.0);
+    const double high = pow(8e-3, 3.0);
+    CHECK_REL(clast_grading_mass_size(g, 0.5), cbrt(0.5 * (low + high)), 1e-14);
+    CHECK_REL(clast_grading_mass_size(g, 0.1), cbrt(low + 0.1 * (high - low)), 1e-14);
+    CHECK_REL(clast_grading_mean_cube(g), (high - low) / log(high / low), 1e-14);
+    clast_grading_destroy(g);
+}
+
+/* Exact counts give the wanted masses also where the classes are of unequal width. */
+static void exact_counts_keep_the_masses(void **state)
+{
+    (void)state;
+    const double sieve[4] = {1e-3, 2e-3, 2.2e-3, 30e-3};
+    const double mass[3] = {3.0, 1.0, 6.0};
+    clast_curve curve = {0};
+    clast_grading *exact = NULL;
+    clast_grading *mean = NULL;
+    CHECK_OK(clast_curve_make(3, sieve, mass, &curve));
+    CHECK_OK(clast_grading_of_curve(&curve, CLAST_SPREAD_STEP, CLAST_COUNT_EXACT, &exact));
+    CHECK_OK(clast_grading_of_curve(&curve, CLAST_SPREAD_STEP, CLAST_COUNT_MEAN, &mean));
+    CHECK_REL(clast_grading_mass_share(exact, 2e-3), 0.3, 1e-14);
+    CHECK_REL(clast_grading_mass_share(exact, 2.2e-3), 0.4, 1e-14);
+    // eq. 9 takes sqrt(2.2 * 30) mm for a class whose mean cube is larger: it makes too many
+    assert_true(clast_grading_mass_share(mean, 2.2e-3) < 0.25);
+    CHECK_STATUS(clast_grading_of_curve(&curve, CLAST_SPREAD_LINEAR, CLAST_COUNT_EXACT,
+                                        &(clast_grading *){0}),
+                 CLAST_E_CONFIG);
+    clast_grading_destroy(exact);
+    clast_grading_destroy(mean);
+    clast_curve_free(&curve);
+}
+
+/* The linear spread of one class is a triangle over log size: quarter points are elementary. */
+static void linear_spread_is_a_triangle(void **state)
+{
+    (void)state;
+    clast_grading *g = of_case("U1", CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN);
+    const double half = 0.5 * log(8.0 / 5.6);
+    CHECK_REL(clast_grading_size(g, 0.125), 5.6e-3 * exp(0.5 * half), 1e-14);
+    CHECK_REL(clast_grading_size(g, 0.5), 1e-3 * sqrt(44.8), 1e-14);
+    CHECK_REL(clast_grading_size(g, 0.875), 5.6e-3 * exp(1.5 * half), 1e-14);
+    // mean cube of a triangle: (2 sinh(a/2)/a)^2 at the centre, a = 3 half
+    const double factor = 2.0 * sinh(1.5 * half) / (3.0 * half);
+    CHECK_REL(clast_grading_mean_cube(g), pow(44.8e-6, 1.5) * factor * factor, 1e-13);
+    clast_grading_destroy(g);
+    // seven classes: the density at the class means is the number by the width, so its ratio is too
+    g = of_case("U7", CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN);
+    const double d[2] = {sqrt(5.6 * 8.0) * 1e-3, sqrt(8.0 * 11.2) * 1e-3};
+    const double e = 1e-5;
+    double density[2];
+    for (int k = 0; k < 2; ++k) {
+        density[k] =
+            (clast_grading_share(g, d[k] * (1.0 + e)) - clast_grading_share(g, d[k] * (1.0 - e))) /
+            (2.0 * e);
+    }
+    const double ratio = 0.26 / 0.22 / pow(2.0, 1.5) * log(8.0 / 5.6) / log(11.2 / 8.0);
+    CHECK_REL(density[1] / density[0], ratio, 20.0 * e); // kinks at the knots
+    clast_grading_destroy(g);
+}
+
+static void means_are_single_sizes(void **state)
+{
+    (void)state;
+    clast_grading *g = of_case("U3", CLAST_SPREAD_MEANS, CLAST_COUNT_MEAN);
+    const double d = 1e-3 * sqrt(44.8);
+    assert_true(clast_grading_share(g, nextafter(d, 0.0)) == 0.0);
+    CHECK_REL(clast_grading_share(g, d), 0.21 / (0.21 + 0.58 / pow(2.0, 1.5) + 0.21 / 8.0), 1e-14);
+    CHECK_REL(clast_grading_mass_share(g, d), 0.21, 1e-14); // each grain weighs as eq. 9 assumes
+    for (uint64_t i = 0; i < 50; ++i) {
+        const double ratio = clast_grading_draw(g, 1, i) / d;
+        assert_true(fabs(log2(ratio) - 0.5 * round(2.0 * log2(ratio))) < 1e-12);
+    }
+    clast_grading_destroy(g);
+}
+
+static void laws_have_their_moments(void **state)
+{
+    (void)state;
+    clast_grading *g = NULL;
+    CHECK_OK(clast_grading_uniform(1e-3, 3e-3, &g));
+    CHECK_REL(clast_grading_size(g, 0.25), 1.5e-3, 1e-15);
+    CHECK_REL(clast_grading_mean_cube(g), (81e-12 - 1e-12) / (4.0 * 2e-3), 1e-14);
+    CHECK_REL(clast_grading_mass_size(g, 0.5), pow(41e-12, 0.25), 1e-14);
+    CHECK_REL(clast_grading_mass_share(g, 2e-3), 15.0 / 80.0, 1e-14);
+    clast_grading_destroy(g);
+    g = NULL;
+    CHECK_OK(clast_grading_uniform(2e-3, 2e-3, &g));
+    assert_true(clast_grading_draw(g, 5, 9) == 2e-3 && clast_grading_mass_size(g, 0.3) == 2e-3);
+    clast_grading_destroy(g);
+    g = NULL;
+    CHECK_OK(clast_grading_lognormal(5e-3, 2e-3, 0.0, HUGE_VAL, &g));
+    const double v = log(1.0 + 4.0 / 25.0);
+    CHECK_REL(clast_grading_size(g, 0.5), 5e-3 * exp(-0.5 * v), 1e-14);
+    CHECK_REL(clast_grading_mass_size(g, 0.5), 5e-3 * exp(2.5 * v), 1e-13);
+    CHECK_REL(clast_grading_mean_cube(g), pow(5e-3, 3.0) * exp(3.0 * v), 1e-13);
+    CHECK_REL(clast_grading_size(g, 0.8413447460685429), 5e-3 * exp(-0.5 * v + sqrt(v)), 1e-13);
+    clast_grading_destroy(g);
+}
+
+static void phi_units_are_logarithms(void **state)
+{
+    (void)state;
+    CHECK_ABS(clast_phi_of_size(4e-3), -2.0, 1e-15);
+    CHECK_ABS(clast_phi_of_size(62.5e-6), 4.0, 1e-15);
+    CHECK_REL(clast_phi_size(-5.0), 32e-3, 1e-15);
+}
+
+static clast_grading *law_at(int k)
+{
+    clast_grading *g = NULL;
+    switch (k) {
+    case 0:
+        return of_case("U7", CLAST_SPREAD_STEP, CLAST_COUNT_MEAN);
+    case 1:
+        return of_case("B50", CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN);
+    case 2:
+        return of_case("B30", CLAST_SPREAD_STEP, CLAST_COUNT_EXACT);
+    case 3:
+        CHECK_OK(clast_grading_uniform(1e-3, 8e-3, &g));
+        return g;
+    case 4:
+        CHECK_OK(clast_grading_lognormal(5e-3, 4e-3, 1e-3, 9e-3, &g));
+        return g;
+    default: // limits far in the upper tail
+        CHECK_OK(clast_grading_lognormal(5e-3, 1e-3, 9e-3, 20e-3, &g));
+        return g;
+    }
+}
+
+enum { N_LAW = 6, N_DRAW = 20000 };
+
+static void inverses_are_inverses(void **state)
+{
+    (void)state;
+    for (int k = 0; k < N_LAW; ++k) {
+        clast_grading *g = law_at(k);
+        double low = 0.0;
+        double high = 0.0;
+        clast_grading_range(g, &low, &high);
+        for (int i = 0; i <= 1000; ++i) {
+            const double u = i / 1000.0;
+            CHECK_ABS(clast_grading_share(g, clast_grading_size(g, u)), u, 1e-12);
+            CHECK_ABS(clast_grading_mass_share(g, clast_grading_mass_size(g, u)), u, 1e-12);
+        }
+        CHECK_REL(clast_grading_size(g, 0.0), low, 1e-12);
+        CHECK_REL(clast_grading_size(g, 1.0), high, 1e-12);
+        clast_grading_destroy(g);
+    }
+}
+
+/* Mean of D^3 up to a size, by the midpoint rule over the inverse, is the closed mass share. */
+static void masses_weigh_with_the_cube(void **state)
+{
+    (void)state;
+    for (int k = 0; k < N_LAW; ++k) {
+        clast_grading *g = law_at(k);
+        double all = 0.0;
+        double below = 0.0;
+        const double size = clast_grading_size(g, 0.7);
+        const int n = 200000;
+        for (int i = 0; i < n; ++i) {
+            const double d = clast_grading_size(g, (i + 0.5) / n);
+            all += d * d * d;
+            below += (i + 0.5) / n < 0.7 ? d * d * d : 0.0;
+        }
+        CHECK_REL(all / n, clast_grading_mean_cube(g), 1e-4);
+        CHECK_ABS(below / all, clast_grading_mass_share(g, size), 1e-4);
+        clast_grading_destroy(g);
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Kolmogorov-Smirnov at level 1e-6: sqrt(ln(2e6)/2) / sqrt(n). */
+static void draws_follow_their_distribution(void **state)
+{
+    (void)state;
+    static double draw[N_DRAW];
+    for (int k = 0; k < N_LAW; ++k) {
+        clast_grading *g = law_at(k);
+        for (uint64_t seed = 1; seed <= 3; ++seed) {
+            double distance = 0.0;
+            for (uint64_t i = 0; i < N_DRAW; ++i) {
+                draw[i] = clast_grading_draw(g, seed, i);
+            }
+            qsort(draw, N_DRAW, sizeof *draw, ascending);
+            for (int i = 0; i < N_DRAW; ++i) {
+                const double share = clast_grading_share(g, draw[i]);
+                distance = fmax(distance,
+                                fmax(share - i / (double)N_DRAW, (i + 1) / (double)N_DRAW - share));
+            }
+            CHECK_ABS(distance, 0.0, sqrt(0.5 * log(2e6) / N_DRAW));
+        }
+        // the same grain has the same size whatever was drawn before; another seed has another
+        assert_true(clast_grading_draw(g, 3, 77) == clast_grading_draw(g, 3, 77));
+        assert_true(clast_grading_draw(g, 3, 77) != clast_grading_draw(g, 4, 77));
+        clast_grading_destroy(g);
+    }
+}
+
+static void achieved_is_set_beside_wanted(void **state)
+{
+    (void)state;
+    const double sieve[3] = {1e-3, 2e-3, 4e-3};
+    const double mass[2] = {1.0, 3.0};
+    const double size[4] = {1.5e-3, 3e-3, 4e-3, 5e-3};
+    const double volume[4] = {2.0, 3.0, 4.0, 1.0};
+    clast_curve curve = {0};
+    clast_table table = {0};
+    clast_grading_match match;
+    CHECK_OK(clast_curve_make(2, sieve, mass, &curve));
+    CHECK_OK(clast_grading_compare(&curve, NULL, &(clast_grading_sample){4, size, volume}, &table,
+                                   &match));
+    assert_int_equal(table.n_row, 4);
+    const double *achieved = clast_table_numbers(&table, "achieved_mass");
+    const double *count = clast_table_numbers(&table, "count");
+    CHECK_REL(achieved[1], 0.2, 1e-15);
+    CHECK_REL(achieved[2], 0.7, 1e-15); // the largest sieve belongs to its class
+    CHECK_REL(achieved[3], 0.1, 1e-14);
+    assert_true(achieved[0] == 0.0 && count[2] == 2.0 && count[3] == 1.0);
+    // largest gap: just before 4 mm all but nothing should be missing, half of the mass is there
+    CHECK_REL(match.distance_mass, 0.5, 1e-14);
+    assert_true(isnan(match.distance_number) && match.achieved_d50 == 3e-3);
+    assert_true(match.achieved_d10 == 1.5e-3 && match.achieved_d90 == 4e-3);
+    CHECK_REL(match.wanted_d50, 2e-3 * pow(2.0, 1.0 / 3.0), 1e-14);
+    clast_table_free(&table);
+    CHECK_STATUS(
+        clast_grading_compare(&curve, NULL, &(clast_grading_sample){0, size, NULL}, &table, &match),
+        CLAST_E_CONFIG);
+    const double bad[2] = {1e-3, (double)NAN};
+    CHECK_STATUS(
+        clast_grading_compare(&curve, NULL, &(clast_grading_sample){2, bad, NULL}, &table, &match),
+        CLAST_E_CONFIG);
+    clast_curve_free(&curve);
+}
+
+/* A file that holds the sizes of 20000 grains: the distances shrink as sampling error does. */
+static void drawn_masses_match_the_curve(void **state)
+{
+    (void)state;
+    static double size[N_DRAW];
+    clast_curve curve = {0};
+    clast_grading *g = NULL;
+    clast_table table = {0};
+    clast_grading_match match;
+    CHECK_OK(clast_grading_load("U5", CLAST_SPREAD_STEP, CLAST_COUNT_EXACT, &curve, &g));
+    for (uint64_t i = 0; i < N_DRAW; ++i) {
+        size[i] = clast_grading_draw(g, 1, i);
+    }
+    CHECK_OK(clast_grading_compare(&curve, g, &(clast_grading_sample){N_DRAW, size, NULL}, &table,
+                                   &match));
+    CHECK_ABS(match.distance_number, 0.0, sqrt(0.5 * log(2e6) / N_DRAW));
+    // inside a class numbers, not masses, are even over log size: that difference is exact;
+    // sampling adds m / sqrt(n p) for each class of mass m and number p, most for the rarest (p =
+    // 0.0035)
+    double apart = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const double d = clast_curve_size(&curve, (i + 0.5) / 2000.0);
+        apart = fmax(apart, fabs(clast_grading_mass_share(g, d) - clast_curve_passing(&curve, d)));
+    }
+    CHECK_ABS(apart, 0.05, 0.01); // 0.4 (3 ln 1.4) / 8 in the middle class
+    CHECK_ABS(match.distance_mass, apart, 5.0 * 0.06 / sqrt(0.0035 * N_DRAW));
+    CHECK_REL(match.achieved_d50, clast_grading_mass_size(g, 0.5), 0.03);
+    clast_table_free(&table);
+    clast_grading_destroy(g);
+    clast_curve_free(&curve);
+}
+
+static void check_refused(clast_status status, const char *part, int line)
+{
+    const char *text = clast_error_detail();
+    if (status == CLAST_OK || strstr(text, part) == NULL || strchr(text, '\n') != NULL) {
+        print_error("line %d: status %d, '%s' does not say '%s'\n", line, status, text, part);
+        fail();
+    }
+}
+
+#define CHECK_REFUSED(call, part) check_refused((call), (part), __LINE__)
+
+static void bad_curves_are_refused(void **state)
+{
+    (void)state;
+    clast_curve curve = {0};
+    const double sieve[3] = {1e-3, 2e-3, 4e-3};
+    const double falling[3] = {1e-3, 4e-3, 2e-3};
+    const double negative[3] = {-1e-3, 2e-3, 4e-3};
+    const double nan_sieve[3] = {1e-3, (double)NAN, 4e-3};
+    const double ones[2] = {1.0, 1.0};
+    CHECK_REFUSED(clast_curve_make(2, falling, ones, &curve), "not larger than the one before");
+    CHECK_REFUSED(clast_curve_make(2, negative, ones, &curve), "sieve 1");
+    CHECK_REFUSED(clast_curve_make(2, nan_sieve, ones, &curve), "sieve 2");
+    CHECK_REFUSED(clast_curve_make(2, sieve, (double[2]){0.0, 0.0}, &curve), "sum to 0");
+    CHECK_REFUSED(clast_curve_make(2, sieve, (double[2]){1.0, -1.0}, &curve), "class 2");
+    CHECK_REFUSED(clast_curve_make(2, sieve, (double[2]){(double)NAN, 1.0}, &curve), "class 1");
+    CHECK_REFUSED(clast_curve_make(2, sieve, (double[2]){1e308, 1e308}, &curve), "sum to inf");
+    CHECK_REFUSED(clast_curve_make(0, sieve, ones, &curve), "0 classes");
+    CHECK_REFUSED(clast_curve_named("U2", &curve), "U1, U3");
+    assert_int_equal(curve.n_class, 0);
+}
+
+static void bad_laws_are_refused(void **state)
+{
+    (void)state;
+    clast_grading *g = NULL;
+    CHECK_REFUSED(clast_grading_uniform(2.0, 1.0, &g), "the first is larger");
+    CHECK_REFUSED(clast_grading_uniform(0.0, 1.0, &g), "0 m");
+    CHECK_REFUSED(clast_grading_uniform((double)NAN, 1.0, &g), "nan m");
+    CHECK_REFUSED(clast_grading_lognormal(1e-3, 0.0, 0.0, HUGE_VAL, &g), "deviation of 0");
+    CHECK_REFUSED(clast_grading_lognormal(1e-3, 1e-3, 2e-3, 1e-3, &g), "limits");
+    CHECK_REFUSED(clast_grading_lognormal(1e-3, 1e-5, 2e-3, 3e-3, &g), "only");
+    CHECK_REFUSED(clast_grading_lognormal(1e-3, 1e-4, 0.0, (double)NAN, &g), "limits");
+    clast_sizes sizes = {0};
+    CHECK_REFUSED(clast_grading_of_sizes(&sizes, false, &g), "no sizes");
+    CHECK_OK(clast_sizes_alloc(2, &sizes));
+    sizes.low[0] = 1e-3;
+    sizes.high[0] = 3e-3;
+    sizes.low[1] = 2e-3;
+    sizes.high[1] = 4e-3;
+    CHECK_REFUSED(clast_grading_of_sizes(&sizes, false, &g), "no row holds a grain");
+    sizes.count[0] = 1.0;
+    sizes.count[1] = 1.0;
+    CHECK_REFUSED(clast_grading_of_sizes(&sizes, false, &g), "overlap");
+    sizes.low[1] = -1.0;
+    CHECK_REFUSED(clast_grading_of_sizes(&sizes, false, &g), "-1 m");
+    clast_sizes_free(&sizes);
+    assert_null(g);
+}
+
+static void lists_are_drawn_by_number_or_mass(void **state)
+{
+    (void)state;
+    clast_sizes sizes = {0};
+    clast_grading *g = NULL;
+    CHECK_OK(clast_sizes_parse("list", "low_mm high_mm mass\n2 2 0.5\n1 1 0.5\n", "", "", &sizes));
+    CHECK_OK(clast_grading_of_sizes(&sizes, true, &g));
+    CHECK_REL(clast_grading_share(g, 1.5e-3), 8.0 / 9.0, 1e-14);
+    CHECK_REL(clast_grading_mass_share(g, 1.5e-3), 0.5, 1e-14);
+    clast_grading_destroy(g);
+    CHECK_OK(clast_grading_of_sizes(&sizes, false, &g));
+    CHECK_REL(clast_grading_share(g, 1.5e-3), 0.5, 1e-14);
+    clast_grading_destroy(g);
+    clast_sizes_free(&sizes);
+}
+
+static clast_status parse(const char *text, clast_curve *curve)
+{
+    return clast_curve_parse("f.csv", text, strlen(text), curve);
+}
+
+static void files_say_retained_or_passing(void **state)
+{
+    (void)state;
+    static const char *const same[] = {
+        "sieve_mm,retained_g\n4,30\n2,10\n8,0\n", // any order; on the sieve, 40 g in all
+        "phi;fraction\n-3;0\n-2;0.75\n-1;0.25\n", // 8, 4, 2 mm
+        "Size (um),Passing (%)\n2000,0\n4000,25\n8000,100\n", //
+        "d_m passing\n0.002 0\n0.004 0.25\n0.008 1\n",        //
+        "opening_mm,finer_kg\n2,0\n4,1\n8,4\n",
+        "sieve_mm,mass_g\n0,0\n2,1\n4,3\n8,0\n", // an empty pan
+    };
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; ++i) {
+        clast_curve curve = {0};
+        CHECK_OK(parse(same[i], &curve));
+        assert_int_equal(curve.n_class, 2);
+        CHECK_REL(curve.sieve[0], 2e-3, 1e-15);
+        CHECK_REL(curve.sieve[2], 8e-3, 1e-15);
+        CHECK_REL(curve.mass[0], 0.25, 1e-14);
+        CHECK_REL(curve.mass[1], 0.75, 1e-14);
+        clast_curve_free(&curve);
+    }
+}
+
+static void bad_files_are_refused(void **state)
+{
+    (void)state;
+    clast_curve c = {0};
+    CHECK_REFUSED(parse("", &c), "f.csv");
+    CHECK_REFUSED(parse("a,b\n1,2\n2,3\n", &c), "one, with its unit");
+    CHECK_REFUSED(parse("sieve,mass\n1,2\n2,0\n", &c), "has no unit");
+    CHECK_REFUSED(parse("sieve_mm,mass,passing\n1,2,0\n2,0,1\n", &c), "one of them");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n", &c), "1 sieves");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,x\n", &c), "no numbers");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,\n", &c), "row 2");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,inf\n", &c), "row 2");
+    CHECK_REFUSED(parse("sieve_mm,mass\n-1,2\n2,0\n", &c), "row 1: a sieve size of -1 mm");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,-2\n2,0\n", &c), "negative");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n1,0\n", &c), "same sieve");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,2\n2,1\n", &c), "add a larger one");
+    CHECK_REFUSED(parse("sieve_mm,mass\n1,0\n2,0\n", &c), "sum to 0");
+    CHECK_REFUSED(parse("sieve_mm,mass\n0,1\n2,1\n3,0\n", &c), "finer than every sieve");
+    CHECK_REFUSED(parse("sieve_mm,passing\n1,0\n2,60\n3,50\n4,100\n", &c), "less than the 60");
+    CHECK_REFUSED(parse("sieve_mm,passing\n1,10\n2,60\n4,100\n", &c), "pass the smallest");
+    CHECK_REFUSED(parse("sieve_mm,passing\n1,0\n2,60\n4,95\n", &c), "pass the largest");
+    assert_int_equal(c.n_class, 0);
+}
+
+static void one_text_names_any_distribution(void **state)
+{
+    (void)state;
+    static const char *const text[] = {
+        "U1",    "uniform:5mm,8 mm", "lognormal:8mm,2mm", "lognormal:8mm,2mm,5mm,12mm", "11 mm",
+        "0.011", "-3.5phi"};
+    static const double median[] = {6.693280212272604e-3, 6.5e-3, 0.0, 0.0, 11e-3, 11e-3,
+                                    11.313708498984760e-3};
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; ++i) {
+        clast_curve curve = {0};
+        clast_grading *g = NULL;
+        CHECK_OK(clast_grading_load(text[i], CLAST_SPREAD_STEP, CLAST_COUNT_MEAN, &curve, &g));
+        assert_int_equal(curve.n_class, i == 0 ? 7 : 0);
+        if (median[i] > 0.0) {
+            CHECK_REL(clast_grading_size(g, 0.5), median[i], 1e-14);
+        }
+        clast_grading_destroy(g);
+        clast_curve_free(&curve);
+    }
+    clast_curve curve = {0};
+    clast_grading *g = NULL;
+    CHECK_REFUSED(clast_grading_load("U9", 0, 0, &curve, &g), "published");
+    CHECK_REFUSED(clast_grading_load("uniform:1mm", 0, 0, &curve, &g), "uniform:LOW,HIGH");
+    CHECK_REFUSED(clast_grading_load("lognormal:1mm,2mm,3mm", 0, 0, &curve, &g), "expected");
+    CHECK_REFUSED(clast_grading_load("uniform:1mm,2apples", 0, 0, &curve, &g), "apples");
+    CHECK_REFUSED(clast_grading_load("uniform:", 0, 0, &curve, &g), "not a number");
+    CHECK_REFUSED(clast_grading_load("list:/nowhere.csv", 0, 0, &curve, &g), "nowhere");
+    assert_null(g);
+}
+
+static clast_status make_all(void *context)
+{
+    static const char text[] = "sieve_mm,retained\n2,10\n4,30\n8,0\n";
+    clast_status status = CLAST_OK;
+    clast_curve curve = {0};
+    clast_grading *g = NULL;
+    clast_table table = {0};
+    clast_grading_match match;
+    const double size[2] = {3e-3, 5e-3};
+    (void)context;
+    status = clast_curve_parse("f", text, sizeof text - 1, &curve);
+    if (status == CLAST_OK) {
+        status = clast_grading_of_curve(&curve, CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN, &g);
+    }
+    if (status == CLAST_OK) {
+        status = clast_grading_compare(&curve, g, &(clast_grading_sample){2, size, NULL}, &table,
+                                       &match);
+    }
+    clast_table_free(&table);
+    clast_grading_destroy(g);
+    clast_curve_free(&curve);
+    return status;
+}
+
+static clast_status make_laws(void *context)
+{
+    clast_grading *g = NULL;
+    (void)context;
+    clast_status status = clast_grading_lognormal(1e-3, 1e-4, 0.0, HUGE_VAL, &g);
+    clast_grading_destroy(g);
+    g = NULL;
+    if (status == CLAST_OK) {
+        status = clast_grading_uniform(1e-3, 2e-3, &g);
+    }
+    clast_grading_destroy(g);
+    return status;
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    support_refuse_each_allocation(make_all, NULL);
+    support_refuse_each_allocation(make_laws, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(published_curves_hold_all_mass),
+        cmocka_unit_test(counts_follow_equations_8_and_9),
+        cmocka_unit_test(medians_have_closed_forms),
+        cmocka_unit_test(exact_counts_keep_the_masses),
+        cmocka_unit_test(linear_spread_is_a_triangle),
+        cmocka_unit_test(means_are_single_sizes),
+        cmocka_unit_test(laws_have_their_moments),
+        cmocka_unit_test(phi_units_are_logarithms),
+        cmocka_unit_test(inverses_are_inverses),
+        cmocka_unit_test(masses_weigh_with_the_cube),
+        cmocka_unit_test(draws_follow_their_distribution),
+        cmocka_unit_test(achieved_is_set_beside_wanted),
+        cmocka_unit_test(drawn_masses_match_the_curve),
+        cmocka_unit_test(bad_curves_are_refused),
+        cmocka_unit_test(bad_laws_are_refused),
+        cmocka_unit_test(lists_are_drawn_by_number_or_mass),
+        cmocka_unit_test(files_say_retained_or_passing),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(one_text_names_any_distribution),
+        cmocka_unit_test(refused_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
