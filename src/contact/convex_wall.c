@@ -1,0 +1,143 @@
+// Planes and vertical cylinders: the deepest point is a support point, or a largest radius.
+#include "contact/convex.h"
+#include "contact/ellipsoid_pair.h"
+#include "math/vec3.h"
+
+static void into_body(const double t[9], const double d[3], double out[3])
+{
+    v3_set(out, t[0] * d[0] + t[3] * d[1] + t[6] * d[2], t[1] * d[0] + t[4] * d[1] + t[7] * d[2],
+           t[2] * d[0] + t[5] * d[1] + t[8] * d[2]);
+}
+
+static void out_of_body(const double t[9], double scale, const double x[3], double out[3])
+{
+    v3_set(out, scale * (t[0] * x[0] + t[1] * x[1] + t[2] * x[2]),
+           scale * (t[3] * x[0] + t[4] * x[1] + t[5] * x[2]),
+           scale * (t[6] * x[0] + t[7] * x[1] + t[8] * x[2]));
+}
+
+/// Deepest point of the shape without rounding against direction n, relative to the position.
+static void deepest(const clx_placed *body, const double n[3], int32_t *hint, double tip[3])
+{
+    const clx_convex *shape = body->shape;
+    if (shape->kind == CLX_CONVEX_HULL) {
+        double own[3];
+        const double d[3] = {-n[0], -n[1], -n[2]};
+        into_body(body->turn, d, own);
+        const int32_t from = hint != NULL && *hint >= 0 && *hint < shape->core->n_vert
+                                 ? *hint
+                                 : clx_core_start(shape->core, own);
+        const int32_t at = clx_core_climb(shape->core, own, from);
+        if (hint != NULL) {
+            *hint = at;
+        }
+        out_of_body(body->turn, shape->scale, shape->core->vert[at], tip);
+    } else {
+        double matrix[6];
+        clx_ellipsoid_matrix(body->turn, shape->semi_axes, matrix);
+        clx_ellipsoid_tip(matrix, n, tip);
+        v3_scale(tip, -1.0, tip);
+    }
+}
+
+void clx_plane_contact(const clx_placed *body, const double plane[4], int32_t *hint,
+                       clx_contact *contact)
+{
+    double tip[3];
+    deepest(body, plane, hint, tip);
+    contact->gap =
+        v3_dot(plane, body->position) - plane[3] + v3_dot(plane, tip) - body->shape->round;
+    v3_copy(contact->normal, plane);
+    v3_axpy(contact->point, tip, -body->shape->round - 0.5 * contact->gap, plane);
+}
+
+/// Greatest u.c + h(u) over directions u of the plane, h the support of an ellipse with matrix
+/// (xx, yy, xy): the farthest point of the ellipse about c from the origin. Climbs from angle t.
+static double farthest_from(const double m[3], const double c[2], double *t)
+{
+    double best = -INFINITY;
+    double angle = *t;
+    for (int step = 0; step < 60; ++step) {
+        const double u[2] = {cos(angle), sin(angle)};
+        const double v[2] = {-u[1], u[0]};
+        const double mu[2] = {m[0] * u[0] + m[2] * u[1], m[2] * u[0] + m[1] * u[1]};
+        const double mv[2] = {m[0] * v[0] + m[2] * v[1], m[2] * v[0] + m[1] * v[1]};
+        const double h = sqrt(fmax(u[0] * mu[0] + u[1] * mu[1], 0.0));
+        const double f = u[0] * c[0] + u[1] * c[1] + h;
+        const double inverse = h > 0.0 ? 1.0 / h : 0.0;
+        const double hv = (v[0] * mu[0] + v[1] * mu[1]) * inverse; // h'
+        const double first = v[0] * c[0] + v[1] * c[1] + hv;
+        const double second =
+            -f + h + ((v[0] * mv[0] + v[1] * mv[1]) - hv * hv) * inverse - h; // f'' = -u.c + h''
+        if (f > best) {
+            best = f;
+            *t = angle;
+        }
+        const double newton = second < 0.0 ? -first / second : copysign(0.3, first);
+        const double move = fmin(fmax(newton, -0.3), 0.3);
+        if (fabs(first) <= 1e-15 * fabs(f)) {
+            break;
+        }
+        angle += move;
+    }
+    return best;
+}
+
+/// Deepest point of a round shape in a cylinder, relative to the position; its distance from the
+/// axis.
+static double round_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])
+{
+    double matrix[6];
+    double best = -INFINITY;
+    double at = 0.0;
+    clx_ellipsoid_matrix(body->turn, body->shape->semi_axes, matrix);
+    const double flat[3] = {matrix[0], matrix[1], matrix[5]};
+    const double outward = atan2(c[1], c[0]);
+    for (int k = 0; k < 8; ++k) {
+        double t = outward + k * CLAST_PI / 4.0;
+        const double f = farthest_from(flat, c, &t);
+        if (f > best) {
+            best = f;
+            at = t;
+        }
+    }
+    u[0] = cos(at);
+    u[1] = sin(at);
+    clx_ellipsoid_tip(matrix, (const double[3]){u[0], u[1], 0.0}, tip);
+    return best;
+}
+
+static double hull_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])
+{
+    const clx_hull_core *core = body->shape->core;
+    const double *t = body->turn;
+    const double s = body->shape->scale;
+    double best = -INFINITY;
+    int32_t at = 0;
+    for (int32_t i = 0; i < core->n_vert; ++i) {
+        const double *v = core->vert[i];
+        const double x = c[0] + s * (t[0] * v[0] + t[1] * v[1] + t[2] * v[2]);
+        const double y = c[1] + s * (t[3] * v[0] + t[4] * v[1] + t[5] * v[2]);
+        if (x * x + y * y > best) {
+            best = x * x + y * y;
+            at = i;
+        }
+    }
+    out_of_body(t, s, core->vert[at], tip);
+    best = sqrt(best);
+    u[0] = best > 0.0 ? (c[0] + tip[0]) / best : 1.0;
+    u[1] = best > 0.0 ? (c[1] + tip[1]) / best : 0.0;
+    return best;
+}
+
+void clx_cylinder_contact(const clx_placed *body, const double axis[2], double radius,
+                          clx_contact *contact)
+{
+    const double c[2] = {body->position[0] - axis[0], body->position[1] - axis[1]};
+    double u[2], tip[3];
+    const double reach = body->shape->kind == CLX_CONVEX_HULL ? hull_reach(body, c, u, tip)
+                                                              : round_reach(body, c, u, tip);
+    contact->gap = radius - reach - body->shape->round;
+    v3_set(contact->normal, -u[0], -u[1], 0.0);
+    v3_axpy(contact->point, tip, -body->shape->round - 0.5 * contact->gap, contact->normal);
+}

@@ -1,0 +1,241 @@
+/* Property: gaps and overlaps of random convex pairs equal those of the plain twins. */
+#include "support.h"
+
+#include "gravel.h"
+#include "math/vec3.h"
+#include "ref_convex.h"
+
+enum { N_CORE = 8 };
+
+static clx_hull_core *cores[N_CORE];
+
+static int make_cores(void **state)
+{
+    (void)state;
+    for (int i = 0; i < N_CORE - 3; ++i) {
+        const double axes[3] = {0.5, 0.4 - 0.02 * i, 0.3 - 0.04 * i};
+        cores[i] = support_core(1, (uint64_t)i, 10 + 4 * i, axes);
+    }
+    cores[N_CORE - 3] = support_box_core(1.0, 0.8, 0.6);
+    cores[N_CORE - 2] = support_core(2, 0, 20, (const double[3]){0.5, 0.03, 0.02});  // needle
+    cores[N_CORE - 1] = support_core(2, 1, 20, (const double[3]){0.5, 0.45, 0.015}); // plate
+    return 0;
+}
+
+static int free_cores(void **state)
+{
+    (void)state;
+    for (int i = 0; i < N_CORE; ++i) {
+        clx_hull_core_destroy(cores[i]);
+    }
+    return 0;
+}
+
+/* Two placed bodies with room for their rotations. */
+typedef struct {
+    clx_convex a, b;
+    double turn[2][9];
+    clx_pair pair;
+} scene;
+
+static void random_turn(clx_rng *rng, double turn[9])
+{
+    double q[4], m[3][3];
+    clx_rng_orientation(rng, q);
+    q_matrix(m, q);
+    for (int i = 0; i < 9; ++i) {
+        turn[i] = m[i / 3][i % 3];
+    }
+}
+
+static void join(scene *s)
+{
+    s->pair.a = &s->a;
+    s->pair.b = &s->b;
+    s->pair.turn_a = s->turn[0];
+    s->pair.turn_b = s->turn[1];
+}
+
+static double reference(const scene *s)
+{
+    const double origin[3] = {0.0, 0.0, 0.0};
+    ref_polytope a = ref_polytope_of(&s->a, s->turn[0], origin);
+    ref_polytope b = ref_polytope_of(&s->b, s->turn[1], s->pair.offset);
+    const double gap = ref_polytope_gap(&a, &b);
+    ref_polytope_free(&a);
+    ref_polytope_free(&b);
+    return gap;
+}
+
+/* The contact is what it says: its normal shows the gap. Where vertices are a tiny gap apart, the
+   normal cannot be better than rounding over the gap. */
+static void check_contact(const scene *s, const clx_contact *c, double tol)
+{
+    const double origin[3] = {0.0, 0.0, 0.0};
+    if (c->gap > 0.0) {
+        tol += 1e-15 / c->gap;
+    }
+    CHECK_ABS(v3_norm(c->normal), 1.0, 1e-12);
+    if (s->a.kind == CLX_CONVEX_HULL && s->b.kind == CLX_CONVEX_HULL) {
+        ref_polytope a = ref_polytope_of(&s->a, s->turn[0], origin);
+        ref_polytope b = ref_polytope_of(&s->b, s->turn[1], s->pair.offset);
+        CHECK_ABS(ref_gap_along(&a, &b, c->normal), c->gap, tol);
+        ref_polytope_free(&a);
+        ref_polytope_free(&b);
+    }
+}
+
+/* Moves b along `line` until the gap is `wanted`, by the reference. */
+static void push_to_gap(scene *s, const double line[3], double wanted)
+{
+    double low = -2.0;
+    double high = 2.0;
+    for (int i = 0; i < 60; ++i) {
+        const double t = 0.5 * (low + high);
+        clx_contact c;
+        v3_scale(s->pair.offset, t, line);
+        (void)clx_pair_contact(&s->pair, INFINITY, NULL, &c);
+        if (t < 0.0 || c.gap < wanted) {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+}
+
+static void hull_pairs_equal_all_axes(void **state)
+{
+    (void)state;
+    static const double gaps[] = {1e-9,  1e-6,  1e-3,  0.1,  0.3, -1e-9,
+                                  -1e-6, -1e-4, -1e-2, -0.1, 0.0};
+    for (uint64_t i = 0; i < 1100; ++i) {
+        clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, i);
+        scene s;
+        clx_contact c;
+        double line[3];
+        s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
+        s.b = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], i % 5 == 0 ? 1.0 / 11.0 : 1.0);
+        random_turn(&rng, s.turn[0]);
+        random_turn(&rng, s.turn[1]);
+        clx_rng_direction(&rng, line);
+        join(&s);
+        push_to_gap(&s, line, gaps[i % 11]);
+        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
+        const double expected = reference(&s);
+        if (!(fabs(c.gap - expected) <= 1e-13)) {
+            print_message("pair %d: gap %.17g, reference %.17g\n", (int)i, c.gap, expected);
+        }
+        CHECK_ABS(c.gap, expected, 1e-11);
+        check_contact(&s, &c, 1e-11);
+    }
+}
+
+static const double UNTURNED[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
+/* Unturned boxes: face on face, edge on edge, vertex on vertex, one in the other, same place. */
+static void aligned_boxes_have_their_closed_form(void **state)
+{
+    (void)state;
+    const double half[3] = {0.5, 0.4, 0.3};
+    static const double at[] = {-1.0, -0.5, 0.0, 0.25, 0.999999999, 1.0, 1.000000001, 1.5};
+    for (int i = 0; i < 512; ++i) {
+        scene s = {.a = clx_convex_hull(cores[N_CORE - 3], 1.0),
+                   .b = clx_convex_hull(cores[N_CORE - 3], i % 2 == 0 ? 1.0 : 0.5)};
+        clx_contact c;
+        double out2 = 0.0;
+        double inside = -INFINITY;
+        for (int k = 0; k < 3; ++k) {
+            const double reach = half[k] * (1.0 + s.b.scale);
+            s.pair.offset[k] = reach * at[(i >> (3 * k)) & 7];
+            const double d = fabs(s.pair.offset[k]) - reach;
+            inside = fmax(inside, d);
+            out2 += d > 0.0 ? d * d : 0.0;
+        }
+        for (int k = 0; k < 9; ++k) {
+            s.turn[0][k] = s.turn[1][k] = UNTURNED[k];
+        }
+        join(&s);
+        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
+        CHECK_ABS(c.gap, inside > 0.0 ? sqrt(out2) : inside, 1e-14);
+        check_contact(&s, &c, 1e-13);
+    }
+}
+
+/* Poses that a random draw never meets: quarter turns, offsets along features, mirror pairs. */
+static void tied_features_equal_all_axes(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 600; ++i) {
+        clx_rng rng = clx_rng_at(8, CLX_STREAM_TEST, i);
+        scene s;
+        clx_contact c;
+        const clx_hull_core *core = cores[clx_rng_below(&rng, N_CORE)];
+        s.a = clx_convex_hull(core, 1.0);
+        s.b = clx_convex_hull(core, 1.0);
+        random_turn(&rng, s.turn[0]);
+        const double mirror = i % 3 == 0 ? 1.0 : -1.0; // same pose, or turned half about one axis
+        for (int k = 0; k < 9; ++k) {
+            s.turn[1][k] = s.turn[0][k] * (k % 3 == 2 ? 1.0 : mirror);
+        }
+        double x[3], y[3]; // offset so that two vertices meet, or along a face normal
+        const double *v = core->vert[clx_rng_below(&rng, core->n_vert)];
+        const double *w = core->vert[clx_rng_below(&rng, core->n_vert)];
+        const double *n = core->face[clx_rng_below(&rng, core->n_face)].normal;
+        for (int k = 0; k < 3; ++k) {
+            x[k] = v3_dot(s.turn[0] + 3 * k, i % 2 == 0 ? v : n);
+            y[k] = v3_dot(s.turn[1] + 3 * k, w);
+        }
+        v3_sub(s.pair.offset, x, i % 2 == 0 ? y : (const double[3]){0.0, 0.0, 0.0});
+        v3_scale(s.pair.offset, i % 7 == 0 ? 0.0 : i % 4 == 0 ? 1.0 + 1e-9 : 1.0, s.pair.offset);
+        join(&s);
+        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
+        const double expected = reference(&s);
+        if (!(fabs(c.gap - expected) <= 1e-13)) {
+            print_message("pair %d: gap %.17g, reference %.17g\n", (int)i, c.gap, expected);
+        }
+        CHECK_ABS(c.gap, expected, 1e-11);
+        check_contact(&s, &c, 1e-11);
+    }
+}
+
+static clx_convex random_round(clx_rng *rng)
+{
+    double axes[3];
+    for (int k = 0; k < 3; ++k) {
+        axes[k] = 0.15 + 0.35 * clx_rng_uniform(rng);
+    }
+    return clx_rng_below(rng, 3) == 0 ? clx_convex_sphere(axes[0]) : clx_convex_ellipsoid(axes);
+}
+
+static void round_pairs_equal_all_directions(void **state)
+{
+    (void)state;
+    static const double gaps[] = {1e-9, 1e-4, 0.1, 0.3, -1e-9, -1e-4, -1e-2, -0.1, -0.3, -2.0};
+    for (uint64_t i = 0; i < 120; ++i) {
+        clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, i);
+        scene s;
+        clx_contact c;
+        double line[3];
+        s.a = random_round(&rng);
+        s.b = random_round(&rng);
+        random_turn(&rng, s.turn[0]);
+        random_turn(&rng, s.turn[1]);
+        clx_rng_direction(&rng, line);
+        join(&s);
+        push_to_gap(&s, line, gaps[i % 10]);
+        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
+        CHECK_ABS(c.gap, ref_ellipsoid_gap(&s.pair), 1e-11);
+        check_contact(&s, &c, 1e-11);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hull_pairs_equal_all_axes),
+        cmocka_unit_test(aligned_boxes_have_their_closed_form),
+        cmocka_unit_test(tied_features_equal_all_axes),
+        cmocka_unit_test(round_pairs_equal_all_directions),
+    };
+    return cmocka_run_group_tests(tests, make_cores, free_cores);
+}
