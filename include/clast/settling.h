@@ -19,17 +19,18 @@ typedef struct clast_drag {
 } clast_drag;
 
 /// Corrections from the form dimensions L >= I >= S and the volume-equivalent diameter d (all in
-/// one unit).
+/// one unit), and from the density of the body over that of the fluid, r.
 ///
 ///     F_S = f e^1.3 d^3 / (L I S)     k_S = (F_S^(1/3) + F_S^(-1/3)) / 2
-///     F_N = f^2 e d^3 / (L I S)       k_N = 10^(0.45 (-log10 F_N)^0.99)
+///     F_N = f^2 e d^3 / (L I S)       k_N = 10^(a (-log10 F_N)^b)
+///     a = 0.45 + 10 / (exp(2.5 log10 r) + 30)     b = 1 - 37 / (exp(3 log10 r) + 100)
 ///
-/// with elongation e = I / L and flatness f = S / I.  [Bagheri2016, for bodies in gases;
-/// coefficients as in two public codes; docs/theory/settling.md]  F_N above 1 (bodies fuller than
-/// their ellipsoid) counts as 1, since the law knows no body with less drag than the sphere.
-/// @return CLAST_E_GEOMETRY unless L >= I >= S > 0 and d > 0
+/// with elongation e = I / L and flatness f = S / I.  [Bagheri2016; coefficients as in four public
+/// codes; docs/theory/settling.md]  F_N above 1 (bodies fuller than their ellipsoid) counts as 1,
+/// since the law knows no body with less drag than the sphere.
+/// @return CLAST_E_GEOMETRY unless L >= I >= S > 0, d > 0 and r > 0
 CLAST_API clast_status clast_drag_of_form(double length, double intermediate, double shortest,
-                                          double diameter, clast_drag *drag);
+                                          double diameter, double density_ratio, clast_drag *drag);
 
 /// Drag coefficient at a Reynolds number > 0 by volume-equivalent diameter and area pi d^2 / 4:
 ///

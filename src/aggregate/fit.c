@@ -53,8 +53,8 @@ static clast_status measure(const clast_aggregate *aggregate, double value[CLX_F
     clast_settling fall;
     CLX_TRY(clast_aggregate_measure(aggregate, &result));
     CLX_TRY(clast_assembly_extent(clast_aggregate_assembly(aggregate), &extent));
-    CLX_TRY(
-        clast_drag_of_form(extent.width[0], extent.width[1], extent.width[2], result.d_agg, &drag));
+    CLX_TRY(clast_drag_of_form(extent.width[0], extent.width[1], extent.width[2], result.d_agg,
+                               result.density / air.density, &drag));
     CLX_TRY(clast_terminal_velocity(result.d_agg, result.density, &drag, &air, &fall));
     value[CLAST_FIT_SIZE] = result.d_agg;
     value[CLAST_FIT_DENSITY] = result.density;

@@ -198,7 +198,7 @@ static clast_status measure_settling(const clast_assembly *grains, clast_aggrega
     const clast_fluid air = clast_fluid_air();
     CLX_TRY(clast_assembly_extent(grains, &extent));
     CLX_TRY(clast_drag_of_form(extent.width[0], extent.width[1], extent.width[2], result->d_agg,
-                               &drag));
+                               result->density / air.density, &drag));
     CLX_TRY(clast_terminal_velocity(result->d_agg, result->density, &drag, &air, &settling));
     result->settling_velocity = settling.velocity;
 done:

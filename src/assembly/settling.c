@@ -1,6 +1,7 @@
 // Terminal velocity by the drag law of Bagheri and Bonadonna (2016), "On the drag of freely falling
-// non-spherical particles", Powder Technology 301, 526-544. The coefficients were checked against
-// the trajectory code of the same group (LagTrack) and a second public use of the law.
+// non-spherical particles", Powder Technology 301, 526-544. The paper was not at hand; the
+// coefficients are those on which the public codes that use the law agree
+// (docs/theory/settling.md).
 #include <clast/settling.h>
 
 #include "base/status.h"
@@ -12,9 +13,11 @@ clast_fluid clast_fluid_air(void)
 }
 
 clast_status clast_drag_of_form(double length, double intermediate, double shortest,
-                                double diameter, clast_drag *drag)
+                                double diameter, double density_ratio, clast_drag *drag)
 {
     clast_status status = CLAST_OK;
+    CLX_CHECK(density_ratio > 0.0 && isfinite(density_ratio), CLAST_E_GEOMETRY,
+              "drag: density ratio %g must be positive", density_ratio);
     CLX_CHECK(shortest > 0.0 && intermediate >= shortest && length >= intermediate &&
                   isfinite(length) && diameter > 0.0 && isfinite(diameter),
               CLAST_E_GEOMETRY, "drag: L %g >= I %g >= S %g > 0 and diameter %g > 0 are needed",
@@ -25,7 +28,10 @@ clast_status clast_drag_of_form(double length, double intermediate, double short
     const double stokes = flatness * pow(elongation, 1.3) * fullness;
     const double newton = flatness * flatness * elongation * fullness;
     drag->stokes = 0.5 * (cbrt(stokes) + 1.0 / cbrt(stokes));
-    drag->newton = newton < 1.0 ? pow(10.0, 0.45 * pow(-log10(newton), 0.99)) : 1.0;
+    const double heavy = log10(density_ratio);
+    const double factor = 0.45 + 10.0 / (exp(2.5 * heavy) + 30.0);
+    const double power = 1.0 - 37.0 / (exp(3.0 * heavy) + 100.0);
+    drag->newton = newton < 1.0 ? pow(10.0, factor * pow(-log10(newton), power)) : 1.0;
 done:
     return status;
 }

@@ -204,7 +204,8 @@ static clast_status add_envelope(const clast_structure_options *options, const c
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
         CLX_TRY(add_envelope_row(table, stem[k], envelope->kind, &rows[k]));
     }
-    CLX_TRY(clast_drag_of_form(e->width[0], e->width[1], e->width[2], d, &drag));
+    CLX_TRY(clast_drag_of_form(e->width[0], e->width[1], e->width[2], d,
+                               density / options->fluid.density, &drag));
     CLX_TRY(clast_terminal_velocity(d, density, &drag, &options->fluid, &fall));
     // mass is fixed, so the velocity feels the envelope through its diameter alone: about -1/2 to
     // -1
