@@ -30,7 +30,7 @@ typedef struct clast_aggregate_fit {
     double chi2;
     int32_t n_observed;
     double chance;    ///< of a chi2 this great or greater with n_observed observations
-    bool reached;     ///< at the best node every pull is within 2 and the chance is 5 % or more
+    bool reached;     ///< chance >= 1 - config->confidence: chi2 is not rejected at that level
     int32_t n_level;  ///< packings tried
     bool cut_short;   ///< tighter packings were left out: chi2 had risen by 50 twice
     int32_t n_run;    ///< aggregates grown

@@ -128,7 +128,9 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(n_final, 1, 1, 1e8, "cluster mode: clusters left at the end"),
 
     COUNT(repeats, 1, 1, 1e6, "independent aggregates"),
-    NUMBER(confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
+    NUMBER(
+        confidence, 0.95, 0.5, 0.9999, "-",
+        "level of the intervals over repeats; fit: reached unless chi2 is rejected at this level"),
     {FIELD(U64, seed), 1, 0, 0, "-", "seed of every random number", NULL},
     COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints"),
     {FIELD(BOOL, picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},

@@ -187,7 +187,6 @@ done:
 /// Pulls at the best node and the range of all grown nodes.
 static void compare(const clx_fit *fit, const clx_fit_node *best, clast_aggregate_fit *result)
 {
-    result->reached = true;
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
         result->observed[k] = fit->observed[k];
         result->error[k] = fit->error[k];
@@ -202,7 +201,6 @@ static void compare(const clx_fit *fit, const clx_fit_node *best, clast_aggregat
         if (isfinite(fit->observed[k])) {
             result->pull[k] =
                 (best->mean[k] - fit->observed[k]) / total_error(fit, k, best->mean[k]);
-            result->reached = result->reached && fabs(result->pull[k]) <= 2.0;
             ++result->n_observed;
         }
     }
@@ -280,7 +278,7 @@ clast_status clx_fit_weigh(clx_fit *fit, clast_aggregate_fit *result)
     made.at_limit = node->replicate == fit->config->fit_replicate_max;
     compare(fit, node, &made);
     made.chance = chance_of(made.chi2, made.n_observed);
-    made.reached = made.reached && made.chance >= 0.05;
+    made.reached = made.chance >= 1.0 - fit->config->confidence;
     CLX_TRY(estimate_all(fit, best, &made));
     say(&made);
     *result = made;
