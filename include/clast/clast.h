@@ -18,6 +18,7 @@
 #include <clast/field.h>
 #include <clast/fill.h>
 #include <clast/form.h>
+#include <clast/form_law.h>
 #include <clast/grading.h>
 #include <clast/grading_file.h>
 #include <clast/hull.h>
@@ -31,6 +32,7 @@
 #include <clast/overlap.h>
 #include <clast/parallel.h>
 #include <clast/printable.h>
+#include <clast/reform.h>
 #include <clast/render.h>
 #include <clast/report.h>
 #include <clast/settling.h>
