@@ -22,6 +22,7 @@
 #include <clast/grading.h>
 #include <clast/grading_file.h>
 #include <clast/hull.h>
+#include <clast/kernel.h>
 #include <clast/manifest.h>
 #include <clast/mesh.h>
 #include <clast/mesh_check.h>

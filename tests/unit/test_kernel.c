@@ -1,0 +1,216 @@
+/* Unit: collision kernels equal the reference table (data/d2sd/kernels.csv) and their own limits.
+ */
+#include "support.h"
+
+#include <clast/kernel.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const clast_medium water = {.temperature = 293.15,
+                                   .viscosity = 1.002e-3,
+                                   .density = 1000.0,
+                                   .particle_density = 2600.0,
+                                   .shear = 100.0,
+                                   .dissipation = 0.01,
+                                   .gravity = 9.81,
+                                   .efficiency = 1.0};
+
+static uint32_t mask_of(const char *text)
+{
+    uint32_t mask = 0;
+    CHECK_OK(clast_kernel_parse(text, &mask));
+    return mask;
+}
+
+static clast_collider sphere(double radius, double density)
+{
+    return (clast_collider){.monomers = 1.0,
+                            .radius = radius,
+                            .mass = 4.0 / 3.0 * CLAST_PI * radius * radius * radius * density};
+}
+
+/// "name=VALUE" in a parameter text, or `missing`.
+static double parameter(const char *text, const char *name, double missing)
+{
+    const char *at = strstr(text, name);
+    return at != NULL ? strtod(at + strlen(name), NULL) : missing;
+}
+
+static double ours(const char *kernel, const char *text)
+{
+    clast_medium m = water;
+    const bool is_fractal = strstr(kernel, "fractal") != NULL;
+    clast_collider a = sphere(parameter(text, "a1=", 1e-6), 1000.0);
+    clast_collider b = sphere(parameter(text, "a2=", 1e-6), 1000.0);
+    if (is_fractal) {
+        const double a0 = parameter(text, "a0=", 1e-6);
+        a.radius = a0 * pow(parameter(text, "i=", 1.0), 1.0 / 1.8);
+        b.radius = a0 * pow(parameter(text, "j=", 1.0), 1.0 / 1.8);
+    }
+    if (strncmp(kernel, "brownian", 8) == 0) {
+        return clast_kernel_value(mask_of("brownian"), &m, &a, &b);
+    }
+    if (strncmp(kernel, "shear_laminar", 13) == 0) {
+        return clast_kernel_value(mask_of("shear_laminar"), &m, &a, &b);
+    }
+    if (strstr(kernel, "saffman") != NULL) {
+        m.viscosity = 1e-6 * m.density; // the row gives nu
+        return clast_kernel_value(mask_of("shear_turbulent"), &m, &a, &b);
+    }
+    if (strstr(kernel, "sedimentation") != NULL) {
+        a = sphere(a.radius, 2600.0);
+        b = sphere(b.radius, 2600.0);
+        return clast_kernel_value(mask_of("settling"), &m, &a, &b);
+    }
+    if (strcmp(kernel, "abrahamson") == 0) {
+        a.speed_rms = 0.1;
+        b.speed_rms = 0.05;
+        return clast_kernel_value(mask_of("inertial"), &m, &a, &b);
+    }
+    if (strcmp(kernel, "free_molecular") == 0) {
+        return clast_kernel_value(mask_of("brownian_free"), &m, &a, &b);
+    }
+    if (strcmp(kernel, "geometric_orourke") == 0) {
+        a.velocity[1] = 0.3;
+        return clast_kernel_value(mask_of("ballistic"), &m, &a, &b);
+    }
+    return NAN; // shear_turbulent_1.3: the rounded constant, which clast does not use
+}
+
+static void kernels_equal_the_reference_table(void **state)
+{
+    (void)state;
+    char line[512];
+    int n_checked = 0;
+    FILE *file = fopen(support_data("d2sd/kernels.csv"), "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    while (fgets(line, sizeof line, file) != NULL) {
+        char *rest = line;
+        const char *kernel = strtok_r(rest, ",", &rest);
+        const char *text = strtok_r(rest, ",", &rest);
+        const double expected = strtod(rest, NULL);
+        const double value = ours(kernel, text);
+        if (!isnan(value)) {
+            CHECK_REL(value, expected, 1e-13);
+            ++n_checked;
+        }
+    }
+    (void)fclose(file);
+    assert_int_equal(n_checked, 27);
+}
+
+static void model_kernels_depend_on_monomers_alone(void **state)
+{
+    (void)state;
+    const clast_medium m = {.constant = 2.0, .additive = 3.0, .product = 5.0};
+    const clast_collider a = {.monomers = 4.0};
+    const clast_collider b = {.monomers = 6.0};
+    CHECK_REL(clast_kernel_value(mask_of("constant"), &m, &a, &b), 2.0, 0.0);
+    CHECK_REL(clast_kernel_value(mask_of("additive"), &m, &a, &b), 30.0, 0.0);
+    CHECK_REL(clast_kernel_value(mask_of("product"), &m, &a, &b), 120.0, 0.0);
+    CHECK_REL(clast_kernel_value(mask_of("constant+additive,product"), &m, &a, &b), 152.0, 0.0);
+}
+
+/* Dahneke's bridge has the continuum and the free-molecular kernel as its ends. */
+static void transition_joins_both_ends(void **state)
+{
+    (void)state;
+    clast_medium air = {.temperature = 300.0, .viscosity = 1.8e-5, .mean_free_path = 6.7e-8};
+    const clast_collider large = sphere(1e-4, 1000.0);
+    const clast_collider small = sphere(2e-10, 1000.0);
+    air.mean_free_path = 0.0;
+    CHECK_REL(clast_kernel_value(mask_of("brownian_transition"), &air, &large, &large),
+              clast_kernel_value(mask_of("brownian"), &air, &large, &large), 2e-3);
+    air.mean_free_path = 6.7e-8;
+    CHECK_REL(clast_kernel_value(mask_of("brownian_transition"), &air, &small, &small),
+              clast_kernel_value(mask_of("brownian_free"), &air, &small, &small), 0.02);
+}
+
+static const clast_medium cloud = {.viscosity = 1.8e-5,
+                                   .density = 1.2,
+                                   .particle_density = 1000.0,
+                                   .dissipation = 0.04,
+                                   .speed_rms = 1.0,
+                                   .gravity = 9.81};
+
+/* Equal droplets have no drift and, at small inertia, the relative velocity of the air alone, whose
+ * correlation the kernel models by 1 - along(R): Saffman and Turner's sqrt(eps/15 nu) R times a
+ * factor of order one. */
+static void cloud_turbulence_is_near_saffman_and_turner_for_small_equal_droplets(void **state)
+{
+    (void)state;
+    const clast_collider a = sphere(5e-6, 1000.0);
+    const double ours_is = clast_kernel_value(mask_of("cloud_turbulence"), &cloud, &a, &a);
+    const double theirs = clast_kernel_value(mask_of("shear_turbulent"), &cloud, &a, &a);
+    assert_true(ours_is > 0.3 * theirs && ours_is < 3.0 * theirs);
+}
+
+/* Where droplets differ much and turbulence is weak, settling remains: 2 pi R^2 sqrt(2/pi pi/8
+ * dw^2) = pi R^2 |dw|. */
+static void cloud_turbulence_tends_to_settling(void **state)
+{
+    (void)state;
+    clast_medium calm = cloud;
+    calm.dissipation = 1e-7;
+    calm.speed_rms = 1e-2;
+    calm.efficiency = 1.0;
+    const clast_collider a = sphere(40e-6, 1000.0);
+    const clast_collider b = sphere(10e-6, 1000.0);
+    CHECK_REL(clast_kernel_value(mask_of("cloud_turbulence"), &calm, &a, &b),
+              clast_kernel_value(mask_of("settling"), &calm, &a, &b), 0.02);
+}
+
+static void kernels_are_symmetric(void **state)
+{
+    (void)state;
+    clast_medium m = cloud;
+    m.temperature = 280.0;
+    m.shear = 3.0;
+    m.efficiency = 0.5;
+    m.constant = m.additive = m.product = 1e-9;
+    clast_collider a = sphere(20e-6, 1000.0);
+    clast_collider b = sphere(7e-6, 1000.0);
+    a.monomers = 3.0;
+    b.velocity[2] = -0.2;
+    for (int k = 0; k < CLAST_N_KERNEL; ++k) {
+        const double ab = clast_kernel_value(1U << k, &m, &a, &b);
+        assert_true(ab > 0.0);
+        CHECK_REL(clast_kernel_value(1U << k, &m, &b, &a), ab, 1e-14);
+    }
+}
+
+static void wrong_kernels_are_refused_in_words(void **state)
+{
+    (void)state;
+    uint32_t mask = 7;
+    CHECK_STATUS(clast_kernel_parse("brown", &mask), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "'brown'"));
+    assert_non_null(strstr(clast_error_detail(), "shear_laminar"));
+    CHECK_STATUS(clast_kernel_parse("", &mask), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_kernel_parse("constant+", &mask), CLAST_E_CONFIG);
+    assert_int_equal(mask, 7);
+    const clast_medium empty = {0};
+    CHECK_OK(clast_kernel_check(mask_of("constant"), &empty));
+    CHECK_STATUS(clast_kernel_check(mask_of("constant+brownian"), &empty), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "kernel brownian needs a temperature > 0"));
+    clast_medium slow = cloud;
+    slow.speed_rms = 0.01;
+    CHECK_STATUS(clast_kernel_check(mask_of("cloud_turbulence"), &slow), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "Reynolds number above 60"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kernels_equal_the_reference_table),
+        cmocka_unit_test(model_kernels_depend_on_monomers_alone),
+        cmocka_unit_test(transition_joins_both_ends),
+        cmocka_unit_test(cloud_turbulence_is_near_saffman_and_turner_for_small_equal_droplets),
+        cmocka_unit_test(cloud_turbulence_tends_to_settling),
+        cmocka_unit_test(kernels_are_symmetric),
+        cmocka_unit_test(wrong_kernels_are_refused_in_words),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
