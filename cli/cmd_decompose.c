@@ -1,6 +1,7 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
 #include "json.h"
+#include "points.h"
 
 #include <clast/decompose.h>
 #include <clast/table_file.h>
@@ -12,66 +13,27 @@
 
 typedef struct {
     clast_decompose_config decompose; // first: the two tables share offsets
-    clast_text_list columns;
+    clast_cloud_columns columns;
     bool test_only;
 } config;
 
-enum { N_OWN = 2, MAX_FIELD = 32 };
+enum { N_OWN = 1, MAX_FIELD = 40 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
-static const clast_field own[N_OWN] = {
-    {"columns", offsetof(config, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
-     "columns of the coordinates, as many as dimensions", "x,y,z"},
-    {"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
-     "run the uniformity tests alone", NULL}};
+static const clast_field own[N_OWN] = {{"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL,
+                                        0, 0, 0, "-", "run the uniformity tests alone", NULL}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = 0;
+    int n = cli_point_fields(fields, 0, offsetof(config, columns));
     for (int k = 0; k < N_OWN; ++k) {
         fields[n++] = own[k];
     }
     for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
         fields[n++] = *f;
     }
-}
-
-/// Coordinates by name; a list "x,y,z" given as one word is split. Missing trailing default names
-/// end the list.
-static clast_status take_points(const clast_table *table, const config *c, clast_cloud *cloud)
-{
-    double *column[3] = {NULL};
-    int32_t d = 0;
-    char names[256] = "";
-    for (int32_t k = 0; k < c->columns.n; ++k) {
-        const size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? "," : "",
-                       c->columns.item[k]);
-    }
-    const bool is_default = strcmp(names, "x,y,z") == 0;
-    char *rest = names;
-    for (char *name = strtok_r(rest, ",", &rest); name != NULL; name = strtok_r(rest, ",", &rest)) {
-        double *found = clast_table_numbers(table, name);
-        if (found == NULL && is_default && d > 0) {
-            break;
-        }
-        if (found == NULL || d == 3) {
-            return cli_fail(CLAST_E_FORMAT,
-                            found == NULL ? "%s has no column of numbers named '%s'"
-                                          : "%s: more than three coordinate columns, from '%s' on",
-                            table->name, name);
-        }
-        column[d++] = found;
-    }
-    const clast_status status = clast_cloud_alloc(table->n_row, d, cloud);
-    for (int64_t i = 0; i < table->n_row && status == CLAST_OK; ++i) {
-        for (int32_t j = 0; j < d; ++j) {
-            cloud->x[i * d + j] = column[j][i];
-        }
-    }
-    return status;
 }
 
 static json_t *json_tests(const clast_uniformity *u)
@@ -277,7 +239,7 @@ static clast_status run(const cli_common *common, void *values)
     }
     clast_status status = clast_table_read_csv(common->argument[0], NULL, &table, NULL);
     if (status == CLAST_OK) {
-        status = take_points(&table, c, &cloud);
+        status = clast_cloud_from_table(&table, &c->columns, &cloud);
     }
     if (status == CLAST_OK) {
         status = clast_decompose(&cloud, &c->decompose, &result);

@@ -1,5 +1,6 @@
 #pragma once
 // All public headers.
+#include <clast/agglomerate.h>
 #include <clast/aggregate.h>
 #include <clast/aggregate_charts.h>
 #include <clast/aggregate_file.h>
@@ -10,6 +11,7 @@
 #include <clast/bvh.h>
 #include <clast/chart.h>
 #include <clast/cloud.h>
+#include <clast/collide.h>
 #include <clast/config.h>
 #include <clast/decompose.h>
 #include <clast/domain.h>

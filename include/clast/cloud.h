@@ -1,5 +1,6 @@
 #pragma once
-#include <clast/status.h>
+#include <clast/field.h>
+#include <clast/table.h>
 
 /// Points in one, two or three dimensions, with optional properties; arrays may be borrowed by the
 /// functions that read them.
@@ -15,3 +16,24 @@ typedef struct clast_cloud {
 
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
 CLAST_API void clast_cloud_free(clast_cloud *cloud);
+
+/// Which columns of a table hold what; an empty list or text: nothing does.
+typedef struct clast_cloud_columns {
+    clast_text_list columns;          ///< coordinates; an item may be a list itself, "x,y,z"
+    clast_text_list velocity_columns; ///< as many as coordinates
+    char *radius_column, *diameter_column, *mass_column, *weight_column;
+} clast_cloud_columns;
+
+/// Numbers of the named column; *column is NULL for an empty name.
+///
+/// @return CLAST_E_FORMAT when the table has no such column of numbers
+CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
+                                          double **column);
+
+/// A table's rows as a cloud. Of the default coordinates "x,y,z" missing trailing ones end the
+/// list.
+///
+/// @return CLAST_E_FORMAT names the missing column; CLAST_E_CONFIG for radii and diameters at once
+CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
+                                              const clast_cloud_columns *columns,
+                                              clast_cloud *cloud);

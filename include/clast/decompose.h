@@ -93,6 +93,8 @@ typedef struct clast_cells {
     uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
     double *events;        ///< [n] after the cap
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
+    int32_t nb[3];         ///< bins an axis
+    int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube; NULL: no bins
 } clast_cells;
 
 typedef struct clast_decomposition {
@@ -118,4 +120,8 @@ typedef struct clast_decomposition {
 CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
                                        const clast_decompose_config *config,
                                        clast_decomposition *result);
+
+/// Cell of a point, -1 outside the domain; O(1) in bins, O(cells) in a tree.
+CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
+                                     const double *x);
 CLAST_API void clast_decomposition_free(clast_decomposition *result);

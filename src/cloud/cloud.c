@@ -1,7 +1,9 @@
-// Point clouds as plain arrays: life cycle.
+// Point clouds as plain arrays: life cycle, and out of tables.
 #include <clast/cloud.h>
 
 #include "base/alloc.h"
+#include <stdio.h>
+#include <string.h>
 
 void clast_cloud_free(clast_cloud *cloud)
 {
@@ -23,5 +25,123 @@ clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud)
     if (status == CLAST_OK) {
         *cloud = made;
     }
+    return status;
+}
+
+enum { NAMES_SIZE = 512 };
+
+/// A list's items joined by commas.
+static void join(const clast_text_list *list, char text[NAMES_SIZE])
+{
+    text[0] = '\0';
+    for (int32_t k = 0; k < list->n; ++k) {
+        const size_t used = strlen(text);
+        (void)snprintf(text + used, NAMES_SIZE - used, "%s%s", used > 0 ? "," : "", list->item[k]);
+    }
+}
+
+clast_status clast_cloud_column(const clast_table *table, const char *name, double **column)
+{
+    clast_status status = CLAST_OK;
+    double *found = NULL;
+    if (name != NULL && name[0] != '\0') {
+        found = clast_table_numbers(table, name);
+        CLX_CHECK(found != NULL, CLAST_E_FORMAT, "%s has no column of numbers named '%s'",
+                  table->name, name);
+    }
+    *column = found;
+done:
+    return status;
+}
+
+/// Up to three columns by name; *d becomes their number.
+static clast_status find_columns(const clast_table *table, const clast_text_list *list,
+                                 double *column[3], int32_t *d)
+{
+    char names[NAMES_SIZE];
+    clast_status status = CLAST_OK;
+    join(list, names);
+    const bool is_default = strcmp(names, "x,y,z") == 0;
+    char *rest = names;
+    *d = 0;
+    for (char *name = strtok_r(rest, ",", &rest); name != NULL; name = strtok_r(rest, ",", &rest)) {
+        if (is_default && *d > 0 && clast_table_numbers(table, name) == NULL) {
+            break;
+        }
+        CLX_CHECK(*d < 3, CLAST_E_FORMAT, "%s: more than three columns, from '%s' on", table->name,
+                  name);
+        CLX_TRY(clast_cloud_column(table, name, &column[*d]));
+        CLAST_ASSERT(column[*d] != NULL); // a word of strtok_r is never empty
+        ++*d;
+    }
+done:
+    return status;
+}
+
+static clast_status take_columns(const clast_table *table, double *column[3], int32_t d,
+                                 double **taken)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(taken, table->n_row * d, sizeof **taken));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        for (int32_t j = 0; j < d && column[j] != NULL; ++j) {
+            (*taken)[i * d + j] = column[j][i];
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status take_property(const clast_table *table, const char *name, double factor,
+                                  double **taken)
+{
+    clast_status status = CLAST_OK;
+    double *column[3] = {NULL};
+    CLX_TRY(clast_cloud_column(table, name, &column[0]));
+    if (column[0] != NULL) {
+        CLX_TRY(take_columns(table, column, 1, taken));
+        for (int64_t i = 0; i < table->n_row; ++i) {
+            (*taken)[i] *= factor;
+        }
+    }
+done:
+    return status;
+}
+
+static bool is_named(const char *name)
+{
+    return name != NULL && name[0] != '\0';
+}
+
+clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_columns *columns,
+                                    clast_cloud *cloud)
+{
+    clast_status status = CLAST_OK;
+    clast_cloud made = {.n = table->n_row};
+    double *column[3] = {NULL};
+    int32_t n_velocity = 0;
+    CLX_TRY(find_columns(table, &columns->columns, column, &made.dimension));
+    CLX_CHECK(made.dimension >= 1, CLAST_E_FORMAT, "%s: no coordinate column is named",
+              table->name);
+    CLX_TRY(take_columns(table, column, made.dimension, &made.x));
+    CLX_TRY(find_columns(table, &columns->velocity_columns, column, &n_velocity));
+    CLX_CHECK(n_velocity == 0 || n_velocity == made.dimension, CLAST_E_FORMAT,
+              "%s: %d velocity columns for %d coordinates", table->name, n_velocity,
+              made.dimension);
+    if (n_velocity > 0) {
+        CLX_TRY(take_columns(table, column, n_velocity, &made.velocity));
+    }
+    CLX_CHECK(!is_named(columns->radius_column) || !is_named(columns->diameter_column),
+              CLAST_E_CONFIG, "give a radius column or a diameter column, not both");
+    CLX_TRY(take_property(table, columns->radius_column, 1.0, &made.radius));
+    if (made.radius == NULL) {
+        CLX_TRY(take_property(table, columns->diameter_column, 0.5, &made.radius));
+    }
+    CLX_TRY(take_property(table, columns->mass_column, 1.0, &made.mass));
+    CLX_TRY(take_property(table, columns->weight_column, 1.0, &made.weight));
+    *cloud = made;
+    made = (clast_cloud){0};
+done:
+    clast_cloud_free(&made);
     return status;
 }

@@ -45,6 +45,7 @@ static void free_cells(clast_cells *cells)
     clx_free(cells->pass);
     clx_free(cells->events);
     clx_free(cells->of_point);
+    clx_free(cells->of_bin);
     *cells = (clast_cells){0};
 }
 
@@ -199,10 +200,37 @@ static clast_status bin_cells(const mapped *m, const clast_decompose_config *con
         result->cells.of_point[m->number[i]] =
             cell[clx_bins_of(&passes.bins, m->u + i * m->domain.dimension)];
     }
+    memcpy(result->cells.nb, passes.bins.nb, sizeof result->cells.nb);
+    result->cells.of_bin = cell;
+    cell = NULL;
 done:
     clx_passes_free(&passes);
     clx_free(cell);
     return status;
+}
+
+int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
+{
+    double u[3] = {0};
+    if (!clast_domain_map(domain, x, u)) {
+        return -1;
+    }
+    if (cells->of_bin != NULL) {
+        const clx_bins bins = {.d = domain->dimension,
+                               .nb = {cells->nb[0], cells->nb[1], cells->nb[2]}};
+        return cells->of_bin[clx_bins_of(&bins, u)];
+    }
+    const double *at = domain->kind == CLAST_DOMAIN_BOX ? x : u; // as the boxes are given
+    for (int32_t c = 0; c + 1 < cells->n; ++c) {
+        bool inside = true;
+        for (int32_t j = 0; j < domain->dimension; ++j) {
+            inside = inside && at[j] >= cells->low[c][j] && at[j] <= cells->high[c][j];
+        }
+        if (inside) {
+            return c;
+        }
+    }
+    return cells->n - 1;
 }
 
 /// From the unit cube to the domain: volumes, and corners of a box domain.

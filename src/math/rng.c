@@ -52,6 +52,23 @@ int64_t clx_rng_below(clx_rng *rng, int64_t n)
     return (int64_t)(draw % range);
 }
 
+int64_t clx_rng_poisson(clx_rng *rng, double mean)
+{
+    static const double PART = 30.0; // exp(-PART) is far from underflow
+    int64_t n = 0;
+    while (mean > 0.0) { // a sum of Poisson numbers is one
+        const double part = mean < PART ? mean : PART;
+        const double limit = exp(-part);
+        double product = clx_rng_uniform(rng);
+        while (product > limit) { // counts arrivals of a unit process before `part`
+            ++n;
+            product *= clx_rng_uniform(rng);
+        }
+        mean -= part;
+    }
+    return n;
+}
+
 void clx_rng_direction(clx_rng *rng, double direction[3])
 {
     const double z = 2.0 * clx_rng_uniform(rng) - 1.0;

@@ -56,6 +56,9 @@ double clx_rng_normal(clx_rng *rng);
 /// Uniform on 0 .. n-1 without bias.
 int64_t clx_rng_below(clx_rng *rng, int64_t n);
 
+/// Poisson number of this mean (>= 0), exact; O(mean) uniforms.
+int64_t clx_rng_poisson(clx_rng *rng, double mean);
+
 /// Uniform direction on the unit sphere.
 void clx_rng_direction(clx_rng *rng, double direction[3]);
 

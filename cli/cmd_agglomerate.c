@@ -1,0 +1,318 @@
+// clast agglomerate: collisions of a particle cloud in uniform cells, in time.
+#include "command.h"
+#include "json.h"
+#include "points.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+typedef struct {
+    clast_agglomerate_config agglomerate; // first: the tables share offsets
+    clast_cloud_columns columns;
+    char *monomers_column, *speed_rms_column, *temperature_column, *shear_column,
+        *dissipation_column, *fixed_column, *fixed_volume_column;
+} config;
+
+#define COLUMN(name, help)                                                                         \
+    {                                                                                              \
+#name, offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""                    \
+    }
+static const clast_field own[] = {
+    COLUMN(monomers_column, "column of whole numbers of monomers; none: 1 each"),
+    COLUMN(speed_rms_column, "column of the particles' turbulent velocities [m/s]"),
+    COLUMN(temperature_column, "column of fluid temperatures [K]; cells take the mean"),
+    COLUMN(shear_column, "column of shear rates [1/s]; cells take the mean"),
+    COLUMN(dissipation_column, "column of dissipation rates [m^2/s^3]; cells take the mean"),
+    COLUMN(fixed_column, "column of cell numbers of a mesh of yours, evolved beside"),
+    COLUMN(fixed_volume_column, "column of those cells' volumes"),
+};
+#undef COLUMN
+
+enum { MAX_FIELD = 80, MAX_DETAIL = 6000 };
+static clast_field fields[MAX_FIELD];
+static char details[MAX_DETAIL];
+
+static bool is_left_out(const char *name)
+{
+    return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0;
+}
+
+static void join_details(void)
+{
+    size_t used = (size_t)snprintf(
+        details, sizeof details,
+        "Cells by `clast decompose` (its options below), collisions in each cell at the rate alpha "
+        "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
+        "files are snapshots of the same\nparticles, --duration apart; cells are made anew when "
+        "the cloud has changed.\n-o FOLDER writes history.csv, particles.csv, summary.json and "
+        "charts (moments.svg, number.svg).\n\nkernel               beta(1, 2)\n");
+    const clast_kernel_info *table = clast_kernel_table();
+    for (int k = 0; k < CLAST_N_KERNEL && used < sizeof details; ++k) {
+        used += (size_t)snprintf(details + used, sizeof details - used, "%-20s %s   [%s]\n",
+                                 table[k].name, table[k].formula, table[k].source);
+    }
+    if (used > 0 && used < sizeof details) {
+        details[used - 1] = '\0';
+    }
+}
+
+__attribute__((constructor)) static void join_fields(void)
+{
+    int n = cli_point_fields(fields, 0, offsetof(config, columns));
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; ++k) {
+        fields[n++] = own[k];
+    }
+    for (const clast_field *f = clast_agglomerate_fields; f->name != NULL && n + 1 < MAX_FIELD;
+         ++f) {
+        fields[n++] = *f;
+    }
+    for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
+        if (!is_left_out(f->name)) {
+            fields[n++] = *f;
+        }
+    }
+    join_details();
+}
+
+/// Snapshots and columns in memory.
+typedef struct {
+    clast_table first; ///< its columns are borrowed by input
+    clast_cloud *cloud;
+    clast_agglomerate_input input;
+} loaded;
+
+static void free_loaded(loaded *l)
+{
+    for (int64_t k = 0; k < l->input.n_snapshot; ++k) {
+        clast_cloud_free(&l->cloud[k]);
+    }
+    free(l->cloud);
+    clast_table_free(&l->first);
+}
+
+static clast_status load_snapshot(const cli_common *common, const config *c, int32_t k, loaded *l)
+{
+    clast_table later = {0};
+    clast_table *table = k == 0 ? &l->first : &later;
+    clast_status status = clast_table_read_csv(common->argument[k], NULL, table, NULL);
+    if (status == CLAST_OK) {
+        status = clast_cloud_from_table(table, &c->columns, &l->cloud[k]);
+        l->input.n_snapshot = k + 1;
+    }
+    clast_table_free(&later);
+    return status;
+}
+
+static clast_status load(const cli_common *common, const config *c, loaded *l)
+{
+    clast_status status = CLAST_OK;
+    l->cloud = calloc((size_t)common->n_argument, sizeof *l->cloud);
+    if (l->cloud == NULL) {
+        return cli_fail(CLAST_E_MEMORY, "not enough memory for %d snapshots", common->n_argument);
+    }
+    l->input.snapshot = l->cloud;
+    for (int32_t k = 0; k < common->n_argument && status == CLAST_OK; ++k) {
+        status = load_snapshot(common, c, k, l);
+    }
+    const struct {
+        const char *name;
+        const double **column;
+    } wanted[] = {
+        {c->monomers_column, &l->input.monomers},        {c->speed_rms_column, &l->input.speed_rms},
+        {c->temperature_column, &l->input.temperature},  {c->shear_column, &l->input.shear},
+        {c->dissipation_column, &l->input.dissipation},  {c->fixed_column, &l->input.fixed_cell},
+        {c->fixed_volume_column, &l->input.fixed_volume}};
+    for (size_t k = 0; k < sizeof wanted / sizeof wanted[0] && status == CLAST_OK; ++k) {
+        double *column = NULL;
+        status = clast_cloud_column(&l->first, wanted[k].name, &column);
+        *wanted[k].column = column;
+    }
+    return status;
+}
+
+static void set_column(json_t *object, const char *key, const clast_table *table, const char *name)
+{
+    const double *value = clast_table_numbers(table, name);
+    json_t *list = json_array();
+    for (int64_t i = 0; i < table->n_row && value != NULL; ++i) {
+        (void)json_array_append_new(list, isfinite(value[i]) ? json_real(value[i]) : json_null());
+    }
+    (void)json_object_set_new(object, key, list);
+}
+
+static json_t *summary(const config *c, const clast_agglomeration *r, double wall)
+{
+    static const char *const name[4] = {"n_particle", "M1", "M2", "M3"};
+    static const char *const key[4] = {"M0", "M1", "M2", "M3"};
+    const clast_table *h = &r->history;
+    json_t *out = json_object();
+    json_t *moments = json_object();
+    cli_json_text(out, "kernel", c->agglomerate.kernel);
+    set_column(out, "time", h, "time_s");
+    set_column(out, "n_particle", h, "n_particle");
+    set_column(out, "n_particle_sd", h, "n_particle_sd");
+    for (int k = 0; k < 4; ++k) {
+        set_column(moments, key[k], h, name[k]);
+    }
+    (void)json_object_set_new(out, "moments", moments);
+    set_column(out, "events", h, "events");
+    set_column(out, "n_cell", h, "n_cell");
+    cli_json_count(out, "repeats", c->agglomerate.repeats);
+    cli_json_count(out, "n_rebuilt", r->n_rebuilt);
+    if (r->has_fixed) {
+        json_t *fixed = json_object();
+        set_column(fixed, "n_particle", h, "fixed_n_particle");
+        set_column(fixed, "events", h, "fixed_events");
+        (void)json_object_set_new(out, "fixed", fixed);
+    }
+    if (r->has_exact) {
+        json_t *exact = json_object();
+        set_column(exact, "n_particle", h, "exact_n_particle");
+        set_column(exact, "M2", h, "exact_M2");
+        (void)json_object_set_new(out, "exact", exact);
+    }
+    cli_json_number(out, "wall_s", wall);
+    return out;
+}
+
+static void print_words(const config *c, const clast_agglomeration *r)
+{
+    const clast_table *h = &r->history;
+    const double *time = clast_table_numbers(h, "time_s");
+    const double *n = clast_table_numbers(h, "n_particle");
+    const double *m2 = clast_table_numbers(h, "M2");
+    const double *events = clast_table_numbers(h, "events");
+    const double *cells = clast_table_numbers(h, "n_cell");
+    const double *fixed = clast_table_numbers(h, "fixed_events");
+    const double *exact = clast_table_numbers(h, "exact_n_particle");
+    (void)printf("kernel %s, mean of %d runs\n\n%12s %12s %12s %12s %8s%s%s\n",
+                 c->agglomerate.kernel, c->agglomerate.repeats, "time_s", "n_particle", "M2",
+                 "events", "n_cell", exact != NULL ? "      exact n" : "",
+                 fixed != NULL ? " fixed events" : "");
+    for (int64_t i = 0; i < h->n_row; ++i) {
+        (void)printf("%12.6g %12.8g %12.6g %12.8g %8.6g", time[i], n[i], m2[i], events[i],
+                     cells[i]);
+        if (exact != NULL) {
+            (void)printf(" %12.8g", exact[i]);
+        }
+        if (fixed != NULL) {
+            (void)printf(" %12.8g", fixed[i]);
+        }
+        (void)putchar('\n');
+    }
+}
+
+static clast_status draw(const clast_table *h, const char *folder, const char *file,
+                         const char *const column[3], const char *label)
+{
+    static const char *const legend[3] = {"cells", "exact", "your mesh"};
+    char path[4096];
+    clast_series series[3];
+    int32_t n = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double *value = column[k] != NULL ? clast_table_numbers(h, column[k]) : NULL;
+        if (value != NULL) {
+            series[n++] = (clast_series){.kind = CLAST_SERIES_LINE,
+                                         .label = legend[k],
+                                         .x = clast_table_numbers(h, "time_s"),
+                                         .y = value,
+                                         .n = h->n_row,
+                                         .colour = k,
+                                         .dashed = k == 1};
+        }
+    }
+    const clast_chart chart = {
+        .x = {.label = "time (s)"}, .y = {.label = label}, .series = series, .n_series = n};
+    (void)snprintf(path, sizeof path, "%s/%s", folder, file);
+    return clast_chart_write(&chart, path);
+}
+
+static clast_status write_summary(json_t *out, const char *folder)
+{
+    char path[4096];
+    (void)snprintf(path, sizeof path, "%s/summary.json", folder);
+    if (json_dump_file(out, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0) {
+        return cli_fail(CLAST_E_DISK, "cannot write %s", path);
+    }
+    return CLAST_OK;
+}
+
+static clast_status write_folder(const clast_agglomeration *r, json_t *out, const char *folder)
+{
+    char path[4096];
+    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
+    (void)snprintf(path, sizeof path, "%s/history.csv", folder);
+    clast_status status = clast_table_write_csv(&r->history, path);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/particles.csv", folder);
+        status = clast_table_write_csv(&r->particles, path);
+    }
+    if (status == CLAST_OK) {
+        status = draw(&r->history, folder, "number.svg",
+                      (const char *const[]){"n_particle", "exact_n_particle", "fixed_n_particle"},
+                      "particles (-)");
+    }
+    if (status == CLAST_OK) {
+        status =
+            draw(&r->history, folder, "moments.svg", (const char *const[]){"M2", "exact_M2", NULL},
+                 "sum of squared monomer numbers (-)");
+    }
+    return status == CLAST_OK ? write_summary(out, folder) : status;
+}
+
+static double now(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static clast_status run(const cli_common *common, void *values)
+{
+    config *c = values;
+    loaded l = {0};
+    clast_agglomeration result = {0};
+    const double begun = now();
+    if (c->agglomerate.decompose.domain[0] == '\0') {
+        return cli_fail(
+            CLAST_E_USAGE,
+            "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
+    }
+    clast_status status = load(common, c, &l);
+    if (status == CLAST_OK) {
+        status = clast_agglomerate(&l.input, &c->agglomerate, &result);
+    }
+    if (status == CLAST_OK) {
+        json_t *out = summary(c, &result, now() - begun);
+        if (common->output != NULL) {
+            status = write_folder(&result, out, common->output);
+        }
+        if (status == CLAST_OK && common->json) {
+            status = cli_print_json(out);
+        } else {
+            json_decref(out);
+            if (status == CLAST_OK) {
+                print_words(c, &result);
+            }
+        }
+    }
+    clast_agglomeration_free(&result);
+    free_loaded(&l);
+    return status;
+}
+
+const cli_command cli_agglomerate = {
+    .name = "agglomerate",
+    .arguments = "POINTS...",
+    .summary = "let the particles of a cloud collide and stick in uniform cells, in time",
+    .details = details,
+    .fields = fields,
+    .config_size = sizeof(config),
+    .n_min = 1,
+    .n_max = 100000,
+    .run = run,
+};

@@ -1,0 +1,326 @@
+// Repeats of runs, their moments beside exact solutions, tables. [docs/theory/agglomeration.md]
+#include "cloud/agglomerate.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <string.h>
+
+#define FIELD(type, name)        #name, offsetof(clast_agglomerate_config, name), type
+#define DEEP(type, name, member) #name, offsetof(clast_agglomerate_config, collide.member), type
+const clast_field clast_agglomerate_fields[] = {
+    {FIELD(CLAST_FIELD_TEXT, kernel), 0, 0, 0, "-",
+     "collision kernel, or a sum: brownian+settling; see the table above", "constant"},
+    {FIELD(CLAST_FIELD_F64, duration), 1.0, 0.0, 1e300, "s",
+     "time that passes, with several snapshots from each to the next", NULL},
+    {FIELD(CLAST_FIELD_I32, n_step), 10, 1, 1000000, "-", "steps of a snapshot", NULL},
+    {FIELD(CLAST_FIELD_I32, repeats), 1, 1, 1000000, "-",
+     "runs with other draws, of which means are told", NULL},
+    {DEEP(CLAST_FIELD_CHOICE, collisions, collisions), 0, 0, 0, "-",
+     "event by event, or a Poisson number of events a sub-step", "next|poisson"},
+    {DEEP(CLAST_FIELD_F64, leap, leap), 0.01, 1e-6, 1.0, "-",
+     "collisions of the busiest particle in a sub-step of poisson", NULL},
+    {DEEP(CLAST_FIELD_I32, block, block), 1024, 0, 1000000, "-",
+     "kinds of particles above which a cell is dealt into random blocks; 0: never", NULL},
+    {DEEP(CLAST_FIELD_F64, alpha, alpha), 1.0, 0.0, 1.0, "-", "share of collisions that stick",
+     NULL},
+    {DEEP(CLAST_FIELD_CHOICE, radius_law, radius_law), 0, 0, 0, "-",
+     "radius of an aggregate: of the summed volume, or a0 (i / k_f)^(1 / D_f)", "volume|fractal"},
+    {DEEP(CLAST_FIELD_F64, monomer_radius, monomer_radius), 0.0, 0.0, 1e300, "m",
+     "radius a0 of a monomer where no column gives radii", NULL},
+    {DEEP(CLAST_FIELD_F64, fractal_dimension, fractal_dimension), 1.8, 1.0, 3.0, "-", "D_f", NULL},
+    {DEEP(CLAST_FIELD_F64, fractal_prefactor, fractal_prefactor), 1.0, 1e-3, 1e3, "-", "k_f", NULL},
+    {DEEP(CLAST_FIELD_F64, constant, medium.constant), 1e-6, 0.0, 1e300, "-",
+     "K of kernel constant [m^d/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, additive, medium.additive), 1e-6, 0.0, 1e300, "-",
+     "b of kernel additive [m^d/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, product, medium.product), 1e-6, 0.0, 1e300, "-",
+     "c of kernel product [m^d/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, temperature, medium.temperature), 293.15, 0.0, 1e5, "-",
+     "of the fluid [K]", NULL},
+    {DEEP(CLAST_FIELD_F64, viscosity, medium.viscosity), 1.002e-3, 0.0, 1e6, "-",
+     "dynamic viscosity [Pa s]", NULL},
+    {DEEP(CLAST_FIELD_F64, density, medium.density), 998.2, 0.0, 1e5, "kg/m^3", "of the fluid",
+     NULL},
+    {DEEP(CLAST_FIELD_F64, particle_density, medium.particle_density), 0.0, 0.0, 1e5, "kg/m^3",
+     "of the particles' solid", NULL},
+    {DEEP(CLAST_FIELD_F64, mean_free_path, medium.mean_free_path), 0.0, 0.0, 1.0, "m",
+     "of a gas, for the slip correction; 0: none", NULL},
+    {DEEP(CLAST_FIELD_F64, shear, medium.shear), 0.0, 0.0, 1e12, "-", "shear rate G [1/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, dissipation, medium.dissipation), 0.0, 0.0, 1e12, "-",
+     "turbulent dissipation eps [m^2/s^3]", NULL},
+    {DEEP(CLAST_FIELD_F64, speed_rms, medium.speed_rms), 0.0, 0.0, 1e6, "-",
+     "turbulent velocity of the fluid, one component [m/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, gravity, medium.gravity), 9.80665, 0.0, 1e6, "-", "g [m/s^2]", NULL},
+    {DEEP(CLAST_FIELD_F64, efficiency, medium.efficiency), 1.0, 0.0, 1.0, "-",
+     "collision efficiency E of settling", NULL},
+    {FIELD(CLAST_FIELD_CHOICE, rebuild), 0, 0, 0, "-",
+     "when later snapshots get new cells: when the cloud has changed, always, never",
+     "changed|always|never"},
+    {FIELD(CLAST_FIELD_F64, change_level), 0.01, 1e-12, 0.5, "-",
+     "false alarms of the test that finds the cloud changed", NULL},
+    {FIELD(CLAST_FIELD_I32, fixed), 0, 0, 1000, "-",
+     "a regular mesh of this many cells an axis is evolved beside; 0: none", NULL},
+    {FIELD(CLAST_FIELD_F64, depth), 0.0, 0.0, 1e300, "-",
+     "extent of the missing dimensions: m in 2-D, m^2 in 1-D", NULL},
+    {0}};
+#undef FIELD
+#undef DEEP
+
+enum { M1, M2, M3, N_MOMENT };
+
+/// Columns of the history.
+typedef struct {
+    double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt;
+    double *fixed_n, *fixed_events, *exact_n, *exact_m2;
+} columns;
+
+void clast_agglomeration_free(clast_agglomeration *result)
+{
+    clast_table_free(&result->history);
+    clast_table_free(&result->particles);
+    *result = (clast_agglomeration){0};
+}
+
+/// Columns are looked up after all are added: adding one may move the others.
+static clast_status make_history(clast_agglomeration *r, int64_t n_row, columns *c)
+{
+    static const struct {
+        const char *name, *unit;
+        size_t offset;
+        int when; ///< 1: fixed mesh only
+    } list[] = {{"time_s", "s", offsetof(columns, time), 0},
+                {"n_particle", "-", offsetof(columns, n), 0},
+                {"n_particle_sd", "-", offsetof(columns, sd), 0},
+                {"M1", "-", offsetof(columns, moment[M1]), 0},
+                {"M2", "-", offsetof(columns, moment[M2]), 0},
+                {"M3", "-", offsetof(columns, moment[M3]), 0},
+                {"events", "-", offsetof(columns, events), 0},
+                {"n_cell", "-", offsetof(columns, n_cell), 0},
+                {"is_rebuilt", "-", offsetof(columns, rebuilt), 0},
+                {"fixed_n_particle", "-", offsetof(columns, fixed_n), 1},
+                {"fixed_events", "-", offsetof(columns, fixed_events), 1}};
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_table_init(&r->history, "agglomeration", n_row));
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        double *column = NULL;
+        if (list[k].when == 0 || r->has_fixed) {
+            CLX_TRY(clast_table_add_number(&r->history, list[k].name, list[k].unit, &column));
+        }
+    }
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        *(double **)(void *)((char *)c + list[k].offset) =
+            clast_table_numbers(&r->history, list[k].name);
+    }
+done:
+    return status;
+}
+
+/// Adds the state of a run to row `row`: sums over repeats, made means at the end.
+static void record(const clx_evolution *run, columns *c, int64_t row)
+{
+    const clast_population *p = &run->population;
+    double moment[N_MOMENT] = {0};
+    double n = 0.0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        const double m = (double)p->monomers[i];
+        n += m > 0.0 ? 1.0 : 0.0;
+        moment[M1] += m;
+        moment[M2] += m * m;
+        moment[M3] += m * m * m;
+    }
+    if (run->is_fixed) {
+        c->fixed_n[row] += n;
+        c->fixed_events[row] += (double)run->n_event;
+        return;
+    }
+    c->n[row] += n;
+    c->sd[row] += n * n;
+    for (int k = 0; k < N_MOMENT; ++k) {
+        c->moment[k][row] += moment[k];
+    }
+    c->events[row] += (double)run->n_event;
+    c->n_cell[row] += run->n_cell;
+    c->rebuilt[row] += run->is_rebuilt ? 1.0 : 0.0;
+}
+
+static clast_status one_run(clx_evolution *run, int32_t repeat, int64_t n_row, columns *c)
+{
+    clast_status status = CLAST_OK;
+    const clast_agglomerate_config *config = run->config;
+    int64_t row = 0;
+    CLX_TRY(clx_evolution_begin(run));
+    for (int64_t s = 0; s < run->input->n_snapshot; ++s) {
+        CLX_TRY(clx_evolution_snapshot(run, s));
+        if (s == 0) {
+            record(run, c, row);
+        }
+        for (int32_t k = 0; k < config->n_step; ++k) {
+            ++row;
+            const uint64_t number =
+                2 * ((uint64_t)repeat * (uint64_t)n_row + (uint64_t)row) + (run->is_fixed ? 1 : 0);
+            CLX_TRY(clx_evolution_step(run, config->duration / config->n_step, number));
+            record(run, c, row);
+            run->is_rebuilt = false;
+        }
+    }
+done:
+    return status;
+}
+
+static void make_means(const clast_agglomerate_config *config, int64_t n_row, columns *c)
+{
+    const double n = config->repeats;
+    double *const sums[] = {c->n,      c->moment[M1], c->moment[M2], c->moment[M3],  c->events,
+                            c->n_cell, c->rebuilt,    c->fixed_n,    c->fixed_events};
+    for (int64_t row = 0; row < n_row; ++row) {
+        c->time[row] = config->duration / config->n_step * (double)row;
+        for (size_t k = 0; k < sizeof sums / sizeof sums[0]; ++k) {
+            if (sums[k] != NULL) {
+                sums[k][row] /= n;
+            }
+        }
+        const double spread = c->sd[row] / n - c->n[row] * c->n[row];
+        c->sd[row] = n > 1.0 ? sqrt(fmax(0.0, spread) * n / (n - 1.0)) : 0.0;
+    }
+}
+
+/// Exact number and second moment of single particles after T = kernel N0 t: constant, additive,
+/// product (before its gel). [Smoluchowski1916; Golovin1963; McLeod1962]
+static void exact_at(uint32_t kernel, double n0, double t, double *n, double *m2)
+{
+    if (kernel == 1U) {
+        *n = n0 / (1.0 + 0.5 * t);
+        *m2 = n0 * (1.0 + t);
+    } else if (kernel == 2U) {
+        *n = n0 * exp(-t);
+        *m2 = n0 * exp(2.0 * t);
+    } else {
+        *n = t < 1.0 ? n0 * (1.0 - 0.5 * t) : (double)NAN;
+        *m2 = t < 1.0 ? n0 / (1.0 - t) : (double)NAN;
+    }
+}
+
+/// Adds the exact columns where they hold: one model kernel, one cell, single particles.
+static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
+{
+    clast_status status = CLAST_OK;
+    const uint32_t kernel = run->collide.kernel;
+    const clast_medium *m = &run->collide.medium;
+    const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
+    const double n0 = (double)run->population.n;
+    double *column = NULL;
+    if ((kernel != 1U && kernel != 2U && kernel != 4U) || run->input->monomers != NULL ||
+        run->input->n_snapshot > 1 || run->n_cell != 1 || run->mesh.n_outside > 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_table_add_number(&r->history, "exact_n_particle", "-", &column));
+    CLX_TRY(clast_table_add_number(&r->history, "exact_M2", "-", &column));
+    const double *time = clast_table_numbers(&r->history, "time_s");
+    double *n = clast_table_numbers(&r->history, "exact_n_particle");
+    double *m2 = clast_table_numbers(&r->history, "exact_M2");
+    for (int64_t row = 0; row < r->history.n_row; ++row) {
+        exact_at(kernel, n0, run->collide.alpha * rate * n0 * time[row] / run->volume[0], &n[row],
+                 &m2[row]);
+    }
+    r->has_exact = true;
+done:
+    return status;
+}
+
+static int64_t aggregate_of(const clast_population *p, int64_t i)
+{
+    while (p->owner[i] != i) {
+        i = p->owner[i];
+    }
+    return i;
+}
+
+static clast_status list_particles(const clx_evolution *run, clast_agglomeration *r)
+{
+    static const char *const axis[3] = {"x_m", "y_m", "z_m"};
+    static const char *const name[5] = {"monomers", "radius_m", "mass_kg", "aggregate", "cell"};
+    static const char *const unit[5] = {"-", "m", "kg", "-", "-"};
+    clast_status status = CLAST_OK;
+    const clast_population *p = &run->population;
+    const bool has_radius = p->n > 0 && p->radius[0] > 0.0;
+    const bool has_mass =
+        run->input->snapshot[0].mass != NULL || run->collide.medium.particle_density > 0.0;
+    double *column = NULL;
+    CLX_TRY(clast_table_init(&r->particles, "particles", p->n));
+    for (int32_t j = 0; j < p->dimension && j < 3; ++j) {
+        CLX_TRY(clast_table_add_number(&r->particles, axis[j], "m", &column));
+        for (int64_t i = 0; i < p->n; ++i) {
+            column[i] = p->x[aggregate_of(p, i) * p->dimension + j];
+        }
+    }
+    for (int k = 0; k < 5; ++k) {
+        if ((k == 1 && !has_radius) || (k == 2 && !has_mass)) {
+            continue;
+        }
+        CLX_TRY(clast_table_add_number(&r->particles, name[k], unit[k], &column));
+        for (int64_t i = 0; i < p->n; ++i) {
+            const bool live = p->monomers[i] > 0;
+            const double value[5] = {(double)p->monomers[i], live ? p->radius[i] : 0.0,
+                                     live ? p->mass[i] : 0.0, (double)aggregate_of(p, i),
+                                     (double)run->cell[aggregate_of(p, i)]};
+            column[i] = value[k];
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status finish_first(const clx_evolution *run, const columns *c,
+                                 clast_agglomeration *made)
+{
+    made->n_cell = run->n_cell;
+    for (int64_t row = 0; row < made->history.n_row; ++row) {
+        made->n_rebuilt += c->rebuilt[row] > 0.0 ? 1 : 0;
+    }
+    return list_particles(run, made);
+}
+
+static clast_status all_runs(const clast_agglomerate_input *input,
+                             const clast_agglomerate_config *config, columns *c, clx_evolution *run,
+                             clast_agglomeration *made)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t repeat = 0; repeat < config->repeats; ++repeat) {
+        for (int fixed = made->has_fixed ? 1 : 0; fixed >= 0; --fixed) {
+            clx_evolution_free(run);
+            *run = (clx_evolution){.input = input, .config = config, .is_fixed = fixed == 1};
+            CLX_TRY(one_run(run, repeat, made->history.n_row, c));
+        }
+        if (repeat == 0) {
+            CLX_TRY(finish_first(run, c, made));
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clast_agglomerate(const clast_agglomerate_input *input,
+                               const clast_agglomerate_config *config, clast_agglomeration *result)
+{
+    clast_status status = CLAST_OK;
+    clast_agglomeration made = {.has_fixed = config->fixed > 0 || input->fixed_cell != NULL};
+    clx_evolution run = {0};
+    columns c = {0};
+    const int64_t n_row = input->n_snapshot * config->n_step + 1;
+    CLX_CHECK(input->n_snapshot >= 1, CLAST_E_USAGE, "no snapshot was given");
+    CLX_CHECK(input->fixed_cell == NULL || input->fixed_volume != NULL, CLAST_E_CONFIG,
+              "a column of cells needs a column of their volumes");
+    CLX_CHECK((double)n_row * config->repeats < 0x1p31, CLAST_E_LIMIT,
+              "%lld times in each of %d repeats are beyond 2^31", (long long)n_row,
+              config->repeats);
+    CLX_TRY(make_history(&made, n_row, &c));
+    CLX_TRY(all_runs(input, config, &c, &run, &made));
+    make_means(config, n_row, &c);
+    CLX_TRY(add_exact(&run, &made));
+    *result = made;
+    made = (clast_agglomeration){0};
+done:
+    clx_evolution_free(&run);
+    clast_agglomeration_free(&made);
+    return status;
+}

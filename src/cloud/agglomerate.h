@@ -1,0 +1,31 @@
+#pragma once
+// One run of an agglomerating cloud on one kind of mesh.
+#include <clast/agglomerate.h>
+
+/// A population that owns its arrays.
+typedef struct clx_evolution {
+    const clast_agglomerate_input *input;
+    const clast_agglomerate_config *config;
+    clast_collide_config collide;
+    clast_domain domain;
+    bool is_fixed; ///< on the user's mesh
+    clast_population population;
+    clast_decomposition mesh;
+    double *x_at_mesh;    ///< [n][d] positions when the mesh was made
+    int32_t *cell;        ///< [n]
+    double *volume;       ///< [n_cell]
+    clast_medium *medium; ///< [n_cell], or NULL without field columns
+    int32_t n_cell;
+    bool is_rebuilt; ///< at the last snapshot
+    int64_t n_event; ///< since the start
+} clx_evolution;
+
+/// Checks input against configuration and makes the population of the first snapshot.
+clast_status clx_evolution_begin(clx_evolution *run);
+
+/// Moves live particles to a snapshot and brings the mesh up to date.
+clast_status clx_evolution_snapshot(clx_evolution *run, int64_t snapshot);
+
+/// One step of collisions; `number` fixes its draws.
+clast_status clx_evolution_step(clx_evolution *run, double dt, uint64_t number);
+void clx_evolution_free(clx_evolution *run);

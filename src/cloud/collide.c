@@ -1,0 +1,265 @@
+// Collisions of one time step, cell by cell. [docs/theory/agglomeration.md section 2]
+#include "cloud/collide.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include <math.h>
+
+enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1 };
+static const double MIXING = 0.1; ///< collisions a particle makes on average between two deals
+
+static double merged_radius(const clast_population *p, const clast_collide_config *c, int64_t i,
+                            int64_t j)
+{
+    if (c->radius_law == CLAST_RADIUS_FRACTAL) {
+        const double n = (double)(p->monomers[i] + p->monomers[j]);
+        return c->monomer_radius * pow(n / c->fractal_prefactor, 1.0 / c->fractal_dimension);
+    }
+    const double a = p->radius[i];
+    const double b = p->radius[j];
+    return cbrt(a * a * a + b * b * b);
+}
+
+int64_t clx_population_merge(clast_population *p, const clast_collide_config *c, int64_t i,
+                             int64_t j)
+{
+    const bool i_stays = p->mass[i] > p->mass[j] || (p->mass[i] == p->mass[j] && i < j);
+    const int64_t live = i_stays ? i : j;
+    const int64_t dead = i_stays ? j : i;
+    const double mass = p->mass[i] + p->mass[j];
+    const double share = mass > 0.0 ? p->mass[dead] / mass : 0.5; // of the one that goes
+    const int32_t d = p->dimension;
+    p->radius[live] = merged_radius(p, c, i, j);
+    for (int32_t k = 0; k < d && !c->keep_positions; ++k) {
+        p->x[live * d + k] += share * (p->x[dead * d + k] - p->x[live * d + k]);
+    }
+    for (int32_t k = 0; k < d && p->velocity != NULL; ++k) {
+        p->velocity[live * d + k] +=
+            share * (p->velocity[dead * d + k] - p->velocity[live * d + k]);
+    }
+    if (p->speed_rms != NULL) { // independent fluctuations of the two momenta
+        p->speed_rms[live] = hypot((1.0 - share) * p->speed_rms[live], share * p->speed_rms[dead]);
+    }
+    p->monomers[live] += p->monomers[dead];
+    p->mass[live] = mass;
+    p->monomers[dead] = 0;
+    p->owner[dead] = live;
+    return live;
+}
+
+typedef struct {
+    clast_population *population;
+    const clast_collide_cells *cells;
+    const clast_collide_config *config;
+    double dt;
+    uint64_t step;
+    uint32_t needs;
+    clx_collide_scratch scratch;
+    int64_t *start; ///< [n_cell + 1] in scratch.order
+    int64_t *n_event;
+    bool *is_too_many;
+} step_context;
+
+static void shuffle(int64_t *item, int64_t n, clx_rng *rng)
+{
+    for (int64_t i = n - 1; i > 0; --i) {
+        const int64_t j = clx_rng_below(rng, i + 1);
+        const int64_t held = item[i];
+        item[i] = item[j];
+        item[j] = held;
+    }
+}
+
+static void evolve(clx_block *block, double dt)
+{
+    if (block->config->collisions == CLAST_COLLISIONS_POISSON) {
+        clx_block_poisson(block, dt);
+    } else {
+        clx_block_next_events(block, dt);
+    }
+}
+
+/// Deals a cell of many kinds into random blocks again and again. In a block of m of the cell's n
+/// particles each meets m - 1 others at (n - 1) / (m - 1) times the rate, so that its expected
+/// number of collisions stays.
+static int64_t evolve_in_blocks(const clx_block *cell, double dt)
+{
+    int64_t n_event = 0;
+    int64_t n = cell->n;
+    double left = dt;
+    while (left > 0.0 && n > 1) {
+        const int64_t n_block = (n + cell->config->block - 1) / cell->config->block;
+        double delta = left;
+        shuffle(cell->member, n, cell->rng);
+        for (int64_t k = 0; k < n_block; ++k) {
+            const int64_t begin = n * k / n_block;
+            clx_block block = *cell;
+            block.member += begin;
+            block.frozen += begin;
+            block.kind += begin;
+            block.n = n * (k + 1) / n_block - begin;
+            if (block.n < 2) {
+                continue;
+            }
+            block.scale *= (double)(n - 1) / (double)(block.n - 1);
+            (void)clx_block_sort(&block, block.n);
+            if (k == 0) {
+                const double rate = block.scale * clx_block_rates(&block) / (double)block.n;
+                delta = rate * left > MIXING ? MIXING / rate : left;
+            }
+            evolve(&block, delta);
+            n_event += block.n_event;
+        }
+        int64_t kept = 0;
+        for (int64_t m = 0; m < n; ++m) {
+            if (cell->population->monomers[cell->member[m]] > 0) {
+                cell->member[kept++] = cell->member[m];
+            }
+        }
+        n = kept;
+        left -= delta;
+    }
+    return n_event;
+}
+
+static void evolve_cell(const step_context *s, int32_t c)
+{
+    const int64_t begin = s->start[c];
+    const int64_t n = s->start[c + 1] - begin;
+    const int32_t limit = s->config->block;
+    clx_rng rng =
+        clx_rng_at(s->config->seed, CLX_STREAM_COLLISION, (s->step << 32) | (uint64_t)(uint32_t)c);
+    clx_block block = {.config = s->config,
+                       .medium =
+                           s->cells->medium != NULL ? &s->cells->medium[c] : &s->config->medium,
+                       .population = s->population,
+                       .member = s->scratch.order + begin,
+                       .next = s->scratch.next,
+                       .frozen = s->scratch.frozen + begin,
+                       .n = n,
+                       .kind = s->scratch.kind + begin,
+                       .scale = s->config->alpha / s->cells->volume[c],
+                       .needs = s->needs,
+                       .rng = &rng};
+    if (n < 2) {
+        return;
+    }
+    shuffle(block.member, n, &rng);
+    if (clx_block_sort(&block, limit > 0 ? limit : KIND_LIMIT)) {
+        evolve(&block, s->dt);
+        s->n_event[c] = block.n_event;
+    } else if (limit > 0) {
+        s->n_event[c] = evolve_in_blocks(&block, s->dt);
+    } else {
+        s->is_too_many[c] = true;
+    }
+}
+
+static void evolve_cells(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    (void)worker;
+    for (int64_t c = begin; c < end; ++c) {
+        evolve_cell(context, (int32_t)c);
+    }
+}
+
+/// Live particles by cell, in order of number within a cell.
+static void sort_by_cell(step_context *s)
+{
+    const clast_population *p = s->population;
+    const int32_t *cell = s->cells->of_particle;
+    for (int64_t i = 0; i < p->n; ++i) {
+        if (p->monomers[i] > 0 && cell[i] >= 0) {
+            ++s->start[cell[i] + 1];
+        }
+    }
+    for (int32_t c = 0; c < s->cells->n; ++c) {
+        s->start[c + 1] += s->start[c];
+    }
+    for (int64_t i = 0; i < p->n; ++i) {
+        if (p->monomers[i] > 0 && cell[i] >= 0) {
+            s->scratch.order[s->start[cell[i]]++] = i;
+        }
+    }
+    for (int32_t c = s->cells->n; c > 0; --c) {
+        s->start[c] = s->start[c - 1];
+    }
+    s->start[0] = 0;
+}
+
+static clast_status check_cells(const clast_collide_cells *cells,
+                                const clast_collide_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_kernel_check(config->kernel,
+                               cells->medium == NULL ? &config->medium : cells->medium));
+    for (int32_t c = 0; c < cells->n; ++c) {
+        CLX_CHECK(cells->volume[c] > 0.0 && isfinite(cells->volume[c]), CLAST_E_USAGE,
+                  "cell %d has the volume %g", c, cells->volume[c]);
+        if (cells->medium != NULL) {
+            CLX_TRY(clast_kernel_check(config->kernel, &cells->medium[c]));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status run_step(step_context *s, int64_t *total)
+{
+    clast_status status = CLAST_OK;
+    int64_t sum = 0;
+    clx_parallel_for(s->cells->n, CELLS_A_BLOCK, evolve_cells, s);
+    for (int32_t c = 0; c < s->cells->n; ++c) {
+        CLX_CHECK(!s->is_too_many[c], CLAST_E_LIMIT,
+                  "cell %d has more than %d kinds of particles; let it be dealt into blocks "
+                  "(block > 0)",
+                  c, KIND_LIMIT);
+        sum += s->n_event[c];
+    }
+    for (int32_t c = 0; c < s->cells->n && s->cells->events != NULL; ++c) {
+        s->cells->events[c] = (double)s->n_event[c];
+    }
+    if (total != NULL) {
+        *total = sum;
+    }
+done:
+    return status;
+}
+
+clast_status clast_collide(clast_population *population, const clast_collide_cells *cells,
+                           double dt, uint64_t step, const clast_collide_config *config,
+                           int64_t *n_event)
+{
+    clast_status status = CLAST_OK;
+    step_context s = {.population = population,
+                      .cells = cells,
+                      .config = config,
+                      .dt = dt,
+                      .step = step,
+                      .needs = clast_kernel_needs(config->kernel)};
+    const int64_t n = population->n;
+    CLX_CHECK(step < UINT64_C(1) << 32, CLAST_E_USAGE, "step %llu is beyond 2^32",
+              (unsigned long long)step);
+    CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_USAGE, "the time step is %g", dt);
+    CLX_TRY(check_cells(cells, config));
+    CLX_CHECK((s.needs & CLAST_NEEDS_VELOCITY) == 0 || population->velocity != NULL, CLAST_E_CONFIG,
+              "kernel ballistic needs the particles' velocities");
+    CLX_TRY(clx_alloc(&s.scratch.order, n, sizeof *s.scratch.order));
+    CLX_TRY(clx_alloc(&s.scratch.next, n, sizeof *s.scratch.next));
+    CLX_TRY(clx_alloc(&s.scratch.frozen, n, sizeof *s.scratch.frozen));
+    CLX_TRY(clx_alloc(&s.scratch.kind, n, sizeof *s.scratch.kind));
+    CLX_TRY(clx_alloc(&s.start, (int64_t)cells->n + 1, sizeof *s.start));
+    CLX_TRY(clx_alloc(&s.n_event, cells->n, sizeof *s.n_event));
+    CLX_TRY(clx_alloc(&s.is_too_many, cells->n, sizeof *s.is_too_many));
+    sort_by_cell(&s);
+    CLX_TRY(run_step(&s, n_event));
+done:
+    clx_free(s.scratch.order);
+    clx_free(s.scratch.next);
+    clx_free(s.scratch.frozen);
+    clx_free(s.scratch.kind);
+    clx_free(s.start);
+    clx_free(s.n_event);
+    clx_free(s.is_too_many);
+    return status;
+}

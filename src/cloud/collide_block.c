@@ -1,0 +1,299 @@
+// Events in one well-mixed block, kind by kind. [docs/theory/agglomeration.md section 2]
+#include "cloud/collide.h"
+
+#include <math.h>
+
+static clast_collider as_seen(const clx_block *b, int64_t i)
+{
+    const clast_population *p = b->population;
+    clast_collider seen = {.monomers = (double)p->monomers[i]};
+    if ((b->needs & CLAST_NEEDS_RADIUS) != 0) {
+        seen.radius = p->radius[i];
+    }
+    if ((b->needs & CLAST_NEEDS_MASS) != 0) {
+        seen.mass = p->mass[i];
+    }
+    for (int32_t k = 0; k < p->dimension && (b->needs & CLAST_NEEDS_VELOCITY) != 0; ++k) {
+        seen.velocity[k] = p->velocity[i * p->dimension + k];
+    }
+    if ((b->needs & CLAST_NEEDS_SPEED_RMS) != 0 && p->speed_rms != NULL) {
+        seen.speed_rms = p->speed_rms[i];
+    }
+    return seen;
+}
+
+static bool is_same(const clast_collider *a, const clast_collider *b)
+{
+    return a->monomers == b->monomers && a->radius == b->radius && a->mass == b->mass &&
+           a->velocity[0] == b->velocity[0] && a->velocity[1] == b->velocity[1] &&
+           a->velocity[2] == b->velocity[2] && a->speed_rms == b->speed_rms;
+}
+
+/// Number of the kind that equals `seen`; n_kind when there is none.
+static int64_t find_kind(const clx_block *b, const clast_collider *seen)
+{
+    int64_t k = 0;
+    while (k < b->n_kind && !is_same(&b->kind[k].as, seen)) {
+        ++k;
+    }
+    return k;
+}
+
+static void put(clx_block *b, int64_t kind, int64_t particle)
+{
+    b->next[particle] = b->kind[kind].n > 0 ? b->kind[kind].head : -1;
+    b->kind[kind].head = particle;
+    ++b->kind[kind].n;
+}
+
+static int64_t take(clx_block *b, int64_t kind)
+{
+    const int64_t particle = b->kind[kind].head;
+    b->kind[kind].head = b->next[particle];
+    --b->kind[kind].n;
+    return particle;
+}
+
+bool clx_block_sort(clx_block *b, int64_t limit)
+{
+    b->n_kind = 0;
+    for (int64_t m = 0; m < b->n; ++m) {
+        const clast_collider seen = as_seen(b, b->member[m]);
+        const int64_t k = find_kind(b, &seen);
+        if (k == b->n_kind) {
+            if (k == limit) {
+                return false;
+            }
+            b->kind[b->n_kind++] = (clx_kind){.as = seen};
+        }
+        put(b, k, b->member[m]);
+    }
+    return true;
+}
+
+static double kernel(const clx_block *b, const clast_collider *x, const clast_collider *y)
+{
+    return clast_kernel_value(b->config->kernel, b->medium, x, y);
+}
+
+static double row_of(const clx_block *b, int64_t k)
+{
+    double row = 0.0;
+    for (int64_t l = 0; l < b->n_kind; ++l) {
+        row +=
+            kernel(b, &b->kind[k].as, &b->kind[l].as) * (double)(b->kind[l].n - (l == k ? 1 : 0));
+    }
+    return row;
+}
+
+static double total_of(const clx_block *b)
+{
+    double total = 0.0;
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        total += (double)b->kind[k].n * b->kind[k].row;
+    }
+    return total;
+}
+
+double clx_block_rates(clx_block *b)
+{
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        b->kind[k].row = row_of(b, k);
+    }
+    return total_of(b);
+}
+
+/// First kind of a colliding pair: chance n row. Rounding may pass the end: then the last one with
+/// a chance.
+static int64_t pick_first(clx_block *b, double total)
+{
+    double at = clx_rng_uniform(b->rng) * total;
+    int64_t last = -1;
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        const double chance = (double)b->kind[k].n * b->kind[k].row;
+        if (chance > 0.0) {
+            last = k;
+            at -= chance;
+            if (at < 0.0) {
+                break;
+            }
+        }
+    }
+    return last;
+}
+
+/// Second kind: chance kernel x number of other particles of that kind.
+static int64_t pick_second(clx_block *b, int64_t first)
+{
+    double at = clx_rng_uniform(b->rng) * b->kind[first].row;
+    int64_t last = -1;
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        const int64_t n = b->kind[k].n - (k == first ? 1 : 0);
+        const double chance =
+            n > 0 ? (double)n * kernel(b, &b->kind[first].as, &b->kind[k].as) : 0.0;
+        if (chance > 0.0) {
+            last = k;
+            at -= chance;
+            if (at < 0.0) {
+                break;
+            }
+        }
+    }
+    return last;
+}
+
+/// Takes one particle of a kind out of all rows.
+static void unload(clx_block *b, const clast_collider *gone)
+{
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        b->kind[k].row = fmax(0.0, b->kind[k].row - kernel(b, &b->kind[k].as, gone));
+    }
+}
+
+static void drop_if_empty(clx_block *b, int64_t kind)
+{
+    if (b->kind[kind].n == 0) {
+        b->kind[kind] = b->kind[--b->n_kind];
+    }
+}
+
+/// Puts a new aggregate into the block's kinds and rows.
+static void load(clx_block *b, int64_t particle)
+{
+    const clast_collider seen = as_seen(b, particle);
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        b->kind[k].row += kernel(b, &b->kind[k].as, &seen);
+    }
+    const int64_t kind = find_kind(b, &seen);
+    if (kind == b->n_kind) {
+        b->kind[b->n_kind++] = (clx_kind){.as = seen};
+        put(b, kind, particle);
+        b->kind[kind].row = row_of(b, kind);
+    } else { // its row already counts the others of its kind, not itself: the loop above added one
+        put(b, kind, particle);
+    }
+}
+
+static bool one_event(clx_block *b, double total)
+{
+    const int64_t first = pick_first(b, total);
+    const int64_t second = first >= 0 ? pick_second(b, first) : -1;
+    if (second < 0) {
+        return false;
+    }
+    const clast_collider gone[2] = {b->kind[first].as, b->kind[second].as};
+    const int64_t i = take(b, first);
+    const int64_t j = take(b, second);
+    drop_if_empty(b, first > second ? first : second); // the higher number first: the lower stays
+    if (first != second) {
+        drop_if_empty(b, first > second ? second : first);
+    }
+    unload(b, &gone[0]);
+    unload(b, &gone[1]);
+    load(b, clx_population_merge(b->population, b->config, i, j));
+    ++b->n_event;
+    return true;
+}
+
+void clx_block_next_events(clx_block *b, double dt)
+{
+    enum { LEAST_REFRESH = 64 };
+    double total = clx_block_rates(b);
+    double time = 0.0;
+    int64_t since = 0;
+    while (total > 0.0) {
+        time -= log(clx_rng_uniform(b->rng)) / (0.5 * b->scale * total);
+        if (time > dt || !one_event(b, total)) {
+            return;
+        }
+        // rows drift by rounding as events go; summing them anew costs as much as a few events
+        if (++since >= b->n_kind + LEAST_REFRESH) {
+            total = clx_block_rates(b);
+            since = 0;
+        } else {
+            total = total_of(b);
+        }
+    }
+}
+
+/// Lists the particles of each kind; start [n_kind] are the ends of the lists after this, kept in
+/// kind.head.
+static void freeze(clx_block *b)
+{
+    int64_t at = 0;
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        const int64_t begin = at;
+        for (int64_t i = b->kind[k].head; at - begin < b->kind[k].n; i = b->next[i]) {
+            b->frozen[at++] = i;
+        }
+        b->kind[k].head = begin;
+    }
+}
+
+static int64_t owner_of(const clast_population *p, int64_t i)
+{
+    while (p->owner[i] != i) {
+        i = p->owner[i];
+    }
+    return i;
+}
+
+/// One event of the frozen rates; a particle that has merged meanwhile stands for its aggregate.
+static bool frozen_event(clx_block *b, double total)
+{
+    enum { MOST_TRIES = 1000 };
+    for (int tries = 0; tries < MOST_TRIES; ++tries) {
+        const int64_t first = pick_first(b, total);
+        const int64_t second = first >= 0 ? pick_second(b, first) : -1;
+        if (second < 0) {
+            return false;
+        }
+        const clx_kind *kind = b->kind;
+        const int64_t i = b->frozen[kind[first].head + clx_rng_below(b->rng, kind[first].n)];
+        const int64_t j = b->frozen[kind[second].head + clx_rng_below(b->rng, kind[second].n)];
+        const int64_t a = owner_of(b->population, i);
+        const int64_t c = owner_of(b->population, j);
+        if (a != c) {
+            (void)clx_population_merge(b->population, b->config, a, c);
+            ++b->n_event;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void keep_alive(clx_block *b)
+{
+    int64_t n = 0;
+    for (int64_t m = 0; m < b->n; ++m) {
+        if (b->population->monomers[b->member[m]] > 0) {
+            b->member[n++] = b->member[m];
+        }
+    }
+    b->n = n;
+}
+
+void clx_block_poisson(clx_block *b, double dt)
+{
+    double left = dt;
+    while (left > 0.0 && b->n > 1) {
+        const double total = clx_block_rates(b);
+        double busiest = 0.0;
+        for (int64_t k = 0; k < b->n_kind; ++k) {
+            busiest = fmax(busiest, b->kind[k].row);
+        }
+        if (!(total > 0.0)) {
+            return;
+        }
+        const double delta = fmin(left, b->config->leap / (b->scale * busiest));
+        const int64_t n_event = clx_rng_poisson(b->rng, 0.5 * b->scale * total * delta);
+        if (n_event > 0) {
+            freeze(b);
+            for (int64_t e = 0; e < n_event && frozen_event(b, total); ++e) {
+            }
+            keep_alive(b);
+            (void)clx_block_sort(b, b->n);
+        }
+        left -= delta;
+    }
+}

@@ -1,0 +1,345 @@
+/* Unit: collisions in cells follow the rates, keep every monomer and meet the exact solutions. */
+#include "support.h"
+
+#include "base/alloc.h"
+#include "math/rng.h"
+#include <clast/agglomerate.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 4000 };
+
+static double position[MOST * 3], radius[MOST], mass[MOST], velocity[MOST * 3];
+static int64_t monomers[MOST], owner[MOST];
+static int32_t cell[MOST];
+
+/* n single particles in one cell. */
+static clast_population singles(int64_t n)
+{
+    for (int64_t i = 0; i < n; ++i) {
+        monomers[i] = 1;
+        radius[i] = 1e-6;
+        mass[i] = 1.0;
+        owner[i] = i;
+        cell[i] = 0;
+        for (int k = 0; k < 3; ++k) {
+            position[3 * i + k] = 0.25 + 1e-4 * (double)(i % 97);
+            velocity[3 * i + k] = (double)((i * 7 + k) % 11) - 5.0;
+        }
+    }
+    return (clast_population){n, 3, position, monomers, radius, mass, velocity, NULL, owner};
+}
+
+static clast_collide_config kernel(const char *name)
+{
+    clast_collide_config c = {.alpha = 1.0, .leap = 0.01, .block = 1024, .seed = 5};
+    c.medium.constant = c.medium.additive = c.medium.product = 1.0;
+    c.fractal_dimension = 1.8;
+    c.fractal_prefactor = 1.0;
+    c.medium.shear = 1.0;
+    CHECK_OK(clast_kernel_parse(name, &c.kernel));
+    return c;
+}
+
+static clast_collide_cells one_cell(const double *volume)
+{
+    return (clast_collide_cells){.n = 1, .of_particle = cell, .volume = volume};
+}
+
+typedef struct {
+    double mean, error;
+} estimate;
+
+static estimate estimate_of(const double *value, int n)
+{
+    estimate e = {0};
+    double square = 0.0;
+    for (int i = 0; i < n; ++i) {
+        e.mean += value[i] / n;
+    }
+    for (int i = 0; i < n; ++i) {
+        square += (value[i] - e.mean) * (value[i] - e.mean) / (n - 1);
+    }
+    e.error = sqrt(square / n);
+    return e;
+}
+
+enum { N_REPEAT = 100, N_START = 600, N_QUANTITY = 4 }; /* number, n1, n2, sum of squares */
+
+/* Means over repeats after T = kernel N0 t. */
+static void evolve_repeats(const char *name, double t, int32_t mode, estimate out[N_QUANTITY])
+{
+    static double value[N_QUANTITY][N_REPEAT];
+    const double volume = (double)N_START;
+    clast_collide_config c = kernel(name);
+    c.collisions = mode;
+    for (int r = 0; r < N_REPEAT; ++r) {
+        clast_population p = singles(N_START);
+        const clast_collide_cells cells = one_cell(&volume);
+        int64_t n_event = 0;
+        int64_t sum = 0;
+        p.velocity = NULL;
+        for (int q = 0; q < N_QUANTITY; ++q) {
+            value[q][r] = 0.0;
+        }
+        CHECK_OK(clast_collide(&p, &cells, t, (uint64_t)r, &c, &n_event));
+        for (int64_t i = 0; i < p.n; ++i) {
+            sum += monomers[i];
+            value[0][r] += monomers[i] > 0 ? 1.0 : 0.0;
+            value[1][r] += monomers[i] == 1 ? 1.0 : 0.0;
+            value[2][r] += monomers[i] == 2 ? 1.0 : 0.0;
+            value[3][r] += (double)(monomers[i] * monomers[i]);
+        }
+        assert_int_equal(sum, N_START);
+        assert_int_equal(N_START - (int64_t)value[0][r], n_event);
+    }
+    for (int q = 0; q < N_QUANTITY; ++q) {
+        out[q] = estimate_of(value[q], N_REPEAT);
+    }
+}
+
+/* Tolerance: 4 standard errors (1 in 16000 a comparison), what 600 particles differ from
+ * infinitely many (a few over N), and for Poisson sub-steps half a leap (Euler's error of
+ * dN/dt = -N^2/2 is leap/4 ln(1 + T/2)). */
+static void check_exact(const char *name, double t, const double exact[N_QUANTITY])
+{
+    for (int32_t mode = 0; mode < 2; ++mode) {
+        estimate e[N_QUANTITY];
+        evolve_repeats(name, t, mode, e);
+        for (int q = 0; q < N_QUANTITY; ++q) {
+            const double finite = 4.0 * exact[q] * (q == 3 ? exact[3] : 1.0);
+            const double leap = mode == CLAST_COLLISIONS_POISSON ? 0.005 * exact[q] * N_START : 0.0;
+            CHECK_ABS(e[q].mean, exact[q] * N_START, 4.0 * e[q].error + finite + leap);
+            assert_true(e[q].error > 0.0 && e[q].error < 0.05 * exact[q] * N_START);
+        }
+    }
+}
+
+/* n_k / N0 and M2 / N0 from data/d2sd/smoluchowski_exact.csv's closed forms. */
+static void constant_kernel_is_smoluchowskis(void **state)
+{
+    (void)state;
+    const double t = 2.0; /* K N0 t; the table's T is half of it */
+    check_exact("constant", t, (const double[]){0.5, 0.25, 0.125, 3.0});
+}
+
+static void additive_kernel_is_golovins(void **state)
+{
+    (void)state;
+    const double t = 0.7;
+    const double g = 1.0 - exp(-t);
+    check_exact(
+        "additive", t,
+        (const double[]){exp(-t), exp(-t) * exp(-g), exp(-t) * g * exp(-2.0 * g), exp(2.0 * t)});
+}
+
+static void product_kernel_is_mcleods(void **state)
+{
+    (void)state;
+    const double t = 0.5;
+    check_exact("product", t,
+                (const double[]){1.0 - t / 2.0, exp(-t), 0.5 * t * exp(-2.0 * t), 1.0 / (1.0 - t)});
+}
+
+/* Two particles: the chance of an event is 1 - exp(-K dt / V), however it is drawn. */
+static void a_pair_collides_with_its_exact_chance(void **state)
+{
+    (void)state;
+    enum { N_TRY = 4000 };
+    const double volume = 2.0;
+    for (int32_t mode = 0; mode < 2; ++mode) {
+        clast_collide_config c = kernel("constant");
+        int64_t n_hit = 0;
+        c.collisions = mode;
+        for (int r = 0; r < N_TRY; ++r) {
+            clast_population p = singles(2);
+            const clast_collide_cells cells = one_cell(&volume);
+            int64_t n_event = 0;
+            CHECK_OK(clast_collide(&p, &cells, 1.0, (uint64_t)r, &c, &n_event));
+            n_hit += n_event;
+        }
+        const double chance = 1.0 - exp(-0.5);
+        CHECK_ABS((double)n_hit / N_TRY, chance, 4.0 * sqrt(chance * (1.0 - chance) / N_TRY));
+    }
+}
+
+/* A step far too long ends with one aggregate a cell; none of the n - 1 events is lost, the last
+ * monomer and the momentum are there. */
+static void no_event_is_lost_at_caps(void **state)
+{
+    (void)state;
+    enum { N = 300 };
+    const double volume[2] = {1.0, 1.0};
+    for (int32_t mode = 0; mode < 2; ++mode) {
+        clast_population p = singles(N);
+        clast_collide_config c = kernel("constant+product");
+        double before[3] = {0};
+        double after[3] = {0};
+        int64_t n_event = 0;
+        int64_t alive = 0;
+        c.collisions = mode;
+        for (int64_t i = 0; i < N; ++i) {
+            cell[i] = i < 100 ? 0 : 1;
+            before[0] += velocity[3 * i];
+        }
+        const clast_collide_cells cells = {.n = 2, .of_particle = cell, .volume = volume};
+        CHECK_OK(clast_collide(&p, &cells, 1e6, 0, &c, &n_event));
+        for (int64_t i = 0; i < N; ++i) {
+            alive += monomers[i] > 0 ? 1 : 0;
+            after[0] += monomers[i] > 0 ? mass[i] * velocity[3 * i] : 0.0;
+            assert_true(monomers[i] == 0 || monomers[i] == 100 || monomers[i] == 200);
+        }
+        assert_int_equal(alive, 2);
+        assert_int_equal(n_event, N - 2);
+        CHECK_ABS(after[0], before[0], 1e-9);
+    }
+}
+
+/* Radii: volumes add, or grow with the fractal dimension. */
+static void radii_follow_their_law(void **state)
+{
+    (void)state;
+    const double volume = 1.0;
+    clast_population p = singles(10);
+    clast_collide_config c = kernel("constant");
+    const clast_collide_cells cells = one_cell(&volume);
+    CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
+    for (int i = 0; i < 10; ++i) {
+        CHECK_REL(monomers[i] > 0 ? radius[i] : cbrt(10.0) * 1e-6, cbrt(10.0) * 1e-6, 1e-14);
+    }
+    p = singles(10);
+    c.radius_law = CLAST_RADIUS_FRACTAL;
+    c.monomer_radius = 1e-6;
+    CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
+    for (int i = 0; i < 10; ++i) {
+        const double expected = 1e-6 * pow(10.0, 1.0 / 1.8);
+        CHECK_REL(monomers[i] > 0 ? radius[i] : expected, expected, 1e-14);
+    }
+}
+
+/* 300 different radii under shear, in one block (exact) or dealt into blocks of 32: same mean. */
+static void blocks_have_the_rates_of_the_whole_cell(void **state)
+{
+    (void)state;
+    enum { N = 300, R = 60 };
+    const double volume = 3.3e-13;
+    static double value[R];
+    estimate e[2];
+    for (int k = 0; k < 2; ++k) {
+        clast_collide_config c = kernel("shear_laminar");
+        c.block = k == 0 ? 1024 : 32;
+        for (int r = 0; r < R; ++r) {
+            clast_population p = singles(N);
+            const clast_collide_cells cells = one_cell(&volume);
+            int64_t n_event = 0;
+            for (int64_t i = 0; i < N; ++i) {
+                radius[i] = 1e-6 * (1.0 + 2.0 * (double)i / N);
+            }
+            CHECK_OK(clast_collide(&p, &cells, 20.0, (uint64_t)(r + 1000 * k), &c, &n_event));
+            value[r] = (double)n_event;
+        }
+        e[k] = estimate_of(value, R);
+        assert_true(e[k].mean > 60.0 && e[k].mean < 240.0);
+    }
+    CHECK_ABS(e[1].mean, e[0].mean, 4.0 * hypot(e[0].error, e[1].error));
+}
+
+static void any_thread_count_gives_the_same_aggregates(void **state)
+{
+    (void)state;
+    static int64_t first[MOST];
+    static double volume[40];
+    const clast_collide_config c = kernel("additive");
+    for (int32_t threads = 1; threads <= 4; threads *= 2) {
+        clast_population p = singles(MOST);
+        for (int64_t i = 0; i < MOST; ++i) {
+            cell[i] = (int32_t)(i % 40);
+            volume[i % 40] = 100.0;
+        }
+        const clast_collide_cells cells = {.n = 40, .of_particle = cell, .volume = volume};
+        clast_parallel_set_threads(threads);
+        CHECK_OK(clast_collide(&p, &cells, 0.5, 3, &c, NULL));
+        if (threads == 1) {
+            memcpy(first, owner, sizeof first);
+        }
+        assert_memory_equal(first, owner, sizeof first);
+    }
+    clast_parallel_set_threads(0);
+}
+
+static clast_status collide_once(void *context)
+{
+    (void)context;
+    const double volume = 100.0;
+    clast_population p = singles(50);
+    const clast_collide_config c = kernel("additive");
+    const clast_collide_cells cells = one_cell(&volume);
+    return clast_collide(&p, &cells, 0.5, 3, &c, NULL);
+}
+
+static void every_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    support_refuse_each_allocation(collide_once, NULL);
+}
+
+static void wrong_cells_are_refused(void **state)
+{
+    (void)state;
+    const double volume = 0.0;
+    clast_population p = singles(5);
+    const clast_collide_config c = kernel("additive");
+    const clast_collide_cells cells = one_cell(&volume);
+    CHECK_STATUS(clast_collide(&p, &cells, 0.5, 3, &c, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_collide(&p, &cells, -1.0, 3, &c, NULL), CLAST_E_USAGE);
+    p.velocity = NULL;
+    const double one = 1.0;
+    const clast_collide_cells good = one_cell(&one);
+    const clast_collide_config b = kernel("ballistic");
+    CHECK_STATUS(clast_collide(&p, &good, 0.5, 3, &b, NULL), CLAST_E_CONFIG);
+}
+
+/* Independent uniform samples are called changed at the stated rate, 5 % of 1000: 4 standard
+ * deviations are 2.8 %. A moved sample is found. */
+static void change_test_has_its_level(void **state)
+{
+    (void)state;
+    enum { N = 500, R = 1000 };
+    static double u[2 * N * 2];
+    int n_alarm = 0;
+    double p = 0.0;
+    clx_rng rng = clx_rng_at(11, CLX_STREAM_TEST, 0);
+    for (int r = 0; r < R; ++r) {
+        for (int i = 0; i < 4 * N; ++i) {
+            u[i] = clx_rng_uniform(&rng);
+        }
+        CHECK_OK(clast_change_test(u, u + 2 * N, N, 2, &p));
+        n_alarm += p < 0.05 ? 1 : 0;
+    }
+    CHECK_ABS((double)n_alarm / R, 0.05, 0.028);
+    for (int i = 0; i < 2 * N; ++i) {
+        u[2 * N + i] = u[i] * u[i];
+    }
+    CHECK_OK(clast_change_test(u, u + 2 * N, N, 2, &p));
+    assert_true(p < 1e-6);
+    CHECK_OK(clast_change_test(u, u, N, 2, &p));
+    CHECK_REL(p, 1.0, 0.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(constant_kernel_is_smoluchowskis),
+        cmocka_unit_test(additive_kernel_is_golovins),
+        cmocka_unit_test(product_kernel_is_mcleods),
+        cmocka_unit_test(a_pair_collides_with_its_exact_chance),
+        cmocka_unit_test(no_event_is_lost_at_caps),
+        cmocka_unit_test(radii_follow_their_law),
+        cmocka_unit_test(blocks_have_the_rates_of_the_whole_cell),
+        cmocka_unit_test(any_thread_count_gives_the_same_aggregates),
+        cmocka_unit_test(every_refused_allocation_is_told),
+        cmocka_unit_test(wrong_cells_are_refused),
+        cmocka_unit_test(change_test_has_its_level),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
