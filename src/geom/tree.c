@@ -6,6 +6,9 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 enum { N_BIN = 16, N_BIN_SMALL = 6, SMALL = 24 };
 
@@ -55,7 +58,16 @@ static void bin_empty(bin *b)
 // Plain comparisons here and below: fmin and fmax would be library calls.
 static void bin_add(bin *b, const double low[3], const double high[3], int32_t count)
 {
-    for (int k = 0; k < 3; ++k) {
+#ifdef __SSE2__
+    // The first two coordinates in one instruction, with the bits of the plain comparison: half of
+    // the time to build a tree went into this function.
+    _mm_storeu_pd(b->low, _mm_min_pd(_mm_loadu_pd(low), _mm_loadu_pd(b->low)));
+    _mm_storeu_pd(b->high, _mm_max_pd(_mm_loadu_pd(high), _mm_loadu_pd(b->high)));
+    const int k0 = 2;
+#else
+    const int k0 = 0;
+#endif
+    for (int k = k0; k < 3; ++k) {
         b->low[k] = low[k] < b->low[k] ? low[k] : b->low[k];
         b->high[k] = high[k] > b->high[k] ? high[k] : b->high[k];
     }

@@ -1,21 +1,32 @@
 // Distance to the surface, made for a filling's tens of thousands of questions.
 //
 // The binary tree of the mesh's clast_bvh is folded into nodes of four children whose boxes stand
-// side by side in floats (rounded outwards, in a frame scaled to the surface), so that one pass of
-// vector instructions measures all four; triangles are dropped in fours by their bounding spheres
-// in the same way. What survives gets the point-triangle distance of Ericson in double. A quarter
-// of the time of clast_bvh_closest on scans. On slivers the region tests may pick a point that is
-// not quite the closest, so clast_fill checks each accepted sphere by clast_bvh_closest.
+// side by side in floats (rounded outwards, in a frame scaled to the surface), and leaves of four
+// triangles side by side, so that one pass of vector instructions without branches measures four of
+// either. The walk is all in floats; the triangle that wins is measured in double at the end. Two
+// triangles whose distances agree to float rounding may be confused (`error` says how far that, and
+// slivers, can be wrong), so clast_fill checks each accepted sphere by clast_bvh_closest.
+//
+// Measured on a scan of 33,000 triangles: 115 branches mispredicted a query before, when children
+// were sorted and triangles chosen one at a time, 40 now; 1.7 us, now 0.8 us.
 //                                                            [Ericson2005 sec. 5.1.5, Wald2008]
 #include "shape/fill_field.h"
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <float.h>
+#include <string.h>
 
 // A float coordinate of the frame is off by at most 2^-24 of a number below 1; three of them, and
 // the rounding of the distance itself, stay below this share of the frame's unit for points as far
 // as the surface's size from it.
 static const double FRAME_ERROR = 1e-6;
+
+// Where an unused slot's corner stands, in the frame: far from everything, but finite when squared.
+static const float NOWHERE = 1e18F;
+
+// A triangle whose sine of an angle is below this is a sliver: floats may miss its inside.
+static const double SLIVER = 3e-3;
 
 void clx_fill_field_free(clx_fill_field *field)
 {
@@ -51,25 +62,36 @@ static void bounding_sphere(double corner[3][3], double centre[3], double *radiu
     *radius = sqrt(far2);
 }
 
+/// What floats may be wrong by at a triangle, in units of the surface.
+static double float_error(double tri[3][3], double size)
+{
+    double normal[3];
+    v3_cross(normal, tri[1], tri[2]);
+    const double sine2 = v3_norm2(normal);
+    const double full2 = v3_norm2(tri[1]) * v3_norm2(tri[2]);
+    return sine2 < SLIVER * SLIVER * full2 ? fmin(size, sqrt(sine2) / (size + 1e-300)) : 0.0;
+}
+
 static clast_status add_leaf(const clast_bvh *bvh, int32_t first, int32_t count,
                              clx_fill_field *field, int32_t *child)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&field->leaf, &field->leaf_capacity, field->n_leaf + 1, sizeof *field->leaf));
     clx_fill_leaf *leaf = &field->leaf[field->n_leaf];
-    leaf->first = first;
+    *leaf = (clx_fill_leaf){.first = first};
     for (int32_t i = 0; i < 4; ++i) {
-        double centre[3] = {INFINITY, INFINITY, INFINITY};
-        double radius = 0.0;
+        leaf->a[0][i] = NOWHERE;
         if (i < count) {
-            bounding_sphere(bvh->corner[first + i], centre, &radius);
-            field->size[first + i] = radius;
-            v3_sub(centre, centre, field->middle);
+            double centre[3];
+            double(*tri)[3] = field->tri[first + i];
+            bounding_sphere(bvh->corner[first + i], centre, &field->size[first + i]);
+            field->error = fmax(field->error, float_error(tri, field->size[first + i]));
+            for (int k = 0; k < 3; ++k) {
+                leaf->a[k][i] = (float)((tri[0][k] - field->middle[k]) * field->scale);
+                leaf->ab[k][i] = (float)(tri[1][k] * field->scale);
+                leaf->ac[k][i] = (float)(tri[2][k] * field->scale);
+            }
         }
-        for (int k = 0; k < 3; ++k) {
-            leaf->centre[k][i] = (float)(centre[k] * field->scale);
-        }
-        leaf->radius[i] = (float)(radius * field->scale);
     }
     *child = (int32_t)(-1 - field->n_leaf++);
 done:
@@ -164,6 +186,7 @@ clast_status clx_fill_field_create(const clast_bvh *bvh, clx_fill_field *field)
     }
     CLX_CHECK(size > 0.0 && isfinite(1.0 / size), CLAST_E_GEOMETRY, "the surface has no size");
     made.scale = 1.0 / size;
+    made.error = FRAME_ERROR * size;
     CLX_TRY(clx_alloc(&made.tri, n, sizeof *made.tri));
     CLX_TRY(clx_alloc(&made.size, n, sizeof *made.size));
     for (int32_t i = 0; i < n; ++i) {
@@ -179,52 +202,66 @@ done:
     return status;
 }
 
-typedef struct {
-    double d2;   ///< least squared distance so far
-    float d;     ///< its root in the frame, rounded up by the frame's error
-    int32_t tri; ///< -1: none yet
-    double away[3];
-} nearest;
-
-static float in_frame(const clx_fill_field *field, double d)
-{
-    return (float)((d * field->scale + FRAME_ERROR) * (1.0 + FRAME_ERROR));
-}
-
-static void look_at(const clx_fill_field *field, int32_t number, const double point[3],
-                    nearest *best)
-{
-    double p[3];
-    double away[3];
-    v3_sub(p, point, field->tri[number][0]);
-    clx_fill_triangle_away(field->tri[number], p, away);
-    const double d2 = v3_norm2(away);
-    if (d2 <= best->d2) {
-        best->d2 = d2;
-        best->d = in_frame(field, sqrt(d2));
-        best->tri = number;
-        v3_copy(best->away, away);
-    }
-}
-
 static clx_float4 magnitude(clx_float4 x)
 {
     return (clx_float4)((clx_int4)x & 0x7fffffff);
 }
 
-static void visit_leaf(const clx_fill_field *field, const clx_fill_leaf *leaf, const float f[3],
-                       const double point[3], nearest *best)
+static clx_float4 dot(const clx_float4 a[3], const clx_float4 b[3])
 {
-    const clx_float4 x = leaf->centre[0] - f[0];
-    const clx_float4 y = leaf->centre[1] - f[1];
-    const clx_float4 z = leaf->centre[2] - f[2];
-    const clx_float4 reach = leaf->radius + best->d;
-    const clx_float4 room = reach * reach - (x * x + y * y + z * z);
-    for (int i = 0; i < 4; ++i) {
-        if (room[i] >= 0.0F) {
-            look_at(field, leaf->first + i, point, best);
-        }
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static clx_float4 pick(clx_int4 mask, clx_float4 yes, clx_float4 no)
+{
+    return (clx_float4)((mask & (clx_int4)yes) | (~mask & (clx_int4)no));
+}
+
+/// |p - t e|^2 with t = along / length2 clamped to [0, 1]: distance to an edge from the origin.
+static clx_float4 edge_distance2(const clx_float4 p[3], const clx_float4 e[3], clx_float4 along,
+                                 clx_float4 length2)
+{
+    const clx_float4 t = along / (length2 + 1e-30F);
+    const clx_float4 inside = 0.5F * (magnitude(t) - magnitude(t - 1.0F) + 1.0F);
+    clx_float4 r[3];
+    for (int k = 0; k < 3; ++k) {
+        r[k] = p[k] - inside * e[k];
     }
+    return dot(r, r);
+}
+
+/// Squared distances of a point to four triangles: the least over the three edges and the foot in
+/// the plane, all of them distances to points of the triangle, so none is too small.
+static clx_float4 leaf_distances2(const clx_fill_leaf *leaf, const float f[3])
+{
+    clx_float4 p[3];
+    clx_float4 bc[3];
+    clx_float4 from_b[3];
+    clx_float4 r[3];
+    for (int k = 0; k < 3; ++k) {
+        p[k] = f[k] - leaf->a[k];
+        bc[k] = leaf->ac[k] - leaf->ab[k];
+        from_b[k] = p[k] - leaf->ab[k];
+    }
+    const clx_float4 d1 = dot(leaf->ab, p);
+    const clx_float4 d2 = dot(leaf->ac, p);
+    const clx_float4 bb = dot(leaf->ab, leaf->ab);
+    const clx_float4 cc = dot(leaf->ac, leaf->ac);
+    const clx_float4 mixed = dot(leaf->ab, leaf->ac);
+    const clx_float4 whole = bb * cc - mixed * mixed;
+    const clx_float4 v = cc * d1 - mixed * d2;
+    const clx_float4 w = bb * d2 - mixed * d1;
+    const clx_float4 per_whole = 1.0F / whole;
+    for (int k = 0; k < 3; ++k) {
+        r[k] = p[k] - v * per_whole * leaf->ab[k] - w * per_whole * leaf->ac[k];
+    }
+    const clx_int4 has_foot = (v >= 0.0F) & (w >= 0.0F) & (v + w <= whole) & (whole > 0.0F);
+    const clx_float4 e1 = edge_distance2(p, leaf->ab, d1, bb);
+    const clx_float4 e2 = edge_distance2(p, leaf->ac, d2, cc);
+    const clx_float4 e3 = edge_distance2(from_b, bc, dot(from_b, bc), dot(bc, bc));
+    clx_float4 least = pick(e1 < e2, e1, e2);
+    least = pick(e3 < least, e3, least);
+    return pick(has_foot, dot(r, r), least);
 }
 
 /// Four times the squared distances of a point to the boxes of four children.
@@ -239,51 +276,113 @@ static clx_float4 box_distances(const clx_fill_node *node, const float f[3])
     return sum;
 }
 
+/// A walk: what is to be visited, and the best triangle so far.
+typedef struct {
+    struct {
+        int32_t key; ///< bits of four times the squared distance: floats >= 0 sort as integers
+        int32_t child;
+    } stack[3 * CLX_TREE_DEPTH + 4];
+    int n;
+    int32_t limit; ///< least key of no interest, less one
+    float d2;      ///< least squared distance
+    int32_t tri;   ///< -1: none yet
+} walk;
+
+static int32_t bits(float x)
+{
+    int32_t i;
+    memcpy(&i, &x, sizeof i);
+    return i;
+}
+
+/// Only what is nearer than d is of interest.
+static void set_limit(walk *w, float d)
+{
+    const float padded = d * (1.0F + (float)FRAME_ERROR) + (float)FRAME_ERROR;
+    const float limit = 4.0F * padded * padded;
+    w->limit = bits(limit < FLT_MAX ? limit : FLT_MAX);
+}
+
+static void order(int32_t *farther, int32_t *nearer)
+{
+    const int32_t a = *farther;
+    const int32_t b = *nearer;
+    *farther = a > b ? a : b;
+    *nearer = a > b ? b : a;
+}
+
+/// Puts the children of a node on the stack, the nearest on top. Their keys carry their number in
+/// the last two bits; none of the steps is a branch.
+static void open_node(walk *w, const clx_fill_node *node, const float f[3])
+{
+    const clx_int4 near = (clx_int4)box_distances(node, f) & ~3;
+    int32_t key[4] = {near[0], near[1] | 1, near[2] | 2, near[3] | 3};
+    order(&key[0], &key[1]);
+    order(&key[2], &key[3]);
+    order(&key[0], &key[2]);
+    order(&key[1], &key[3]);
+    order(&key[1], &key[2]);
+    for (int i = 0; i < 4; ++i) {
+        w->stack[w->n].key = key[i];
+        w->stack[w->n].child = node->child[key[i] & 3];
+        w->n += key[i] <= w->limit;
+    }
+}
+
+static void visit_leaf(walk *w, const clx_fill_leaf *leaf, const float f[3])
+{
+    const clx_float4 d2 = leaf_distances2(leaf, f);
+    if (!clx_any(d2 < w->d2)) {
+        return;
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (d2[i] < w->d2) {
+            w->d2 = d2[i];
+            w->tri = leaf->first + i;
+        }
+    }
+    set_limit(w, sqrtf(w->d2));
+}
+
 double clx_fill_field_distance(const clx_fill_field *field, const double point[3],
                                double max_distance, double closest[3], int32_t *tri)
 {
-    struct {
-        float d2; ///< four times the squared distance
-        int32_t child;
-    } stack[3 * CLX_TREE_DEPTH + 1];
+    walk w;
     float f[3];
+    double p[3];
+    double away[3];
     for (int k = 0; k < 3; ++k) {
         f[k] = (float)((point[k] - field->middle[k]) * field->scale);
     }
-    nearest best = {
-        .d2 = max_distance * max_distance, .d = in_frame(field, max_distance), .tri = -1};
-    int n = 1;
-    stack[0].d2 = 0.0F;
-    stack[0].child = 0;
-    while (n > 0) {
-        --n;
-        if (stack[n].d2 > 4.0F * best.d * best.d) {
+    const float most = (float)(max_distance * field->scale * (1.0 + FRAME_ERROR) + FRAME_ERROR);
+    w.n = 1;
+    w.stack[0].key = 0;
+    w.stack[0].child = 0;
+    w.tri = -1;
+    w.d2 = most * most;
+    set_limit(&w, most);
+    while (w.n > 0) {
+        --w.n;
+        const int32_t child = w.stack[w.n].child;
+        if (w.stack[w.n].key > w.limit) {
             continue;
         }
-        const int32_t child = stack[n].child;
         if (child < 0) {
-            visit_leaf(field, &field->leaf[-1 - child], f, point, &best);
-            continue;
-        }
-        const clx_fill_node *node = &field->node[child];
-        const clx_float4 d2 = box_distances(node, f);
-        const int bottom = n;
-        const float limit = 4.0F * best.d * best.d;
-        for (int i = 0; i < 4; ++i) {
-            if (d2[i] <= limit && d2[i] < INFINITY) {
-                int at = n++;
-                for (; at > bottom && stack[at - 1].d2 < d2[i]; --at) {
-                    stack[at] = stack[at - 1];
-                }
-                stack[at].d2 = d2[i];
-                stack[at].child = node->child[i];
-            }
+            visit_leaf(&w, &field->leaf[-1 - child], f);
+        } else {
+            open_node(&w, &field->node[child], f);
         }
     }
-    if (best.tri < 0) {
+    if (w.tri < 0) {
         return INFINITY;
     }
-    v3_sub(closest, point, best.away);
-    *tri = best.tri;
-    return sqrt(best.d2);
+    v3_sub(p, point, field->tri[w.tri][0]);
+    clx_fill_triangle_away(field->tri[w.tri], p, away);
+    const double d = v3_norm(away);
+    if (!(d <= max_distance)) {
+        return INFINITY;
+    }
+    v3_sub(closest, point, away);
+    *tri = w.tri;
+    return d;
 }

@@ -11,14 +11,15 @@ typedef struct clx_fill_node {
     int32_t child[4];              ///< node number; or -1 - leaf number
 } clx_fill_node;
 
-/// Up to four triangles and their bounding spheres; an empty slot has x = INFINITY.
+/// Up to four triangles side by side: corner and edges; an empty slot is a point far away.
 typedef struct clx_fill_leaf {
-    clx_float4 centre[3], radius;
+    clx_float4 a[3], ab[3], ac[3];
     int32_t first; ///< triangle
 } clx_fill_leaf;
 
 typedef struct clx_fill_field {
     double middle[3], scale; ///< float frame: (x - middle) * scale
+    double error;            ///< a distance may be too large by this much
     clx_fill_node *node;     ///< [n_node] root first
     clx_fill_leaf *leaf;     ///< [n_leaf]
     double (*tri)[3][3];     ///< [n_tri] in leaf order: corner 0, edges to corners 1 and 2
@@ -31,7 +32,7 @@ clast_status clx_fill_field_create(const clast_bvh *bvh, clx_fill_field *field);
 void clx_fill_field_free(clx_fill_field *field);
 
 /// Distance to the surface if at most max_distance, else INFINITY; closest and tri (its number in
-/// the field) are then untouched.
+/// the field) are then untouched. Never less than the distance, and more by field->error at most.
 double clx_fill_field_distance(const clx_fill_field *field, const double point[3],
                                double max_distance, double closest[3], int32_t *tri);
 

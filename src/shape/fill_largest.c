@@ -41,6 +41,12 @@ typedef struct {
     bool is_bounded; ///< `upper` and `next` account for all samples
 } cube;
 
+/// All samples of eight siblings.
+typedef struct {
+    int32_t n;
+    int32_t sample[8 * SAMPLES];
+} block;
+
 typedef struct {
     double upper;
     int32_t cube;
@@ -51,6 +57,8 @@ typedef struct {
     double half[LEVELS]; ///< half an edge by level
     cube *cubes;         ///< blocks of eight siblings; the roots stand first, padded to eight
     int64_t n_cube, cube_capacity;
+    block *blocks; ///< [n_cube / 8]
+    int64_t block_capacity;
     sample *samples;
     int64_t n_sample, sample_capacity;
     entry *heap;
@@ -60,7 +68,8 @@ typedef struct {
 
 static bool before(const entry *a, const entry *b)
 {
-    return a->upper > b->upper || (a->upper == b->upper && a->cube < b->cube);
+    // bitwise: a branch here would be mispredicted half of the time
+    return (a->upper > b->upper) | ((a->upper == b->upper) & (a->cube < b->cube));
 }
 
 static clast_status heap_push(search *s, int32_t number)
@@ -110,31 +119,31 @@ static double lesser(double a, double b)
     return a < b ? a : b;
 }
 
-/// Distance of a point to the farthest corner of a cube.
-static double farthest(const double centre[3], double h, const double x[3])
+/// The lesser of a bound and offset + distance of x to the farthest corner of a cube; the root is
+/// drawn only when it wins.
+static double lesser_of_farthest(double bound, double offset, const double centre[3], double h,
+                                 const double x[3])
 {
     const double dx = fabs(centre[0] - x[0]) + h;
     const double dy = fabs(centre[1] - x[1]) + h;
     const double dz = fabs(centre[2] - x[2]) + h;
-    return sqrt(dx * dx + dy * dy + dz * dz);
+    const double d2 = dx * dx + dy * dy + dz * dz;
+    const double room = bound - offset;
+    return room > 0.0 && d2 < room * room ? lesser(bound, offset + sqrt(d2)) : bound;
 }
 
-static double farthest_ball(const search *s, const double centre[3], double h, int32_t ball)
+/// Upper bound over a cube from one sample, if less than `bound`: f changes no faster than one
+/// moves, and no point is farther from the witness than the farthest corner.
+static double bound_by(const search *s, const sample *p, const double centre[3], double h,
+                       double bound)
 {
-    const double *b = s->fill->balls.ball[ball];
-    return farthest(centre, h, b) - b[3];
-}
-
-/// Upper bound over a cube from one sample: f changes no faster than one moves, and no point is
-/// farther from the witness than the farthest corner.
-static double bound_by(const search *s, const sample *p, const double centre[3], double h)
-{
-    double bound = p->value + farthest(centre, h, p->at);
+    bound = lesser_of_farthest(bound, p->value, centre, h, p->at);
     if (!isnan(p->surface)) {
-        bound = lesser(bound, farthest(centre, h, p->nearest));
+        bound = lesser_of_farthest(bound, 0.0, centre, h, p->nearest);
     }
     if (p->ball >= 0) {
-        bound = lesser(bound, farthest_ball(s, centre, h, p->ball));
+        const double *b = s->fill->balls.ball[p->ball];
+        bound = lesser_of_farthest(bound, -b[3], centre, h, b);
     }
     return bound;
 }
@@ -158,15 +167,16 @@ static double reach_by(const search *s, const cube *c, const double point[3])
     return sqrt(reach2) * (1.0 + 1e-12) + 1e-300;
 }
 
-/// Side of a point at distance d from the surface by the samples of a cube: +1 inside, -1 outside,
-/// 0 not known. Two balls that the surface does not enter are on one side when they overlap.
-static int side_by(const search *s, const cube *c, const double point[3], double d)
+/// Side of a point at distance d from the surface by the samples of a family: +1 inside, -1
+/// outside, 0 not known. Two balls that the surface does not enter are on one side when they
+/// overlap.
+static int side_by(const search *s, const block *family, const double point[3], double d)
 {
-    for (int i = 0; i < c->n_sample; ++i) {
-        const sample *p = &s->samples[c->sample[i]];
+    for (int i = 0; i < family->n; ++i) {
+        const sample *p = &s->samples[family->sample[i]];
         const double clear = clear_radius(p);
-        const double reach = (fabs(clear) + d) * (1.0 - 1e-12);
-        if (clear != 0.0 && v3_distance2(p->at, point) < reach * reach) {
+        const double reach = fabs(clear) + d - 2.0 * s->fill->field.error;
+        if (clear != 0.0 && reach > 0.0 && v3_distance2(p->at, point) < reach * reach) {
             return clear > 0.0 ? 1 : -1;
         }
     }
@@ -175,9 +185,9 @@ static int side_by(const search *s, const cube *c, const double point[3], double
 
 static bool is_inside(const search *s, const cube *c, const double point[3], double d)
 {
-    int side = side_by(s, c, point, d);
-    if (side == 0 && c->parent >= 0) {
-        side = side_by(s, &s->cubes[c->parent], point, d);
+    int side = side_by(s, &s->blocks[(c - s->cubes) / 8], point, d);
+    for (int32_t up = c->parent; side == 0 && up >= 0; up = s->cubes[up].parent) {
+        side = side_by(s, &s->blocks[up / 8], point, d);
     }
     return side != 0 ? side > 0 : clast_bvh_inside(s->fill->bvh, point);
 }
@@ -223,8 +233,10 @@ static clast_status take_sample(search *s, cube *c)
     v3_copy(p->at, c->next);
     measure(s, c, p);
     c->sample[c->n_sample++] = number;
-    c->upper = lesser(c->upper, bound_by(s, p, c->centre, s->half[c->level]));
+    c->upper = bound_by(s, p, c->centre, s->half[c->level], c->upper);
     c->is_bounded = false;
+    block *family = &s->blocks[(c - s->cubes) / 8];
+    family->sample[family->n++] = number;
     note_best(s, c, number);
 done:
     return status;
@@ -246,7 +258,7 @@ static void refresh(search *s, cube *c)
         sample *p = &s->samples[c->sample[i]];
         if (renew(s, p)) {
             changed = true;
-            c->upper = lesser(c->upper, bound_by(s, p, c->centre, s->half[c->level]));
+            c->upper = bound_by(s, p, c->centre, s->half[c->level], c->upper);
         }
     }
     for (int i = 0; i < c->n_sample; ++i) {
@@ -264,10 +276,11 @@ static void refresh(search *s, cube *c)
 static void add_plane(clx_fill_planes *planes, const cube *c, double h, const double away[3],
                       double r)
 {
-    const double d = v3_norm(away);
-    if (planes->n < CLX_FILL_WITNESSES &&
-        d - r - 1.7320508075688773 * h <= c->upper) { // else above all that is known in the cube
+    const double d2 = v3_norm2(away);
+    const double reach = c->upper + r + 1.7320508075688773 * h;
+    if (planes->n < CLX_FILL_WITNESSES && d2 <= reach * reach) { // else above all known in the cube
         const int j = planes->n++;
+        const double d = sqrt(d2);
         v3_copy(planes->away[j], away);
         planes->radius[j] = r;
         planes->tri[j] = NULL;
@@ -278,19 +291,21 @@ static void add_plane(clx_fill_planes *planes, const cube *c, double h, const do
 
 typedef struct {
     clx_fill_planes planes;
-    int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
+    union {
+        int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
+        clx_int4 known4[CLX_FILL_WITNESSES / 4];
+    };
     int n_known;
 } witnesses;
 
 /// True, and noted, when a sphere or triangle is new and there is room for it.
 static bool is_new(witnesses *w, int32_t name)
 {
-    for (int j = 0; j < w->n_known; ++j) {
-        if (w->known[j] == name) {
-            return false;
-        }
+    clx_int4 same = {0};
+    for (int j = 0; j < CLX_FILL_WITNESSES / 4; ++j) { // all: no branch to predict
+        same |= w->known4[j] == name;
     }
-    if (w->n_known == CLX_FILL_WITNESSES) {
+    if (clx_any(same) || w->n_known == CLX_FILL_WITNESSES) {
         return false;
     }
     w->known[w->n_known++] = name;
@@ -333,21 +348,14 @@ static void add_ball(const search *s, witnesses *w, const cube *c, int32_t ball)
     }
 }
 
-/// Witnesses of all samples of one cube.
-static void add_witnesses(const search *s, witnesses *w, cube *c, const cube *other)
+/// Witnesses of one sample.
+static void add_witnesses(const search *s, witnesses *w, const cube *c, const sample *p)
 {
-    const double h = s->half[c->level];
-    for (int i = 0; i < other->n_sample; ++i) {
-        const sample *p = &s->samples[other->sample[i]];
-        if (!isnan(p->surface)) {
-            add_surface(s, w, c, p);
-        }
-        if (p->ball >= 0) {
-            add_ball(s, w, c, p->ball);
-        }
-        if (other != c) {
-            c->upper = lesser(c->upper, p->value + farthest(c->centre, h, p->at));
-        }
+    if (!isnan(p->surface)) {
+        add_surface(s, w, c, p);
+    }
+    if (p->ball >= 0) {
+        add_ball(s, w, c, p->ball);
     }
 }
 
@@ -361,23 +369,39 @@ static double second(const search *s)
     return upper;
 }
 
+/// Lowers a cube's bound by the reach of its relatives' samples.
+static void bound_by_samples(const search *s, cube *c, const block *family)
+{
+    const double h = s->half[c->level];
+    for (int i = 0; i < family->n; ++i) {
+        const sample *p = &s->samples[family->sample[i]];
+        c->upper = lesser_of_farthest(c->upper, p->value, c->centre, h, p->at);
+    }
+}
+
 /// Bounds f by the witnesses of the cube, its siblings, and its parent's generation.
 static void bound_cube(search *s, int32_t number)
 {
     witnesses w;
     cube *c = &s->cubes[number];
-    const int32_t block[2] = {number & ~7, c->parent & ~7};
-    w.planes.n = 0;
-    w.n_known = 0;
-    add_witnesses(s, &w, c, c);
-    for (int i = 0; i < (c->parent >= 0 ? 16 : 8); ++i) {
-        const int32_t other = block[i / 8] + i % 8;
-        if (other != number) {
-            add_witnesses(s, &w, c, &s->cubes[other]);
-        }
+    const block *families[2] = {&s->blocks[number / 8],
+                                c->parent >= 0 ? &s->blocks[c->parent / 8] : NULL};
+    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
+        bound_by_samples(s, c, families[k]);
     }
     if (c->upper < second(s)) {
         return; // the samples' reach was enough to sink it
+    }
+    w.planes.n = 0;
+    w.n_known = 0;
+    memset(w.known, 0x7f, sizeof w.known); // no name
+    for (int i = 0; i < c->n_sample; ++i) {
+        add_witnesses(s, &w, c, &s->samples[c->sample[i]]);
+    }
+    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
+        for (int i = 0; i < families[k]->n; ++i) {
+            add_witnesses(s, &w, c, &s->samples[families[k]->sample[i]]);
+        }
     }
     v3_copy(c->next, c->centre);
     if (w.planes.n > 0) {
@@ -404,12 +428,9 @@ static void make_child(search *s, int32_t parent, int i, cube *child)
         holds_best = holds_best && fabs(s->samples[c->best].at[k] - child->centre[k]) <= h;
     }
     child->best = holds_best ? c->best : -1;
-    for (int j = 0; j < 8; ++j) {
-        const cube *other = &s->cubes[(parent & ~7) + j];
-        for (int k = 0; k < other->n_sample; ++k) {
-            const sample *p = &s->samples[other->sample[k]];
-            child->upper = lesser(child->upper, bound_by(s, p, child->centre, h));
-        }
+    const block *family = &s->blocks[parent / 8];
+    for (int j = 0; j < family->n; ++j) {
+        child->upper = bound_by(s, &s->samples[family->sample[j]], child->centre, h, child->upper);
     }
 }
 
@@ -423,7 +444,9 @@ static clast_status divide(search *s, int32_t number)
     CLX_CHECK(s->cubes[number].level + 1 < LEVELS, CLAST_E_CONVERGE,
               "search for the largest sphere went %d levels deep", LEVELS);
     CLX_TRY(clx_grow(&s->cubes, &s->cube_capacity, s->n_cube + 8, sizeof *s->cubes));
+    CLX_TRY(clx_grow(&s->blocks, &s->block_capacity, s->n_cube / 8 + 1, sizeof *s->blocks));
     const int32_t first = (int32_t)s->n_cube;
+    s->blocks[first / 8].n = 0;
     s->n_cube += 8;
     for (int i = 0; i < 8; ++i) {
         make_child(s, number, i, &s->cubes[first + i]);
@@ -455,6 +478,8 @@ static clast_status plant(search *s)
     const int64_t total = (int64_t)n[0] * n[1] * n[2];
     CLX_TRY(clx_grow(&s->cubes, &s->cube_capacity, (total + 7) / 8 * 8, sizeof *s->cubes));
     s->n_cube = (total + 7) / 8 * 8;
+    CLX_TRY(clx_grow(&s->blocks, &s->block_capacity, s->n_cube / 8, sizeof *s->blocks));
+    memset(s->blocks, 0, (size_t)(s->n_cube / 8) * sizeof *s->blocks);
     memset(s->cubes, 0, (size_t)s->n_cube * sizeof *s->cubes);
     for (int64_t i = 0; i < total; ++i) {
         cube *c = &s->cubes[i];
@@ -475,6 +500,7 @@ static void destroy(void *state)
     search *s = state;
     if (s != NULL) {
         clx_free(s->cubes);
+        clx_free(s->blocks);
         clx_free(s->samples);
         clx_free(s->heap);
         clx_free(s);

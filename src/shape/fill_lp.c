@@ -58,17 +58,23 @@ static void start(tableau *t, const clx_fill_planes *planes, double h)
     }
 }
 
+/// Column with the least reduced cost below -tolerance, or -1. The least first and then its place:
+/// branches on comparisons of costs would be mispredicted half of the time.
 static int entering(const tableau *t, double tolerance)
 {
-    int best = -1;
+    const double *cost = t->a[ROWS];
     double least = -tolerance;
-    for (int j = 1; j < t->n; ++j) {
-        if (t->a[ROWS][j] < least) {
-            least = t->a[ROWS][j];
-            best = j;
-        }
+    for (int j = 1; j < t->width; ++j) {
+        least = cost[j] < least ? cost[j] : least;
     }
-    return best;
+    if (least >= -tolerance) {
+        return -1;
+    }
+    int j = 1;
+    while (cost[j] != least) {
+        ++j;
+    }
+    return j;
 }
 
 static int leaving(const tableau *t, int column)
@@ -116,17 +122,78 @@ static void add_sphere(const clx_fill_planes *planes, int j, double h, double w,
     }
 }
 
+typedef double lanes __attribute__((vector_size(16))); // two corners of the cube side by side
+typedef int64_t marks __attribute__((vector_size(16)));
+
+static lanes pick(marks m, lanes yes, lanes no)
+{
+    return (lanes)((m & (marks)yes) | (~m & (marks)no));
+}
+
+static lanes dot(const lanes p[3], const double e[3])
+{
+    return p[0] * e[0] + p[1] * e[1] + p[2] * e[2];
+}
+
+/// Squared distance of p to the edge e from the origin.
+static lanes edge_distance2(const lanes p[3], const double e[3])
+{
+    const double length2 = v3_norm2(e);
+    const double per_length2 = length2 > 0.0 ? 1.0 / length2 : 0.0;
+    const marks all_but_sign = {INT64_MAX, INT64_MAX};
+    const lanes t = dot(p, e) * per_length2;
+    const lanes over = t - 1.0;
+    const lanes size = (lanes)((marks)t & all_but_sign);
+    const lanes size_over = (lanes)((marks)over & all_but_sign);
+    const lanes inside = 0.5 * (size - size_over + 1.0); // t clamped to [0, 1]
+    lanes r[3];
+    for (int k = 0; k < 3; ++k) {
+        r[k] = p[k] - inside * e[k];
+    }
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+}
+
+/// Squared distance of p to a triangle with a corner at the origin, without branches: the least
+/// over the edges and the foot in the plane, each a distance to a point of the triangle.
+static lanes triangle_distance2(const lanes p[3], double tri[3][3])
+{
+    double bc[3];
+    lanes from_b[3];
+    lanes r[3];
+    v3_sub(bc, tri[2], tri[1]);
+    const double bb = v3_norm2(tri[1]);
+    const double cc = v3_norm2(tri[2]);
+    const double mixed = v3_dot(tri[1], tri[2]);
+    const double whole = bb * cc - mixed * mixed;
+    const double per_whole = whole > 0.0 ? 1.0 / whole : (double)NAN; // then no foot
+    const lanes d1 = dot(p, tri[1]);
+    const lanes d2 = dot(p, tri[2]);
+    const lanes v = (cc * d1 - mixed * d2) * per_whole;
+    const lanes w = (bb * d2 - mixed * d1) * per_whole;
+    for (int k = 0; k < 3; ++k) {
+        from_b[k] = p[k] - tri[1][k];
+        r[k] = p[k] - v * tri[1][k] - w * tri[2][k];
+    }
+    const marks has_foot = (v >= 0.0) & (w >= 0.0) & (v + w <= 1.0);
+    const lanes e1 = edge_distance2(p, tri[1]);
+    const lanes e2 = edge_distance2(p, tri[2]);
+    const lanes e3 = edge_distance2(from_b, bc);
+    lanes least = pick(e1 < e2, e1, e2);
+    least = pick(e3 < least, e3, least);
+    return pick(has_foot, r[0] * r[0] + r[1] * r[1] + r[2] * r[2], least);
+}
+
 /// Adds w times the distance to a triangle at the eight corners.
 static void add_triangle(const clx_fill_planes *planes, int j, double h, double w, double corner[8])
 {
-    for (int k = 0; k < 8; ++k) {
-        double p[3];
-        double away[3];
-        for (int i = 0; i < 3; ++i) {
-            p[i] = planes->away[j][i] + ((k >> i & 1) != 0 ? h : -h);
-        }
-        clx_fill_triangle_away(planes->tri[j], p, away);
-        corner[k] += w * v3_norm(away);
+    const double *q = planes->away[j];
+    for (int k = 0; k < 8; k += 2) {
+        const double y = (k & 2) != 0 ? q[1] + h : q[1] - h;
+        const double z = (k & 4) != 0 ? q[2] + h : q[2] - h;
+        const lanes p[3] = {{q[0] - h, q[0] + h}, {y, y}, {z, z}};
+        const lanes d2 = triangle_distance2(p, planes->tri[j]);
+        corner[k] += w * sqrt(d2[0]);
+        corner[k + 1] += w * sqrt(d2[1]);
     }
 }
 
