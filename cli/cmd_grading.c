@@ -1,0 +1,258 @@
+// clast grading: sieve curves and laws of size in numbers of grains, and sizes drawn from them.
+#include "command.h"
+#include "json.h"
+
+#include <clast/grading_file.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+
+typedef struct {
+    int32_t spread;
+    int32_t count;
+    int32_t sample;
+    uint64_t seed;
+    double mass, density, grain_volume;
+} grading_config;
+
+#define FIELD(name) #name, offsetof(grading_config, name)
+static const clast_field grading_fields[] = {
+    {FIELD(spread), CLAST_FIELD_CHOICE, CLAST_SPREAD_STEP, 0, 2, "-",
+     "sizes within a class: density constant over log size, linear between class means, or class "
+     "means only",
+     "step|linear|means"},
+    {FIELD(count), CLAST_FIELD_CHOICE, CLAST_COUNT_MEAN, 0, 1, "-",
+     "grains per mass: each as large as its class mean (eq. 9), or so that masses come out exactly",
+     "mean|exact"},
+    {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-", "sizes to draw; -o FILE.csv keeps them", NULL},
+    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of the draws", NULL},
+    {FIELD(mass), CLAST_FIELD_F64, 0.0, 0.0, 1e12, "kg", "mass to count grains for; 0: shares only",
+     NULL},
+    {FIELD(density), CLAST_FIELD_F64, 2650.0, 1e-3, 1e6, "kg/m^3", "of the grains", NULL},
+    {FIELD(grain_volume), CLAST_FIELD_F64, CLAST_PI / 6.0, 1e-6, 100.0, "-",
+     "volume of a grain by the cube of its sieve size: pi/6 as the paper, or the shapes' mean",
+     NULL},
+    {0}};
+#undef FIELD
+
+/// All that one call answers.
+typedef struct {
+    const grading_config *config;
+    const char *text;
+    clast_curve curve; ///< of no class when the text names a law
+    clast_grading *grading;
+    clast_table sizes; ///< drawn
+    clast_table classes;
+    clast_grading_match match;
+} answer;
+
+static void free_answer(answer *a)
+{
+    clast_curve_free(&a->curve);
+    clast_grading_destroy(a->grading);
+    clast_table_free(&a->sizes);
+    clast_table_free(&a->classes);
+}
+
+static clast_status draw_sizes(answer *a)
+{
+    double *size = NULL;
+    clast_status status = clast_table_init(&a->sizes, "sizes", a->config->sample);
+    if (status == CLAST_OK) {
+        status = clast_table_add_number(&a->sizes, "diameter_m", "m", &size);
+    }
+    for (int32_t i = 0; i < a->config->sample && status == CLAST_OK; ++i) {
+        size[i] = clast_grading_draw(a->grading, a->config->seed, (uint64_t)i);
+    }
+    if (status == CLAST_OK && a->curve.n_class > 0 && a->config->sample > 0) {
+        const clast_grading_sample sample = {a->config->sample, size, NULL};
+        status = clast_grading_compare(&a->curve, a->grading, &sample, &a->classes, &a->match);
+    }
+    return status;
+}
+
+/// Grains that the mass holds on average under the law as it is drawn.
+static double expected_count(const answer *a)
+{
+    const grading_config *c = a->config;
+    return c->mass / (c->density * c->grain_volume * clast_grading_mean_cube(a->grading));
+}
+
+static void sizes_json(json_t *o, const char *name, double (*size)(const clast_grading *, double),
+                       const clast_grading *grading)
+{
+    static const char *const key[] = {"d10", "d50", "d90"};
+    static const double share[] = {0.1, 0.5, 0.9};
+    json_t *set = json_object();
+    for (int k = 0; k < 3; ++k) {
+        cli_json_number(set, key[k], size(grading, share[k]));
+    }
+    (void)json_object_set_new(o, name, set);
+}
+
+static void curve_json(json_t *o, const clast_curve *curve)
+{
+    json_t *set = json_object();
+    cli_json_number(set, "d10", clast_curve_size(curve, 0.1));
+    cli_json_number(set, "d50", clast_curve_size(curve, 0.5));
+    cli_json_number(set, "d90", clast_curve_size(curve, 0.9));
+    (void)json_object_set_new(o, "curve_by_mass", set);
+}
+
+static void classes_json(json_t *o, const answer *a)
+{
+    json_t *list = json_array();
+    for (int32_t i = 0; i < a->curve.n_class; ++i) {
+        const double low = a->curve.sieve[i];
+        const double high = a->curve.sieve[i + 1];
+        json_t *row = json_object();
+        cli_json_number(row, "low", low);
+        cli_json_number(row, "high", high);
+        cli_json_number(row, "mean", clast_curve_class_size(&a->curve, i));
+        cli_json_number(row, "mass", a->curve.mass[i]);
+        cli_json_number(row, "number",
+                        clast_grading_share(a->grading, high) -
+                            clast_grading_share(a->grading, low));
+        cli_json_number(row, "count",
+                        clast_curve_count(&a->curve, i, a->config->mass, a->config->density,
+                                          a->config->grain_volume));
+        if (a->classes.n_row > 0) {
+            cli_json_number(row, "achieved_mass",
+                            clast_table_numbers(&a->classes, "achieved_mass")[i + 1]);
+            cli_json_number(row, "achieved_number",
+                            clast_table_numbers(&a->classes, "achieved_number")[i + 1]);
+        }
+        (void)json_array_append_new(list, row);
+    }
+    (void)json_object_set_new(o, "classes", list);
+}
+
+static json_t *answer_json(const answer *a)
+{
+    json_t *o = json_object();
+    double low = 0.0;
+    double high = 0.0;
+    clast_grading_range(a->grading, &low, &high);
+    cli_json_text(o, "curve", a->text);
+    cli_json_number(o, "low", low);
+    cli_json_number(o, "high", high);
+    sizes_json(o, "drawn_by_mass", clast_grading_mass_size, a->grading);
+    sizes_json(o, "drawn_by_number", clast_grading_size, a->grading);
+    cli_json_number(o, "mean_cube", clast_grading_mean_cube(a->grading));
+    cli_json_number(o, "n_expected", expected_count(a));
+    cli_json_count(o, "n_sample", a->config->sample);
+    if (a->curve.n_class > 0) {
+        curve_json(o, &a->curve);
+        classes_json(o, a);
+    }
+    if (a->classes.n_row > 0) {
+        cli_json_number(o, "distance_mass", a->match.distance_mass);
+        cli_json_number(o, "distance_number", a->match.distance_number);
+        cli_json_number(o, "achieved_d10", a->match.achieved_d10);
+        cli_json_number(o, "achieved_d50", a->match.achieved_d50);
+        cli_json_number(o, "achieved_d90", a->match.achieved_d90);
+    }
+    return o;
+}
+
+static void size_words(const char *what, double d10, double d50, double d90)
+{
+    (void)printf("  %-18s D10 %9.4f mm (phi %6.3f)   D50 %9.4f mm (phi %6.3f)   D90 %9.4f mm (phi "
+                 "%6.3f)\n",
+                 what, 1e3 * d10, clast_phi_of_size(d10), 1e3 * d50, clast_phi_of_size(d50),
+                 1e3 * d90, clast_phi_of_size(d90));
+}
+
+static void class_words(const answer *a)
+{
+    const bool achieved = a->classes.n_row > 0;
+    const bool counted = a->config->mass > 0.0;
+    (void)printf("  %10s %10s %10s %8s %10s%s%s\n", "low (mm)", "high (mm)", "mean (mm)", "mass",
+                 "number", counted ? "     grains" : "", achieved ? "   mass got  number got" : "");
+    for (int32_t i = 0; i < a->curve.n_class; ++i) {
+        const double low = a->curve.sieve[i];
+        const double high = a->curve.sieve[i + 1];
+        (void)printf("  %10.4g %10.4g %10.4g %8.4f %10.6f", 1e3 * low, 1e3 * high,
+                     1e3 * clast_curve_class_size(&a->curve, i), a->curve.mass[i],
+                     clast_grading_share(a->grading, high) - clast_grading_share(a->grading, low));
+        if (counted) {
+            (void)printf(" %10.1f", clast_curve_count(&a->curve, i, a->config->mass,
+                                                      a->config->density, a->config->grain_volume));
+        }
+        if (achieved) {
+            (void)printf(" %10.4f %11.6f", clast_table_numbers(&a->classes, "achieved_mass")[i + 1],
+                         clast_table_numbers(&a->classes, "achieved_number")[i + 1]);
+        }
+        (void)printf("\n");
+    }
+}
+
+static void answer_words(const answer *a)
+{
+    const clast_grading *g = a->grading;
+    (void)printf("%s\n", a->text);
+    if (a->curve.n_class > 0) {
+        class_words(a);
+        size_words("curve, by mass", clast_curve_size(&a->curve, 0.1),
+                   clast_curve_size(&a->curve, 0.5), clast_curve_size(&a->curve, 0.9));
+    }
+    size_words("drawn, by mass", clast_grading_mass_size(g, 0.1), clast_grading_mass_size(g, 0.5),
+               clast_grading_mass_size(g, 0.9));
+    size_words("drawn, by number", clast_grading_size(g, 0.1), clast_grading_size(g, 0.5),
+               clast_grading_size(g, 0.9));
+    if (a->config->mass > 0.0) {
+        (void)printf("  %.6g kg hold %.1f grains on average as drawn\n", a->config->mass,
+                     expected_count(a));
+    }
+    if (a->classes.n_row > 0) {
+        (void)printf("  %d drawn: farthest from the wanted curve %.4f by mass, %.4f by number\n",
+                     a->config->sample, a->match.distance_mass, a->match.distance_number);
+    }
+}
+
+static clast_status run(const cli_common *common, void *config_bytes)
+{
+    const grading_config *config = config_bytes;
+    answer a = {.config = config, .text = common->argument[0]};
+    clast_status status = CLAST_OK;
+    if (common->output != NULL && config->sample == 0) {
+        status = cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
+    }
+    if (status == CLAST_OK) {
+        status = clast_grading_load(a.text, (clast_grading_spread)config->spread,
+                                    (clast_grading_count)config->count, &a.curve, &a.grading);
+    }
+    if (status == CLAST_OK) {
+        status = draw_sizes(&a);
+    }
+    if (status == CLAST_OK && common->output != NULL) {
+        status = clast_table_write_csv(&a.sizes, common->output);
+    }
+    if (status == CLAST_OK && common->json) {
+        status = cli_print_json(answer_json(&a));
+    } else if (status == CLAST_OK) {
+        answer_words(&a);
+    }
+    free_answer(&a);
+    return status;
+}
+
+const cli_command cli_grading = {
+    .name = "grading",
+    .arguments = "CURVE",
+    .summary = "sieve curves and laws of size: numbers of grains, D10 to D90, drawn sizes",
+    .details =
+        "CURVE is U1, U3, U5, U7, B30, B50 or B70 (Rettinger et al. 2022, table 3), the CSV file "
+        "of "
+        "a sieve\ncurve, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE or one "
+        "size (\"11 mm\").\nA file has a column sieve, size, diameter or phi with its unit "
+        "(sieve_mm) and a column retained (on\nthis sieve), or passing (% or share). Numbers "
+        "follow from masses by equations 8 and 9 of the paper;\nthe curve is straight over log "
+        "size between sieves. Definitions: docs/theory/grading.md.\n"
+        "A draw depends on the seed and the grain's number alone.",
+    .fields = grading_fields,
+    .config_size = sizeof(grading_config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};

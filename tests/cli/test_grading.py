@@ -1,0 +1,63 @@
+"""CLI: clast grading tells numbers from masses, sizes at shares, and draws that follow them."""
+import csv
+import math
+import unittest
+
+from clitest import Case, clast
+
+
+class Grading(Case):
+    def test_published_curve_has_the_papers_numbers(self):
+        got = clast("grading", "U3", "--mass", "16 kg", "--json").json
+        low = got["classes"][2]
+        self.assertAlmostEqual(low["mean"], 1e-3 * math.sqrt(5.6 * 8), places=15)
+        count = 0.21 * 16 / (2650 * math.pi / 6 * low["mean"] ** 3)  # eq. 9
+        self.assertAlmostEqual(low["count"] / count, 1, places=13)
+        self.assertAlmostEqual(got["curve_by_mass"]["d50"], 1e-3 * math.sqrt(8 * 11.2), places=15)
+        counts = [c["count"] for c in got["classes"]]
+        self.assertAlmostEqual(low["number"], low["count"] / sum(counts), places=13)
+
+    def test_drawn_sizes_are_kept_and_compared(self):
+        out = self.folder / "sizes.csv"
+        got = clast("grading", "U7", "--sample", "5000", "--seed", "3", "-o", out, "--json").json
+        with open(out, newline="", encoding="utf-8") as file:
+            sizes = [float(row["diameter_m"]) for row in csv.DictReader(file)]
+        self.assertEqual(len(sizes), 5000)
+        self.assertTrue(all(2.8e-3 <= d <= 31.5e-3 for d in sizes))
+        self.assertLess(got["distance_number"], 2.7 / math.sqrt(5000))  # KS at level 1e-6
+        inside = sum(2.8e-3 <= d < 4e-3 for d in sizes) / 5000
+        self.assertAlmostEqual(got["classes"][0]["achieved_number"], inside, places=12)
+        again = clast("grading", "U7", "--sample", "5000", "--seed", "3", "--json").json
+        self.assertEqual(got, again)
+        other = clast("grading", "U7", "--sample", "5000", "--seed", "4", "--json").json
+        self.assertNotEqual(got["achieved_d50"], other["achieved_d50"])
+
+    def test_a_users_curve_is_read_and_shown(self):
+        file = self.folder / "river.csv"
+        file.write_text("phi,passing (%)\n-1,0\n-2,25\n-3,100\n")
+        result = clast("grading", file, "--spread", "linear")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("0.7500", result.out)
+        self.assertIn("D50", result.out)
+
+    def test_laws_need_no_classes(self):
+        got = clast("grading", "lognormal:8mm,2mm", "--mass", "1", "--json").json
+        self.assertNotIn("classes", got)
+        cube = 8e-3**3 * math.exp(3 * math.log(1 + 1 / 16))
+        self.assertAlmostEqual(got["mean_cube"] / cube, 1, places=12)
+        self.assertAlmostEqual(got["n_expected"] * 2650 * math.pi / 6 * cube, 1, places=12)
+
+    def test_bad_input_is_one_line(self):
+        file = self.folder / "bad.csv"
+        file.write_text("sieve_mm,passing\n1,0\n2,60\n3,50\n4,100\n")
+        self.assert_fails(3, "grading", file, says=["row 3", "less than the 60"])
+        file.write_text("sieve_mm,mass\n1,-1\n2,0\n")
+        self.assert_fails(3, "grading", file, says=["row 1"])
+        self.assert_fails(3, "grading", "U9", says=["U1, U3"])
+        self.assert_fails(2, "grading", "U1", "--spread", "linear", "--count", "exact", says=["linear"])
+        self.assert_fails(2, "grading", "U1", "-o", file, says=["--sample"])
+        self.assert_fails(2, "grading", "uniform:2mm", says=["uniform:LOW,HIGH"])
+
+
+if __name__ == "__main__":
+    unittest.main()
