@@ -2,6 +2,7 @@
 #include "contact/convex.h"
 
 #include "contact/ellipsoid_pair.h"
+#include "contact/facet.h"
 #include "contact/gjk.h"
 #include "math/vec3.h"
 
@@ -159,38 +160,143 @@ static void seed_climbs(clx_gjk_pair *seen)
     }
 }
 
-static bool general(const clx_pair *pair, double max_gap, clx_contact *contact)
+/// The remembered simplex, where the bodies are now.
+static void recall(const clx_contact_memory *memory, clx_gjk_pair *seen, clx_simplex *simplex)
+{
+    const int32_t n_a = seen->a.core->n_vert;
+    const int32_t n_b = seen->b.core->n_vert;
+    for (int i = 0; i < memory->n && i < 4; ++i) {
+        const int32_t a = memory->vert[0][i];
+        const int32_t b = memory->vert[1][i];
+        if (a >= n_a || b >= n_b) { // not a memory of this pair
+            simplex->n = 0;
+            return;
+        }
+        clx_mink_of(seen, a, b, &simplex->p[simplex->n++]);
+        seen->a.last = a;
+        seen->b.last = b;
+    }
+}
+
+static void remember(const clx_simplex *simplex, clx_contact_memory *memory)
+{
+    *memory = (clx_contact_memory){.n = (uint16_t)simplex->n};
+    for (int i = 0; i < simplex->n; ++i) {
+        memory->vert[0][i] = (uint16_t)simplex->p[i].vert[0];
+        memory->vert[1][i] = (uint16_t)simplex->p[i].vert[1];
+    }
+}
+
+/// Turns an answer of GJK or EPA into one of the facet it names, and remembers that.
+static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contact *contact,
+                    clx_contact_memory *memory)
+{
+    int32_t vert[2][3] = {{0}};
+    clx_contact sharp;
+    for (int i = 0; i < 3; ++i) {
+        vert[0][i] = simplex->p[i < simplex->n ? i : 0].vert[0];
+        vert[1][i] = simplex->p[i < simplex->n ? i : 0].vert[1];
+    }
+    clx_facet facet = clx_facet_of(pair, vert, contact->normal);
+    const double tolerance = 1e-12 * (pair->a->reach + pair->b->reach);
+    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &sharp) &&
+        fabs(sharp.gap - contact->gap) <= tolerance) {
+        *contact = sharp;
+        memory->kind = (uint16_t)facet.kind;
+        memory->feature[0] = facet.i;
+        memory->feature[1] = facet.j;
+    }
+}
+
+/// GJK, then EPA if they overlap, from the simplex on. The contact is without rounding. False if
+/// beyond max_gap.
+static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+                   clx_simplex *simplex, clx_contact *contact)
 {
     clx_gjk_pair seen;
-    clx_simplex simplex = {0};
     const double unit = fmax(pair->a->reach, pair->b->reach);
-    const double rounds = pair->a->round + pair->b->round;
     double v[3], n[3], on_a[3];
     double gap = 0.0;
     see(pair, unit, &seen);
     seed_climbs(&seen);
-    switch (clx_gjk(&seen, (max_gap + rounds) / unit, &simplex, v, &gap)) {
+    if (memory != NULL) {
+        recall(memory, &seen, simplex);
+    }
+    switch (clx_gjk(&seen, max_gap / unit, simplex, v, &gap)) {
     case CLX_GJK_BEYOND:
-        contact->gap = gap * unit - rounds;
+        contact->gap = gap * unit;
         return false;
     case CLX_GJK_APART:
         (void)v3_unit(n, v);
         break;
     default:
-        (void)clx_epa(&seen, &simplex, n, &gap);
+        (void)clx_epa(&seen, simplex, n, &gap);
         v3_scale(n, -1.0, n);
         gap = -gap;
         break;
     }
-    if (gap * unit - rounds > max_gap) {
-        contact->gap = gap * unit - rounds;
+    witness(simplex, on_a);
+    v3_scale(on_a, unit, on_a);
+    out_of_frame(pair->turn_a, n, contact->normal);
+    out_of_frame(pair->turn_a, on_a, contact->point);
+    contact->gap = gap * unit;
+    v3_axpy(contact->point, contact->point, -0.5 * contact->gap, contact->normal);
+    return contact->gap <= max_gap;
+}
+
+/// Takes the rounding of both into account; false if the gap is then beyond max_gap.
+static bool add_rounding(const clx_pair *pair, double max_gap, clx_contact *contact)
+{
+    contact->gap -= pair->a->round + pair->b->round;
+    if (contact->gap > max_gap) {
         return false;
     }
-    witness(&simplex, on_a);
-    v3_scale(on_a, unit, on_a);
-    out_of_frame(pair->turn_a, n, n);
-    out_of_frame(pair->turn_a, on_a, on_a);
-    finish(pair, n, on_a, gap * unit, contact);
+    v3_axpy(contact->point, contact->point, 0.5 * (pair->b->round - pair->a->round),
+            contact->normal);
+    return true;
+}
+
+static bool general(const clx_pair *pair, double max_gap, clx_contact *contact)
+{
+    clx_simplex simplex = {0};
+    clx_contact found;
+    const bool is_near =
+        search(pair, max_gap + pair->a->round + pair->b->round, NULL, &simplex, &found);
+    if (is_near && add_rounding(pair, max_gap, &found)) {
+        *contact = found;
+        return true;
+    }
+    contact->gap = is_near ? found.gap : found.gap - pair->a->round - pair->b->round;
+    return false;
+}
+
+/// A pair of hulls with a memory: by the facet it remembers, else by its simplex, else cold.
+static bool hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+                  clx_contact *contact)
+{
+    clx_contact found;
+    clx_facet facet = {(clx_facet_kind)memory->kind, memory->feature[0], memory->feature[1]};
+    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &found)) {
+        memory->kind = (uint16_t)facet.kind;
+        memory->feature[0] = facet.i;
+        memory->feature[1] = facet.j;
+    } else {
+        clx_simplex simplex = {0};
+        const double limit = max_gap + pair->a->round + pair->b->round;
+        const bool is_near = search(pair, limit, memory, &simplex, &found);
+        if (!is_near && !(found.gap <= limit)) {
+            remember(&simplex, memory);
+            contact->gap = found.gap - pair->a->round - pair->b->round;
+            return false;
+        }
+        remember(&simplex, memory);
+        sharpen(pair, &simplex, &found, memory);
+    }
+    if (!add_rounding(pair, max_gap, &found)) {
+        contact->gap = found.gap;
+        return false;
+    }
+    *contact = found;
     return true;
 }
 
@@ -202,6 +308,9 @@ bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_contact_memory *
     }
     if (pair->a->kind != CLX_CONVEX_HULL && pair->b->kind != CLX_CONVEX_HULL) {
         return ellipsoids(pair, max_gap, memory, contact);
+    }
+    if (memory != NULL && pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL) {
+        return hulls(pair, max_gap, memory, contact);
     }
     return general(pair, max_gap, contact);
 }

@@ -19,7 +19,7 @@ typedef struct clx_convex {
     double semi_axes[3];       ///< ellipsoid [m]
     double round; ///< sphere: radius; others: margin by which the shape is grown (0: as is) [m]
     double reach; ///< everything lies within this distance of the position [m]
-    double inner; ///< radius of a ball about `centre` inside the shape, > 0 [m]
+    double inner; ///< this ball about the position is inside the shape; <= 0: none is [m]
 } clx_convex;
 
 clx_convex clx_convex_sphere(double radius);
@@ -44,14 +44,13 @@ typedef struct clx_contact {
 } clx_contact;
 
 /// What a pair remembers from one query to the next; {0} is empty. Always safe to keep: a memory
-/// that no longer holds costs time, never accuracy. Belongs to (a, b) in this order.
+/// that no longer holds costs time, never accuracy. Belongs to (a, b) in this order. No padding.
 typedef struct clx_contact_memory {
     uint16_t vert[2][4]; ///< simplex: vertices of a, of b
-    int32_t feature[2];  ///< closest face, edge or vertex of a, of b
-    uint8_t n;           ///< points of the simplex, 0 to 4
-    uint8_t kind;        ///< private
-    uint16_t spare;
-    float direction[3]; ///< last normal
+    int32_t feature[2];  ///< of a, of b, by `kind`
+    float direction[3];  ///< round bodies: last normal
+    uint16_t kind;       ///< clx_facet_kind
+    uint16_t n;          ///< points of the simplex, 0 to 4
 } clx_contact_memory;
 
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound

@@ -45,6 +45,9 @@ typedef enum {
 /// Point of A - B farthest along direction d.
 void clx_mink_support(clx_gjk_pair *pair, const double d[3], clx_mink *out);
 
+/// The point of A - B of two hull vertices.
+void clx_mink_of(const clx_gjk_pair *pair, int32_t vert_a, int32_t vert_b, clx_mink *out);
+
 /// Shortest vector from b to a. The simplex may hold points to start from (n = 0: none); it ends
 /// with those that hold the answer. `gap` is the distance, or the bound for BEYOND.
 ///

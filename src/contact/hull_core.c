@@ -244,7 +244,11 @@ static void build_edges(scratch *s, clx_hull_core *core)
             const int32_t to = core->side[face->first + (i + 1) % face->n].vert;
             const int32_t other = s->beside[raw / 3][raw % 3];
             if (s->edge_of[raw] < 0) {
-                core->edge[core->n_edge] = (clx_core_edge){{side->vert, to}, {f, -1}};
+                clx_core_edge *edge = &core->edge[core->n_edge];
+                *edge = (clx_core_edge){.vert = {side->vert, to}, .face = {f, -1}};
+                v3_copy(edge->from, core->vert[side->vert]);
+                v3_sub(edge->along, core->vert[to], edge->from);
+                v3_copy(edge->out[0], side->out);
                 for (int k = 0; k < 3; ++k) { // the opposite side gets the same number
                     if (s->hull.tri[other][k] == to) {
                         s->edge_of[3 * other + k] = core->n_edge;
@@ -254,6 +258,7 @@ static void build_edges(scratch *s, clx_hull_core *core)
             } else {
                 side->edge = s->edge_of[raw];
                 core->edge[side->edge].face[1] = f;
+                v3_copy(core->edge[side->edge].out[1], side->out);
             }
         }
     }
@@ -339,17 +344,11 @@ static void build_start(clx_hull_core *core)
     }
 }
 
-/// A ball inside: about the mean of the vertices, weighted alike.
 static void build_inner(clx_hull_core *core)
 {
-    v3_set(core->centre, 0.0, 0.0, 0.0);
-    for (int32_t v = 0; v < core->n_vert; ++v) {
-        v3_axpy(core->centre, core->centre, 1.0 / core->n_vert, core->vert[v]);
-    }
     core->inner = INFINITY;
     for (int32_t f = 0; f < core->n_face; ++f) {
-        core->inner =
-            fmin(core->inner, core->face[f].offset - v3_dot(core->face[f].normal, core->centre));
+        core->inner = fmin(core->inner, core->face[f].offset);
     }
 }
 
@@ -393,8 +392,6 @@ clast_status clx_hull_core_create(const clast_mesh *mesh, clx_hull_core **core)
     CLX_TRY(build_near(&s, made));
     build_start(made);
     build_inner(made);
-    CLX_CHECK(made->inner > 0.0, CLAST_E_GEOMETRY, "the hull of %d points is too flat to use",
-              s.hull.n_vert);
     *core = made;
     made = NULL;
 done:

@@ -21,6 +21,9 @@ typedef struct clx_core_side {
 
 /// Edge from vert[0] to vert[1]; face[0] has it in this direction, face[1] in the other.
 typedef struct clx_core_edge {
+    double from[3];   ///< vert[0]
+    double along[3];  ///< vert[1] - vert[0]
+    double out[2][3]; ///< unit, in the plane of face[k], out of that face
     int32_t vert[2];
     int32_t face[2];
 } clx_core_edge;
@@ -43,9 +46,8 @@ typedef struct clx_hull_core {
     int32_t *near_first; ///< [n_vert + 1]
     clx_core_near *near; ///< neighbours of vertex i: near[near_first[i] .. near_first[i + 1] - 1]
     uint16_t start[6 * CLX_CORE_GRID * CLX_CORE_GRID]; ///< support of directions on a cube
-    double radius;    ///< greatest distance of a vertex from the origin
-    double centre[3]; ///< of a ball inside the hull
-    double inner;     ///< its radius, > 0
+    double radius; ///< greatest distance of a vertex from the origin
+    double inner;  ///< least distance of a face's plane from the origin; <= 0: origin not inside
 } clx_hull_core;
 
 /// Core of the convex hull of a mesh's vertices, about the mesh's own origin.
