@@ -357,7 +357,7 @@ static bool settle(const clx_pair *pair, const body both[2], clx_facet *facet, v
     }
     list[0] = *facet;
     for (int i = 0; i < n; ++i) {
-        view at;
+        view at = {0};
         if (!look(both, &list[i], &at) || !at.is_facet) {
             return false;
         }
@@ -392,7 +392,7 @@ bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *conta
          pair->b->scale,
          {pair->offset[0], pair->offset[1], pair->offset[2]}},
     };
-    view at;
+    view at = {0};
     if (!walk(both, facet, &at) || !(is_sure(pair, &at) || settle(pair, both, facet, &at))) {
         return false;
     }
