@@ -34,6 +34,8 @@
 #include <clast/monitor.h>
 #include <clast/overlap.h>
 #include <clast/parallel.h>
+#include <clast/porosity.h>
+#include <clast/porosity_chart.h>
 #include <clast/printable.h>
 #include <clast/reform.h>
 #include <clast/render.h>

@@ -1,0 +1,281 @@
+// clast porosity: profile and bulk porosity of any assembly.
+#include "command.h"
+#include "json.h"
+
+#include <clast/porosity_chart.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct {
+    char *bed;
+    double floor;
+    int32_t method;
+    double layer, cut, trim;
+    bool at_slice;
+    double gap;
+} porosity_config;
+
+#define FIELD(type, member) #member, offsetof(porosity_config, member), type
+static const clast_field fields[] = {
+    {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
+     "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1 or periodic:X0,Y0,X1,Y1; none: the run's",
+     ""},
+    {FIELD(CLAST_FIELD_F64, floor), 0, -1e9, 1e9, "m", "height of the bottom, with --bed", NULL},
+    {FIELD(CLAST_FIELD_CHOICE, method), CLAST_POROSITY_EXACT, 0, 1, "-",
+     "true shapes, or each grain as the sphere of its volume (published)", "exact|spheres"},
+    {FIELD(CLAST_FIELD_F64, layer), 0, 0, 1e9, "m",
+     "height of a slice; 0: 1 mm as published, or a tenth of the mean diameter where the unit is "
+     "not the metre",
+     NULL},
+    {FIELD(CLAST_FIELD_F64, cut), 0.5, 0, 1, "-",
+     "the bed ends where the porosity rises through this (n_cut)", NULL},
+    {FIELD(CLAST_FIELD_F64, trim), 0, 0, 1e9, "m",
+     "left out at both ends (h_pd; published for periodic beds: 31.5 mm)", NULL},
+    {FIELD(CLAST_FIELD_BOOL, at_slice), 0, 0, 1, "-",
+     "end the bed with a slice, as the reference program; else between slices", NULL},
+    {FIELD(CLAST_FIELD_F64, gap), 0, 0, 1e9, "m",
+     "grains this close touch, where the run does not know its contacts", NULL},
+    {0},
+};
+#undef FIELD
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t n = strlen(text);
+    const size_t m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/// Spheres of a table as an assembly of scaled unit spheres.
+static clast_status from_spheres(const char *path, clast_assembly *assembly)
+{
+    const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+    clast_spheres spheres = {0};
+    clast_shape ball = {0};
+    clast_status status = clast_spheres_read(path, NULL, &spheres);
+    if (status == CLAST_OK) {
+        status = clast_shape_sphere("sphere", 1.0, &ball);
+    }
+    if (status == CLAST_OK) {
+        status = clast_assembly_add_shape(assembly, &ball, NULL);
+        (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
+    }
+    for (int32_t i = 0; i < spheres.n && status == CLAST_OK; ++i) {
+        status = clast_assembly_add_grain(assembly, 0, spheres.centre[i], upright,
+                                          spheres.radius[i], 1.0);
+    }
+    clast_shape_free(&ball);
+    clast_spheres_free(&spheres);
+    return status;
+}
+
+/// The grains, and the run's own bed where it has one.
+static clast_status read_input(const char *input, clast_assembly *assembly, clast_bed *bed,
+                               bool *has_bed)
+{
+    char path[4096];
+    struct stat info;
+    clast_table table = {0};
+    const bool is_folder = stat(input, &info) == 0 && S_ISDIR(info.st_mode);
+    const int n = snprintf(path, sizeof path, is_folder ? "%s/state.h5" : "%s", input);
+    if (n < 0 || (size_t)n >= sizeof path) {
+        return cli_fail(CLAST_E_IO, "%s: the path is too long", input);
+    }
+    *has_bed = false;
+    if (!ends_with(path, ".h5")) {
+        return from_spheres(path, assembly);
+    }
+    const clast_status status = clast_state_read_assembly(path, assembly);
+    if (status == CLAST_OK && clast_state_read_table(path, "bed", &table) == CLAST_OK) {
+        *has_bed = clast_bed_from_table(&table, bed) == CLAST_OK;
+    }
+    clast_table_free(&table);
+    return status;
+}
+
+static double mean_diameter(const clast_assembly *a)
+{
+    return a->n_grain > 0 ? 2.0 * cbrt(0.75 / CLAST_PI * clast_assembly_volume(a) / a->n_grain)
+                          : 1.0;
+}
+
+/// Everything that is measured.
+typedef struct {
+    clast_table profile;
+    clast_table coordination; ///< without columns where contacts are not known
+    clast_porosity_bulk bulk;
+    double mean_coordination; ///< NAN where contacts are not known
+} findings;
+
+static void findings_free(findings *f)
+{
+    clast_table_free(&f->profile);
+    clast_table_free(&f->coordination);
+}
+
+static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
+                            const clast_porosity_options *options, double gap, findings *f)
+{
+    clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
+    f->mean_coordination = NAN;
+    if (status == CLAST_OK) {
+        status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
+    }
+    if (status == CLAST_OK && gap > 0.0) {
+        status = clast_assembly_find_contacts(assembly, gap);
+    }
+    if (status == CLAST_OK && assembly->contact != NULL) {
+        f->mean_coordination = 2.0 * assembly->n_contact / assembly->n_grain;
+        status = clast_assembly_coordination(assembly, &f->coordination);
+    }
+    return status;
+}
+
+static json_t *to_json(const clast_assembly *assembly, const porosity_config *config,
+                       const findings *f)
+{
+    json_t *object = json_object();
+    json_t *rows = json_array();
+    const double *low = clast_table_numbers(&f->profile, "z_low_m");
+    const double *high = clast_table_numbers(&f->profile, "z_high_m");
+    const double *porosity = clast_table_numbers(&f->profile, "porosity");
+    for (int64_t k = 0; k < f->profile.n_row; ++k) {
+        json_t *row = json_object();
+        cli_json_number(row, "z", 0.5 * (low[k] + high[k]));
+        cli_json_number(row, "porosity", porosity[k]);
+        (void)json_array_append_new(rows, row);
+    }
+    cli_json_text(object, "method", config->method == CLAST_POROSITY_EXACT ? "exact" : "spheres");
+    cli_json_count(object, "n_grain", assembly->n_grain);
+    cli_json_number(object, "bulk", f->bulk.porosity);
+    cli_json_number(object, "z_low", f->bulk.z_low);
+    cli_json_number(object, "z_high", f->bulk.z_high);
+    cli_json_number(object, "top", f->bulk.top);
+    cli_json_number(object, "solid", f->bulk.solid);
+    cli_json_number(object, "coordination", f->mean_coordination);
+    cli_json_text(object, "unit", assembly->unit);
+    (void)json_object_set_new(object, "profile", rows);
+    return object;
+}
+
+static clast_status path_in(char path[4096], const char *folder, const char *name)
+{
+    const int n = snprintf(path, 4096, "%s/%s", folder, name);
+    return n > 0 && n < 4096 ? CLAST_OK
+                             : cli_fail(CLAST_E_DISK, "%s: the path is too long", folder);
+}
+
+static clast_status write_folder(const char *folder, const clast_assembly *assembly,
+                                 const findings *f)
+{
+    char path[4096];
+    clast_status status = path_in(path, folder, "profile.csv");
+    if (mkdir(folder, 0777) != 0) {
+        struct stat info;
+        if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
+            return cli_fail(CLAST_E_DISK, "cannot make the folder %s", folder);
+        }
+    }
+    if (status == CLAST_OK) {
+        status = clast_table_write_csv(&f->profile, path);
+    }
+    if (status == CLAST_OK && f->coordination.n_column > 0) {
+        status = path_in(path, folder, "coordination.csv");
+        status = status == CLAST_OK ? clast_table_write_csv(&f->coordination, path) : status;
+    }
+    if (status == CLAST_OK) {
+        status = path_in(path, folder, "profile.svg");
+    }
+    if (status == CLAST_OK) {
+        status = clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path);
+    }
+    return status;
+}
+
+static clast_status print(const cli_common *common, const porosity_config *config,
+                          const clast_assembly *assembly, const findings *f)
+{
+    if (common->json) {
+        return cli_print_json(to_json(assembly, config, f));
+    }
+    (void)printf("%d grains, %s\n", assembly->n_grain,
+                 config->method == CLAST_POROSITY_EXACT ? "true shapes"
+                                                        : "spheres of equal volume");
+    (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,
+                 f->bulk.z_low, f->bulk.z_high, assembly->unit);
+    (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n", f->bulk.top,
+                 assembly->unit, config->cut);
+    if (isfinite(f->mean_coordination)) {
+        (void)printf("mean coordination   %.4f   from %d contacts\n", f->mean_coordination,
+                     assembly->n_contact);
+    }
+    if (common->output != NULL) {
+        (void)printf("%s: profile.csv, profile.svg\n", common->output);
+    }
+    return CLAST_OK;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    const porosity_config *config = context;
+    clast_assembly assembly = {0};
+    clast_bed bed = {0};
+    bool has_bed = false;
+    findings found = {0};
+    clast_status status = read_input(common->argument[0], &assembly, &bed, &has_bed);
+    if (status == CLAST_OK && config->bed[0] != '\0') {
+        status = clast_bed_parse(config->bed, &bed);
+        bed.floor = config->floor;
+    } else if (status == CLAST_OK && !has_bed) {
+        status = cli_fail(CLAST_E_USAGE,
+                          "%s does not say what holds the grains; give --bed, such "
+                          "as cylinder:52mm",
+                          common->argument[0]);
+    }
+    clast_porosity_options options = clast_porosity_options_default();
+    options.method = (clast_porosity_method)config->method;
+    options.cut = config->cut;
+    options.trim = config->trim;
+    options.at_slice = config->at_slice;
+    if (config->layer > 0.0) {
+        options.layer = config->layer;
+    } else if (strcmp(assembly.unit, "m") != 0) {
+        options.layer = 0.1 * mean_diameter(&assembly);
+    }
+    if (status == CLAST_OK) {
+        status = measure(&assembly, &bed, &options, config->gap, &found);
+    }
+    if (status == CLAST_OK && common->output != NULL) {
+        status = write_folder(common->output, &assembly, &found);
+    }
+    if (status == CLAST_OK) {
+        status = print(common, config, &assembly, &found);
+    }
+    findings_free(&found);
+    clast_assembly_free(&assembly);
+    return status;
+}
+
+const cli_command cli_porosity = {
+    .name = "porosity",
+    .arguments = "RUN",
+    .summary = "profile and bulk porosity of a bed, by true shapes or as published",
+    .details =
+        "RUN is a run's folder, its state.h5, or a CSV of spheres (x, y, z, radius).\n"
+        "n(z) = 1 - solid volume / (area times layer); solid volumes are exact: spheres and\n"
+        "ellipsoids in closed form, surfaces by integration over their cut triangles.\n"
+        "The bed ends where n(z), from above, falls through --cut; bulk is the porosity between\n"
+        "floor + trim and top - trim (Rettinger et al., section 4.4, eq. 16). As published:\n"
+        "  cylinder  --method spheres                 periodic  --method spheres --trim 31.5mm\n"
+        "-o FOLDER writes profile.csv, profile.svg and, where contacts are known, "
+        "coordination.csv.",
+    .fields = fields,
+    .config_size = sizeof(porosity_config),
+    .n_min = 1,
+    .n_max = 1,
+    .writes_folder = true,
+    .run = run,
+};

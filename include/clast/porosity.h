@@ -1,0 +1,98 @@
+#pragma once
+// Porosity of a bed: its profile with height, its bulk value, and where the bed lies.
+#include <clast/assembly.h>
+#include <clast/table.h>
+
+typedef enum {
+    CLAST_BED_CYLINDER, ///< vertical, about (centre[0], centre[1])
+    CLAST_BED_BOX,      ///< between vertical walls
+    CLAST_BED_PERIODIC  ///< box that repeats in x and y: grains count whole, wherever they poke out
+} clast_bed_kind;
+
+/// The container that a porosity refers to; z points up.
+typedef struct clast_bed {
+    clast_bed_kind kind;
+    double centre[2];       ///< cylinder [m]
+    double radius;          ///< cylinder [m]
+    double low[2], high[2]; ///< box and periodic [m]
+    double floor;           ///< height of the bottom [m]
+} clast_bed;
+
+/// Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1" or "periodic:X0,Y0,X1,Y1",
+/// each number with an optional unit; the floor is at 0.
+///
+/// @return CLAST_E_CONFIG with the text and what was expected
+CLAST_API clast_status clast_bed_parse(const char *text, clast_bed *bed);
+
+/// The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.
+CLAST_API int clast_bed_format(const clast_bed *bed, char *text, size_t size);
+
+/// The bed as a one-row table "bed" (text column bed, floor_m), which a run keeps in its state.
+CLAST_API clast_status clast_bed_table(const clast_bed *bed, clast_table *table);
+
+/// The bed of such a table; CLAST_E_FORMAT when it is none.
+CLAST_API clast_status clast_bed_from_table(const clast_table *table, clast_bed *bed);
+
+/// Horizontal area [m2].
+CLAST_API double clast_bed_area(const clast_bed *bed);
+
+typedef enum {
+    CLAST_POROSITY_EXACT,  ///< the true shapes
+    CLAST_POROSITY_SPHERES ///< each grain as the sphere of its volume at its centroid, as published
+} clast_porosity_method;
+
+typedef struct clast_porosity_options {
+    clast_porosity_method method;
+    double layer;  ///< height of a slice h_p [m]
+    double cut;    ///< n_cut: the bed ends where the porosity rises through it
+    double trim;   ///< h_pd: left out at both ends [m]
+    bool at_slice; ///< the bed ends with the slice (reference program); else between slice centres
+} clast_porosity_options;
+
+/// Exact shapes, 1 mm slices, cut at 0.5, nothing trimmed.      [Rettinger et al. sec. 4.4]
+CLAST_API clast_porosity_options clast_porosity_options_default(void);
+
+/// Solid volume of grain i of an assembly below the heights edge[0] < edge[1] < ...: adds the part
+/// between edge[k] and edge[k + 1] to solid[k].
+///
+/// Spheres and ellipsoids in closed form, surfaces by exact integration over their clipped
+/// triangles, clumps whose spheres overlap by exact sections (union of discs) under 12-point Gauss
+/// rules between the heights where a sphere begins or ends, and up to 64 spheres also where two
+/// begin or cease to cross (error below 1e-4 of the clump; unevenness of the section's root at such
+/// heights is what is left).
+///
+/// @param edge   [n + 1] rising; the first may be -INFINITY, the last INFINITY [m]
+/// @param solid  [n] m3
+/// @return CLAST_E_MEMORY for clumps only; all others allocate nothing
+CLAST_API clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
+                                         clast_porosity_method method, int32_t n,
+                                         const double *edge, double *solid);
+
+/// Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the
+/// last grain. What lies below the floor counts in the first slice.
+///
+///     n(z) = 1 - V_solid / (A h_p)                               [Rettinger et al. sec. 4.4]
+///
+/// @param table  must be empty; written only on success
+/// @return CLAST_E_USAGE without grains, for a layer or an area not above 0, CLAST_E_LIMIT beyond
+///         1e7 slices
+/// @note the same bytes for any thread count; overlaps of grains count twice
+CLAST_API clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
+                                              const clast_porosity_options *options,
+                                              clast_table *table);
+
+typedef struct clast_porosity_bulk {
+    double porosity;      ///< over [z_low, z_high]
+    double z_low, z_high; ///< m
+    double solid;         ///< m3 between them
+    double top;           ///< height where the porosity rises through the cut, before trimming [m]
+} clast_porosity_bulk;
+
+/// Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.
+///
+/// @param profile  of clast_porosity_profile with the same options
+/// @return CLAST_E_GEOMETRY when no slice is denser than the cut, or trimming leaves nothing
+CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                              const clast_porosity_options *options,
+                                              const clast_table *profile,
+                                              clast_porosity_bulk *bulk);

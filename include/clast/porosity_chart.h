@@ -1,0 +1,10 @@
+#pragma once
+#include <clast/porosity.h>
+
+/// Draws porosity over height with the evaluated interval and the bulk value, as Fig. 7 of the
+/// paper, into a .svg, .pdf or .png.
+///
+/// @param unit  of the heights, for the axis: "m" is drawn in mm
+CLAST_API clast_status clast_porosity_chart_write(const clast_table *profile,
+                                                  const clast_porosity_bulk *bulk, const char *unit,
+                                                  const char *path);

@@ -1,0 +1,178 @@
+// Porosity by height and in bulk.                               [Rettinger et al. sec. 4.4, eq. 16]
+#include <clast/porosity.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "math/vec3.h"
+
+enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
+
+clast_porosity_options clast_porosity_options_default(void)
+{
+    return (clast_porosity_options){
+        .method = CLAST_POROSITY_EXACT, .layer = 1e-3, .cut = 0.5, .trim = 0.0, .at_slice = false};
+}
+
+/// Slices of every block of grains, added in block order afterwards.
+typedef struct {
+    const clast_assembly *assembly;
+    clast_porosity_method method;
+    int32_t n_slice;
+    const double *edge;
+    int64_t first, n_block; ///< blocks of this round
+    double *solid;          ///< [n_block][n_slice]
+    clast_status *status;   ///< [n_block]
+} gathering;
+
+static void gather(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    gathering *g = context;
+    (void)worker;
+    for (int64_t b = begin; b < end; ++b) {
+        const int64_t from = (g->first + b) * BLOCK;
+        double *solid = g->solid + b * g->n_slice;
+        for (int64_t i = from; i < from + BLOCK && i < g->assembly->n_grain; ++i) {
+            if (g->status[b] == CLAST_OK) {
+                g->status[b] = clast_grain_slabs(g->assembly, (int32_t)i, g->method, g->n_slice,
+                                                 g->edge, solid);
+            }
+        }
+    }
+}
+
+/// Solid volume of all grains in slices. Blocks go in rounds, so that memory stays bounded.
+static clast_status slabs(const clast_assembly *assembly, clast_porosity_method method, int32_t n,
+                          const double *edge, double *solid)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_block = (assembly->n_grain + BLOCK - 1) / BLOCK;
+    const int64_t most = 64;
+    gathering g = {.assembly = assembly, .method = method, .n_slice = n, .edge = edge};
+    CLX_TRY(clx_alloc(&g.status, most, sizeof *g.status));
+    for (g.first = 0; g.first < n_block; g.first += most) {
+        g.n_block = n_block - g.first < most ? n_block - g.first : most;
+        CLX_TRY(clx_alloc(&g.solid, g.n_block * n, sizeof *g.solid));
+        clx_parallel_for(g.n_block, 1, gather, &g);
+        for (int64_t b = 0; b < g.n_block; ++b) {
+            CLX_TRY(g.status[b]);
+            for (int32_t k = 0; k < n; ++k) {
+                solid[k] += g.solid[b * n + k];
+            }
+        }
+        clx_free(g.solid);
+        g.solid = NULL;
+    }
+done:
+    clx_free(g.solid);
+    clx_free(g.status);
+    return status;
+}
+
+static clast_status fill_columns(const clast_assembly *assembly, const clast_bed *bed,
+                                 const clast_porosity_options *options, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = (int32_t)table->n_row;
+    const double volume = clast_bed_area(bed) * options->layer;
+    double *edge = NULL;
+    double *low = NULL;
+    double *high = NULL;
+    double *solid = NULL;
+    double *porosity = NULL;
+    CLX_TRY(clast_table_add_number(table, "z_low_m", "m", &low));
+    CLX_TRY(clast_table_add_number(table, "z_high_m", "m", &high));
+    CLX_TRY(clast_table_add_number(table, "solid_m3", "m^3", &solid));
+    CLX_TRY(clast_table_add_number(table, "porosity", "-", &porosity));
+    CLX_TRY(clx_alloc(&edge, n + 1LL, sizeof *edge));
+    for (int32_t k = 0; k <= n; ++k) {
+        edge[k] = bed->floor + k * options->layer;
+    }
+    for (int32_t k = 0; k < n; ++k) {
+        low[k] = edge[k];
+        high[k] = edge[k + 1];
+    }
+    edge[0] = -HUGE_VAL;
+    edge[n] = HUGE_VAL;
+    CLX_TRY(slabs(assembly, options->method, n, edge, solid));
+    for (int32_t k = 0; k < n; ++k) {
+        porosity[k] = 1.0 - solid[k] / volume;
+    }
+done:
+    clx_free(edge);
+    return status;
+}
+
+clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
+                                    const clast_porosity_options *options, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    double low[3];
+    double high[3];
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
+    CLX_CHECK(options->layer > 0.0 && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
+              "slices of %g m over %g m2 hold nothing", options->layer, clast_bed_area(bed));
+    clast_assembly_bounds(assembly, low, high);
+    for (int32_t i = 0; i < assembly->n_grain && options->method == CLAST_POROSITY_SPHERES; ++i) {
+        const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
+        high[2] = fmax(high[2], assembly->position[i][2] +
+                                    assembly->scale[i] * cbrt(0.75 / CLAST_PI * shape->volume));
+    }
+    const double n = fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
+    CLX_CHECK(n <= SLICE_LIMIT, CLAST_E_LIMIT,
+              "%g slices of %g m; at most %d (coordinates in another unit?)", n, options->layer,
+              SLICE_LIMIT);
+    CLX_TRY(clast_table_init(&made, "profile", (int64_t)n));
+    CLX_TRY(fill_columns(assembly, bed, options, &made));
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}
+
+/// Height where the porosity rises through the cut, searched from the top.
+static clast_status find_top(const clast_porosity_options *options, const clast_table *profile,
+                             double *top)
+{
+    clast_status status = CLAST_OK;
+    const double *low = clast_table_numbers(profile, "z_low_m");
+    const double *high = clast_table_numbers(profile, "z_high_m");
+    const double *n = clast_table_numbers(profile, "porosity");
+    int64_t k = profile->n_row - 1;
+    CLX_CHECK(low != NULL && high != NULL && n != NULL, CLAST_E_USAGE,
+              "the table is no porosity profile");
+    while (k >= 0 && n[k] > options->cut) {
+        --k;
+    }
+    CLX_CHECK(k >= 0, CLAST_E_GEOMETRY,
+              "no slice is denser than the cut: the least porosity is above %g; check the bed",
+              options->cut);
+    *top = high[k];
+    if (!options->at_slice && k + 1 < profile->n_row) {
+        const double t = (options->cut - n[k]) / (n[k + 1] - n[k]);
+        *top = 0.5 * (low[k] + high[k]) + t * (high[k] - low[k]);
+    }
+done:
+    return status;
+}
+
+clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                    const clast_porosity_options *options,
+                                    const clast_table *profile, clast_porosity_bulk *bulk)
+{
+    clast_status status = CLAST_OK;
+    clast_porosity_bulk made = {0};
+    CLX_TRY(find_top(options, profile, &made.top));
+    made.z_low = bed->floor + options->trim;
+    made.z_high = made.top - options->trim;
+    CLX_CHECK(made.z_high > made.z_low, CLAST_E_GEOMETRY,
+              "the bed is %g m high: trimming %g m at both ends leaves nothing",
+              made.top - bed->floor, options->trim);
+    const double edge[2] = {options->trim > 0.0 ? made.z_low : -HUGE_VAL, made.z_high};
+    CLX_TRY(slabs(assembly, options->method, 1, edge, &made.solid));
+    made.porosity = 1.0 - made.solid / (clast_bed_area(bed) * (made.z_high - made.z_low));
+    *bulk = made;
+done:
+    return status;
+}

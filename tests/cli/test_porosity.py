@@ -1,0 +1,75 @@
+"""CLI: clast porosity on lattices and on other people's packings."""
+import csv
+import struct
+import unittest
+
+from clitest import Case, clast, shared
+
+
+class Porosity(Case):
+    def spheres(self, rows, name="spheres.csv"):
+        path = self.folder / name
+        with open(path, "w", newline="", encoding="ascii") as file:
+            writer = csv.writer(file)
+            writer.writerow(["x", "y", "z", "radius"])
+            writer.writerows(rows)
+        return path
+
+    def lattice(self, n):
+        cells = range(n)
+        return self.spheres([(i + 0.5, j + 0.5, k + 0.5, 0.5) for i in cells for j in cells for k in cells])
+
+    def test_cubic_lattice(self):
+        path = self.lattice(5)
+        found = clast("porosity", path, "--bed", "periodic:0,0,5,5", "--layer", 0.1, "--json", "-o", self.folder / "out")
+        self.assertEqual(found.code, 0, found.err)
+        result = found.json
+        self.assertEqual(len(result["profile"]), 51)
+        self.assertAlmostEqual(result["profile"][0]["z"], 0.05, 12)
+        self.assertEqual(result["z_low"], 0)
+        # whole layers hold pi / 6
+        mean = sum(row["porosity"] for row in result["profile"][:50]) / 50
+        self.assertAlmostEqual(mean, 1 - 3.141592653589793 / 6, 12)
+        rows = list(csv.DictReader(open(self.folder / "out/profile.csv", encoding="ascii")))
+        self.assertEqual(float(rows[3]["porosity"]), result["profile"][3]["porosity"])
+        self.assertIn("<svg", (self.folder / "out/profile.svg").read_text())
+
+    def test_contacts_of_a_lattice(self):
+        result = clast("porosity", self.lattice(4), "--bed", "box:0,0,4,4", "--layer", 0.1, "--gap", 1e-6, "--json").json
+        self.assertAlmostEqual(result["coordination"], 2 * 3 * 4 * 4 * 3 / 64, 12)
+
+    def test_bad_input(self):
+        path = self.lattice(2)
+        self.assert_fails(2, "porosity", path, says=["--bed"])
+        self.assert_fails(2, "porosity", path, "--bed", "cylinder:0", says=["no area"])
+        self.assert_fails(2, "porosity", path, "--bed", "pot:3", says=["cylinder:RADIUS"])
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,50,50", "--layer", 0.1, says=["no slice is denser"])
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 0.1, "--trim", 1, says=["leaves nothing"])
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 1e-9, says=["slices"])
+        self.assert_fails(3, "porosity", self.folder / "absent.csv", "--bed", "box:0,0,2,2", says=["absent.csv"])
+        empty = self.folder / "empty.csv"
+        empty.write_text("x,y,z,radius\n")
+        self.assert_fails(3, "porosity", empty, "--bed", "box:0,0,2,2", says=["empty.csv"])
+
+    def test_random_close_packing_of_others(self):
+        """10,000 spheres of a periodic cube: published porosity 0.353520964812133, diameter rescaled to contact."""
+        path = shared("packings/rcp10000/packing.xyzd")
+        if path is None:
+            return
+        edge = 20.0823593086113
+        data = path.read_bytes()
+        rows = [struct.unpack_from("<4d", data, 32 * i)[:3] for i in range(len(data) // 32)]
+        # the cube repeats in z too: images above and below make the slab [0, edge] whole
+        images = [(x, y, z + shift, 0.5) for x, y, z in rows for shift in (-edge, 0, edge)
+                  if -0.5 < z + shift < edge + 0.5]
+        file = self.spheres(images)
+        layer = edge / 400
+        found = clast("porosity", file, "--bed", f"periodic:0,0,{edge},{edge}", "--floor", repr(-10 * layer),
+                      "--layer", repr(layer), "--cut", 0.9, "--json")
+        self.assertEqual(found.code, 0, found.err)
+        inside = [row["porosity"] for row in found.json["profile"][10:410]]
+        self.assertAlmostEqual(sum(inside) / 400, 0.353520998, 9)
+
+
+if __name__ == "__main__":
+    unittest.main()
