@@ -14,6 +14,7 @@
 #include <clast/collide.h>
 #include <clast/config.h>
 #include <clast/decompose.h>
+#include <clast/dem.h>
 #include <clast/domain.h>
 #include <clast/envelope.h>
 #include <clast/export.h>

@@ -1,0 +1,148 @@
+#pragma once
+// Grains that fall, collide, slide and come to rest: the discrete element method.
+//
+// Contact law, parameters and integration follow Rettinger, Ruede, Vollmer and Frings, "Effect of
+// Sediment Form and Form Distribution on Porosity" (equations by their printed numbers); see
+// docs/theory/dem.md.
+#include <clast/assembly.h>
+#include <clast/field.h>
+
+/// Normal and tangential force of a contact.
+typedef enum {
+    CLAST_DEM_LINEAR, ///< spring and dashpot from restitution and collision time, eq. 6, 7, 11-13
+    CLAST_DEM_HERTZ   ///< Hertz and Mindlin, restitution independent of speed
+} clast_dem_law;
+
+/// Attraction of grains that touch.
+typedef enum {
+    CLAST_DEM_DRY,
+    CLAST_DEM_AREA, ///< cohesion times Hertz's contact area, pi R* overlap
+    CLAST_DEM_DMT,  ///< constant pull 2 pi w R*
+    CLAST_DEM_JKR   ///< constant pull 3/2 pi w R*, JKR's pull-off force
+} clast_dem_cohesion;
+
+typedef enum {
+    CLAST_DEM_CYLINDER, ///< upright, inside diameter `width`, axis x = y = 0
+    CLAST_DEM_PERIODIC, ///< width x depth, periodic in x and y
+    CLAST_DEM_BOX,      ///< width x depth between four upright walls
+    CLAST_DEM_OPEN      ///< no side walls
+} clast_dem_domain;
+
+/// Physics of a run. Defaults are the paper's.
+typedef struct clast_dem_config {
+    int32_t law;             ///< clast_dem_law
+    double restitution;      ///< e_n
+    double collision_time;   ///< T_c of the linear law [s]
+    double poisson;          ///< nu
+    double young;            ///< E of Hertz's law [Pa]
+    double friction;         ///< mu between grains
+    double wall_friction;    ///< mu at walls; below 0: as between grains
+    double rolling_friction; ///< torque at most this times R* |F_n|
+    int32_t cohesion;        ///< clast_dem_cohesion
+    double cohesion_energy;  ///< energy density of AREA [J/m3]
+    double surface_energy;   ///< w of DMT and JKR [J/m2]
+    bool clip;               ///< a dashpot never pulls
+    bool normal_torque;      ///< normal forces turn grains; eq. 5 as printed leaves that out
+    bool gyroscopic;         ///< angular momentum is kept (eq. 3); the reference leaves it out
+    double time_step;        ///< [s]
+    double gravity;          ///< [m/s2], along -z
+    double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]
+    double fluid_viscosity;  ///< drag in fluid at rest; 0: none [Pa s]
+    int32_t domain;          ///< clast_dem_domain
+    double width, depth;     ///< along x and y; depth 0: as width [m]
+    double height;           ///< of the lid, and of generation [m]
+    bool floor, lid;         ///< planes z = 0 and z = height
+    double skin;             ///< half the skin of neighbour lists over a grain's radius
+} clast_dem_config;
+
+CLAST_API extern const clast_field clast_dem_fields[];
+
+/// A grain to add: shape scaled, turned, moved.
+typedef struct clast_dem_grain {
+    int32_t shape;
+    double scale;
+    double density;        ///< [kg/m3]
+    double position[3];    ///< of the centre of mass [m]
+    double orientation[4]; ///< unit quaternion w, x, y, z
+    double velocity[3];    ///< [m/s]
+    double spin[3];        ///< angular velocity, world axes [1/s]
+} clast_dem_grain;
+
+/// What acts on all grains for a while.
+typedef struct clast_dem_drive {
+    double shake_amplitude; ///< A_s of eq. 14 [m]; 0: no shaking
+    double shake_period;    ///< T_s [s]
+    double damping;         ///< c_d of eq. 15, factor a second on all velocities; 1: none
+} clast_dem_drive;
+
+/// Sums over all grains.
+typedef struct clast_dem_measures {
+    int64_t step;
+    double time; ///< [s]
+    int32_t n_grain;
+    double mass;             ///< [kg]
+    double mean_height;      ///< mass-mean of z [m]
+    double top;              ///< highest centre [m]
+    double max_speed;        ///< [m/s]
+    double kinetic_energy;   ///< translation and rotation [J]
+    double potential_energy; ///< weight less buoyancy, from z = 0 [J]
+    double elastic_energy;   ///< in contacts, normal and tangential [J]
+    double momentum[3];      ///< [kg m/s]
+    int64_t n_listed;        ///< pairs in the neighbour lists
+    int64_t n_contact;       ///< touching pairs of grains
+    int64_t n_wall_contact;  ///< grains touching walls
+    double max_overlap;      ///< deepest contact [m]
+    double coordination;     ///< mean touching grains a grain, walls left out
+    int64_t n_refresh;       ///< times that neighbour lists were brought up to date
+} clast_dem_measures;
+
+/// A running simulation. Opaque; one thread at a time (it uses threads itself).
+typedef struct clast_dem clast_dem;
+
+/// @return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the
+/// domain make no sense
+CLAST_API clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem);
+CLAST_API void clast_dem_destroy(clast_dem *dem); ///< NULL is allowed
+
+/// Adds a copy of a shape; its number goes to *id.
+///
+/// @return CLAST_E_GEOMETRY for a shape without volume, or a mesh that is open or not convex
+CLAST_API clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id);
+
+/// Adds grains; all or none.
+///
+/// @return CLAST_E_USAGE for an unknown shape or numbers that are not finite; CLAST_E_GEOMETRY for
+/// a grain that does not fit into the domain or half its period; CLAST_E_CONFIG when Hertz's
+/// contact of the smallest grain is too stiff for the time step
+CLAST_API clast_status clast_dem_add_grains(clast_dem *dem, int32_t n,
+                                            const clast_dem_grain *grain);
+
+/// Sets what acts from the next step on. `drive` is copied.
+CLAST_API void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive);
+
+/// Goes on by n_step time steps.
+///
+/// @return CLAST_E_CONVERGE when a run explodes (a grain moves more than a twentieth of its radius
+/// in a step): the message names step, grain and likely cause
+CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
+
+CLAST_API int32_t clast_dem_n_grain(const clast_dem *dem);
+CLAST_API int64_t clast_dem_n_step(const clast_dem *dem); ///< steps so far
+CLAST_API double clast_dem_time(const clast_dem *dem);    ///< [s]
+
+/// Grain i as it is now; position not wrapped into the period.
+CLAST_API void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain);
+
+CLAST_API void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures);
+
+/// Mass-mean of z and the highest centre [m]: what the process asks often.
+CLAST_API double clast_dem_mean_height(const clast_dem *dem, double *top);
+
+/// Largest speed of a grain's centre [m/s].
+CLAST_API double clast_dem_max_speed(const clast_dem *dem);
+
+/// All grains with their contacts, wrapped into the period. `out` must be empty.
+CLAST_API clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out);
+
+/// 64-bit digest of all positions, turns, velocities and contact memories, bit by bit.
+CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);

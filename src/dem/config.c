@@ -1,0 +1,47 @@
+// The physics' option table, and what no single range can see.
+#include "dem/dem.h"
+#include "dem/fields.h"
+
+#define NOTHING
+const clast_field clast_dem_fields[] = {CLX_DEM_FIELDS(clast_dem_config, NOTHING), {0}};
+
+/// Steps that a collision takes at least.
+static const double RESOLUTION = 10.0;
+
+clast_status clx_dem_check_step(const clx_law *law, double time_step, double mass, double radius)
+{
+    const double shortest = clx_law_time(law, mass, radius);
+    if (time_step * RESOLUTION <= shortest * (1.0 + 1e-12)) {
+        return CLAST_OK;
+    }
+    return law->kind == CLAST_DEM_LINEAR
+               ? clx_fail(
+                     CLAST_E_CONFIG,
+                     "time_step %g s is too long: a collision takes %g s (collision_time), and "
+                     "needs at least %g steps; take %g s or less",
+                     time_step, shortest, RESOLUTION, shortest / RESOLUTION)
+               : clx_fail(
+                     CLAST_E_CONFIG,
+                     "time_step %g s is too long: a grain of %g kg swings on a contact of this "
+                     "young in %g s, and needs at least %g steps; take %g s or less, or a "
+                     "smaller young",
+                     time_step, mass, shortest, RESOLUTION, shortest / RESOLUTION);
+}
+
+clast_status clx_dem_check(const clast_dem_config *config)
+{
+    clast_status status = CLAST_OK;
+    const clx_law law = clx_law_make(config);
+    CLX_CHECK(config->restitution > 0.0 && config->restitution <= 1.0, CLAST_E_CONFIG,
+              "restitution %g: it lies above 0, and at most at 1", config->restitution);
+    CLX_CHECK(config->time_step > 0.0 && isfinite(config->time_step), CLAST_E_CONFIG,
+              "time_step %g s", config->time_step);
+    if (config->law == CLAST_DEM_LINEAR) {
+        CLX_TRY(clx_dem_check_step(&law, config->time_step, 0.0, 0.0));
+    }
+    CLX_CHECK(config->domain == CLAST_DEM_OPEN || config->width > 0.0, CLAST_E_CONFIG, "width %g m",
+              config->width);
+    CLX_CHECK(config->height > 0.0, CLAST_E_CONFIG, "height %g m", config->height);
+done:
+    return status;
+}

@@ -1,0 +1,276 @@
+// A simulation: made, filled with grains, stepped.
+#include <clast/dem.h>
+
+#include "base/alloc.h"
+#include "dem/list.h"
+#include <clast/settling.h>
+#include <string.h>
+
+clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
+{
+    clast_status status = CLAST_OK;
+    clast_dem *made = NULL;
+    CLX_TRY(clx_dem_check(config));
+    CLX_TRY(clx_alloc(&made, 1, sizeof *made));
+    made->config = *config;
+    made->drive = (clast_dem_drive){.shake_period = 1.0, .damping = 1.0};
+    made->law = clx_law_make(config);
+    made->all_round = true;
+    clx_dem_build_walls(made);
+    *dem = made;
+done:
+    return status;
+}
+
+void clast_dem_destroy(clast_dem *dem)
+{
+    if (dem == NULL) {
+        return;
+    }
+    for (int32_t i = 0; i < dem->n_body; ++i) {
+        clast_shape_free(&dem->body[i].shape);
+    }
+    clx_list_free(&dem->list);
+    clx_free(dem->body);
+    clx_free(dem->grain);
+    clx_free(dem->motion);
+    clx_free(dem->turn);
+    clx_free(dem->load);
+    clx_free(dem->travel);
+    clx_free(dem->item);
+    clx_free(dem->item_begin);
+    clx_free(dem->own);
+    clx_free(dem->hit);
+    clx_free(dem->block_flag);
+    clx_free(dem);
+}
+
+/// Inverse of a symmetric positive definite matrix; false for another.
+static bool invert(double m[3][3], double inverse[3][3])
+{
+    double c[3][3];
+    for (int i = 0; i < 3; ++i) {
+        v3_cross(c[i], m[(i + 1) % 3], m[(i + 2) % 3]);
+    }
+    const double det = v3_dot(m[0], c[0]);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            inverse[i][j] = c[j][i] / det;
+        }
+    }
+    return det > 0.0 && isfinite(1.0 / det);
+}
+
+clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id)
+{
+    clast_status status = CLAST_OK;
+    clx_dem_body made = {.is_round = shape->kind == CLAST_SHAPE_SPHERE};
+    CLX_CHECK(shape->volume > 0.0 && shape->bounding_radius > 0.0, CLAST_E_GEOMETRY,
+              "shape %s has no volume", shape->name);
+    CLX_TRY(clast_shape_copy(shape, &made.shape));
+    CLX_CHECK(invert(made.shape.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
+              "shape %s has no moments of inertia", shape->name);
+    CLX_CHECK(made.is_round, CLAST_E_GEOMETRY, "shape %s: only spheres can be grains yet",
+              shape->name);
+    CLX_TRY(clx_realloc(&dem->body, dem->n_body + 1, sizeof *dem->body));
+    dem->all_round = dem->all_round && made.is_round;
+    *id = dem->n_body;
+    dem->body[dem->n_body++] = made;
+    made = (clx_dem_body){0};
+done:
+    clast_shape_free(&made.shape);
+    return status;
+}
+
+static bool all_finite(const double *x, int n)
+{
+    for (int k = 0; k < n; ++k) {
+        if (!isfinite(x[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Room that the side walls leave for a grain's centre.
+static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, double radius,
+                              int64_t number)
+{
+    clast_status status = CLAST_OK;
+    const clast_dem_config *c = &dem->config;
+    const double depth = c->depth > 0.0 ? c->depth : c->width;
+    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width : fmin(c->width, depth);
+    if (c->domain == CLAST_DEM_PERIODIC) {
+        CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
+                  "grain %lld reaches %g m across, more than half the period of %g m",
+                  (long long)number, 2.0 * radius, narrow);
+    } else if (c->domain != CLAST_DEM_OPEN) {
+        CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
+                  "grain %lld reaches %g m across, the domain only %g m", (long long)number,
+                  2.0 * radius, narrow);
+    }
+    for (int32_t w = 0; w < dem->n_wall; ++w) {
+        double normal[3];
+        CLX_CHECK(clx_wall_distance(&dem->wall[w], g->position, normal) > 0.0, CLAST_E_GEOMETRY,
+                  "grain %lld begins outside of the domain, at %g, %g, %g m", (long long)number,
+                  g->position[0], g->position[1], g->position[2]);
+    }
+done:
+    return status;
+}
+
+static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, int64_t number)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(g->shape >= 0 && g->shape < dem->n_body, CLAST_E_USAGE,
+              "grain %lld: there is no shape %d", (long long)number, g->shape);
+    CLX_CHECK(all_finite(g->position, 3) && all_finite(g->velocity, 3) && all_finite(g->spin, 3) &&
+                  all_finite(g->orientation, 4) && g->scale > 0.0 && isfinite(g->scale) &&
+                  g->density > 0.0 && isfinite(g->density),
+              CLAST_E_USAGE, "grain %lld: numbers that are not finite, or a size or density of 0",
+              (long long)number);
+    const double *q = g->orientation;
+    const double n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    CLX_CHECK(fabs(n - 1.0) < 2e-9, CLAST_E_USAGE, "grain %lld: its quaternion has length %.12g",
+              (long long)number, sqrt(n));
+    const clast_shape *shape = &dem->body[g->shape].shape;
+    const double radius = g->scale * shape->bounding_radius;
+    CLX_TRY(check_fit(dem, g, radius, number));
+    const double volume = g->scale * g->scale * g->scale * shape->volume;
+    CLX_TRY(clx_dem_check_step(&dem->law, dem->config.time_step, g->density * volume,
+                               cbrt(3.0 * volume / (4.0 * CLAST_PI))));
+done:
+    return status;
+}
+
+static clast_status reserve(clast_dem *dem, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    if (n <= dem->grain_capacity) {
+        return CLAST_OK;
+    }
+    const int64_t room = n + n / 2 + 16;
+    const int64_t blocks = (room + CLX_MOVE_BLOCK - 1) / CLX_MOVE_BLOCK;
+    CLX_TRY(clx_realloc(&dem->grain, room, sizeof *dem->grain));
+    CLX_TRY(clx_realloc(&dem->motion, room, sizeof *dem->motion));
+    CLX_TRY(clx_realloc(&dem->turn, room, sizeof *dem->turn));
+    CLX_TRY(clx_realloc(&dem->load, room, sizeof *dem->load));
+    CLX_TRY(clx_realloc(&dem->travel, room, sizeof *dem->travel));
+    CLX_TRY(clx_realloc(&dem->block_flag, 2 * blocks, sizeof *dem->block_flag));
+    dem->grain_capacity = room;
+done:
+    return status;
+}
+
+/// Corrections of the drag law; 1 and 1 for spheres, and where there is no fluid.
+static void set_drag(const clast_dem *dem, const clast_shape *shape, clx_motion *m)
+{
+    clast_drag drag = {1.0, 1.0};
+    const double *s = shape->semi_axes;
+    if (shape->kind != CLAST_SHAPE_SPHERE && dem->config.fluid_density > 0.0) {
+        (void)clast_drag_of_form(s[0], s[1], s[2], cbrt(0.75 * shape->volume / CLAST_PI),
+                                 m->density / dem->config.fluid_density, &drag);
+    }
+    m->drag[0] = drag.stokes;
+    m->drag[1] = drag.newton;
+}
+
+void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
+{
+    clx_dem_body *body = &dem->body[from->shape];
+    const double s = from->scale;
+    const double volume = s * s * s * body->shape.volume;
+    clx_grain *g = &dem->grain[i];
+    clx_motion *m = &dem->motion[i];
+    double in_body[3];
+    double momentum[3];
+    *g = (clx_grain){.mass = from->density * volume,
+                     .radius = s * body->shape.bounding_radius,
+                     .round_radius = cbrt(3.0 * volume / (4.0 * CLAST_PI)),
+                     .scale = s,
+                     .shape = from->shape,
+                     .kind = (int32_t)body->shape.kind};
+    v3_copy(g->position, from->position);
+    v3_copy(g->velocity, from->velocity);
+    v3_copy(g->spin, from->spin);
+    *m = (clx_motion){.inertia_factor = from->density * s * s * s * s * s,
+                      .volume = volume,
+                      .density = from->density};
+    memcpy(m->orientation, from->orientation, sizeof m->orientation);
+    q_matrix(dem->turn[i], m->orientation);
+    m3_mul_t(in_body, dem->turn[i], from->spin);
+    m3_mul(momentum, body->shape.inertia, in_body);
+    v3_scale(momentum, m->inertia_factor, momentum);
+    m3_mul(m->angular, dem->turn[i], momentum);
+    set_drag(dem, &body->shape, m);
+    dem->load[i] = (clx_load){0};
+    dem->travel[i] = 0.0;
+}
+
+clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(n >= 0 && n <= INT32_MAX - dem->n_grain, CLAST_E_LIMIT, "%d more grains", n);
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_TRY(check_grain(dem, &grain[i], (int64_t)dem->n_grain + i));
+    }
+    CLX_TRY(reserve(dem, (int64_t)dem->n_grain + n));
+    CLX_TRY(clx_list_reserve(&dem->list, (int64_t)dem->n_item + n));
+    for (int32_t i = 0; i < n; ++i) {
+        clx_dem_set_grain(dem, dem->n_grain + i, &grain[i]);
+    }
+    dem->n_grain += n;
+    dem->n_item = dem->n_grain;
+    dem->list.is_due = true;
+done:
+    return status;
+}
+
+void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
+{
+    dem->drive = *drive;
+}
+
+clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t k = 0; k < n_step; ++k) {
+        if (dem->list.is_due) {
+            CLX_TRY(clx_list_refresh(dem));
+        }
+        clx_contacts(dem);
+        const bool is_fine = clx_move(dem);
+        ++dem->step;
+        if (!is_fine) {
+            return clx_explain_explosion(dem);
+        }
+    }
+done:
+    return status;
+}
+
+int32_t clast_dem_n_grain(const clast_dem *dem)
+{
+    return dem->n_grain;
+}
+
+int64_t clast_dem_n_step(const clast_dem *dem)
+{
+    return dem->step;
+}
+
+double clast_dem_time(const clast_dem *dem)
+{
+    return (double)dem->step * dem->config.time_step;
+}
+
+void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain)
+{
+    const clx_grain *g = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};
+    v3_copy(grain->position, g->position);
+    v3_copy(grain->velocity, g->velocity);
+    v3_copy(grain->spin, g->spin);
+    memcpy(grain->orientation, m->orientation, sizeof m->orientation);
+}

@@ -1,0 +1,224 @@
+#pragma once
+// What a simulation holds, in records that a contact reads in as few cache lines as it can.
+//
+// A grain is one body. What collides are items: the grain itself, or each sphere of a clump. Items
+// of a grain stand together and in its order; without clumps item i is grain i and `item` is NULL.
+//
+// A pair of items lies in the list of its lower item `a` (half list), sorted by `b`; walls are
+// items -1, -2, ... The record stays as long as the pair stays near, and with it the contact's
+// memory.
+#include "base/status.h"
+#include "dem/law.h"
+#include "math/vec3.h"
+#include <clast/dem.h>
+
+/// What contacts read of a grain: two cache lines.
+typedef struct clx_grain {
+    double position[3];
+    double velocity[3];
+    double spin[3]; ///< angular velocity, world axes
+    double mass;
+    double radius;       ///< of the bounding sphere
+    double round_radius; ///< of the sphere of equal volume: R of Hertz's law
+    double scale;
+    int32_t shape;
+    int32_t kind; ///< clast_shape_kind
+    double spare[2];
+} clx_grain;
+
+/// What only the integration reads.
+typedef struct clx_motion {
+    double orientation[4];
+    double angular[3];     ///< angular momentum, world axes
+    double inertia_factor; ///< moments of this grain over those of its shape at unit density
+    double volume;
+    double density;
+    double drag[2]; ///< Stokes' and Newton's corrections of Ganser's law
+} clx_motion;
+
+/// Where an item was when its neighbours were last looked for.
+typedef struct clx_anchor {
+    double position[3];
+    double orientation[4];
+    double margin; ///< half its skin: how far it may move before it looks again
+} clx_anchor;
+
+/// A sphere of a clump, or a whole grain.
+typedef struct clx_item {
+    double position[3];
+    double radius;
+    double local[3]; ///< centre in the grain's frame, scaled
+    int32_t grain;
+    int32_t part; ///< sphere of the clump; -1: the grain's own shape
+} clx_item;
+
+enum { CLX_LINK_TOUCHES = 1 };
+
+/// Two items near each other: 48 bytes.
+typedef struct clx_link {
+    int32_t a, b;      ///< b > a, or -1 - wall
+    int16_t period[2]; ///< b's image: position + period * width
+    int32_t flags;
+    double wake;     ///< no touch before travel a + travel b gets here
+    double slide[3]; ///< tangential displacement of b over a
+} clx_link;
+
+typedef struct clx_load {
+    double force[3];
+    double torque[3];
+} clx_load;
+
+typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
+
+typedef struct clx_wall {
+    clx_wall_kind kind;
+    double normal[3]; ///< into the domain
+    double offset;    ///< plane: n.x of its points
+    double radius;    ///< cylinder about the z axis
+} clx_wall;
+
+enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256 };
+
+/// A shape and what mechanics needs of it.
+typedef struct clx_dem_body {
+    clast_shape shape;
+    double inverse_inertia[3][3]; ///< of the inertia at unit density and scale 1
+    bool is_round;                ///< sphere: its turn does not matter
+} clx_dem_body;
+
+enum { CLX_MAX_LEVEL = 24 };
+
+typedef struct clx_cell {
+    int32_t at[3];
+    int32_t level;
+    uint32_t bucket;
+} clx_cell;
+
+/// Cells over the anchors, one set a size level, in one hash table.
+typedef struct clx_dem_grid {
+    int32_t n_level;
+    double reach[CLX_MAX_LEVEL];      ///< largest radius and margin of a level's items; 0: empty
+    double inverse[CLX_MAX_LEVEL][3]; ///< cells a metre
+    int32_t n_cell[CLX_MAX_LEVEL][3]; ///< around a period, else 0
+    int32_t capacity;
+    uint32_t n_bucket; ///< a power of two
+    clx_cell *cell;    ///< [n_item]
+    int32_t *bucket;   ///< [n_bucket + 2] first entry of each
+    int32_t *entry;    ///< [n_item] items
+} clx_dem_grid;
+
+/// A pair that a refresh found.
+typedef struct clx_found {
+    int32_t a, b;
+    int16_t period[2];
+} clx_found;
+
+/// Neighbour lists and what their upkeep needs.
+typedef struct clx_list {
+    clx_link *link;  ///< [n_link] sorted by a, b
+    clx_link *other; ///< the buffer that the next refresh fills
+    int64_t n_link, capacity, other_capacity;
+    int64_t *begin;     ///< [n_item + 1] first pair of each item
+    clx_anchor *anchor; ///< [n_item]
+    uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
+    int64_t item_capacity;
+    int64_t *in_begin; ///< [n_grain + 1] links whose b is an item of this grain
+    int64_t *in_link;  ///< [n_link] their numbers, rising; only with several threads
+    int64_t in_capacity;
+    int64_t in_grain_capacity;
+    clx_dem_grid grid;
+    clx_found *found, *sorted; ///< [n_found] as found; by a and b
+    int64_t n_found, found_capacity, sorted_capacity;
+    int64_t *found_begin; ///< [n_item + 1]
+    int32_t n_known;      ///< items that have anchors
+    int64_t n_refresh;
+    bool is_due; ///< some item has used up its margin
+} clx_list;
+
+struct clast_dem {
+    clast_dem_config config;
+    clast_dem_drive drive;
+    clx_law law;
+    int64_t step;
+    int32_t n_wall;
+    clx_wall wall[CLX_MAX_WALL];
+    double period[2]; ///< widths of a periodic domain, else 0
+    int32_t n_body;
+    clx_dem_body *body; ///< [n_body]
+    bool all_round;     ///< every shape is a sphere
+    int32_t n_grain;
+    int64_t grain_capacity;
+    clx_grain *grain;     ///< [n_grain]
+    clx_motion *motion;   ///< [n_grain]
+    double (*turn)[3][3]; ///< [n_grain] rotation matrices
+    clx_load *load;       ///< [n_grain] from contacts
+    double *travel;       ///< [n_grain] path of the surface's fastest point, at most
+    int32_t n_item;
+    int64_t item_room;
+    clx_item *item;      ///< [n_item] or NULL without clumps
+    int32_t *item_begin; ///< [n_grain + 1] or NULL without clumps
+    clx_load *own;       ///< [n_item] from the pairs of its own list; several threads only
+    int64_t own_capacity;
+    clx_load *hit; ///< [n_link] load on b; several threads only
+    int64_t hit_capacity;
+    uint8_t *block_flag; ///< [2 blocks of CLX_MOVE_BLOCK grains] lost, due
+    clx_list list;
+};
+
+static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)
+{
+    return dem->item != NULL ? dem->item[i].grain : i;
+}
+
+static inline const double *clx_item_position(const clast_dem *dem, int32_t i)
+{
+    return dem->item != NULL ? dem->item[i].position : dem->grain[i].position;
+}
+
+static inline double clx_item_radius(const clast_dem *dem, int32_t i)
+{
+    return dem->item != NULL ? dem->item[i].radius : dem->grain[i].radius;
+}
+
+/// Whether an item's contacts depend on its turn.
+static inline bool clx_item_is_round(const clast_dem *dem, int32_t i)
+{
+    return dem->item != NULL && dem->item[i].part >= 0
+               ? true
+               : dem->grain[clx_item_grain(dem, i)].kind == CLAST_SHAPE_SPHERE;
+}
+
+/// Checks sizes and time step of a configuration.
+clast_status clx_dem_check(const clast_dem_config *config);
+
+/// Refuses a time step that does not resolve the contact of a grain like this.
+clast_status clx_dem_check_step(const clx_law *law, double time_step, double mass, double radius);
+
+/// Grain i anew, as given; its slot exists.
+void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
+
+/// Walls and periods of the domain.
+void clx_dem_build_walls(clast_dem *dem);
+
+/// Signed distance of a point from a wall, > 0 inside; the wall's normal there, into the domain.
+double clx_wall_distance(const clx_wall *wall, const double x[3], double normal[3]);
+
+/// Brings the lists up to date for the items that have used half of their margin.
+clast_status clx_list_refresh(clast_dem *dem);
+void clx_list_free(clx_list *list);
+
+/// Room for n items; new ones are stale.
+clast_status clx_list_reserve(clx_list *list, int64_t n_item);
+
+/// Forces of all contacts: loads on all grains, memories gone on by a step.
+void clx_contacts(clast_dem *dem);
+
+/// Velocities, positions and turns one step on; true when all grains moved less than a
+/// twentieth of their radius.
+bool clx_move(clast_dem *dem);
+
+/// Whether an item has used up this share of its margin.
+bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);
+
+/// Says what exploded. Returns CLAST_E_CONVERGE.
+clast_status clx_explain_explosion(const clast_dem *dem);

@@ -1,0 +1,46 @@
+// Constants of the contact laws, and the times and energies that follow from them.
+#include "dem/law.h"
+
+clx_law clx_law_make(const clast_dem_config *c)
+{
+    const double ln = log(c->restitution);
+    const double root = sqrt(ln * ln + CLAST_PI * CLAST_PI);
+    clx_law law = {.kind = c->law,
+                   .cohesion = c->cohesion,
+                   .clip = c->clip,
+                   .stiffness =
+                       (CLAST_PI * CLAST_PI + ln * ln) / (c->collision_time * c->collision_time),
+                   .damping = -2.0 * ln / c->collision_time,
+                   .kappa = 2.0 * (1.0 - c->poisson) / (2.0 - c->poisson),
+                   .young = c->young / (2.0 * (1.0 - c->poisson * c->poisson)),
+                   .shear = c->young / (4.0 * (2.0 - c->poisson) * (1.0 + c->poisson)),
+                   .alpha = -sqrt(5.0) * ln / root,
+                   .rolling = c->rolling_friction,
+                   .cohesion_energy = c->cohesion_energy};
+    law.root_kappa = sqrt(law.kappa);
+    law.friction[0] = c->friction;
+    law.friction[1] = c->wall_friction >= 0.0 ? c->wall_friction : c->friction;
+    law.pull = (c->cohesion == CLAST_DEM_DMT ? 2.0 : 1.5) * CLAST_PI * c->surface_energy;
+    return law;
+}
+
+/// Half swing of a mass on Hertz's spring, linearised at an overlap of 1 % of R*.
+static double hertz_time(const clx_law *law, double mass, double radius)
+{
+    const double slope = 2.0 * law->young * sqrt(radius * 0.01 * radius);
+    return CLAST_PI * sqrt(mass / slope);
+}
+
+double clx_law_time(const clx_law *law, double mass, double radius)
+{
+    const double linear = CLAST_PI / sqrt(law->stiffness - 0.25 * law->damping * law->damping);
+    return law->kind == CLAST_DEM_LINEAR ? linear : hertz_time(law, mass, radius);
+}
+
+double clx_law_energy(const clx_law *law, double overlap, double slide, double mass, double radius)
+{
+    const clx_meeting c = {.overlap = overlap, .mass = mass, .radius = radius};
+    const clx_springs s = clx_law_springs(law, &c);
+    const double share = law->kind == CLAST_DEM_LINEAR ? 0.5 : 0.4; // integrals of d, d^(3/2)
+    return share * s.elastic * overlap + 0.5 * s.tangential * slide * slide;
+}

@@ -1,0 +1,332 @@
+// Neighbour lists, brought up to date item by item.
+//
+// Each item has a margin, half its skin. While two items stay within their margins of the anchors
+// where they last looked around, no pair that is not listed can touch. When some item has used up
+// its margin, all that have used half of it look again, and only they: a grain that falls pays for
+// itself, the bed below does not. Then old and new pairs are merged in order, which costs a pass
+// over memory.
+#include "dem/list.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void clx_list_free(clx_list *list)
+{
+    clx_free(list->link);
+    clx_free(list->other);
+    clx_free(list->begin);
+    clx_free(list->anchor);
+    clx_free(list->is_stale);
+    clx_free(list->in_begin);
+    clx_free(list->in_link);
+    clx_dem_grid_free(&list->grid);
+    clx_free(list->found);
+    clx_free(list->sorted);
+    clx_free(list->found_begin);
+    *list = (clx_list){0};
+}
+
+clast_status clx_list_reserve(clx_list *list, int64_t n_item)
+{
+    clast_status status = CLAST_OK;
+    if (n_item <= list->item_capacity) {
+        return CLAST_OK;
+    }
+    const int64_t room = n_item + n_item / 2 + 16;
+    CLX_TRY(clx_realloc(&list->begin, room + 1, sizeof *list->begin));
+    CLX_TRY(clx_realloc(&list->anchor, room, sizeof *list->anchor));
+    CLX_TRY(clx_realloc(&list->is_stale, room, sizeof *list->is_stale));
+    CLX_TRY(clx_realloc(&list->found_begin, room + 1, sizeof *list->found_begin));
+    list->item_capacity = room;
+done:
+    return status;
+}
+
+/// Steps of free flight that a fast grain's margin covers beyond its share of the radius.
+static const double LOOK_AHEAD = 50.0;
+
+static void drop_anchor(clast_dem *dem, int32_t i)
+{
+    clx_anchor *at = &dem->list.anchor[i];
+    const int32_t g = clx_item_grain(dem, i);
+    const double radius = clx_item_radius(dem, i);
+    const double flight = LOOK_AHEAD * dem->config.time_step * v3_norm(dem->grain[g].velocity);
+    v3_copy(at->position, clx_item_position(dem, i));
+    memcpy(at->orientation, dem->motion[g].orientation, sizeof at->orientation);
+    at->margin = dem->config.skin * radius + fmin(flight, radius);
+    for (int c = 0; c < 2; ++c) { // a pair may only meet in one image: see check_fit
+        if (dem->period[c] > 0.0) {
+            at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
+        }
+    }
+}
+
+/// All items that have used half of their margin.
+static void mark_stale(clast_dem *dem)
+{
+    clx_list *l = &dem->list;
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        l->is_stale[i] = i >= l->n_known || clx_item_has_left(dem, i, 0.5) ? 1 : 0;
+        if (l->is_stale[i] != 0) {
+            drop_anchor(dem, i);
+        }
+    }
+    l->n_known = dem->n_item;
+}
+
+static clast_status add_found(clx_list *l, clx_found found)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found));
+    l->found[l->n_found++] = found;
+done:
+    return status;
+}
+
+static clast_status find_walls(clast_dem *dem, int32_t i)
+{
+    clast_status status = CLAST_OK;
+    const clx_anchor *at = &dem->list.anchor[i];
+    for (int32_t w = dem->n_wall - 1; w >= 0; --w) {
+        double normal[3];
+        const double d = clx_wall_distance(&dem->wall[w], at->position, normal);
+        if (d < clx_item_radius(dem, i) + at->margin) {
+            CLX_TRY(add_found(&dem->list, (clx_found){.a = i, .b = -1 - w}));
+        }
+    }
+done:
+    return status;
+}
+
+/// One candidate of a stale item's query.
+static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
+{
+    clx_list *l = &dem->list;
+    const clx_anchor *a = &l->anchor[i];
+    const clx_anchor *b = &l->anchor[k];
+    if (k == i || (l->is_stale[k] != 0 && k < i) ||
+        (dem->item != NULL && dem->item[i].grain == dem->item[k].grain)) {
+        return CLAST_OK;
+    }
+    double r[3];
+    int16_t period[2] = {0, 0};
+    v3_sub(r, b->position, a->position);
+    for (int c = 0; c < 2; ++c) {
+        if (dem->period[c] > 0.0) {
+            const double n = floor(0.5 - r[c] / dem->period[c]);
+            period[c] = (int16_t)n;
+            r[c] += n * dem->period[c];
+        }
+    }
+    const double reach = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
+    if (v3_norm2(r) >= reach * reach) {
+        return CLAST_OK;
+    }
+    const clx_found found =
+        i < k ? (clx_found){.a = i, .b = k, .period = {period[0], period[1]}}
+              : (clx_found){.a = k, .b = i, .period = {(int16_t)-period[0], (int16_t)-period[1]}};
+    return add_found(l, found);
+}
+
+/// All entries of the cell that the walk is in.
+static clast_status find_in_cell(clast_dem *dem, int32_t i, const clx_dem_grid_walk *walk)
+{
+    clast_status status = CLAST_OK;
+    const clx_dem_grid *grid = &dem->list.grid;
+    for (int32_t k = walk->begin; k < walk->end; ++k) {
+        const int32_t other = grid->entry[k];
+        if (clx_dem_grid_is_here(grid, walk, other)) {
+            CLX_TRY(consider(dem, i, other));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status find_items(clast_dem *dem, int32_t i)
+{
+    clast_status status = CLAST_OK;
+    const clx_list *l = &dem->list;
+    clx_dem_grid_walk walk;
+    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    for (int32_t level = 0; level < l->grid.n_level; ++level) {
+        bool is_in = clx_dem_grid_begin(&l->grid, level, l->anchor[i].position, reach, &walk);
+        for (; is_in; is_in = clx_dem_grid_next(&l->grid, &walk)) {
+            CLX_TRY(find_in_cell(dem, i, &walk));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status find(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    dem->list.n_found = 0;
+    CLX_TRY(clx_dem_grid_build(dem, &dem->list.grid));
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        if (dem->list.is_stale[i] != 0) {
+            CLX_TRY(find_walls(dem, i));
+            CLX_TRY(find_items(dem, i));
+        }
+    }
+done:
+    return status;
+}
+
+/// Found pairs by a, then b: counting sort and short insertions.
+static clast_status sort_found(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    CLX_TRY(clx_grow(&l->sorted, &l->sorted_capacity, l->n_found, sizeof *l->sorted));
+    int64_t *begin = l->found_begin;
+    memset(begin, 0, ((size_t)dem->n_item + 1) * sizeof *begin);
+    for (int64_t k = 0; k < l->n_found; ++k) {
+        ++begin[l->found[k].a + 1];
+    }
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        begin[i + 1] += begin[i];
+    }
+    for (int64_t k = 0; k < l->n_found; ++k) {
+        l->sorted[begin[l->found[k].a]++] = l->found[k];
+    }
+    for (int32_t i = dem->n_item; i > 0; --i) {
+        begin[i] = begin[i - 1];
+    }
+    begin[0] = 0;
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        for (int64_t k = begin[i] + 1; k < begin[i + 1]; ++k) {
+            const clx_found f = l->sorted[k];
+            int64_t at = k;
+            for (; at > begin[i] && l->sorted[at - 1].b > f.b; --at) {
+                l->sorted[at] = l->sorted[at - 1];
+            }
+            l->sorted[at] = f;
+        }
+    }
+done:
+    return status;
+}
+
+/// Whether an old pair stays without being found again: both its ends stayed where they were.
+static bool stays(const clx_list *l, const clx_link *old)
+{
+    return l->is_stale[old->a] == 0 && (old->b < 0 || l->is_stale[old->b] == 0);
+}
+
+static clx_link fresh(const clx_found *f)
+{
+    return (clx_link){
+        .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .wake = -INFINITY};
+}
+
+static bool is_same(const clx_link *old, const clx_found *f)
+{
+    return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
+}
+
+/// Old and found pairs of one item, both sorted by b, into the other buffer at n.
+static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
+{
+    int64_t f = l->found_begin[i];
+    const int64_t f_end = l->found_begin[i + 1];
+    while (old < old_end || f < f_end) {
+        const bool take_old = f == f_end || (old < old_end && l->link[old].b < l->sorted[f].b);
+        if (take_old) {
+            if (stays(l, &l->link[old])) {
+                l->other[n++] = l->link[old];
+            }
+            ++old;
+            continue;
+        }
+        if (old < old_end && l->link[old].b == l->sorted[f].b) {
+            l->other[n++] =
+                is_same(&l->link[old], &l->sorted[f]) ? l->link[old] : fresh(&l->sorted[f]);
+            ++old;
+        } else {
+            l->other[n++] = fresh(&l->sorted[f]);
+        }
+        ++f;
+    }
+    return n;
+}
+
+static clast_status merge(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    int64_t n = 0;
+    CLX_TRY(clx_grow(&l->other, &l->other_capacity, l->n_link + l->n_found + 1, sizeof *l->other));
+    int64_t old = 0;
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        int64_t old_end = old;
+        while (old_end < l->n_link && l->link[old_end].a == i) {
+            ++old_end;
+        }
+        l->begin[i] = n;
+        n = merge_item(l, old, old_end, i, n);
+        old = old_end;
+    }
+    l->begin[dem->n_item] = n;
+    clx_link *const link = l->link;
+    const int64_t capacity = l->capacity;
+    l->link = l->other;
+    l->capacity = l->other_capacity;
+    l->other = link;
+    l->other_capacity = capacity;
+    l->n_link = n;
+done:
+    return status;
+}
+
+clast_status clx_list_refresh(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_list_reserve(&dem->list, dem->n_item));
+    mark_stale(dem);
+    CLX_TRY(find(dem));
+    CLX_TRY(sort_found(dem));
+    CLX_TRY(merge(dem));
+    CLX_TRY(clx_list_gather(dem));
+    dem->list.is_due = false;
+    ++dem->list.n_refresh;
+done:
+    return status;
+}
+
+/// For several threads: which links load each grain from outside its own list.
+clast_status clx_list_gather(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    if (clx_dem_is_serial()) {
+        clx_free(l->in_begin);
+        l->in_begin = NULL;
+        l->in_grain_capacity = 0;
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_grow(&l->in_begin, &l->in_grain_capacity, dem->n_grain + 2, sizeof *l->in_begin));
+    CLX_TRY(clx_grow(&l->in_link, &l->in_capacity, l->n_link, sizeof *l->in_link));
+    CLX_TRY(clx_grow(&dem->hit, &dem->hit_capacity, l->n_link, sizeof *dem->hit));
+    CLX_TRY(clx_grow(&dem->own, &dem->own_capacity, dem->n_item, sizeof *dem->own));
+    int64_t *begin = l->in_begin;
+    memset(begin, 0, ((size_t)dem->n_grain + 2) * sizeof *begin);
+    for (int64_t k = 0; k < l->n_link; ++k) {
+        if (l->link[k].b >= 0) {
+            ++begin[clx_item_grain(dem, l->link[k].b) + 2];
+        }
+    }
+    for (int32_t g = 1; g <= dem->n_grain; ++g) {
+        begin[g + 1] += begin[g];
+    }
+    for (int64_t k = 0; k < l->n_link; ++k) {
+        if (l->link[k].b >= 0) {
+            l->in_link[begin[clx_item_grain(dem, l->link[k].b) + 1]++] = k;
+        }
+    }
+done:
+    return status;
+}

@@ -1,0 +1,36 @@
+#pragma once
+// Parts of the neighbour lists' upkeep.
+#include "dem/dem.h"
+
+/// Builds the grid over all anchors.
+clast_status clx_dem_grid_build(const clast_dem *dem, clx_dem_grid *grid);
+void clx_dem_grid_free(clx_dem_grid *grid);
+
+/// A walk over the cells of one level that may hold items within reach of a point.
+typedef struct clx_dem_grid_walk {
+    int32_t level;
+    int32_t low[3], n[3]; ///< first cell and number of cells
+    int32_t at[3];        ///< offsets of the current cell
+    int32_t cell[3];      ///< the current cell, wrapped
+    int32_t begin, end;   ///< entries of its bucket
+} clx_dem_grid_walk;
+
+/// First cell; false when the level is empty. `reach` is the item's own radius and margin.
+bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double reach,
+                        clx_dem_grid_walk *walk);
+bool clx_dem_grid_next(const clx_dem_grid *grid, clx_dem_grid_walk *walk);
+
+/// Whether an item of the bucket lies in the current cell (others may share the bucket).
+static inline bool clx_dem_grid_is_here(const clx_dem_grid *grid, const clx_dem_grid_walk *w,
+                                        int32_t item)
+{
+    const clx_cell *c = &grid->cell[item];
+    return c->at[0] == w->cell[0] && c->at[1] == w->cell[1] && c->at[2] == w->cell[2] &&
+           c->level == w->level;
+}
+
+/// Lists of links by the grain that they load, for several threads.
+clast_status clx_list_gather(clast_dem *dem);
+
+/// Whether one thread does all the work, which then needs no gathering.
+bool clx_dem_is_serial(void);

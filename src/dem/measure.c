@@ -1,0 +1,239 @@
+// Sums over a simulation, its grains as an assembly, its digest, and what exploded.
+#include "base/alloc.h"
+#include "dem/dem.h"
+#include "dem/touch.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+double clast_dem_mean_height(const clast_dem *dem, double *top)
+{
+    double mass = 0.0;
+    double moment = 0.0;
+    double highest = -INFINITY;
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        const clx_grain *g = &dem->grain[i];
+        mass += g->mass;
+        moment += g->mass * g->position[2];
+        highest = fmax(highest, g->position[2]);
+    }
+    if (top != NULL) {
+        *top = highest;
+    }
+    return mass > 0.0 ? moment / mass : 0.0;
+}
+
+double clast_dem_max_speed(const clast_dem *dem)
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        most = fmax(most, v3_norm2(dem->grain[i].velocity));
+    }
+    return sqrt(most);
+}
+
+static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
+{
+    const clx_grain *g = &dem->grain[i];
+    const clx_motion *motion = &dem->motion[i];
+    double momentum[3];
+    v3_copy(momentum, motion->angular);
+    if (!dem->config.gyroscopic && g->kind != CLAST_SHAPE_SPHERE) {
+        double in_body[3];
+        double l[3];
+        m3_mul_t(in_body, dem->turn[i], g->spin);
+        m3_mul(l, dem->body[g->shape].shape.inertia, in_body);
+        v3_scale(l, motion->inertia_factor, l);
+        m3_mul(momentum, dem->turn[i], l);
+    }
+    m->mass += g->mass;
+    m->mean_height += g->mass * g->position[2];
+    m->top = fmax(m->top, g->position[2]);
+    m->max_speed = fmax(m->max_speed, v3_norm(g->velocity));
+    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->spin);
+    m->potential_energy += dem->config.gravity *
+                           (g->mass - dem->config.fluid_density * motion->volume) * g->position[2];
+    v3_axpy(m->momentum, m->momentum, g->mass, g->velocity);
+}
+
+/// A touching link's part; its overlap is worked out afresh.
+static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measures *m)
+{
+    clx_dem_touch t = {0};
+    const clx_grain *a = &dem->grain[clx_item_grain(dem, link->a)];
+    double mass = a->mass;
+    double radius = a->round_radius;
+    clx_dem_touch_find(dem, link, &t);
+    if (link->b >= 0) {
+        const clx_grain *b = &dem->grain[clx_item_grain(dem, link->b)];
+        mass = a->mass * b->mass / (a->mass + b->mass);
+        radius = a->round_radius * b->round_radius / (a->round_radius + b->round_radius);
+        ++m->n_contact;
+    } else {
+        ++m->n_wall_contact;
+    }
+    const double overlap = fmax(0.0, -t.distance);
+    m->max_overlap = fmax(m->max_overlap, overlap);
+    if (overlap > 0.0) {
+        m->elastic_energy += clx_law_energy(&dem->law, overlap, v3_norm(link->slide), mass, radius);
+    }
+}
+
+void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
+{
+    clast_dem_measures m = {.step = dem->step,
+                            .time = clast_dem_time(dem),
+                            .n_grain = dem->n_grain,
+                            .top = -INFINITY,
+                            .n_listed = dem->list.n_link,
+                            .n_refresh = dem->list.n_refresh};
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        add_grain(dem, i, &m);
+    }
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        if ((dem->list.link[k].flags & CLX_LINK_TOUCHES) != 0) {
+            add_link(dem, &dem->list.link[k], &m);
+        }
+    }
+    if (m.mass > 0.0) {
+        m.mean_height /= m.mass;
+        m.coordination = 2.0 * (double)m.n_contact / m.n_grain;
+    }
+    *measures = m;
+}
+
+/// Position moved into the period about the origin.
+static void wrap(const clast_dem *dem, double x[3])
+{
+    for (int c = 0; c < 2; ++c) {
+        if (dem->period[c] > 0.0) {
+            x[c] -= dem->period[c] * floor(x[c] / dem->period[c] + 0.5);
+        }
+    }
+}
+
+static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        const clx_link *link = &dem->list.link[k];
+        if (link->b < 0 || (link->flags & CLX_LINK_TOUCHES) == 0) {
+            continue;
+        }
+        clx_dem_touch t = {0};
+        double point[3];
+        clx_dem_touch_find(dem, link, &t);
+        if (t.distance < 0.0) {
+            const int32_t a = clx_item_grain(dem, link->a);
+            v3_add(point, dem->grain[a].position, t.arm_a);
+            wrap(dem, point);
+            CLX_TRY(clast_assembly_add_contact(out, a, clx_item_grain(dem, link->b), point));
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly made = {.unit = "m"};
+    for (int32_t i = 0; i < dem->n_body; ++i) {
+        CLX_TRY(clast_assembly_add_shape(&made, &dem->body[i].shape, NULL));
+    }
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        const clx_grain *g = &dem->grain[i];
+        const clx_motion *m = &dem->motion[i];
+        double x[3];
+        double q[4];
+        v3_copy(x, g->position);
+        wrap(dem, x);
+        memcpy(q, m->orientation, sizeof q);
+        q_unit(q);
+        CLX_TRY(clast_assembly_add_grain(&made, g->shape, x, q, g->scale, m->density));
+    }
+    CLX_TRY(add_contacts(dem, &made));
+    *out = made;
+    made = (clast_assembly){0};
+done:
+    clast_assembly_free(&made);
+    return status;
+}
+
+/// FNV-1a, eight bytes at a time.
+static uint64_t mix(uint64_t h, const double *x, int n)
+{
+    for (int k = 0; k < n; ++k) {
+        uint64_t bits = 0;
+        memcpy(&bits, &x[k], sizeof bits);
+        h = (h ^ bits) * UINT64_C(0x100000001B3);
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+uint64_t clast_dem_hash(const clast_dem *dem)
+{
+    uint64_t h = UINT64_C(0xCBF29CE484222325) ^ (uint64_t)dem->step;
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        h = mix(h, dem->grain[i].position, 3);
+        h = mix(h, dem->grain[i].velocity, 3);
+        h = mix(h, dem->grain[i].spin, 3);
+        h = mix(h, dem->motion[i].orientation, 4);
+    }
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        if ((dem->list.link[k].flags & CLX_LINK_TOUCHES) != 0) {
+            const double who[2] = {dem->list.link[k].a, dem->list.link[k].b};
+            h = mix(h, who, 2);
+            h = mix(h, dem->list.link[k].slide, 3);
+        }
+    }
+    return h;
+}
+
+/// The grain that moved most, and its deepest contact.
+clast_status clx_explain_explosion(const clast_dem *dem)
+{
+    int32_t worst = 0;
+    double share = 0.0;
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        const clx_grain *g = &dem->grain[i];
+        const double s = v3_norm(g->velocity) / g->radius;
+        if (!(s <= share)) {
+            worst = i;
+            share = isnan(s) ? HUGE_VAL : s;
+        }
+    }
+    double depth = 0.0;
+    int32_t other = -1;
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        const clx_link *link = &dem->list.link[k];
+        const int32_t a = clx_item_grain(dem, link->a);
+        const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : link->b;
+        clx_dem_touch t = {0};
+        if ((a == worst || b == worst) && (link->flags & CLX_LINK_TOUCHES) != 0) {
+            clx_dem_touch_find(dem, link, &t);
+            if (-t.distance > depth) {
+                depth = -t.distance;
+                other = a == worst ? b : a;
+            }
+        }
+    }
+    const clx_grain *g = &dem->grain[worst];
+    char where[96] = "nothing";
+    if (other < 0 && depth > 0.0) {
+        (void)snprintf(where, sizeof where, "a wall by %.2g of its radius", depth / g->radius);
+    } else if (depth > 0.0) {
+        (void)snprintf(where, sizeof where, "grain %d by %.2g of its radius", other,
+                       depth / g->radius);
+    }
+    const bool is_deep = depth > 0.2 * g->radius;
+    return clx_fail(
+        CLAST_E_CONVERGE,
+        "the run explodes in step %lld: grain %d moves at %.3g m/s, %.2g of its radius a "
+        "step; it overlaps %s; likely cause: %s",
+        (long long)dem->step, worst, v3_norm(g->velocity),
+        v3_norm(g->velocity) * dem->config.time_step / g->radius, where,
+        is_deep ? "grains that overlapped from the start, or too little room"
+                : "a time step too long for this speed or stiffness");
+}

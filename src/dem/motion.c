@@ -1,0 +1,234 @@
+// Semi-implicit Euler: velocities first, then positions and turns with the new velocities.
+//
+// Angular momentum is the state, so that it is kept exactly where nothing turns a grain; its turn
+// takes the spin of the middle of the step (one half turn ahead), which keeps the energy of a free
+// body too. With `gyroscopic` off the spin is the state, as in the reference program.
+#include "dem/dem.h"
+
+#include "base/parallel.h"
+#include <clast/settling.h>
+#include <math.h>
+
+enum { BLOCK = CLX_MOVE_BLOCK };
+
+/// Share of its radius that a grain may move in a step.
+static const double STRIDE = 0.05;
+
+typedef struct {
+    clast_dem *dem;
+    double shake;     ///< acceleration along x [m/s2]
+    double damping;   ///< factor of a step
+    uint8_t *is_lost; ///< [n_block]
+    uint8_t *is_due;  ///< [n_block]
+} moving;
+
+/// q = exp(w dt / 2) q, by the series to the sixth power of the angle (below rounding for 0.1 rad).
+static void turn_by(const double w[3], double dt, double q[4])
+{
+    double v[3];
+    double turned[4];
+    v3_scale(v, 0.5 * dt, w);
+    const double s = v3_norm2(v);
+    const double sine =
+        s < 0.01 ? 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0)) : sin(sqrt(s)) / sqrt(s);
+    const double cosine =
+        s < 0.01 ? 1.0 - 0.5 * s * (1.0 - s / 12.0 * (1.0 - s / 30.0)) : cos(sqrt(s));
+    const double step[4] = {cosine, sine * v[0], sine * v[1], sine * v[2]};
+    q_mul(turned, step, q);
+    const double n = 0.5 * (3.0 - (turned[0] * turned[0] + turned[1] * turned[1] +
+                                   turned[2] * turned[2] + turned[3] * turned[3]));
+    for (int k = 0; k < 4; ++k) {
+        q[k] = n * turned[k];
+    }
+}
+
+/// Spin of a body of this turn: w = R I^-1 R^T L.
+static void spin_of(clx_dem_body *body, const clx_motion *m, double turn[3][3], double spin[3])
+{
+    double in_body[3];
+    double w[3];
+    m3_mul_t(in_body, turn, m->angular);
+    m3_mul(w, body->inverse_inertia, in_body);
+    m3_mul(spin, turn, w);
+    v3_scale(spin, 1.0 / m->inertia_factor, spin);
+}
+
+static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], double factor,
+                       double dt)
+{
+    const double inertia = 0.4 * g->mass * g->radius * g->radius;
+    v3_axpy(g->spin, g->spin, dt / inertia, torque);
+    v3_scale(g->spin, factor, g->spin);
+    v3_scale(m->angular, inertia, g->spin);
+    turn_by(g->spin, dt, m->orientation);
+}
+
+/// Reference program: w += R I^-1 R^T T dt; momentum follows the spin.
+static void turn_plainly(clx_dem_body *body, clx_grain *g, clx_motion *m, const double torque[3],
+                         double turn[3][3])
+{
+    clx_motion torque_only = *m;
+    double change[3];
+    v3_copy(torque_only.angular, torque);
+    spin_of(body, &torque_only, turn, change);
+    v3_add(g->spin, g->spin, change);
+}
+
+static void turn_body(clast_dem *dem, int64_t i, double factor, double dt)
+{
+    clx_grain *g = &dem->grain[i];
+    clx_motion *m = &dem->motion[i];
+    clx_dem_body *body = &dem->body[g->shape];
+    double impulse[3];
+    v3_scale(impulse, dt, dem->load[i].torque);
+    if (!dem->config.gyroscopic) {
+        turn_plainly(body, g, m, impulse, dem->turn[i]);
+        v3_scale(g->spin, factor, g->spin);
+        turn_by(g->spin, dt, m->orientation);
+    } else {
+        double half[4];
+        double middle[3][3];
+        v3_add(m->angular, m->angular, impulse);
+        v3_scale(m->angular, factor, m->angular);
+        for (int k = 0; k < 4; ++k) {
+            half[k] = m->orientation[k];
+        }
+        turn_by(g->spin, 0.5 * dt, half);
+        q_matrix(middle, half);
+        spin_of(body, m, middle, g->spin);
+        turn_by(g->spin, dt, m->orientation);
+    }
+    q_matrix(dem->turn[i], m->orientation);
+    if (dem->config.gyroscopic) {
+        spin_of(body, m, dem->turn[i], g->spin);
+    }
+}
+
+/// Drag of a fluid at rest: implicit in the speed, so that it never turns a grain round.
+static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_motion *m, double dt)
+{
+    const double mu = dem->config.fluid_viscosity;
+    const double d = 2.0 * g->round_radius;
+    const double speed = v3_norm(g->velocity);
+    const double stokes = 3.0 * CLAST_PI * mu * d * m->drag[0];
+    const clast_drag form = {m->drag[0], m->drag[1]};
+    const double re = dem->config.fluid_density * speed * d / mu;
+    const double rate = re > 1e-6 ? 0.125 * CLAST_PI * dem->config.fluid_density * d * d * speed *
+                                        clast_drag_coefficient(re, &form)
+                                  : stokes;
+    return 1.0 / (1.0 + dt * rate / g->mass);
+}
+
+/// Moves one grain's centre; the speed that its surface had at most.
+static double shift(const moving *c, int64_t i)
+{
+    clast_dem *dem = c->dem;
+    clx_grain *g = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    const double dt = dem->config.time_step;
+    const double weight = dem->config.gravity * (g->mass - dem->config.fluid_density * m->volume);
+    const double *f = dem->load[i].force;
+    const double scale = dt / g->mass;
+    g->velocity[0] += scale * f[0] + dt * c->shake;
+    g->velocity[1] += scale * f[1];
+    g->velocity[2] += scale * (f[2] - weight);
+    double factor = c->damping;
+    if (dem->config.fluid_viscosity > 0.0) {
+        factor *= drag_factor(dem, g, m, dt);
+    }
+    v3_scale(g->velocity, factor, g->velocity);
+    v3_axpy(g->position, g->position, dt, g->velocity);
+    return v3_norm(g->velocity);
+}
+
+static void place_items(clast_dem *dem, int64_t g)
+{
+    for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {
+        clx_item *item = &dem->item[i];
+        double arm[3];
+        m3_mul(arm, dem->turn[g], item->local);
+        v3_add(item->position, dem->grain[g].position, arm);
+    }
+}
+
+/// How far an item's surface may be from where its neighbours were looked for.
+static inline bool is_beyond(const clast_dem *dem, int32_t i, double share)
+{
+    const clx_anchor *at = &dem->list.anchor[i];
+    const double moved2 = v3_distance2(clx_item_position(dem, i), at->position);
+    if (clx_item_is_round(dem, i)) {
+        return !(moved2 <= share * share * at->margin * at->margin);
+    }
+    const double *q = dem->motion[clx_item_grain(dem, i)].orientation;
+    double s = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        s += (q[k] - at->orientation[k]) * (q[k] - at->orientation[k]);
+    }
+    // the angle is 4 asin(|dq| / 2) <= 2.1 |dq| up to 60 degrees
+    return !(sqrt(moved2) + 2.1 * sqrt(s) * clx_item_radius(dem, i) <= share * at->margin);
+}
+
+bool clx_item_has_left(const clast_dem *dem, int32_t i, double share)
+{
+    return is_beyond(dem, i, share);
+}
+
+static void move_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const moving *c = context;
+    clast_dem *dem = c->dem;
+    const double dt = dem->config.time_step;
+    bool is_lost = false;
+    bool is_due = false;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        clx_grain *g = &dem->grain[i];
+        double speed = shift(c, i);
+        is_lost = is_lost || !(speed * dt <= STRIDE * g->radius);
+        if (g->kind == CLAST_SHAPE_SPHERE) {
+            turn_round(g, &dem->motion[i], dem->load[i].torque, c->damping, dt);
+        } else {
+            turn_body(dem, i, c->damping, dt);
+            speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);
+        }
+        dem->travel[i] += dt * speed;
+        if (dem->item != NULL) {
+            place_items(dem, i);
+        }
+        const int32_t last = dem->item != NULL ? dem->item_begin[i + 1] : (int32_t)i + 1;
+        for (int32_t k = dem->item != NULL ? dem->item_begin[i] : (int32_t)i; k < last; ++k) {
+            is_due = is_due || is_beyond(dem, k, 1.0);
+        }
+    }
+    const int64_t block = begin / BLOCK;
+    c->is_lost[block] = is_lost ? 1 : 0;
+    c->is_due[block] = is_due ? 1 : 0;
+}
+
+/// Acceleration of eq. 14 at this time.
+static double shaking(const clast_dem *dem)
+{
+    const clast_dem_drive *d = &dem->drive;
+    if (d->shake_amplitude == 0.0) {
+        return 0.0;
+    }
+    const double w = 2.0 * CLAST_PI / d->shake_period;
+    return d->shake_amplitude * w * w * sin(w * clast_dem_time(dem));
+}
+
+bool clx_move(clast_dem *dem)
+{
+    const int64_t n_block = (dem->n_grain + BLOCK - 1) / BLOCK;
+    moving c = {.dem = dem,
+                .shake = shaking(dem),
+                .damping = pow(dem->drive.damping, dem->config.time_step),
+                .is_lost = dem->block_flag,
+                .is_due = dem->block_flag + n_block};
+    clx_parallel_for(dem->n_grain, BLOCK, move_block, &c);
+    bool fine = true;
+    for (int64_t b = 0; b < n_block; ++b) {
+        fine = fine && c.is_lost[b] == 0;
+        dem->list.is_due = dem->list.is_due || c.is_due[b] != 0;
+    }
+    return fine;
+}

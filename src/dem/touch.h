@@ -1,0 +1,74 @@
+#pragma once
+// Where two items of a link meet: closed forms for spheres and walls, the convex contacts for the
+// rest.
+#include "dem/dem.h"
+
+/// A meeting seen from a: arms are from the grains' centres to the contact point.
+typedef struct clx_dem_touch {
+    double distance;  ///< signed; < 0: overlap. When > 0 it may be a lower bound
+    double normal[3]; ///< from a to b; only for an overlap
+    double arm_a[3], arm_b[3];
+} clx_dem_touch;
+
+/// Offset of b's item from a's, in the image that the link means.
+static inline void clx_link_offset(const clast_dem *dem, const clx_link *link, double r[3])
+{
+    v3_sub(r, clx_item_position(dem, link->b), clx_item_position(dem, link->a));
+    r[0] += dem->period[0] * link->period[0];
+    r[1] += dem->period[1] * link->period[1];
+}
+
+/// From item centres to grain centres, for spheres of clumps.
+static inline void clx_touch_lever(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+{
+    double off[3];
+    const clx_item *a = &dem->item[link->a];
+    v3_sub(off, a->position, dem->grain[a->grain].position);
+    v3_add(t->arm_a, t->arm_a, off);
+    if (link->b >= 0) {
+        const clx_item *b = &dem->item[link->b];
+        v3_sub(off, b->position, dem->grain[b->grain].position);
+        v3_add(t->arm_b, t->arm_b, off);
+    }
+}
+
+static inline void clx_touch_spheres(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+{
+    double r[3];
+    const double ra = clx_item_radius(dem, link->a);
+    const double rb = clx_item_radius(dem, link->b);
+    clx_link_offset(dem, link, r);
+    const double d = sqrt(v3_norm2(r));
+    t->distance = d - (ra + rb);
+    if (t->distance >= 0.0) {
+        return;
+    }
+    v3_scale(t->normal, d > 0.0 ? 1.0 / d : 0.0, r);
+    v3_scale(t->arm_a, ra + 0.5 * t->distance, t->normal);
+    v3_scale(t->arm_b, -(rb + 0.5 * t->distance), t->normal);
+}
+
+/// A sphere at a wall; the contact point lies on the wall's side of the overlap, as for hulls.
+static inline void clx_touch_wall(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+{
+    double inward[3];
+    const double radius = clx_item_radius(dem, link->a);
+    const clx_wall *wall = &dem->wall[-1 - link->b];
+    const double d = clx_wall_distance(wall, clx_item_position(dem, link->a), inward);
+    t->distance = d - radius;
+    v3_scale(t->normal, -1.0, inward);
+    v3_scale(t->arm_a, radius + 0.5 * t->distance, t->normal);
+    v3_set(t->arm_b, 0.0, 0.0, 0.0);
+}
+
+static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+{
+    if (link->b >= 0) {
+        clx_touch_spheres(dem, link, t);
+    } else {
+        clx_touch_wall(dem, link, t);
+    }
+    if (dem->item != NULL && t->distance < 0.0) {
+        clx_touch_lever(dem, link, t);
+    }
+}

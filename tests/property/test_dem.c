@@ -1,0 +1,138 @@
+/* Property: beds of many spheres: lists miss nothing, threads and skins change no bit, energy never
+ * rises by itself. */
+#include "support.h"
+
+#include "dem_scenes.h"
+#include <clast/parallel.h>
+#include <stdlib.h>
+
+/// Touching pairs by all pairs, against those of the lists.
+static void check_contacts(const clast_dem *dem, double period)
+{
+    clast_assembly a = {0};
+    CHECK_OK(clast_dem_assembly(dem, &a));
+    int32_t n = 0;
+    for (int32_t i = 0; i < a.n_grain; ++i) {
+        for (int32_t j = i + 1; j < a.n_grain; ++j) {
+            double d2 = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                double d = a.position[j][k] - a.position[i][k];
+                d -= k < 2 && period > 0.0 ? period * floor(d / period + 0.5) : 0.0;
+                d2 += d * d;
+            }
+            n += sqrt(d2) < 0.5 * (a.scale[i] + a.scale[j]) - 1e-12 ? 1 : 0;
+        }
+    }
+    /* the lists know the touches of the last force, one step of 5e-6 s back */
+    assert_true(abs(n - a.n_contact) <= 2 + n / 20);
+    clast_assembly_free(&a);
+}
+
+static void lists_miss_no_contact(void **state)
+{
+    (void)state;
+    clast_dem *dem = scene_pour(120, 3e-3, 8e-3, 0.045);
+    assert_non_null(dem);
+    int32_t seen = 0;
+    for (int k = 0; k < 8; ++k) {
+        clast_dem_measures m;
+        CHECK_OK(clast_dem_step(dem, 1600));
+        check_contacts(dem, 0.0);
+        clast_dem_measure(dem, &m);
+        seen += (int32_t)m.n_contact;
+    }
+    assert_in_range(seen, 30, 10000);
+    clast_dem_destroy(dem);
+}
+
+static uint64_t hash_after(int32_t threads, double skin, bool rolling)
+{
+    clast_parallel_set_threads(threads);
+    clast_dem_config c = scene_physics();
+    c.skin = skin;
+    c.width = 0.06;
+    c.rolling_friction = rolling ? 0.1 : 0.0;
+    clast_dem *dem = scene_pour_with(&c, 140, 4e-3, 8e-3);
+    assert_non_null(dem);
+    CHECK_OK(clast_dem_step(dem, 800));
+    const uint64_t hash = clast_dem_hash(dem);
+    clast_dem_destroy(dem);
+    clast_parallel_set_threads(1);
+    return hash;
+}
+
+static void threads_and_skins_change_no_bit(void **state)
+{
+    (void)state;
+    for (int rolling = 0; rolling < 2; ++rolling) {
+        const uint64_t one = hash_after(1, 0.1, rolling == 1);
+        assert_true(hash_after(2, 0.1, rolling == 1) == one);
+        assert_true(hash_after(4, 0.1, rolling == 1) == one);
+        assert_true(hash_after(1, 0.4, rolling == 1) == one);
+    }
+}
+
+/* Without a drive the sum of kinetic, potential and elastic energy only falls; the scheme's own
+ * wobble is of the order w dt = pi / 40 of what the springs hold. */
+static void energy_never_rises_by_itself(void **state)
+{
+    (void)state;
+    clast_dem *dem = scene_pour(80, 5.6e-3, 8e-3, 0.06);
+    assert_non_null(dem);
+    clast_dem_measures m;
+    clast_dem_measure(dem, &m);
+    double last = m.kinetic_energy + m.potential_energy;
+    const double first = last;
+    for (int k = 0; k < 40; ++k) {
+        CHECK_OK(clast_dem_step(dem, 200));
+        clast_dem_measure(dem, &m);
+        const double now = m.kinetic_energy + m.potential_energy + m.elastic_energy;
+        assert_true(now <= last + 0.1 * m.elastic_energy + 1e-6 * first);
+        last = now;
+    }
+    assert_true(last < 0.9 * first);
+    clast_dem_destroy(dem);
+}
+
+/* A pair that meets through the border of the period moves as one that meets in the middle. */
+static void period_has_no_border(void **state)
+{
+    (void)state;
+    double x[2][2];
+    for (int shifted = 0; shifted < 2; ++shifted) {
+        clast_dem_config c = scene_physics();
+        c.domain = CLAST_DEM_PERIODIC;
+        c.width = 0.125; /* a power of two: shifts are exact */
+        c.gravity = 0.0;
+        clast_dem *dem = scene_pour_with(&c, 0, 4e-3, 8e-3);
+        clast_dem_grain pair[2] = {{.scale = 0.0078125, .density = 2650.0, .orientation = {1.0}},
+                                   {.scale = 0.0078125, .density = 2650.0, .orientation = {1.0}}};
+        pair[0].position[0] = shifted ? 0.0625 - 0.00390625 : -0.00390625;
+        pair[1].position[0] = shifted ? -0.0625 + 0.00390625 : 0.00390625;
+        pair[0].position[2] = pair[1].position[2] = 0.03125;
+        pair[0].velocity[0] = 0.25;
+        pair[1].velocity[1] = 0.125;
+        CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+        CHECK_OK(clast_dem_step(dem, 300));
+        for (int i = 0; i < 2; ++i) {
+            clast_dem_read_grain(dem, i, &pair[i]);
+            x[shifted][i] = pair[i].velocity[0];
+        }
+        clast_dem_destroy(dem);
+    }
+    assert_true(x[0][1] > 0.05);
+    CHECK_REL(x[1][0], x[0][0], 1e-10);
+    CHECK_REL(x[1][1], x[0][1], 1e-10);
+}
+
+int main(void)
+{
+    clast_parallel_set_threads(1); /* small scenes */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_miss_no_contact),
+        cmocka_unit_test(threads_and_skins_change_no_bit),
+        cmocka_unit_test(energy_never_rises_by_itself),
+        cmocka_unit_test(period_has_no_border),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,102 @@
+#include "dem_scenes.h"
+
+#include "math/rng.h"
+#include <math.h>
+#include <stdlib.h>
+
+clast_dem_config scene_physics(void)
+{
+    clast_dem_config c = {0};
+    (void)clast_fields_default(clast_dem_fields, &c);
+    return c;
+}
+
+static clast_dem *with_spheres(const clast_dem_config *config)
+{
+    clast_dem *dem = NULL;
+    clast_shape sphere = {0};
+    int32_t id = 0;
+    if (clast_dem_create(config, &dem) == CLAST_OK &&
+        clast_shape_sphere("sphere", 0.5, &sphere) == CLAST_OK &&
+        clast_dem_add_shape(dem, &sphere, &id) != CLAST_OK) {
+        clast_dem_destroy(dem);
+        dem = NULL;
+    }
+    clast_shape_free(&sphere);
+    return dem;
+}
+
+static clast_dem_grain ball(double diameter, double x, double y, double z)
+{
+    return (clast_dem_grain){.scale = diameter,
+                             .density = 2650.0,
+                             .position = {x, y, z},
+                             .orientation = {1.0, 0.0, 0.0, 0.0}};
+}
+
+clast_dem *scene_s1(void)
+{
+    enum { SIDE = 19, TALL = 30 };
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_PERIODIC;
+    c.width = 0.134;
+    clast_dem *dem = with_spheres(&c);
+    clast_dem_grain *grain = calloc((size_t)SIDE * SIDE * TALL, sizeof *grain);
+    int32_t n = 0;
+    for (int i = 0; grain != NULL && i < SIDE * SIDE * TALL; ++i) {
+        const int x = i % SIDE;
+        const int y = i / SIDE % SIDE;
+        const int z = i / (SIDE * SIDE);
+        clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, (uint64_t)i);
+        grain[n] = ball(6.7e-3, (x - 9) * 6.9e-3, (y - 9) * 6.9e-3, 4e-3 + z * 6.9e-3);
+        for (int k = 0; k < 3; ++k) {
+            grain[n].velocity[k] = 0.1 * (2.0 * clx_rng_uniform(&rng) - 1.0);
+        }
+        ++n;
+    }
+    if (dem != NULL && clast_dem_add_grains(dem, n, grain) != CLAST_OK) {
+        clast_dem_destroy(dem);
+        dem = NULL;
+    }
+    free(grain);
+    return dem;
+}
+
+clast_dem *scene_pour(int32_t n, double low, double high, double width)
+{
+    clast_dem_config c = scene_physics();
+    c.width = width;
+    return scene_pour_with(&c, n, low, high);
+}
+
+clast_dem *scene_pour_with(const clast_dem_config *config, int32_t n, double low, double high)
+{
+    const double width = config->width;
+    clast_dem *dem = with_spheres(config);
+    clast_dem_grain *grain = calloc((size_t)n + 1, sizeof *grain);
+    const double room = 0.5 * width - 0.55 * high;
+    int32_t made = 0;
+    for (int64_t at = 0; dem != NULL && grain != NULL && made < n; ++at) {
+        const int side = (int)(width / (1.05 * high)) + 1;
+        const double x = ((double)(at % side) - 0.5 * (side - 1)) * 1.05 * high;
+        const double y = ((double)(at / side % side) - 0.5 * (side - 1)) * 1.05 * high;
+        const double z = ((double)(at / side / side) + 1.0) * 1.05 * high;
+        if (x * x + y * y > room * room) {
+            continue;
+        }
+        clx_rng rng = clx_rng_at(2, CLX_STREAM_TEST, (uint64_t)made);
+        grain[made] = ball(low * pow(high / low, clx_rng_uniform(&rng)), x, y, z);
+        for (int k = 0; k < 3; ++k) {
+            grain[made].velocity[k] = 0.5 * (2.0 * clx_rng_uniform(&rng) - 1.0);
+            grain[made].spin[k] = 10.0 * (2.0 * clx_rng_uniform(&rng) - 1.0);
+        }
+        grain[made].velocity[2] -= 1.0; // soon a bed
+        ++made;
+    }
+    if (dem != NULL && clast_dem_add_grains(dem, made, grain) != CLAST_OK) {
+        clast_dem_destroy(dem);
+        dem = NULL;
+    }
+    free(grain);
+    return dem;
+}

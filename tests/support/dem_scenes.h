@@ -1,0 +1,16 @@
+#pragma once
+// Scenes of the discrete element method that tests and benchmarks share.
+#include <clast/dem.h>
+
+/// Defaults of the physics (the paper's), to be changed by name.
+clast_dem_config scene_physics(void);
+
+/// S1: 10,830 spheres of 6.7 mm on a simple-cubic lattice of 6.9 mm with random velocities, box of
+/// 0.134 m periodic in x and y; to be settled for 0.2 s. NULL on failure.
+clast_dem *scene_s1(void);
+
+/// n spheres of these diameters [m] poured on a loose lattice into a cylinder of this width.
+clast_dem *scene_pour(int32_t n, double low, double high, double width);
+
+/// The same with other physics.
+clast_dem *scene_pour_with(const clast_dem_config *config, int32_t n, double low, double high);

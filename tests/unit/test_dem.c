@@ -1,0 +1,434 @@
+/* Unit: closed forms of one or few spheres: collisions, rest, sliding, momentum, bad input. */
+#include "support.h"
+
+#include "dem_scenes.h"
+#include <string.h>
+
+static const double RADIUS = 0.0035;
+static const double DENSITY = 2650.0;
+
+static clast_dem *make(const clast_dem_config *config)
+{
+    clast_dem *dem = NULL;
+    clast_shape sphere = {0};
+    int32_t id = -1;
+    CHECK_OK(clast_dem_create(config, &dem));
+    CHECK_OK(clast_shape_sphere("sphere", 1.0, &sphere));
+    CHECK_OK(clast_dem_add_shape(dem, &sphere, &id));
+    assert_int_equal(id, 0);
+    clast_shape_free(&sphere);
+    return dem;
+}
+
+static clast_dem_grain at(double x, double y, double z)
+{
+    return (clast_dem_grain){.scale = RADIUS,
+                             .density = DENSITY,
+                             .position = {x, y, z},
+                             .orientation = {1.0, 0.0, 0.0, 0.0}};
+}
+
+/// Empty space without weight.
+static clast_dem_config space(void)
+{
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_OPEN;
+    c.floor = false;
+    c.gravity = 0.0;
+    return c;
+}
+
+/// Steps until two grains that meet head on have parted; their duration of touch.
+static double collide(clast_dem *dem, double dt)
+{
+    int64_t touching = 0;
+    for (int64_t k = 0; k < 1000000; ++k) {
+        clast_dem_measures m;
+        CHECK_OK(clast_dem_step(dem, 1));
+        clast_dem_measure(dem, &m);
+        if (m.n_contact + m.n_wall_contact > 0) {
+            ++touching;
+        } else if (touching > 0) {
+            break;
+        }
+    }
+    return (double)touching * dt;
+}
+
+/* Eq. 11 is built so that a collision lasts T_c and keeps e_n of the speed. The scheme is of first
+ * order: an error of |ln e| dt / T_c, up to a factor of two, is its own. */
+static void collision_has_its_restitution_and_duration(void **state)
+{
+    (void)state;
+    const double wanted[] = {0.1, 0.5, 0.9};
+    for (int k = 0; k < 3; ++k) {
+        clast_dem_config c = space();
+        c.restitution = wanted[k];
+        c.time_step = c.collision_time / 2000.0;
+        clast_dem *dem = make(&c);
+        clast_dem_grain pair[2] = {at(-1.0001 * RADIUS, 0.0, 0.0), at(1.5001 * RADIUS, 0.0, 0.0)};
+        pair[1].scale = 1.5 * RADIUS;
+        pair[0].velocity[0] = 0.2;
+        pair[1].velocity[0] = -0.1;
+        CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+        const double lasted = collide(dem, c.time_step);
+        clast_dem_read_grain(dem, 0, &pair[0]);
+        clast_dem_read_grain(dem, 1, &pair[1]);
+        CHECK_REL((pair[1].velocity[0] - pair[0].velocity[0]) / 0.3, wanted[k],
+                  2.0 * -log(wanted[k]) / 2000.0 + 1e-3);
+        CHECK_REL(lasted, c.collision_time, 2e-3);
+        clast_dem_destroy(dem);
+    }
+}
+
+/* Hertz: restitution is the same at every speed. [Antypov2011] */
+static void hertz_restitution_is_independent_of_speed(void **state)
+{
+    (void)state;
+    for (int decade = -2; decade <= 0; ++decade) {
+        clast_dem_config c = space();
+        c.law = CLAST_DEM_HERTZ;
+        c.restitution = 0.5;
+        c.young = 1e8;
+        c.time_step = 2e-8;
+        clast_dem *dem = make(&c);
+        clast_dem_grain pair[2] = {at(-1.00001 * RADIUS, 0.0, 0.0), at(1.00001 * RADIUS, 0.0, 0.0)};
+        pair[0].velocity[0] = pow(10.0, decade);
+        CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+        (void)collide(dem, c.time_step);
+        clast_dem_read_grain(dem, 0, &pair[0]);
+        clast_dem_read_grain(dem, 1, &pair[1]);
+        CHECK_REL((pair[1].velocity[0] - pair[0].velocity[0]) / pow(10.0, decade), 0.5, 2e-3);
+        clast_dem_destroy(dem);
+    }
+}
+
+/* Every wall kind bounces with e_n: floor, lid, box side, cylinder. */
+static void walls_bounce_with_their_restitution(void **state)
+{
+    (void)state;
+    const double way[4][3] = {{0.0, 0.0, -1.0}, {0.0, 0.0, 1.0}, {-0.6, 0.0, 0.0}, {0.6, 0.8, 0.0}};
+    const clast_dem_domain domain[4] = {CLAST_DEM_OPEN, CLAST_DEM_OPEN, CLAST_DEM_BOX,
+                                        CLAST_DEM_CYLINDER};
+    for (int k = 0; k < 4; ++k) {
+        clast_dem_config c = space();
+        c.domain = domain[k];
+        c.floor = true;
+        c.lid = true;
+        c.width = 3.0 * RADIUS;
+        c.height = 3.0 * RADIUS;
+        c.restitution = 0.4;
+        c.time_step = c.collision_time / 2000.0;
+        clast_dem *dem = make(&c);
+        clast_dem_grain grain = at(0.0, 0.0, 1.5 * RADIUS);
+        for (int i = 0; i < 3; ++i) {
+            grain.velocity[i] = way[k][i];
+        }
+        const double speed =
+            sqrt(way[k][0] * way[k][0] + way[k][1] * way[k][1] + way[k][2] * way[k][2]);
+        CHECK_OK(clast_dem_add_grains(dem, 1, &grain));
+        CHECK_REL(collide(dem, c.time_step), c.collision_time, 2e-3);
+        clast_dem_read_grain(dem, 0, &grain);
+        double back = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            back -= grain.velocity[i] * way[k][i] / speed;
+        }
+        CHECK_REL(back / speed, 0.4, 2.0 * -log(0.4) / 2000.0 + 1e-3);
+        clast_dem_destroy(dem);
+    }
+}
+
+/* At rest the overlap carries the weight: m g' / k_n, k_n by eq. 11; two in a column: twice that at
+ * the floor, and between them m g' over half the stiffness. */
+static void column_rests_on_its_weight(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_physics();
+    clast_dem *dem = make(&c);
+    const double ln = log(0.1);
+    const double rest = 9.81 * (1.0 - 1000.0 / DENSITY) * 4e-8 / (CLAST_PI * CLAST_PI + ln * ln);
+    clast_dem_grain column[2] = {at(0.0, 0.0, RADIUS), at(0.0, 0.0, 3.0 * RADIUS)};
+    CHECK_OK(clast_dem_add_grains(dem, 2, column));
+    CHECK_OK(clast_dem_step(dem, 4000));
+    clast_dem_read_grain(dem, 0, &column[0]);
+    clast_dem_read_grain(dem, 1, &column[1]);
+    CHECK_REL(RADIUS - column[0].position[2], 2.0 * rest, 1e-6);
+    CHECK_REL(2.0 * RADIUS - (column[1].position[2] - column[0].position[2]), 2.0 * rest, 1e-6);
+    clast_dem_measures m;
+    clast_dem_measure(dem, &m);
+    assert_true(m.n_contact == 1 && m.n_wall_contact == 1 && m.max_speed < 1e-12);
+    clast_dem_destroy(dem);
+}
+
+/* A sphere that slides slows by mu g' until it rolls at 5/7 of its speed, after 2 v / (7 mu g'). */
+static void sliding_sphere_begins_to_roll(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_OPEN;
+    c.friction = 0.3;
+    clast_dem *dem = make(&c);
+    const double weight = 9.81 * (1.0 - 1000.0 / DENSITY);
+    clast_dem_grain ball = at(0.0, 0.0, RADIUS - 1.61e-8);
+    ball.velocity[0] = 0.2;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
+    const double rolls_at = 2.0 * 0.2 / (7.0 * 0.3 * weight);
+    CHECK_OK(clast_dem_step(dem, (int64_t)(0.5 * rolls_at / c.time_step)));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(0.2 - ball.velocity[0], 0.3 * weight * 0.5 * rolls_at, 5e-3);
+    CHECK_OK(clast_dem_step(dem, (int64_t)(0.7 * rolls_at / c.time_step)));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(ball.velocity[0], 0.2 * 5.0 / 7.0, 2e-3);
+    CHECK_REL(ball.spin[1] * RADIUS, ball.velocity[0], 2e-3);
+    clast_dem_destroy(dem);
+}
+
+/* Oblique collision in space: momentum and angular momentum stay, to rounding. */
+static void collision_keeps_momentum(void **state)
+{
+    (void)state;
+    clast_dem_config c = space();
+    clast_dem *dem = make(&c);
+    clast_dem_grain g[3] = {at(0.0, 0.0, 0.0), at(2.1 * RADIUS, 0.7 * RADIUS, 0.0),
+                            at(-0.5 * RADIUS, 2.2 * RADIUS, 0.3 * RADIUS)};
+    g[0].velocity[0] = 0.5;
+    g[0].spin[2] = 40.0;
+    g[1].velocity[1] = 0.2;
+    g[2].velocity[1] = -0.4;
+    CHECK_OK(clast_dem_add_grains(dem, 3, g));
+    double before[6] = {0};
+    double after[6] = {0};
+    for (int when = 0; when < 2; ++when) {
+        double *sum = when == 0 ? before : after;
+        for (int i = 0; i < 3; ++i) {
+            clast_dem_read_grain(dem, i, &g[i]);
+            const double mass = 4.0 / 3.0 * CLAST_PI * RADIUS * RADIUS * RADIUS * DENSITY;
+            const double *x = g[i].position;
+            const double *v = g[i].velocity;
+            for (int k = 0; k < 3; ++k) {
+                const int p = (k + 1) % 3;
+                const int q = (k + 2) % 3;
+                sum[k] += mass * v[k];
+                sum[3 + k] += mass * (x[p] * v[q] - x[q] * v[p]) +
+                              0.4 * mass * RADIUS * RADIUS * g[i].spin[k];
+            }
+        }
+        if (when == 0) {
+            CHECK_OK(clast_dem_step(dem, 2000));
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        CHECK_ABS(after[k], before[k], 1e-15 * 3e-4);
+        /* the arms are taken at the step's begin, the positions moved at its end: none of it here,
+         * because both ends see the same force at the same point */
+        CHECK_ABS(after[3 + k], before[3 + k], 1e-13 * 3e-4 * RADIUS);
+    }
+    clast_dem_measures m;
+    clast_dem_measure(dem, &m);
+    assert_true(m.n_contact == 0 && m.kinetic_energy > 0.0);
+    clast_dem_destroy(dem);
+}
+
+/* A dashpot that may not pull lets the grains part before the spring is slack. */
+static void clipped_dashpot_never_pulls(void **state)
+{
+    (void)state;
+    for (int clip = 0; clip < 2; ++clip) {
+        clast_dem_config c = space();
+        c.clip = clip == 1;
+        clast_dem *dem = make(&c);
+        clast_dem_grain pair[2] = {at(-1.0001 * RADIUS, 0.0, 0.0), at(1.0001 * RADIUS, 0.0, 0.0)};
+        pair[0].velocity[0] = 0.3;
+        CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+        double last = 0.3;
+        bool pulled = false;
+        for (int k = 0; k < 200; ++k) {
+            CHECK_OK(clast_dem_step(dem, 1));
+            clast_dem_read_grain(dem, 0, &pair[0]);
+            pulled = pulled || pair[0].velocity[0] > last;
+            last = pair[0].velocity[0];
+        }
+        assert_int_equal(pulled, clip == 0);
+        clast_dem_destroy(dem);
+    }
+}
+
+/* Pull-off: a constant attraction F holds two grains at an overlap of F / k, and less than it pulls
+ * them apart only with more force: here the equilibrium overlap. */
+static void attraction_sets_the_overlap(void **state)
+{
+    (void)state;
+    clast_dem_config c = space();
+    c.cohesion = CLAST_DEM_DMT;
+    c.surface_energy = 0.05;
+    clast_dem *dem = make(&c);
+    clast_dem_grain pair[2] = {at(-0.99999 * RADIUS, 0.0, 0.0), at(0.99999 * RADIUS, 0.0, 0.0)};
+    CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+    CHECK_OK(clast_dem_step(dem, 4000));
+    clast_dem_read_grain(dem, 0, &pair[0]);
+    clast_dem_read_grain(dem, 1, &pair[1]);
+    const double mass = 0.5 * 4.0 / 3.0 * CLAST_PI * RADIUS * RADIUS * RADIUS * DENSITY;
+    const double ln = log(0.1);
+    const double k = mass * (CLAST_PI * CLAST_PI + ln * ln) / 4e-8;
+    CHECK_REL(2.0 * RADIUS - (pair[1].position[0] - pair[0].position[0]),
+              2.0 * CLAST_PI * 0.05 * 0.5 * RADIUS / k, 1e-6);
+    clast_dem_destroy(dem);
+}
+
+/* A rolling sphere on a floor with rolling friction slows by 5/7 mu_r g' (no sliding). */
+static void rolling_friction_slows_a_rolling_sphere(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_OPEN;
+    c.rolling_friction = 0.02;
+    clast_dem *dem = make(&c);
+    clast_dem_grain ball = at(0.0, 0.0, RADIUS - 1.61e-8);
+    ball.velocity[0] = 0.1;
+    ball.spin[1] = 0.1 / RADIUS;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
+    CHECK_OK(clast_dem_step(dem, 20000));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(0.1 - ball.velocity[0], 5.0 / 7.0 * 0.02 * 9.81 * (1.0 - 1000.0 / DENSITY) * 0.1,
+              2e-2);
+    clast_dem_destroy(dem);
+}
+
+/* Terminal speed in a fluid at rest is that of the drag law. */
+static void drag_ends_at_terminal_velocity(void **state)
+{
+    (void)state;
+    clast_dem_config c = space();
+    c.gravity = 9.81;
+    c.fluid_viscosity = 1e-3;
+    clast_dem *dem = make(&c);
+    clast_dem_grain ball = at(0.0, 0.0, 0.0);
+    const clast_fluid water = {1000.0, 1e-3, 9.81};
+    clast_settling s;
+    CHECK_OK(clast_terminal_velocity(2.0 * RADIUS, DENSITY, &(clast_drag){1.0, 1.0}, &water, &s));
+    CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
+    CHECK_OK(clast_dem_step(dem, 100000));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(-ball.velocity[2], s.velocity, 1e-4);
+    clast_dem_destroy(dem);
+}
+
+/* Eq. 14 integrates to A w (1 - cos w t); eq. 15 leaves c_d^t of a speed. */
+static void drive_shakes_and_damps(void **state)
+{
+    (void)state;
+    clast_dem_config c = space();
+    clast_dem *dem = make(&c);
+    clast_dem_grain ball = at(0.0, 0.0, 0.0);
+    ball.velocity[1] = 0.3;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
+    clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 1.0});
+    CHECK_OK(clast_dem_step(dem, 1500));
+    clast_dem_read_grain(dem, 0, &ball);
+    const double w = 2.0 * CLAST_PI / 0.025;
+    CHECK_REL(ball.velocity[0], 3e-4 * w * (1.0 - cos(w * 0.0075)), 2e-3);
+    clast_dem_set_drive(dem, &(clast_dem_drive){0.0, 1.0, 1e-3});
+    CHECK_OK(clast_dem_step(dem, 10000));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(ball.velocity[1], 0.3 * pow(1e-3, 0.05), 1e-10);
+    clast_dem_destroy(dem);
+}
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    clast_dem *dem = NULL;
+    clast_dem_config c = scene_physics();
+    c.time_step = 3e-5;
+    CHECK_STATUS(clast_dem_create(&c, &dem), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "a collision takes 0.0002 s"));
+    assert_null(dem);
+    c = scene_physics();
+    c.law = CLAST_DEM_HERTZ;
+    c.young = 7e10;
+    dem = make(&c);
+    clast_dem_grain g = at(0.0, 0.0, 0.1);
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_CONFIG);
+    clast_dem_destroy(dem);
+    c = scene_physics();
+    c.domain = CLAST_DEM_PERIODIC;
+    c.width = 3.9 * RADIUS;
+    dem = make(&c);
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_GEOMETRY);
+    assert_non_null(strstr(clast_error_detail(), "half the period"));
+    g.position[0] = (double)NAN;
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_USAGE);
+    g = at(0.0, 0.0, -0.1);
+    g.shape = 3;
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_USAGE);
+    assert_int_equal(clast_dem_n_grain(dem), 0);
+    clast_dem_destroy(dem);
+    c = scene_physics();
+    dem = make(&c);
+    g = at(0.0, 0.0, -0.1);
+    CHECK_STATUS(clast_dem_add_grains(dem, 1, &g), CLAST_E_GEOMETRY);
+    assert_non_null(strstr(clast_error_detail(), "outside of the domain"));
+    clast_dem_destroy(dem);
+}
+
+static void explosion_names_its_cause(void **state)
+{
+    (void)state;
+    clast_dem_config c = space();
+    c.restitution = 1.0;
+    clast_dem *dem = make(&c);
+    clast_dem_grain pair[2] = {at(0.0, 0.0, 0.0), at(0.02 * RADIUS, 0.0, 0.0)};
+    CHECK_OK(clast_dem_add_grains(dem, 2, pair));
+    CHECK_STATUS(clast_dem_step(dem, 1000), CLAST_E_CONVERGE);
+    assert_non_null(strstr(clast_error_detail(), "overlapped from the start"));
+    assert_true(clast_dem_n_step(dem) < 100);
+    clast_dem_destroy(dem);
+}
+
+static clast_status make_and_step(void *context)
+{
+    (void)context;
+    clast_dem *dem = NULL;
+    clast_shape sphere = {0};
+    clast_assembly out = {0};
+    int32_t id = 0;
+    const clast_dem_config c = scene_physics();
+    clast_dem_grain pair[2] = {at(0.0, 0.0, RADIUS), at(0.0, 0.0, 2.9 * RADIUS)};
+    clast_status status = clast_dem_create(&c, &dem);
+    status = status == CLAST_OK ? clast_shape_sphere("sphere", 1.0, &sphere) : status;
+    status = status == CLAST_OK ? clast_dem_add_shape(dem, &sphere, &id) : status;
+    status = status == CLAST_OK ? clast_dem_add_grains(dem, 2, pair) : status;
+    status = status == CLAST_OK ? clast_dem_step(dem, 1) : status;
+    status = status == CLAST_OK ? clast_dem_assembly(dem, &out) : status;
+    clast_assembly_free(&out);
+    clast_shape_free(&sphere);
+    clast_dem_destroy(dem);
+    return status;
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    support_refuse_each_allocation(make_and_step, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(collision_has_its_restitution_and_duration),
+        cmocka_unit_test(hertz_restitution_is_independent_of_speed),
+        cmocka_unit_test(walls_bounce_with_their_restitution),
+        cmocka_unit_test(column_rests_on_its_weight),
+        cmocka_unit_test(sliding_sphere_begins_to_roll),
+        cmocka_unit_test(collision_keeps_momentum),
+        cmocka_unit_test(clipped_dashpot_never_pulls),
+        cmocka_unit_test(attraction_sets_the_overlap),
+        cmocka_unit_test(rolling_friction_slows_a_rolling_sphere),
+        cmocka_unit_test(drag_ends_at_terminal_velocity),
+        cmocka_unit_test(drive_shakes_and_damps),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(explosion_names_its_cause),
+        cmocka_unit_test(refused_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
