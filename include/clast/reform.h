@@ -24,3 +24,11 @@ CLAST_API clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh
 /// @return CLAST_E_CONFIG for lengths that are not finite, not positive or not in order
 CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3],
                                          clast_mesh *out);
+
+/// Convex hull of at most this many triangles: the hull, simplified at constant volume where it has
+/// more, and the hull of that, for simplifying leaves faces that bend inwards by little.
+///
+/// @param mesh    any vertices; triangles are not looked at
+/// @param n_face  >= 4
+/// @return as clast_mesh_hull and clast_mesh_simplify
+CLAST_API clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out);

@@ -8,6 +8,8 @@
 #include "base/status.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
+#include <clast/hull.h>
+#include <clast/mesh_simplify.h>
 
 /// Second moments by the volume, C/V, from the inertia about the centroid.
 static void second_moments(const clast_mass *mass, double c[3][3])
@@ -137,5 +139,32 @@ clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3], clas
     made = (clast_mesh){0};
 done:
     clast_mesh_free(&made);
+    return status;
+}
+
+clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh hull = {0};
+    clast_mesh simple = {0};
+    clast_mesh made = {0};
+    CLX_CHECK(n_face >= 4, CLAST_E_CONFIG, "a solid has 4 faces or more, not %d", n_face);
+    CLX_TRY(clast_mesh_hull(mesh, &hull));
+    if (hull.n_tri > n_face) {
+        CLX_TRY(clast_mesh_simplify(&hull, n_face, &simple, NULL));
+        CLX_TRY(clast_mesh_hull(&simple, &made));
+        CLX_CHECK(made.n_tri <= n_face, CLAST_E_CONVERGE,
+                  "the hull of %d triangles cannot be simplified to %d; %d are left", hull.n_tri,
+                  n_face, made.n_tri);
+    } else {
+        made = hull;
+        hull = (clast_mesh){0};
+    }
+    *out = made;
+    made = (clast_mesh){0};
+done:
+    clast_mesh_free(&made);
+    clast_mesh_free(&simple);
+    clast_mesh_free(&hull);
     return status;
 }

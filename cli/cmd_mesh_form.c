@@ -1,0 +1,190 @@
+// clast mesh form: a grain in its principal frame, stretched to a wanted form and size.
+#include "command.h"
+#include "mesh_words.h"
+
+#include <clast/form.h>
+#include <clast/mesh_file.h>
+#include <clast/reform.h>
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct {
+    double flatness, elongation, size;
+    bool unit_form;
+    int32_t hull;
+} form_config;
+
+#define FIELD(name) #name, offsetof(form_config, name)
+static const clast_field form_fields[] = {
+    {FIELD(flatness), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted S/I; 0: the grain's own", NULL},
+    {FIELD(elongation), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted I/L; 0: the grain's own",
+     NULL},
+    {FIELD(size), CLAST_FIELD_F64, 0.0, 0.0, 1e12, "-",
+     "wanted sieve size D = sqrt((S^2+I^2)/2) in the unit of the file; 0: the grain's own", NULL},
+    {FIELD(unit_form), CLAST_FIELD_BOOL, 0, 0, 0, "-", "take all form off: L = I = S = 1", NULL},
+    {FIELD(hull), CLAST_FIELD_I32, 0, 0, 1e6, "-",
+     "take the convex hull first, with at most so many triangles; 0: the surface itself", NULL},
+    {0}};
+#undef FIELD
+
+/// Axes before and after, and volumes.
+typedef struct {
+    double before[3], after[3];
+    double volume_before, volume_hull, volume_after;
+    int32_t n_before, n_after;
+} form_report;
+
+static clast_status check_config(const form_config *c)
+{
+    if (c->unit_form && (c->flatness > 0.0 || c->elongation > 0.0 || c->size > 0.0)) {
+        return cli_fail(CLAST_E_USAGE,
+                        "unit_form makes L = I = S = 1; leave flatness, elongation and size out");
+    }
+    if (c->hull > 0 && c->hull < 4) {
+        return cli_fail(CLAST_E_USAGE, "hull: a solid has 4 faces or more, not %d", c->hull);
+    }
+    return CLAST_OK;
+}
+
+static void wanted_lengths(const form_config *c, const double own[3], double lis[3])
+{
+    if (c->unit_form) {
+        lis[0] = lis[1] = lis[2] = 1.0;
+        return;
+    }
+    const double flatness = c->flatness > 0.0 ? c->flatness : own[2] / own[1];
+    const double elongation = c->elongation > 0.0 ? c->elongation : own[1] / own[0];
+    const double size = c->size > 0.0 ? c->size : clast_form_sieve_size(own[1], own[2]);
+    clast_form_lengths(flatness, elongation, size, lis);
+}
+
+static clast_status reform(const form_config *c, const clast_mesh *mesh, clast_mesh *out,
+                           form_report *r)
+{
+    clast_mesh hull = {0};
+    clast_mesh turned = {0};
+    double lis[3];
+    clast_status status = CLAST_OK;
+    r->n_before = mesh->n_tri;
+    r->volume_before = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : (double)NAN;
+    if (c->hull > 0) {
+        status = clast_reform_hull(mesh, c->hull, &hull);
+    } else {
+        status = clast_mesh_copy(mesh, &hull);
+    }
+    if (status == CLAST_OK) {
+        r->volume_hull = clast_mesh_volume(&hull);
+        status = clast_reform_principal(&hull, &turned, r->before);
+    }
+    if (status == CLAST_OK) {
+        wanted_lengths(c, r->before, lis);
+        status = clast_reform_mesh(&turned, lis, out);
+    }
+    clast_mesh_free(&turned);
+    clast_mesh_free(&hull);
+    return status;
+}
+
+/// What the written mesh measures, not what was asked for.
+static clast_status measure(const clast_mesh *out, form_report *r)
+{
+    clast_mesh turned = {0};
+    const clast_status status = clast_reform_principal(out, &turned, r->after);
+    r->n_after = out->n_tri;
+    r->volume_after = clast_mesh_volume(out);
+    clast_mesh_free(&turned);
+    return status;
+}
+
+static void axes_json(json_t *o, const char *when, const double lis[3])
+{
+    json_t *set = json_object();
+    cli_json_number(set, "L", lis[0]);
+    cli_json_number(set, "I", lis[1]);
+    cli_json_number(set, "S", lis[2]);
+    cli_json_number(set, "D", clast_form_sieve_size(lis[1], lis[2]));
+    cli_json_number(set, "flatness", lis[2] / lis[1]);
+    cli_json_number(set, "elongation", lis[1] / lis[0]);
+    (void)json_object_set_new(o, when, set);
+}
+
+static json_t *report_json(const cli_common *common, const form_report *r)
+{
+    json_t *o = json_object();
+    cli_json_text(o, "file", common->argument[0]);
+    cli_json_text(o, "output", common->output);
+    axes_json(o, "before", r->before);
+    axes_json(o, "after", r->after);
+    cli_json_number(o, "volume_before", r->volume_before);
+    cli_json_number(o, "volume_hull", r->volume_hull);
+    cli_json_number(o, "volume", r->volume_after);
+    cli_json_count(o, "n_triangle_before", r->n_before);
+    cli_json_count(o, "n_triangle", r->n_after);
+    return o;
+}
+
+static void axes_words(const char *when, const double lis[3])
+{
+    (void)printf("  %-7s L %.8g  I %.8g  S %.8g   D %.8g   flatness %.6f  elongation %.6f\n", when,
+                 lis[0], lis[1], lis[2], clast_form_sieve_size(lis[1], lis[2]), lis[2] / lis[1],
+                 lis[1] / lis[0]);
+}
+
+static void report_words(const cli_common *common, const form_report *r)
+{
+    (void)printf("%s: %d triangles -> %s: %d triangles\n", common->argument[0], r->n_before,
+                 common->output, r->n_after);
+    axes_words("before", r->before);
+    axes_words("after", r->after);
+    (void)printf("  volume  %.8g -> %.8g\n", r->volume_hull, r->volume_after);
+}
+
+static clast_status run(const cli_common *common, void *config_bytes)
+{
+    const form_config *config = config_bytes;
+    clast_mesh mesh = {0};
+    clast_mesh out = {0};
+    form_report report = {0};
+    clast_status status = cli_mesh_output(common);
+    if (status == CLAST_OK) {
+        status = check_config(config);
+    }
+    if (status == CLAST_OK) {
+        status = cli_mesh_input(common, &mesh);
+    }
+    if (status == CLAST_OK) {
+        status = reform(config, &mesh, &out, &report);
+    }
+    if (status == CLAST_OK) {
+        status = measure(&out, &report);
+    }
+    if (status == CLAST_OK) {
+        status = clast_mesh_write(common->output, &out, NULL);
+    }
+    if (status == CLAST_OK && common->json) {
+        status = cli_print_json(report_json(common, &report));
+    } else if (status == CLAST_OK) {
+        report_words(common, &report);
+    }
+    clast_mesh_free(&out);
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+const cli_command cli_mesh_form = {
+    .name = "mesh form",
+    .arguments = "FILE -o OUT",
+    .summary = "a grain in its principal frame, stretched to a wanted form and size",
+    .details =
+        "L, I and S are the full axes of the ellipsoid with the grain's volume and moments of "
+        "inertia; the\ngrain is turned so that they lie along x, y, z (never mirrored) and "
+        "stretched, which changes them\nexactly and keeps what else the shape has (Rettinger et "
+        "al. 2022, fig. 5, equations 20 to 22).\n--hull 300 makes the convex grains of at most 300 "
+        "faces that packings take.\nDefinitions: docs/theory/grading.md.",
+    .fields = form_fields,
+    .config_size = sizeof(form_config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};
