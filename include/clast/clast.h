@@ -24,6 +24,7 @@
 #include <clast/form_law.h>
 #include <clast/grading.h>
 #include <clast/grading_file.h>
+#include <clast/form_set.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/manifest.h>
@@ -37,6 +38,8 @@
 #include <clast/parallel.h>
 #include <clast/porosity.h>
 #include <clast/porosity_chart.h>
+#include <clast/porosity_model.h>
+#include <clast/porosity_model_file.h>
 #include <clast/printable.h>
 #include <clast/reform.h>
 #include <clast/render.h>

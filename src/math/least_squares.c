@@ -140,9 +140,10 @@ void clx_least_squares_free(clx_least_squares *fit)
     *fit = (clx_least_squares){0};
 }
 
-clast_status clx_least_squares_fit(const double *x, const double *y, int64_t n, int32_t p,
-                                   clx_least_squares *fit)
+clast_status clx_least_squares_fit(const clx_regression *data, clx_least_squares *fit)
 {
+    const int64_t n = data->n;
+    const int32_t p = data->p;
     clast_status status = CLAST_OK;
     scratch w = {0};
     clx_least_squares f = {.n = n, .p = p};
@@ -153,9 +154,9 @@ clast_status clx_least_squares_fit(const double *x, const double *y, int64_t n, 
     CLX_TRY(clx_alloc(&f.covariance, (int64_t)p * p, sizeof *f.covariance));
     CLX_TRY(clx_alloc(&f.fitted, n, sizeof *f.fitted));
     CLX_TRY(clx_alloc(&f.leverage, n, sizeof *f.leverage));
-    CLX_TRY(decompose(x, n, p, &w));
-    solve(y, n, p, &w, f.b);
-    measure(x, y, &w, &f);
+    CLX_TRY(decompose(data->x, n, p, &w));
+    solve(data->y, n, p, &w, f.b);
+    measure(data->x, data->y, &w, &f);
     *fit = f;
     f = (clx_least_squares){0};
 done:
@@ -164,53 +165,58 @@ done:
     return status;
 }
 
-/// Coefficients from the rows outside one fold, packed to the front of xs and ys.
-static clast_status train(const double *x, const double *y, int64_t n, int32_t p,
-                          const int32_t *fold, int32_t left_out, double *xs, double *ys, double *b)
+/// The rows outside one fold, packed.
+typedef struct {
+    double *x, *y, *b;
+} training;
+
+/// Coefficients from the rows outside one fold.
+static clast_status train(const clx_regression *d, const int32_t *fold, int32_t left_out,
+                          training *t)
 {
     clast_status status = CLAST_OK;
     scratch w = {0};
+    const int32_t p = d->p;
     int64_t m = 0;
-    for (int64_t i = 0; i < n; ++i) {
+    for (int64_t i = 0; i < d->n; ++i) {
         if (fold[i] != left_out) {
-            memcpy(xs + m * p, x + i * p, (size_t)p * sizeof *x);
-            ys[m++] = y[i];
+            memcpy(t->x + m * p, d->x + i * p, (size_t)p * sizeof *t->x);
+            t->y[m++] = d->y[i];
         }
     }
     CLX_CHECK(m >= p, CLAST_E_FORMAT, "%lld rows outside the fold cannot fix %d coefficients",
               (long long)m, p);
     CLX_TRY(alloc_scratch(m, p, &w));
-    CLX_TRY(decompose(xs, m, p, &w));
-    solve(ys, m, p, &w, b);
+    CLX_TRY(decompose(t->x, m, p, &w));
+    solve(t->y, m, p, &w, t->b);
 done:
     free_scratch(&w);
     return status;
 }
 
-clast_status clx_cross_validate(const double *x, const double *y, int64_t n, int32_t p,
-                                const int32_t *fold, int32_t n_fold, double *predicted)
+clast_status clx_cross_validate(const clx_regression *data, const int32_t *fold, int32_t n_fold,
+                                double *predicted)
 {
     clast_status status = CLAST_OK;
-    double *xs = NULL;
-    double *ys = NULL;
-    double *b = NULL;
-    CLX_TRY(clx_alloc(&xs, n * p, sizeof *xs));
-    CLX_TRY(clx_alloc(&ys, n, sizeof *ys));
-    CLX_TRY(clx_alloc(&b, p, sizeof *b));
+    training t = {0};
+    CLX_TRY(clx_alloc(&t.x, data->n * data->p, sizeof *t.x));
+    CLX_TRY(clx_alloc(&t.y, data->n, sizeof *t.y));
+    CLX_TRY(clx_alloc(&t.b, data->p, sizeof *t.b));
     for (int32_t k = 0; k < n_fold; ++k) {
-        status = train(x, y, n, p, fold, k, xs, ys, b);
+        status = train(data, fold, k, &t);
         if (status != CLAST_OK) {
             clx_fail_prefix("cross-validation, fold %d of %d: ", k + 1, n_fold);
             goto done;
         }
-        for (int64_t i = 0; i < n; ++i) {
-            predicted[i] = fold[i] == k ? predict(x + i * p, b, p) : predicted[i];
+        for (int64_t i = 0; i < data->n; ++i) {
+            predicted[i] =
+                fold[i] == k ? predict(data->x + i * data->p, t.b, data->p) : predicted[i];
         }
     }
 done:
-    clx_free(xs);
-    clx_free(ys);
-    clx_free(b);
+    clx_free(t.x);
+    clx_free(t.y);
+    clx_free(t.b);
     return status;
 }
 

@@ -2,6 +2,14 @@
 // Linear least squares y = X b with what a regression report needs, by the singular values of X.
 #include "base/status.h"
 
+/// What is to be fitted: y = X b. Borrowed.
+typedef struct clx_regression {
+    const double *x; ///< [n][p] finite
+    const double *y; ///< [n]
+    int64_t n;
+    int32_t p;
+} clx_regression;
+
 typedef struct clx_least_squares {
     int64_t n;          ///< rows
     int32_t p;          ///< columns of X, the constant one among them
@@ -14,19 +22,17 @@ typedef struct clx_least_squares {
     double condition;   ///< greatest / least singular value of X with columns of unit length
 } clx_least_squares;
 
-/// @param x  [n][p] finite
 /// @return CLAST_E_FORMAT if n < p or the columns depend on each other (condition above 1e12);
 ///         CLAST_E_CONVERGE if LAPACK gives up; CLAST_E_MEMORY; `fit` is then untouched
-clast_status clx_least_squares_fit(const double *x, const double *y, int64_t n, int32_t p,
-                                   clx_least_squares *fit);
+clast_status clx_least_squares_fit(const clx_regression *data, clx_least_squares *fit);
 void clx_least_squares_free(clx_least_squares *fit);
 
 /// Prediction of each row by the fit of the rows in the other folds.
 ///
 /// @param fold  [n] 0 .. n_fold-1
 /// @return as clx_least_squares_fit, with the fold in the message
-clast_status clx_cross_validate(const double *x, const double *y, int64_t n, int32_t p,
-                                const int32_t *fold, int32_t n_fold, double *predicted);
+clast_status clx_cross_validate(const clx_regression *data, const int32_t *fold, int32_t n_fold,
+                                double *predicted);
 
 /// Fold of each row: rows in the order of their draws (seed, CLX_STREAM_FOLD, repeat, row) are
 /// dealt out in turn, so that fold sizes differ by one at most.

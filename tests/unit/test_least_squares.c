@@ -46,7 +46,7 @@ static void fit_matches_r(void **state)
     double y[N];
     clx_least_squares f = {0};
     make_data(x, y);
-    CHECK_OK(clx_least_squares_fit(x, y, N, P, &f));
+    CHECK_OK(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f));
     for (int j = 0; j < P; ++j) {
         CHECK_REL(f.b[j], b[j], 1e-10);
     }
@@ -77,7 +77,7 @@ static void cross_validation_matches_r(void **state)
     for (int i = 0; i < N; ++i) {
         fold[i] = i % 10;
     }
-    CHECK_OK(clx_cross_validate(x, y, N, P, fold, 10, p));
+    CHECK_OK(clx_cross_validate(&(clx_regression){x, y, N, P}, fold, 10, p));
     for (int k = 0; k < 4; ++k) {
         CHECK_REL(p[row[k]], predicted[k], 1e-11);
     }
@@ -100,7 +100,7 @@ static void exact_planes_are_recovered(void **state)
         x[i * P + 3] *= 1e-6;
         y[i] = b[0] + b[1] * x[i * P + 1] + b[2] * x[i * P + 2] + b[3] * x[i * P + 3];
     }
-    CHECK_OK(clx_least_squares_fit(x, y, N, P, &f));
+    CHECK_OK(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f));
     for (int j = 0; j < P; ++j) { /* rounding of y (5 here) enters the small coefficients */
         CHECK_ABS(f.b[j], b[j], j < 3 ? 1e-12 : 1e-12 * 3e5);
     }
@@ -127,7 +127,7 @@ static void covariance_is_that_of_repeated_fits(void **state)
             clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)(k * N + i));
             y[i] = 0.3 + 0.02 * x[i * P + 1] + 0.005 * clx_rng_normal(&rng);
         }
-        CHECK_OK(clx_least_squares_fit(x, y, N, P, &f));
+        CHECK_OK(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f));
         for (int j = 0; j < P; ++j) {
             sum[j] += f.b[j] / N_REPEAT;
             square[j] += f.b[j] * f.b[j] / N_REPEAT;
@@ -149,7 +149,7 @@ static void leverages_sum_to_the_number_of_columns(void **state)
     double sum = 0.0;
     clx_least_squares f = {0};
     make_data(x, y);
-    CHECK_OK(clx_least_squares_fit(x, y, N, P, &f));
+    CHECK_OK(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f));
     for (int i = 0; i < N; ++i) {
         sum += f.leverage[i];
     }
@@ -164,16 +164,16 @@ static void dependent_columns_are_refused(void **state)
     double y[N];
     clx_least_squares f = {0};
     make_data(x, y);
-    CHECK_STATUS(clx_least_squares_fit(x, y, 3, P, &f), CLAST_E_FORMAT);
+    CHECK_STATUS(clx_least_squares_fit(&(clx_regression){x, y, 3, P}, &f), CLAST_E_FORMAT);
     for (int i = 0; i < N; ++i) {
         x[i * P + 3] = 2.0 * x[i * P + 1] - 7.0;
     }
-    CHECK_STATUS(clx_least_squares_fit(x, y, N, P, &f), CLAST_E_FORMAT);
+    CHECK_STATUS(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f), CLAST_E_FORMAT);
     assert_null(f.b);
     for (int i = 0; i < N; ++i) {
         x[i * P + 3] = 0.0;
     }
-    CHECK_STATUS(clx_least_squares_fit(x, y, N, P, &f), CLAST_E_FORMAT);
+    CHECK_STATUS(clx_least_squares_fit(&(clx_regression){x, y, N, P}, &f), CLAST_E_FORMAT);
 }
 
 static void folds_are_even_and_follow_the_seed(void **state)
@@ -201,7 +201,7 @@ static clast_status fit_once(void *context)
 {
     clx_least_squares f = {0};
     double y[N] = {0.0};
-    const clast_status status = clx_least_squares_fit(context, y, N, P, &f);
+    const clast_status status = clx_least_squares_fit(&(clx_regression){context, y, N, P}, &f);
     clx_least_squares_free(&f);
     return status;
 }

@@ -1,0 +1,156 @@
+#pragma once
+#include <clast/form_set.h>
+#include <clast/statistics.h>
+
+// Linear models of a bed's porosity in features of its grains' form: the published ones and those
+// of a user's own fit.                                              [docs/theory/predict.md]
+
+/// What a model's features describe.
+typedef enum {
+    CLAST_MODEL_SINGLE,  ///< one form for all grains: the 13 form factors and inverses
+    CLAST_MODEL_MIXTURE, ///< a distribution of forms: mean_, deviation_ and inverse_ of those
+    CLAST_MODEL_COLUMNS  ///< columns of a table, one row a bed
+} clast_model_kind;
+
+/// "single_form", "form_mixture", "columns".
+CLAST_API const char *clast_model_kind_name(clast_model_kind kind);
+
+/// Features of a mixture: mean and standard deviation (divisor n - 1) over the grains of each of
+/// the 26 features of a grain, and the inverses of these.                    [Rettinger2022
+/// sec. 7.2]
+enum { CLAST_N_MIXTURE_FEATURE = 4 * CLAST_N_FORM_FEATURE };
+
+/// Name of feature 0 .. 103 into text: "mean_equancy", "deviation_inverse_equancy",
+/// "inverse_mean_equancy", "inverse_deviation_elongation"; false beyond.
+CLAST_API bool clast_mixture_feature_name(int32_t feature, char *text, size_t size);
+
+/// Number of the named feature, or -1.
+CLAST_API int32_t clast_mixture_feature_find(const char *name);
+CLAST_API int32_t clast_form_feature_find(const char *name); ///< 0 .. 25, or -1
+
+/// What is known about the grains of a bed. Features that are not known are NaN.
+typedef struct clast_form_inputs {
+    int64_t n_grain;     ///< 0: unknown
+    bool has_deviation;  ///< the spread of the forms is known
+    bool is_independent; ///< equancy's moments come from independence of flatness and elongation
+    double flatness_mean, flatness_deviation;
+    double elongation_mean, elongation_deviation;
+    double equancy_mean, equancy_deviation;
+    double single[CLAST_N_FORM_FEATURE]; ///< of the mean form (mean flatness, mean elongation)
+    double mixture[CLAST_N_MIXTURE_FEATURE];
+} clast_form_inputs;
+
+/// Inputs from the grains of a set, all or those in `pick` (with repeats allowed).
+///
+/// @param pick  [n_pick] indices into the set, or NULL for all
+CLAST_API clast_status clast_form_inputs_of(const clast_form_set *set, const int64_t *pick,
+                                            int64_t n_pick, clast_form_inputs *inputs);
+
+/// Inputs from means and deviations, flatness and elongation taken as independent:
+///
+///     mu_EQ = mu_EL mu_FL,   s_EQ^2 = (mu_EL^2 + s_EL^2)(mu_FL^2 + s_FL^2) - mu_EL^2 mu_FL^2
+///
+/// [Rettinger2022 sec. 7.3]. Of the 104 mixture features those of the three factors (not of their
+/// inverses) are known.
+///
+/// @param deviation  NULL: a single form; else of flatness and of elongation, >= 0
+/// @return CLAST_E_FORMAT for means outside (0, 1] or deviations that are negative or not finite
+CLAST_API clast_status clast_form_inputs_from_moments(const double mean[2],
+                                                      const double deviation[2], int64_t n_grain,
+                                                      clast_form_inputs *inputs);
+
+typedef struct clast_model_term {
+    char *feature; ///< owned
+    double coefficient;
+} clast_model_term;
+
+/// A range that the model's data covered.
+typedef struct clast_model_range {
+    char *feature; ///< owned; of a term or another feature of the same kind
+    double low, high;
+} clast_model_range;
+
+/// porosity = intercept + sum coefficient feature.
+typedef struct clast_porosity_model {
+    char *name;   ///< "single_form_U1"
+    char *source; ///< where it comes from, for people
+    clast_model_kind kind;
+    double intercept;
+    int32_t n_term;
+    clast_model_term *term; ///< [n_term]
+    int32_t n_range;
+    clast_model_range *range; ///< [n_range]
+    double *covariance;       ///< [n_term + 1][n_term + 1] of intercept and coefficients, or NULL
+    double rounding;  ///< half a unit of the last printed digit of coefficients; 0: not rounded
+    double deviation; ///< standard deviation of one bed about the model
+    int64_t n_bed;    ///< beds it was fitted to
+    double r2;        ///< NaN: not known
+    double cv_mean_error, cv_median_error; ///< absolute errors in cross-validation; NaN: not known
+} clast_porosity_model;
+
+CLAST_API void clast_porosity_model_free(clast_porosity_model *model);
+
+enum { CLAST_N_PUBLISHED_MODEL = 5 };
+
+/// The published model of this number (0 .. 4): single_form_U1, _U7, _B50 (eqs 17-19),
+/// form_mixture_U1, _U7 (eqs 23, 24) of Rettinger et al. 2022.
+///
+/// Deviation: sqrt(pi/2) times the printed mean absolute error of cross-validation (Tables 9 and
+/// 10), which is exact for normal residuals. Ranges: of a mixture the nominal means and deviations
+/// of the 52 set-ups of sec. 7.1; of a single form mean +- 2 deviations of the 63 grains (Fig. 2),
+/// cut at 1, since the paper prints no limits.
+CLAST_API clast_status clast_porosity_model_published(int32_t number, clast_porosity_model *model);
+
+/// Number of the published model of this name, or -1.
+CLAST_API int32_t clast_porosity_model_find(const char *name);
+
+typedef struct clast_prediction {
+    double porosity;
+    double
+        standard_error; ///< of the porosity of one such bed: root of the squares of the next three
+    double model_error; ///< scatter of beds about the model
+    double coefficient_error; ///< of the coefficients: their covariance, or their printed digits
+    double sampling_error;    ///< of the features, from a limited number of grains; 0: not known
+    bool in_range;
+    int32_t n_outside;
+    int32_t outside[16]; ///< ranges (numbers into model->range) that are left, first 16
+} clast_prediction;
+
+/// Values of a model's terms and ranges from inputs, by feature name.
+///
+/// @param value  [n_term] of the terms; range_value [n_range] of the ranged features
+/// @return CLAST_E_FORMAT names the feature that the inputs do not hold
+CLAST_API clast_status clast_porosity_model_values(const clast_porosity_model *model,
+                                                   const clast_form_inputs *inputs, double *value,
+                                                   double *range_value);
+
+/// Porosity for given values of terms and ranged features. Outside its ranges the model still
+/// answers, with in_range false; a porosity outside (0, 1) is CLAST_E_LIMIT.
+CLAST_API clast_status clast_porosity_model_apply(const clast_porosity_model *model,
+                                                  const double *value, const double *range_value,
+                                                  clast_prediction *prediction);
+
+/// Porosity of a bed of these grains; with `bootstrap` the sampling error is the deviation of the
+/// porosity over resamples of the grains.
+CLAST_API clast_status clast_porosity_predict_set(const clast_porosity_model *model,
+                                                  const clast_form_set *set,
+                                                  const clast_bootstrap *bootstrap,
+                                                  clast_form_inputs *inputs,
+                                                  clast_prediction *prediction);
+
+/// Porosity from means and deviations; inputs->n_grain > 1 gives the sampling error by the first
+/// derivatives, with variances s^2 / n of a mean and s^2 / (2 (n - 1)) of a deviation.
+CLAST_API clast_status clast_porosity_predict_moments(const clast_porosity_model *model,
+                                                      const clast_form_inputs *inputs,
+                                                      clast_prediction *prediction);
+
+/// One row a grain: the single form of that grain as the only one of a bed; columns row (from 1, in
+/// the set's table), porosity, standard_error, in_range (1 or 0).
+CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *model,
+                                                   const clast_form_set *set, clast_table *beds);
+
+/// One row: porosity, the errors, in_range and the inputs' means and deviations.
+CLAST_API clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
+                                                       const clast_form_inputs *inputs,
+                                                       const clast_prediction *prediction,
+                                                       clast_table *table);

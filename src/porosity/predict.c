@@ -1,0 +1,310 @@
+// Porosity and its error from a model and the forms of a bed's grains.
+#include <clast/porosity_model.h>
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include "math/bootstrap.h"
+#include "math/sample.h"
+#include "porosity/form_inputs.h"
+#include <math.h>
+#include <string.h>
+
+enum { N_OUTSIDE = sizeof((clast_prediction *)0)->outside / sizeof(int32_t) };
+
+/// Value of a feature by name, NaN where the inputs do not hold it or the kind has no such feature.
+static double feature_value(const clast_porosity_model *model, const clast_form_inputs *in,
+                            const char *name)
+{
+    const bool is_single = model->kind == CLAST_MODEL_SINGLE;
+    const int32_t f = is_single ? clast_form_feature_find(name) : clast_mixture_feature_find(name);
+    return f < 0 ? (double)NAN : is_single ? in->single[f] : in->mixture[f];
+}
+
+static clast_status take(const clast_porosity_model *model, const clast_form_inputs *in,
+                         const char *name, double *value)
+{
+    clast_status status = CLAST_OK;
+    const bool is_spread = strstr(name, "deviation_") != NULL;
+    *value = feature_value(model, in, name);
+    CLX_CHECK(!(isnan(*value) && model->kind == CLAST_MODEL_MIXTURE && !in->has_deviation),
+              CLAST_E_FORMAT,
+              "model %s needs the spread of the forms (%s): give two grains or more, or deviations "
+              "as in 0.65+-0.17; for equal grains take the single-form model",
+              model->name, name);
+    CLX_CHECK(!(isnan(*value) && is_spread), CLAST_E_FORMAT,
+              "model %s: '%s' has no value for these grains: that factor does not vary or is not "
+              "defined",
+              model->name, name);
+    CLX_CHECK(!isnan(*value), CLAST_E_FORMAT, "model %s: '%s' cannot be had from %s", model->name,
+              name,
+              in->is_independent ? "means and deviations; give a table of grains"
+                                 : "these grains: it is not defined for one of them");
+    CLX_CHECK(isfinite(*value), CLAST_E_FORMAT, "model %s: '%s' is infinite for these grains",
+              model->name, name);
+done:
+    return status;
+}
+
+clast_status clast_porosity_model_values(const clast_porosity_model *model,
+                                         const clast_form_inputs *inputs, double *value,
+                                         double *range_value)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(model->kind != CLAST_MODEL_COLUMNS, CLAST_E_USAGE,
+              "model %s takes columns of a table, not forms", model->name);
+    for (int32_t k = 0; k < model->n_term; ++k) {
+        CLX_TRY(take(model, inputs, model->term[k].feature, &value[k]));
+    }
+    for (int32_t k = 0; k < model->n_range; ++k) {
+        CLX_TRY(take(model, inputs, model->range[k].feature, &range_value[k]));
+    }
+done:
+    return status;
+}
+
+/// Variance of the porosity from that of the coefficients.
+static double coefficient_variance(const clast_porosity_model *m, const double *value)
+{
+    double sum = 0.0;
+    const int32_t p = m->n_term + 1;
+    for (int32_t i = 0; i < p; ++i) {
+        const double xi = i == 0 ? 1.0 : value[i - 1];
+        // a number rounded to a unit 2r lies uniformly within +-r: variance r^2 / 3
+        sum += xi * xi * m->rounding * m->rounding / 3.0;
+        for (int32_t j = 0; j < p && m->covariance != NULL; ++j) {
+            sum += xi * m->covariance[i * p + j] * (j == 0 ? 1.0 : value[j - 1]);
+        }
+    }
+    return fmax(sum, 0.0);
+}
+
+clast_status clast_porosity_model_apply(const clast_porosity_model *model, const double *value,
+                                        const double *range_value, clast_prediction *prediction)
+{
+    clast_status status = CLAST_OK;
+    clast_prediction p = {.porosity = model->intercept, .model_error = model->deviation};
+    for (int32_t k = 0; k < model->n_term; ++k) {
+        p.porosity += model->term[k].coefficient * value[k];
+    }
+    CLX_CHECK(p.porosity > 0.0 && p.porosity < 1.0, CLAST_E_LIMIT,
+              "model %s gives the porosity %g, which no bed has: the grains lie far outside its "
+              "range",
+              model->name, p.porosity);
+    p.coefficient_error = sqrt(coefficient_variance(model, value));
+    p.standard_error = hypot(p.model_error, p.coefficient_error);
+    for (int32_t k = 0; k < model->n_range; ++k) {
+        const clast_model_range *r = &model->range[k];
+        const double slack = 1e-12 * (fabs(r->low) + fabs(r->high));
+        if (range_value[k] < r->low - slack || range_value[k] > r->high + slack) {
+            if (p.n_outside < N_OUTSIDE) {
+                p.outside[p.n_outside] = k;
+            }
+            ++p.n_outside;
+        }
+    }
+    p.in_range = p.n_outside == 0;
+    *prediction = p;
+done:
+    return status;
+}
+
+/// Values and application in one.
+static clast_status predict(const clast_porosity_model *model, const clast_form_inputs *inputs,
+                            clast_prediction *prediction)
+{
+    clast_status status = CLAST_OK;
+    double *value = NULL;
+    CLX_TRY(clx_alloc(&value, (int64_t)model->n_term + model->n_range, sizeof *value));
+    CLX_TRY(clast_porosity_model_values(model, inputs, value, value + model->n_term));
+    CLX_TRY(clast_porosity_model_apply(model, value, value + model->n_term, prediction));
+done:
+    clx_free(value);
+    return status;
+}
+
+static void add_sampling(clast_prediction *p, double error)
+{
+    p->sampling_error = error;
+    p->standard_error = hypot(p->standard_error, error);
+}
+
+/// Porosities of resamples of the grains; a resample without an answer (all grains equal) is NaN.
+static clast_status resample(const clast_porosity_model *model, const clast_form_set *set,
+                             const clast_bootstrap *bootstrap, double *deviation)
+{
+    clast_status status = CLAST_OK;
+    int64_t *pick = NULL;
+    double *row = NULL;
+    double *porosity = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_alloc(&pick, set->n, sizeof *pick));
+    CLX_TRY(clx_alloc(&row, set->n * CLAST_N_FORM_FEATURE, sizeof *row));
+    CLX_TRY(clx_alloc(&porosity, bootstrap->n_resample, sizeof *porosity));
+    clx_form_features_rows(set, row);
+    for (int32_t b = 0; b < bootstrap->n_resample; ++b) {
+        clast_form_inputs in = {0};
+        clast_prediction p = {0};
+        clx_bootstrap_rows(bootstrap, b, set->n, pick);
+        clx_form_inputs_from_rows(row, pick, set->n, &in);
+        const clast_status answer = predict(model, &in, &p);
+        CLX_CHECK(answer != CLAST_E_MEMORY, answer, "no memory for a resample");
+        porosity[n] = p.porosity;
+        n += answer == CLAST_OK ? 1 : 0;
+    }
+    const clx_moments m = clx_sample_moments(porosity, n);
+    *deviation = n > 1 ? m.deviation : 0.0;
+done:
+    clx_free(pick);
+    clx_free(row);
+    clx_free(porosity);
+    return status;
+}
+
+clast_status clast_porosity_predict_set(const clast_porosity_model *model,
+                                        const clast_form_set *set, const clast_bootstrap *bootstrap,
+                                        clast_form_inputs *inputs, clast_prediction *prediction)
+{
+    clast_status status = CLAST_OK;
+    clast_form_inputs in = {0};
+    clast_prediction p = {0};
+    CLX_TRY(clast_form_inputs_of(set, NULL, 0, &in));
+    CLX_TRY(predict(model, &in, &p));
+    if (bootstrap != NULL && bootstrap->n_resample > 1 && set->n > 1) {
+        double error = 0.0;
+        CLX_TRY(resample(model, set, bootstrap, &error));
+        add_sampling(&p, error);
+    }
+    *inputs = in;
+    *prediction = p;
+done:
+    return status;
+}
+
+/// Square of d porosity / d (moment k) times that moment's standard error, by a central difference
+/// of a thousandth of it.
+static clast_status moment_variance(const clast_porosity_model *model, const clast_form_inputs *in,
+                                    int k, double error, double *variance)
+{
+    clast_status status = CLAST_OK;
+    double porosity[2] = {0.0};
+    const double step = 1e-3 * error;
+    for (int side = 0; side < 2 && error > 0.0; ++side) {
+        double v[4] = {in->flatness_mean, in->elongation_mean, in->flatness_deviation,
+                       in->elongation_deviation};
+        clast_form_inputs moved = {0};
+        clast_prediction p = {0};
+        v[k] += side == 0 ? -step : step;
+        v[k] = k < 2 ? fmin(v[k], 1.0) : v[k];
+        CLX_TRY(clast_form_inputs_from_moments(v, in->has_deviation ? v + 2 : NULL, in->n_grain,
+                                               &moved));
+        CLX_TRY(predict(model, &moved, &p));
+        porosity[side] = p.porosity;
+    }
+    const double slope = error > 0.0 ? (porosity[1] - porosity[0]) / (2.0 * step) : 0.0;
+    *variance = slope * slope * error * error;
+done:
+    return status;
+}
+
+clast_status clast_porosity_predict_moments(const clast_porosity_model *model,
+                                            const clast_form_inputs *inputs,
+                                            clast_prediction *prediction)
+{
+    clast_status status = CLAST_OK;
+    clast_prediction p = {0};
+    double sum = 0.0;
+    CLX_TRY(predict(model, inputs, &p));
+    if (inputs->n_grain > 1 && inputs->has_deviation) {
+        const double n = (double)inputs->n_grain;
+        const double s[2] = {inputs->flatness_deviation, inputs->elongation_deviation};
+        for (int k = 0; k < 4; ++k) {
+            double variance = 0.0;
+            const double error = k < 2 ? s[k] / sqrt(n) : s[k - 2] / sqrt(2.0 * (n - 1.0));
+            CLX_TRY(moment_variance(model, inputs, k, error, &variance));
+            sum += variance;
+        }
+        add_sampling(&p, sqrt(sum));
+    }
+    *prediction = p;
+done:
+    return status;
+}
+
+/// One grain of a set as inputs.
+static clast_status one_grain(const clast_form_set *set, int64_t i, clast_form_inputs *in)
+{
+    const double mean[2] = {set->flatness[i], set->elongation[i]};
+    return clast_form_inputs_from_moments(mean, NULL, 1, in);
+}
+
+clast_status clast_porosity_predict_each(const clast_porosity_model *model,
+                                         const clast_form_set *set, clast_table *beds)
+{
+    static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
+    clast_status status = CLAST_OK;
+    clast_table t = {0};
+    double *column[4] = {NULL};
+    CLX_CHECK(model->kind == CLAST_MODEL_SINGLE, CLAST_E_USAGE,
+              "model %s is no single-form model: one grain says nothing about a mixture",
+              model->name);
+    CLX_TRY(clast_table_init(&t, "beds", set->n));
+    for (int k = 0; k < 4; ++k) {
+        CLX_TRY(clast_table_add_number(&t, name[k], "-", &column[k]));
+    }
+    for (int64_t i = 0; i < set->n; ++i) {
+        clast_form_inputs in = {0};
+        clast_prediction p = {0};
+        CLX_TRY(one_grain(set, i, &in));
+        status = predict(model, &in, &p);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("row %lld: ", (long long)set->row[i] + 1);
+            goto done;
+        }
+        const double value[4] = {(double)set->row[i] + 1.0, p.porosity, p.standard_error,
+                                 p.in_range ? 1.0 : 0.0};
+        for (int k = 0; k < 4; ++k) {
+            column[k][i] = value[k];
+        }
+    }
+    *beds = t;
+    t = (clast_table){0};
+done:
+    clast_table_free(&t);
+    return status;
+}
+
+clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
+                                             const clast_form_inputs *inputs,
+                                             const clast_prediction *prediction, clast_table *table)
+{
+    static const char *const name[] = {
+        "porosity",          "standard_error",       "model_error",
+        "coefficient_error", "sampling_error",       "in_range",
+        "n_grain",           "flatness_mean",        "flatness_deviation",
+        "elongation_mean",   "elongation_deviation", "equancy_mean",
+        "equancy_deviation"};
+    enum { N_NAME = sizeof name / sizeof name[0] };
+    const clast_prediction *p = prediction;
+    const clast_form_inputs *in = inputs;
+    const double value[N_NAME] = {
+        p->porosity,          p->standard_error,        p->model_error,
+        p->coefficient_error, p->sampling_error,        p->in_range ? 1.0 : 0.0,
+        (double)in->n_grain,  in->flatness_mean,        in->flatness_deviation,
+        in->elongation_mean,  in->elongation_deviation, in->equancy_mean,
+        in->equancy_deviation};
+    clast_status status = CLAST_OK;
+    clast_table t = {0};
+    CLX_TRY(clast_table_init(&t, "prediction", 1));
+    CLX_TRY(clast_table_add_text(&t, "model"));
+    CLX_TRY(clast_table_set_text(&t, 0, 0, model->name));
+    for (int k = 0; k < N_NAME; ++k) {
+        double *column = NULL;
+        CLX_TRY(clast_table_add_number(&t, name[k], "-", &column));
+        column[0] = value[k];
+    }
+    *table = t;
+    t = (clast_table){0};
+done:
+    clast_table_free(&t);
+    return status;
+}

@@ -1,0 +1,351 @@
+// Forms of a set of grains from a table's columns; rows that have none are listed, not guessed.
+#include <clast/form_set.h>
+
+#include "base/alloc.h"
+#include "base/number.h"
+#include "base/status.h"
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+/// Two-digit tables (flatness 0.65) stay within this of the ratio of their rounded lengths.
+static const double DISAGREE = 0.006;
+static const double ABOVE_ONE = 1e-9;
+
+enum { N_NAME = 8, NAME_SIZE = 64 };
+enum { LONG, MIDDLE, SHORT, FLATNESS, ELONGATION, SIZE, N_ROLE };
+
+static const char *const names[N_ROLE][N_NAME] = {
+    [LONG] = {"l", "long", "longest", "major_axis_length", "length"},
+    [MIDDLE] = {"i", "intermediate", "middle", "middle_axis_length", "width"},
+    [SHORT] = {"s", "short", "shortest", "minor_axis_length", "thickness"},
+    [FLATNESS] = {"flatness", "fl", "s/i"},
+    [ELONGATION] = {"elongation", "el", "i/l"},
+    [SIZE] = {"sieve_size", "d", "size", "diameter", "equivalent_diameter"},
+};
+
+/// Columns found; -1 for none.
+typedef struct {
+    int32_t at[N_ROLE];
+    bool by_length;
+} roles;
+
+const char *clast_row_fault_text(clast_row_fault fault)
+{
+    static const char *const text[CLAST_N_ROW_FAULT] = {
+        "missing", "not a number", "infinite", "not positive", "above 1", "not L >= I >= S"};
+    return text[fault];
+}
+
+/// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
+static void plain_name(const clast_column *column, char plain[NAME_SIZE])
+{
+    size_t n = strcspn(column->name, "([");
+    while (n > 0 && (column->name[n - 1] == ' ' || column->name[n - 1] == '_')) {
+        --n;
+    }
+    const size_t unit = column->unit != NULL ? strlen(column->unit) : 0;
+    if (unit > 0 && n > unit + 1 && column->name[n - unit - 1] == '_' &&
+        strncmp(column->name + n - unit, column->unit, unit) == 0) {
+        n -= unit + 1;
+    }
+    n = n < NAME_SIZE - 1 ? n : NAME_SIZE - 1;
+    for (size_t i = 0; i < n; ++i) {
+        const char c = column->name[i];
+        plain[i] = c == ' ' || c == '-' ? '_' : (char)tolower((unsigned char)c);
+    }
+    plain[n] = '\0';
+}
+
+static int32_t find_role(const clast_table *table, int role)
+{
+    for (int k = 0; k < N_NAME && names[role][k] != NULL; ++k) {
+        for (int32_t c = 0; c < table->n_column; ++c) {
+            char plain[NAME_SIZE];
+            plain_name(&table->column[c], plain);
+            if (strcmp(plain, names[role][k]) == 0) {
+                return c;
+            }
+        }
+    }
+    return -1;
+}
+
+/// Columns that the caller names: two ratios or three lengths.
+static clast_status named_roles(const clast_table *table, const char *columns, roles *r)
+{
+    clast_status status = CLAST_OK;
+    int32_t found[4] = {-1, -1, -1, -1};
+    int n = 0;
+    for (const char *at = columns; *at != '\0';) {
+        char name[256];
+        const size_t length = strcspn(at, ",");
+        CLX_CHECK(n < 3 && length < sizeof name, CLAST_E_USAGE,
+                  "columns '%s': two names (flatness, elongation) or three (L, I, S) are taken",
+                  columns);
+        (void)snprintf(name, sizeof name, "%.*s", (int)length, at);
+        found[n] = clast_table_find(table, name);
+        CLX_CHECK(found[n] >= 0, CLAST_E_FORMAT, "table %s has no column '%s'", table->name, name);
+        ++n;
+        at += length + (at[length] == ',' ? 1 : 0);
+    }
+    CLX_CHECK(n == 2 || n == 3, CLAST_E_USAGE,
+              "columns '%s': two names (flatness, elongation) or three (L, I, S) are taken",
+              columns);
+    for (int k = 0; k < n; ++k) {
+        r->at[n == 2 ? FLATNESS + k : LONG + k] = found[k];
+    }
+    r->by_length = n == 3;
+    r->at[SIZE] = find_role(table, SIZE);
+done:
+    return status;
+}
+
+static clast_status find_roles(const clast_table *table, const char *columns, roles *r)
+{
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < N_ROLE; ++k) {
+        r->at[k] = -1;
+    }
+    if (columns != NULL && columns[0] != '\0') {
+        return named_roles(table, columns, r);
+    }
+    for (int k = 0; k < N_ROLE; ++k) {
+        r->at[k] = find_role(table, k);
+    }
+    r->by_length = r->at[LONG] >= 0 && r->at[MIDDLE] >= 0 && r->at[SHORT] >= 0;
+    CLX_CHECK(r->by_length || (r->at[FLATNESS] >= 0 && r->at[ELONGATION] >= 0), CLAST_E_FORMAT,
+              "table %s has neither the columns flatness and elongation nor L, I and S; name them "
+              "with --columns a,b or a,b,c",
+              table->name);
+done:
+    return status;
+}
+
+static bool is_word(const char *text, const char *lower)
+{
+    for (; *lower != '\0' && tolower((unsigned char)*text) == *lower; ++text) {
+        ++lower;
+    }
+    return *lower == '\0' && *text == '\0';
+}
+
+/// A text cell as a number; NAN with *fault set if it is none.
+static double text_cell(const char *text, clast_row_fault *fault)
+{
+    double value = 0.0;
+    const char *end = text + strlen(text);
+    if (*text == '\0' || is_word(text, "na") || is_word(text, "nan")) {
+        *fault = CLAST_ROW_MISSING;
+        return NAN;
+    }
+    if (is_word(text, "inf") || is_word(text, "-inf")) {
+        return *text == '-' ? -HUGE_VAL : HUGE_VAL;
+    }
+    if (clx_number_parse(text, end, &value) != end) {
+        *fault = CLAST_ROW_NOT_NUMBER;
+        return NAN;
+    }
+    return value;
+}
+
+/// A cell as a number; NAN with *fault set if it is none.
+static double cell(const clast_column *c, int64_t row, clast_row_fault *fault)
+{
+    double value = NAN;
+    if (c->number != NULL) {
+        value = c->number[row];
+        *fault = isnan(value) ? CLAST_ROW_MISSING : *fault;
+    } else {
+        value = text_cell(c->text[row], fault);
+    }
+    if (!isnan(value)) {
+        *fault = isinf(value) ? CLAST_ROW_INFINITE : value <= 0.0 ? CLAST_ROW_NOT_POSITIVE : *fault;
+    }
+    return value;
+}
+
+/// Flatness and elongation of a row, or why it has none (CLAST_N_ROW_FAULT: nothing wrong).
+static clast_row_fault form_of(const clast_table *table, const roles *r, int64_t row, double *fl,
+                               double *el, double *sieve)
+{
+    clast_row_fault fault = CLAST_N_ROW_FAULT;
+    double v[3] = {0.0};
+    const int first = r->by_length ? LONG : FLATNESS;
+    const int n = r->by_length ? 3 : 2;
+    for (int k = 0; k < n && fault == CLAST_N_ROW_FAULT; ++k) {
+        v[k] = cell(&table->column[r->at[first + k]], row, &fault);
+    }
+    if (fault != CLAST_N_ROW_FAULT) {
+        return fault;
+    }
+    *fl = r->by_length ? v[2] / v[1] : v[0];
+    *el = r->by_length ? v[1] / v[0] : v[1];
+    *sieve = r->by_length ? clast_form_sieve_size(v[1], v[2]) : (double)NAN;
+    if (!(*fl <= 1.0 + ABOVE_ONE && *el <= 1.0 + ABOVE_ONE)) {
+        return r->by_length ? CLAST_ROW_NOT_ORDERED : CLAST_ROW_ABOVE_ONE;
+    }
+    *fl = fmin(*fl, 1.0);
+    *el = fmin(*el, 1.0);
+    return *fl > 0.0 && *el > 0.0 ? CLAST_N_ROW_FAULT : CLAST_ROW_NOT_POSITIVE; // underflow
+}
+
+/// Ratios beside lengths must be the ratios of those lengths.
+static clast_status check_agreement(const clast_table *table, const roles *r, int64_t row,
+                                    double fl, double el)
+{
+    clast_status status = CLAST_OK;
+    const double own[2] = {fl, el};
+    for (int k = 0; k < 2; ++k) {
+        clast_row_fault fault = CLAST_N_ROW_FAULT;
+        const int32_t c = r->at[FLATNESS + k];
+        const double printed = c >= 0 ? cell(&table->column[c], row, &fault) : (double)NAN;
+        CLX_CHECK(isnan(printed) || fabs(printed - own[k]) <= DISAGREE, CLAST_E_FORMAT,
+                  "table %s, row %lld: column '%s' is %g but %s is %g; say with --columns which "
+                  "counts",
+                  table->name, (long long)row + 1, table->column[c].name, printed,
+                  k == 0 ? "S/I" : "I/L", own[k]);
+    }
+done:
+    return status;
+}
+
+static clast_status alloc_set(int64_t n, bool has_size, clast_form_set *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&s->row, n, sizeof *s->row));
+    CLX_TRY(clx_alloc(&s->flatness, n, sizeof *s->flatness));
+    CLX_TRY(clx_alloc(&s->elongation, n, sizeof *s->elongation));
+    CLX_TRY(clx_alloc(&s->left_out, n, sizeof *s->left_out));
+    if (has_size) {
+        CLX_TRY(clx_alloc(&s->size, n, sizeof *s->size));
+    }
+done:
+    return status;
+}
+
+void clast_form_set_free(clast_form_set *set)
+{
+    clx_free(set->row);
+    clx_free(set->flatness);
+    clx_free(set->elongation);
+    clx_free(set->size);
+    clx_free(set->left_out);
+    *set = (clast_form_set){0};
+}
+
+static void label_size(const clast_table *table, const roles *r, clast_form_set *s)
+{
+    if (r->by_length) {
+        const char *unit = table->column[r->at[SHORT]].unit;
+        const bool has_unit = unit != NULL && unit[0] != '\0' && strcmp(unit, "-") != 0;
+        (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",
+                       has_unit ? " (" : "", has_unit ? unit : "", has_unit ? ")" : "");
+    } else if (r->at[SIZE] >= 0) {
+        (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[r->at[SIZE]].name);
+    }
+}
+
+clast_status clast_form_set_of(const clast_table *table, const char *columns, clast_form_set *set)
+{
+    clast_status status = CLAST_OK;
+    clast_form_set s = {0};
+    roles r;
+    CLX_TRY(find_roles(table, columns, &r));
+    CLX_TRY(alloc_set(table->n_row, r.by_length || r.at[SIZE] >= 0, &s));
+    label_size(table, &r, &s);
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        double sieve = NAN;
+        const clast_row_fault fault =
+            form_of(table, &r, row, &s.flatness[s.n], &s.elongation[s.n], &sieve);
+        if (fault != CLAST_N_ROW_FAULT) {
+            s.left_out[s.n_left_out++] = (clast_left_out){row, fault};
+            continue;
+        }
+        CLX_TRY(check_agreement(table, &r, row, s.flatness[s.n], s.elongation[s.n]));
+        if (s.size != NULL) {
+            clast_row_fault of_size = CLAST_N_ROW_FAULT;
+            s.size[s.n] = r.by_length ? sieve : cell(&table->column[r.at[SIZE]], row, &of_size);
+        }
+        s.row[s.n++] = row;
+    }
+    CLX_CHECK(s.n > 0, CLAST_E_FORMAT, "table %s: none of its %lld rows has a form%s%s",
+              table->name, (long long)table->n_row, table->n_row > 0 ? "; row 1 is " : "",
+              table->n_row > 0 ? clast_row_fault_text(s.left_out[0].fault) : "");
+    *set = s;
+    s = (clast_form_set){0};
+done:
+    clast_form_set_free(&s);
+    return status;
+}
+
+void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
+{
+    int64_t count[CLAST_N_ROW_FAULT] = {0};
+    size_t used = 0;
+    text[0] = '\0';
+    if (set->n_left_out == 0) {
+        return;
+    }
+    for (int64_t k = 0; k < set->n_left_out; ++k) {
+        ++count[set->left_out[k].fault];
+    }
+    used = (size_t)snprintf(text, size, "%lld of %lld rows left out:", (long long)set->n_left_out,
+                            (long long)set->n_left_out + (long long)set->n);
+    const char *comma = "";
+    for (int f = 0; f < CLAST_N_ROW_FAULT && used < size; ++f) {
+        if (count[f] > 0) {
+            used += (size_t)snprintf(text + used, size - used, "%s %lld %s", comma,
+                                     (long long)count[f], clast_row_fault_text((clast_row_fault)f));
+            comma = ",";
+        }
+    }
+    if (used < size) {
+        (void)snprintf(text + used, size - used, " (first: row %lld)",
+                       (long long)set->left_out[0].row + 1);
+    }
+}
+
+clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table t = {0};
+    double *column = NULL;
+    CLX_TRY(clast_table_init(&t, "form_factors", set->n));
+    for (int32_t f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
+        CLX_TRY(clast_table_add_number(&t, clast_form_factor_about(f)->name, "-", &column));
+        for (int64_t i = 0; i < set->n; ++i) {
+            double lis[3];
+            clast_form_lengths(set->flatness[i], set->elongation[i], 1.0, lis);
+            column[i] = clast_form_factor_value((clast_form_factor)f, lis[0], lis[1], lis[2]);
+        }
+    }
+    if (set->size != NULL) {
+        CLX_TRY(clast_table_add_number(&t, "size", "-", &column));
+        memcpy(column, set->size, (size_t)set->n * sizeof *column);
+    }
+    *table = t;
+    t = (clast_table){0};
+done:
+    clast_table_free(&t);
+    return status;
+}
+
+clast_status clast_form_set_left_out(const clast_form_set *set, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table t = {0};
+    double *row = NULL;
+    CLX_TRY(clast_table_init(&t, "left_out", set->n_left_out));
+    CLX_TRY(clast_table_add_number(&t, "row", "-", &row));
+    CLX_TRY(clast_table_add_text(&t, "reason"));
+    for (int64_t k = 0; k < set->n_left_out; ++k) {
+        row[k] = (double)set->left_out[k].row + 1.0;
+        CLX_TRY(clast_table_set_text(&t, 1, k, clast_row_fault_text(set->left_out[k].fault)));
+    }
+    *table = t;
+    t = (clast_table){0};
+done:
+    clast_table_free(&t);
+    return status;
+}

@@ -1,0 +1,95 @@
+"""CLI: clast predict answers as its help says, and refuses in one line."""
+import csv
+import json
+import unittest
+
+from clitest import Case, clast
+
+RHINE = ("--flatness", "0.647+-0.175", "--elongation", "0.682+-0.139")
+
+
+class Predict(Case):
+    def table(self, text):
+        path = self.folder / "grains.csv"
+        path.write_text(text)
+        return path
+
+    def answer(self, *arguments):
+        done = clast("predict", *map(str, arguments), "--json")
+        self.assertEqual(done.code, 0, done.err)
+        return json.loads(done.out)
+
+    def refusal(self, code, *arguments):
+        done = clast("predict", *map(str, arguments))
+        self.assertEqual(done.code, code, done.err)
+        self.assertEqual(done.out, "")
+        self.assertEqual(done.err.count("\n"), 1, done.err)
+        return done.err
+
+    def test_table_11(self):
+        for grading, published in (("U1", 0.356), ("U7", 0.285)):
+            out = self.answer(*RHINE, "--grading", grading)
+            self.assertEqual(out["model"], f"form_mixture_{grading}")
+            self.assertAlmostEqual(out["porosity"], published, delta=0.0098)
+            self.assertTrue(out["in_range"])
+            self.assertGreater(out["standard_error"], out["errors"]["model"])
+
+    def test_table_gives_the_mixture_and_one_grain_the_single_form(self):
+        many = self.answer(self.table("flatness,elongation\n0.5,0.7\n0.7,0.6\n0.6,0.8\n"))
+        self.assertEqual(many["kind"], "form_mixture")
+        self.assertEqual(many["inputs"]["n_grain"], 3)
+        self.assertGreater(many["errors"]["sampling"], 0)
+        one = self.answer(self.table("flatness,elongation\n0.5,0.7\n"))
+        self.assertEqual(one["kind"], "single_form")
+        self.assertAlmostEqual(one["porosity"], 0.278 + 0.019 / 0.35 + 0.014 / 0.7, places=14)
+
+    def test_bad_rows_are_told_and_left_out(self):
+        path = self.table("flatness,elongation\n0.5,0.7\n,0.6\n0.6,-0.8\n0.6,inf\n0.7,0.6\n")
+        done = clast("predict", str(path), "--json", "-o", str(self.folder / "run"))
+        self.assertEqual(done.code, 0, done.err)
+        self.assertIn("3 of 5 rows left out: 1 missing, 1 infinite, 1 not positive", done.err)
+        self.assertEqual(json.loads(done.out)["inputs"]["n_left_out"], 3)
+        self.assertNotIn("null", done.out)
+        with open(self.folder / "run/left_out.csv", newline="") as file:
+            self.assertEqual([row["row"] for row in csv.DictReader(file)], ["2", "3", "4"])
+        with open(self.folder / "run/prediction.csv", newline="") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 1)
+
+    def test_outside_the_range_is_named(self):
+        out = self.answer("--flatness", "0.3+-0.15", "--elongation", "0.7+-0.3")
+        self.assertFalse(out["in_range"])
+        self.assertEqual([r["feature"] for r in out["out_of_range"]], ["mean_flatness", "deviation_elongation"])
+
+    def test_each_row_is_a_bed(self):
+        path = self.table("L,I,S\n4,3,2\n4,4,4\n")
+        out = self.answer(path, "--each", "--grading", "B50")
+        self.assertEqual(len(out["beds"]), 2)
+        self.assertAlmostEqual(out["beds"][1]["porosity"], 0.217 + 0.014 - 0.006, places=14)
+        self.assertFalse(out["beds"][1]["in_range"])
+
+    def test_refusals(self):
+        self.assertIn("table of grains", self.refusal(2))
+        self.assertIn("not both", self.refusal(2, self.table("FL,EL\n0.5,0.5\n"), *RHINE))
+        self.assertIn("both or none", self.refusal(2, "--flatness", "0.6+-0.1", "--elongation", "0.7"))
+        self.assertIn("no mean", self.refusal(2, "--flatness", "flat", "--elongation", "0.7"))
+        self.assertIn("B50", self.refusal(2, *RHINE, "--grading", "B50"))
+        self.assertIn("S/I or I/L", self.refusal(3, "--flatness", "1.6", "--elongation", "0.7"))
+        self.assertIn("spread", self.refusal(3, "--flatness", "0.6", "--elongation", "0.7", "--model", "mixture"))
+        self.assertIn("neither", self.refusal(3, self.table("a,b\n1,2\n")))
+        self.assertIn("none of its 1 rows", self.refusal(3, self.table("FL,EL\n5,2\n")))
+        self.refusal(3, self.folder / "none.csv")
+        self.refusal(3, *RHINE, "--model", self.folder / "none.json")
+
+    def test_words_name_model_and_error(self):
+        done = clast("predict", *RHINE)
+        self.assertIn("porosity   0.3558 +- 0.0062", done.out)
+        self.assertIn("form_mixture_U1", done.out)
+
+    def test_same_bytes_for_any_thread_count(self):
+        path = self.table("FL,EL\n" + "".join(f"{0.4 + 0.01 * k},{0.9 - 0.007 * k}\n" for k in range(40)))
+        outputs = {clast("predict", str(path), "--json", "-j", str(j)).out for j in (1, 2, 4)}
+        self.assertEqual(len(outputs), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
