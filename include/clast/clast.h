@@ -25,6 +25,7 @@
 #include <clast/grading.h>
 #include <clast/grading_file.h>
 #include <clast/form_set.h>
+#include <clast/grain.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/manifest.h>

@@ -37,18 +37,18 @@ done:
     return status;
 }
 
-clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double semi_axes[3])
+clast_status clx_frame_from_inertia(double volume, double inertia[3][3], double semi_axes[3],
+                                    double frame[3][3])
 {
     double c[3][3];
     double value[3];
-    double vector[3][3];
     const double half = 0.5 * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             c[i][j] = (i == j ? half : 0.0) - inertia[i][j];
         }
     }
-    clx_sym3_eigen(c, value, vector);
+    clx_sym3_eigen(c, value, frame);
     if (!(value[2] > 0.0) || !(volume > 0.0)) {
         return clx_fail(CLAST_E_GEOMETRY,
                         "no solid of volume %g has second moments %g, %g, %g about its centroid",
@@ -58,6 +58,12 @@ clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double s
         semi_axes[k] = sqrt(5.0 * value[k] / volume);
     }
     return CLAST_OK;
+}
+
+clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double semi_axes[3])
+{
+    double frame[3][3];
+    return clx_frame_from_inertia(volume, inertia, semi_axes, frame);
 }
 
 static clast_status name_shape(const char *name, clast_shape *shape)

@@ -9,6 +9,10 @@
 /// @return CLAST_E_GEOMETRY if the moments break the triangle inequality (no solid has them)
 clast_status clx_axes_from_inertia(double volume, double inertia[3][3], double semi_axes[3]);
 
+/// The same with the unit directions of the axes, right-handed.
+clast_status clx_frame_from_inertia(double volume, double inertia[3][3], double semi_axes[3],
+                                    double frame[3][3]);
+
 /// Volume, centroid and inertia at unit density of a union of spheres, overlaps counted once:
 /// within 1e-11 (relative), exact sums when none overlap. [docs/theory/union-of-spheres.md]
 ///

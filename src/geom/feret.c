@@ -1,0 +1,167 @@
+// Longest and shortest caliper of a convex hull, exactly.
+//
+// Each edge has an arc of normals, from that of one face to that of the other. Walking along the
+// arc, the vertex at the opposite side changes where an edge there is at right angles to the
+// current normal: the two edges then lie in parallel planes. The walk meets every antipodal pair of
+// an edge and a vertex, of two edges, and (at its ends) of a face and a vertex. The width is
+// concave-like between these events (a distance of two fixed points times a cosine), so its minimum
+// is at an event; the longest caliper joins two vertices whose normal cones are opposite, and a
+// border of their common region is an arc on the walk.   [HouleToussaint1988; docs/theory/form.md]
+#include "geom/hull_body.h"
+
+#include "math/vec3.h"
+
+typedef struct {
+    const clx_hull_body *body;
+    double longest2;
+    int32_t n_pair;
+    int32_t pair[CLX_FERET_TIES][2]; ///< lower vertex first
+    double shortest;
+    double axis[3];
+} feret_walk;
+
+static void try_pair(feret_walk *w, int32_t a, int32_t b)
+{
+    const double tie = 2e-12; // of the square
+    const double d2 = v3_distance2(w->body->vert[a], w->body->vert[b]);
+    const int32_t low = a < b ? a : b;
+    const int32_t high = a < b ? b : a;
+    if (d2 < w->longest2 * (1.0 - tie)) {
+        return;
+    }
+    if (d2 > w->longest2 * (1.0 + tie)) {
+        w->n_pair = 0;
+    }
+    for (int32_t i = 0; i < w->n_pair; ++i) {
+        if (w->pair[i][0] == low && w->pair[i][1] == high) {
+            return;
+        }
+    }
+    w->longest2 = fmax(w->longest2, d2);
+    if (w->n_pair < CLX_FERET_TIES) {
+        w->pair[w->n_pair][0] = low;
+        w->pair[w->n_pair++][1] = high;
+    }
+}
+
+/// Planes of unit normal n near vertices a and b. Only the distance of the true supports counts, so
+/// a normal that rounding has turned can never make the caliper too short.
+static void try_planes(feret_walk *w, const double n[3], int32_t a, int32_t b)
+{
+    double d[3];
+    double back[3];
+    v3_sub(d, w->body->vert[a], w->body->vert[b]);
+    if (v3_dot(d, n) >= w->shortest) {
+        return;
+    }
+    v3_scale(back, -1.0, n);
+    const int32_t high = clx_hull_body_support(w->body, n, a);
+    const int32_t low = clx_hull_body_support(w->body, back, b);
+    v3_sub(d, w->body->vert[high], w->body->vert[low]);
+    const double width = v3_dot(d, n);
+    if (width < w->shortest) {
+        w->shortest = width;
+        v3_copy(w->axis, n);
+    }
+}
+
+/// Planes that hold both edges, from a0 to a1 and from b0 to b1; their normal lies near `about`.
+static void try_edges(feret_walk *w, const double about[3], int32_t a0, int32_t a1, int32_t b0,
+                      int32_t b1)
+{
+    double p[3];
+    double q[3];
+    double n[3];
+    v3_sub(p, w->body->vert[a1], w->body->vert[a0]);
+    v3_sub(q, w->body->vert[b1], w->body->vert[b0]);
+    v3_cross(n, p, q);
+    if (v3_unit(n, n)) {
+        if (v3_dot(n, about) < 0.0) {
+            v3_scale(n, -1.0, n);
+        }
+        try_planes(w, n, a0, b0);
+    }
+}
+
+/// Neighbour of the opposite vertex v that takes over first while the normal turns from n towards
+/// m, and the angle at which it does; -1 when none does before `end`.
+static int32_t next_opposite(const clx_hull_body *body, int32_t v, const double n[3],
+                             const double m[3], double end, double *angle)
+{
+    int32_t best = -1;
+    *angle = end;
+    for (int32_t i = body->begin[v]; i < body->begin[v + 1]; ++i) {
+        double d[3];
+        v3_sub(d, body->vert[body->neighbour[i]], body->vert[v]);
+        const double along = v3_dot(d, m);
+        if (along < 0.0) { // progress is strict, so the walk ends
+            const double at = atan2(fmax(v3_dot(d, n), 0.0), -along);
+            if (at < *angle) {
+                *angle = at;
+                best = body->neighbour[i];
+            }
+        }
+    }
+    return best;
+}
+
+/// Walks along the arc of one edge; `opposite` is the support against the normal of face[0].
+static void walk_edge(feret_walk *w, const clx_hull_body_edge *edge, int32_t opposite)
+{
+    const clx_hull_body *body = w->body;
+    const double *n = body->normal[edge->face[0]];
+    const double *end_normal = body->normal[edge->face[1]];
+    double m[3];
+    double angle = 0.0;
+    v3_axpy(m, end_normal, -v3_dot(end_normal, n), n);
+    const double end = atan2(v3_norm(m), v3_dot(end_normal, n));
+    try_pair(w, edge->vert[0], opposite);
+    try_pair(w, edge->vert[1], opposite);
+    if (!v3_unit(m, m)) {
+        return;
+    }
+    int32_t from = opposite;
+    int32_t to = next_opposite(body, from, n, m, end, &angle);
+    while (to >= 0) {
+        double about[3];
+        v3_scale(about, cos(angle), n);
+        v3_axpy(about, about, sin(angle), m);
+        try_edges(w, about, edge->vert[0], edge->vert[1], from, to);
+        try_pair(w, edge->vert[0], to);
+        try_pair(w, edge->vert[1], to);
+        from = to;
+        to = next_opposite(body, from, n, m, end, &angle);
+    }
+}
+
+static void support_against(const clx_hull_body *body, int32_t face, int32_t *vertex)
+{
+    double back[3];
+    v3_scale(back, -1.0, body->normal[face]);
+    *vertex = clx_hull_body_support(body, back, *vertex);
+}
+
+clx_feret clx_hull_body_feret(const clx_hull_body *body)
+{
+    feret_walk w = {.body = body, .longest2 = 0.0, .shortest = INFINITY};
+    clx_feret feret = {0};
+    int32_t opposite = 0;
+    for (int32_t e = 0; e < body->n_edge; ++e) {
+        const clx_hull_body_edge *edge = &body->edge[e];
+        support_against(body, edge->face[0], &opposite);
+        try_planes(&w, body->normal[edge->face[0]], edge->vert[0], opposite);
+        walk_edge(&w, edge, opposite);
+        support_against(body, edge->face[1], &opposite);
+        try_planes(&w, body->normal[edge->face[1]], edge->vert[0], opposite);
+    }
+    feret.longest = sqrt(w.longest2);
+    feret.n_longest = w.n_pair;
+    for (int32_t i = 0; i < w.n_pair; ++i) {
+        double *axis = feret.longest_axis[i];
+        v3_sub(axis, body->vert[w.pair[i][1]], body->vert[w.pair[i][0]]);
+        (void)v3_unit(axis, axis);
+    }
+    v3_copy(feret.shortest_axis, w.axis);
+    feret.shortest = clx_hull_body_width(body, w.axis);
+    return feret;
+}

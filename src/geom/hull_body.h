@@ -1,0 +1,92 @@
+#pragma once
+// A convex hull laid out for questions about directions: calipers, boxes, shadows.
+#include <clast/mesh.h>
+
+/// An edge and the faces on both sides: face[0] runs from vert[0] to vert[1], face[1] back.
+typedef struct clx_hull_body_edge {
+    int32_t vert[2];
+    int32_t face[2];
+} clx_hull_body_edge;
+
+/// Convex hull of points, moved so that the middle of its box is the origin; {0} is empty.
+typedef struct clx_hull_body {
+    double middle[3]; ///< of the box, in the points' own coordinates
+    int32_t n_vert, n_face, n_edge;
+    double (*vert)[3];        ///< [n_vert]
+    int32_t (*face)[3];       ///< [n_face] counter-clockwise from outside
+    double (*normal)[3];      ///< [n_face] outward, unit; zero where a sliver has none
+    double *area;             ///< [n_face]
+    clx_hull_body_edge *edge; ///< [n_edge]
+    int32_t *begin;           ///< [n_vert + 1] neighbours of v are neighbour[begin[v] ..]
+    int32_t *neighbour;       ///< [2 n_edge]
+    double volume, surface;
+} clx_hull_body;
+
+/// The hull of a mesh's vertices; its triangles are not looked at.
+///
+/// @return CLAST_E_GEOMETRY if a vertex is not finite or all lie within 1e-13 of their extent from
+///         one plane
+/// @note O(n log n)
+clast_status clx_hull_body_make(const clast_mesh *mesh, clx_hull_body *body);
+void clx_hull_body_free(clx_hull_body *body);
+
+/// Vertex farthest along a direction, by climbing from `start` over neighbours.
+int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[3], int32_t start);
+
+/// Caliper width along a unit direction, over all vertices.
+double clx_hull_body_width(const clx_hull_body *body, const double direction[3]);
+
+enum { CLX_FERET_TIES = 16 };
+
+/// Greatest and least distance of two parallel planes that touch the hull, exactly.
+typedef struct clx_feret {
+    double longest, shortest;
+    int32_t n_longest; ///< axes of that length within 1e-12, up to CLX_FERET_TIES of them
+    double longest_axis[CLX_FERET_TIES][3]; ///< [n_longest] unit
+    double shortest_axis[3];                ///< unit
+} clx_feret;
+
+/// The longest caliper joins two vertices, the shortest stands on a face and a vertex or on two
+/// edges; all antipodal pairs are met on a walk along the normals' arcs.  [docs/theory/form.md]
+/// @note O(edges) expected
+clx_feret clx_hull_body_feret(const clx_hull_body *body);
+
+/// The outline of the shadow along a direction: a convex polygon, counter-clockwise in the plane
+/// with axes u, v.
+typedef struct clx_shadow {
+    double u[3], v[3];
+    int32_t n;          ///< corners
+    double (*point)[2]; ///< [n], room [2 n_edge]
+    int32_t *next;      ///< [n_vert] scratch
+    double (*spare)[2]; ///< [2 n_edge] scratch
+} clx_shadow;
+
+clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow);
+void clx_shadow_free(clx_shadow *shadow);
+
+/// Area of the shadow alone: half the sum of face area times |normal . direction|.
+double clx_shadow_area(const clx_hull_body *body, const double direction[3]);
+
+/// Casts the shadow.
+void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow);
+
+/// Greatest and least shadow over all directions: greatest and least over the faces' normals (at
+/// most 512 of them) and the given axes, each then improved to a local optimum.
+void clx_shadow_extremes(const clx_hull_body *body, double axis[3][3], double *least,
+                         double *greatest);
+
+/// A box: edge lengths in falling order and their unit directions.
+typedef struct clx_box {
+    double edge[3];
+    double axis[3][3];
+} clx_box;
+
+/// The box of least volume found: every face of the hull (at most 2048 of them) is tried as a side
+/// with the exact least rectangle around the shadow, the best few and the given frame are then
+/// turned about each of their axes in turn until none gains.      [ORourke1985; Chang2011]
+clast_status clx_hull_body_least_box(const clx_hull_body *body, double frame[3][3], clx_box *box);
+
+/// The fitted box: longest caliper, longest caliper at right angles to it, width across both. Where
+/// several calipers are equally long (regular bodies), the box of least volume.
+clast_status clx_hull_body_fitted_box(const clx_hull_body *body, const clx_feret *feret,
+                                      clx_box *box);

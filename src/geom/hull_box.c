@@ -1,0 +1,278 @@
+// Boxes around a convex hull: least volume, and fitted caliper by caliper.
+//
+// A box of least volume has two neighbouring sides that each hold an edge of the hull
+// [ORourke1985]. A search over all pairs costs n^3; here each face is tried as a side (then the
+// best box is the least rectangle around the shadow, which has a side along the outline
+// [FreemanShapira1975]), a face being skipped when its width times its shadow, a lower bound, is no
+// gain; the best few boxes and the principal frame are then turned about one axis at a time to that
+// axis' least rectangle [Chang2011, the local step]. The result is a box that no such turn
+// improves: an upper bound of the least volume; docs/theory/form.md has the measured gap.
+#include "geom/hull_body.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+
+enum { MOST_FACES = 2048, KEPT = 6, MOST_TURNS = 60 };
+
+static const double GAIN = 1e-13;
+
+/// Corner farthest along d: walks on from `start`, over plateaus of rounding too. *reach tells how
+/// far.
+static int32_t far_corner(const clx_shadow *s, int32_t start, const double d[2], double tolerance,
+                          double *reach)
+{
+    int32_t best = start;
+    *reach = s->point[start][0] * d[0] + s->point[start][1] * d[1];
+    for (int32_t step = 1, at = start; step < s->n; ++step) {
+        at = at + 1 < s->n ? at + 1 : 0;
+        const double r = s->point[at][0] * d[0] + s->point[at][1] * d[1];
+        if (r > *reach) {
+            *reach = r;
+            best = at;
+        } else if (r < *reach - tolerance) {
+            break;
+        }
+    }
+    return best;
+}
+
+/// Least rectangle around an outline, one side along one of its edges: the direction of that side
+/// and both edges, by rotating calipers.                       [FreemanShapira1975; Toussaint1983]
+static double least_rectangle(const clx_shadow *s, double tolerance, double side[2], double edge[2])
+{
+    double best = INFINITY;
+    bool is_first = true;
+    int32_t corner[4] = {0, 0, 0, 0}; // farthest along d, left of d, against d, right of d
+    for (int32_t e = 0; e < s->n; ++e) {
+        const double *p = s->point[e];
+        const double *q = s->point[e + 1 < s->n ? e + 1 : 0];
+        double d[2] = {q[0] - p[0], q[1] - p[1]};
+        double reach[4];
+        const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
+        if (!(length > tolerance)) {
+            continue;
+        }
+        d[0] /= length;
+        d[1] /= length;
+        for (int k = 0; k < 4; ++k) {
+            corner[k] =
+                far_corner(s, corner[k], d, is_first ? (double)INFINITY : tolerance, &reach[k]);
+            const double turned[2] = {-d[1], d[0]};
+            d[0] = turned[0];
+            d[1] = turned[1];
+        }
+        is_first = false; // from here on each corner is a few steps behind
+        const double along = reach[0] + reach[2];
+        const double across = reach[1] + reach[3];
+        if (along * across < best) {
+            best = along * across;
+            side[0] = d[0];
+            side[1] = d[1];
+            edge[0] = along;
+            edge[1] = across;
+        }
+    }
+    return best;
+}
+
+static double box_volume(const clx_box *box)
+{
+    return box->edge[0] * box->edge[1] * box->edge[2];
+}
+
+/// The least box with one axis along the unit vector n.
+static void box_along(const clx_hull_body *body, const double n[3], double width,
+                      clx_shadow *shadow, clx_box *box)
+{
+    double side[2] = {1.0, 0.0};
+    double edge[2] = {INFINITY, INFINITY};
+    clx_shadow_cast(body, n, shadow);
+    (void)least_rectangle(shadow, 1e-12 * width, side, edge);
+    v3_copy(box->axis[0], n);
+    for (int k = 0; k < 3; ++k) {
+        box->axis[1][k] = side[0] * shadow->u[k] + side[1] * shadow->v[k];
+        box->axis[2][k] = side[0] * shadow->v[k] - side[1] * shadow->u[k];
+    }
+    box->edge[0] = width;
+    box->edge[1] = edge[0];
+    box->edge[2] = edge[1];
+}
+
+static void box_in_frame(const clx_hull_body *body, double frame[3][3], clx_box *box)
+{
+    for (int k = 0; k < 3; ++k) {
+        v3_copy(box->axis[k], frame[k]);
+        box->edge[k] = clx_hull_body_width(body, frame[k]);
+    }
+}
+
+/// Turns the box about each axis in turn until none of the three gains.
+static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *box)
+{
+    int axis = 0;
+    int idle = 0;
+    for (int turn = 0; turn < MOST_TURNS && idle < 3; ++turn) {
+        clx_box next;
+        box_along(body, box->axis[axis], box->edge[axis], shadow, &next);
+        if (box_volume(&next) < box_volume(box) * (1.0 - GAIN)) {
+            *box = next;
+            idle = 1; // the axis just used is now axis 0
+            axis = 1;
+        } else {
+            ++idle;
+            axis = (axis + 1) % 3;
+        }
+    }
+}
+
+/// Inserts a box among the best few, in rising order; it is below the last when all are taken.
+static void keep(clx_box kept[KEPT], int *n_kept, const clx_box *box)
+{
+    int at = *n_kept < KEPT ? (*n_kept)++ : KEPT - 1;
+    for (; at > 0 && box_volume(&kept[at - 1]) > box_volume(box); --at) {
+        kept[at] = kept[at - 1];
+    }
+    kept[at] = *box;
+}
+
+static void sort_edges(clx_box *box)
+{
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i; j > 0 && box->edge[j] > box->edge[j - 1]; --j) {
+            double axis[3];
+            const double edge = box->edge[j];
+            box->edge[j] = box->edge[j - 1];
+            box->edge[j - 1] = edge;
+            v3_copy(axis, box->axis[j]);
+            v3_copy(box->axis[j], box->axis[j - 1]);
+            v3_copy(box->axis[j - 1], axis);
+        }
+    }
+}
+
+/// Tries every face as a side.
+static void boxes_on_faces(const clx_hull_body *body, clx_shadow *shadow, clx_box kept[KEPT],
+                           int *n_kept)
+{
+    const int32_t stride = body->n_face > MOST_FACES ? body->n_face / MOST_FACES + 1 : 1;
+    for (int32_t f = 0; f < body->n_face; f += stride) {
+        const double *n = body->normal[f];
+        if (v3_norm2(n) < 0.5) {
+            continue; // a sliver without a normal
+        }
+        const double width = clx_hull_body_width(body, n);
+        const double limit = *n_kept < KEPT ? (double)INFINITY : box_volume(&kept[KEPT - 1]);
+        if (width * clx_shadow_area(body, n) < limit) {
+            clx_box box;
+            box_along(body, n, width, shadow, &box);
+            if (box_volume(&box) < limit) {
+                keep(kept, n_kept, &box);
+            }
+        }
+    }
+}
+
+clast_status clx_hull_body_least_box(const clx_hull_body *body, double frame[3][3], clx_box *box)
+{
+    clast_status status = CLAST_OK;
+    clx_shadow shadow = {0};
+    clx_box kept[KEPT] = {{.edge = {0}}};
+    clx_box best;
+    int n_kept = 0;
+    CLX_TRY(clx_shadow_alloc(body, &shadow));
+    box_in_frame(body, frame, &best);
+    turn_down(body, &shadow, &best);
+    boxes_on_faces(body, &shadow, kept, &n_kept);
+    for (int k = 0; k < n_kept; ++k) {
+        turn_down(body, &shadow, &kept[k]);
+        if (box_volume(&kept[k]) < box_volume(&best)) {
+            best = kept[k];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        best.edge[k] = clx_hull_body_width(body, best.axis[k]);
+    }
+    sort_edges(&best);
+    *box = best;
+done:
+    clx_shadow_free(&shadow);
+    return status;
+}
+
+/// Width of an outline along the unit vector d.
+static double outline_width(const clx_shadow *s, const double d[2])
+{
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (int32_t i = 0; i < s->n; ++i) {
+        const double r = s->point[i][0] * d[0] + s->point[i][1] * d[1];
+        low = fmin(low, r);
+        high = fmax(high, r);
+    }
+    return high - low;
+}
+
+/// Longest distance of two corners, its unit direction and the width across it; of several that are
+/// equally long (regular bodies have them) the one with the least width, so that rounding does not
+/// decide.
+static double longest_pair(const clx_shadow *s, double direction[2], double *width)
+{
+    const double tie = 1.0 - 1e-12;
+    double longest = 0.0;
+    *width = INFINITY;
+    for (int pass = 0; pass < 2; ++pass) { // first the length, then the width among the longest
+        for (int32_t i = 0; i < s->n; ++i) {
+            for (int32_t j = 0; j < i; ++j) {
+                const double d[2] = {s->point[i][0] - s->point[j][0],
+                                     s->point[i][1] - s->point[j][1]};
+                const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
+                if (pass == 0) {
+                    longest = fmax(longest, length);
+                } else if (length >= tie * longest) {
+                    const double across[2] = {-d[1] / length, d[0] / length};
+                    const double w = outline_width(s, across);
+                    if (w < *width) {
+                        *width = w;
+                        direction[0] = d[0] / length;
+                        direction[1] = d[1] / length;
+                    }
+                }
+            }
+        }
+    }
+    return longest;
+}
+
+static void fit_to_axis(const clx_hull_body *body, const double axis[3], double length,
+                        clx_shadow *shadow, clx_box *box)
+{
+    double d[2] = {1.0, 0.0};
+    clx_shadow_cast(body, axis, shadow);
+    box->edge[0] = length;
+    box->edge[1] = longest_pair(shadow, d, &box->edge[2]);
+    v3_copy(box->axis[0], axis);
+    for (int k = 0; k < 3; ++k) {
+        box->axis[1][k] = d[0] * shadow->u[k] + d[1] * shadow->v[k];
+    }
+    v3_cross(box->axis[2], box->axis[0], box->axis[1]);
+}
+
+clast_status clx_hull_body_fitted_box(const clx_hull_body *body, const clx_feret *feret,
+                                      clx_box *box)
+{
+    clast_status status = CLAST_OK;
+    clx_shadow shadow = {0};
+    clx_box best = {.edge = {INFINITY, INFINITY, INFINITY}};
+    CLX_TRY(clx_shadow_alloc(body, &shadow));
+    for (int32_t i = 0; i < feret->n_longest; ++i) {
+        clx_box next;
+        fit_to_axis(body, feret->longest_axis[i], feret->longest, &shadow, &next);
+        if (box_volume(&next) < box_volume(&best)) {
+            best = next;
+        }
+    }
+    *box = best;
+done:
+    clx_shadow_free(&shadow);
+    return status;
+}

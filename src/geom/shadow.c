@@ -1,0 +1,213 @@
+// Shadows of a convex hull: area and outline along a direction, greatest and least over all.
+//
+// The area is half the sum of face area times |normal . direction|; its mean over all directions is
+// a quarter of the surface (Cauchy). It is the support function of a zonotope: between the
+// directions at right angles to normals it is a fixed vector's component, so stepping to that
+// vector's direction never lowers it (a fixed-point iteration to a greatest shadow), and a least
+// one is found by a pattern search.
+#include "geom/hull_body.h"
+
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_SHADOWS = 512 };
+
+static const double UPRIGHT = 1e-14; ///< cosine below which a face counts as turned down
+
+clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&shadow->point, 2 * (int64_t)body->n_edge, sizeof *shadow->point));
+    CLX_TRY(clx_alloc(&shadow->spare, 2 * (int64_t)body->n_edge, sizeof *shadow->spare));
+    CLX_TRY(clx_alloc(&shadow->next, body->n_vert, sizeof *shadow->next));
+done:
+    return status;
+}
+
+void clx_shadow_free(clx_shadow *shadow)
+{
+    clx_free(shadow->point);
+    clx_free(shadow->next);
+    clx_free(shadow->spare);
+    *shadow = (clx_shadow){0};
+}
+
+double clx_shadow_area(const clx_hull_body *body, const double direction[3])
+{
+    double sum = 0.0;
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        sum += body->area[f] * fabs(v3_dot(body->normal[f], direction));
+    }
+    return 0.5 * sum;
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const double *p = a;
+    const double *q = b;
+    for (int k = 0; k < 2; ++k) {
+        if (p[k] != q[k]) {
+            return p[k] < q[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/// Twice the area of a triangle, positive when a, b, c turn left.
+static double left_turn(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Adds points [from, to) in steps of `step` to the chain of left turns in hull[low .. m).
+static int32_t add_chain(const double (*point)[2], int32_t from, int32_t to, int32_t step,
+                         double (*hull)[2], int32_t m)
+{
+    const int32_t low = m;
+    for (int32_t i = from; i != to; i += step) {
+        while (m >= low + 2 && left_turn(hull[m - 2], hull[m - 1], point[i]) <= 0.0) {
+            --m;
+        }
+        hull[m][0] = point[i][0];
+        hull[m++][1] = point[i][1];
+    }
+    return m - 1; // the last point begins the other chain
+}
+
+/// The convex polygon of loose points, in place. [Andrew1979]
+static void wrap_points(clx_shadow *shadow)
+{
+    const int32_t n = shadow->n;
+    const double(*point)[2] = (const double(*)[2])shadow->point;
+    qsort(shadow->point, (size_t)n, sizeof *shadow->point, compare_points);
+    int32_t m = add_chain(point, 0, n, 1, shadow->spare, 0);
+    m = add_chain(point, n - 1, -1, -1, shadow->spare, m);
+    memcpy(shadow->point, shadow->spare, (size_t)m * sizeof *shadow->point);
+    shadow->n = m;
+}
+
+static void emit_point(const clx_hull_body *body, int32_t vertex, clx_shadow *shadow)
+{
+    double *point = shadow->point[shadow->n++];
+    point[0] = v3_dot(body->vert[vertex], shadow->u);
+    point[1] = v3_dot(body->vert[vertex], shadow->v);
+}
+
+void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
+{
+    int32_t n = 0;
+    int32_t first = 0;
+    v3_frame(direction, shadow->u, shadow->v);
+    shadow->n = 0;
+    // The outline's edges part faces turned up from those turned down; each starts at one corner.
+    for (int32_t e = 0; e < body->n_edge; ++e) {
+        const clx_hull_body_edge *edge = &body->edge[e];
+        const bool up0 = v3_dot(body->normal[edge->face[0]], direction) > UPRIGHT;
+        const bool up1 = v3_dot(body->normal[edge->face[1]], direction) > UPRIGHT;
+        if (up0 != up1) {
+            first = edge->vert[up0 ? 0 : 1];
+            shadow->next[first] = edge->vert[up0 ? 1 : 0];
+            emit_point(body, first, shadow);
+            ++n;
+        }
+    }
+    // One closed walk over all of them gives their order; where rounding tears the outline of
+    // upright faces in pieces, the points are wrapped anew.
+    double(*loose)[2] = shadow->point;
+    shadow->point = shadow->spare;
+    shadow->n = 0;
+    int32_t at = first;
+    do {
+        emit_point(body, at, shadow);
+        at = shadow->next[at];
+    } while (at != first && shadow->n < n);
+    shadow->spare = loose;
+    if (at == first && shadow->n == n) {
+        return;
+    }
+    shadow->spare = shadow->point;
+    shadow->point = loose;
+    shadow->n = n;
+    wrap_points(shadow);
+}
+
+/// Climbs to a greatest shadow: n becomes the direction of the sum of the face areas turned to it.
+static double climb(const clx_hull_body *body, const double start[3])
+{
+    double n[3];
+    double best = 0.0;
+    v3_copy(n, start);
+    for (int step = 0; step < 100; ++step) {
+        double sum[3] = {0};
+        for (int32_t f = 0; f < body->n_face; ++f) {
+            const double side = v3_dot(body->normal[f], n);
+            v3_axpy(sum, sum, copysign(0.5 * body->area[f], side), body->normal[f]);
+        }
+        const double area = v3_norm(sum);
+        if (!(area > best * (1.0 + 1e-15)) || !v3_unit(n, sum)) {
+            return fmax(area, best);
+        }
+        best = area;
+    }
+    return best;
+}
+
+/// Eight trial directions at one angle around n, halving the angle when none is better.
+static double descend(const clx_hull_body *body, const double start[3])
+{
+    double n[3];
+    v3_copy(n, start);
+    double best = clx_shadow_area(body, n);
+    for (double angle = 0.1; angle > 1e-9;) {
+        double u[3];
+        double v[3];
+        double next[3];
+        bool better = false;
+        v3_frame(n, u, v);
+        for (int k = 0; k < 8; ++k) {
+            const double turn = 0.25 * CLAST_PI * k;
+            double trial[3];
+            v3_axpy(trial, n, tan(angle) * cos(turn), u);
+            v3_axpy(trial, trial, tan(angle) * sin(turn), v);
+            (void)v3_unit(trial, trial);
+            const double area = clx_shadow_area(body, trial);
+            if (area < best) {
+                best = area;
+                better = true;
+                v3_copy(next, trial);
+            }
+        }
+        if (better) {
+            v3_copy(n, next);
+        } else {
+            angle *= 0.5;
+        }
+    }
+    return best;
+}
+
+void clx_shadow_extremes(const clx_hull_body *body, double axis[3][3], double *least,
+                         double *greatest)
+{
+    const int32_t stride = body->n_face > MOST_SHADOWS ? body->n_face / MOST_SHADOWS + 1 : 1;
+    const double *low = axis[0];
+    const double *high = axis[0];
+    *least = INFINITY;
+    *greatest = 0.0;
+    for (int32_t i = -3; i < body->n_face; i += i < 0 ? 1 : stride) {
+        const double *n = i < 0 ? axis[i + 3] : body->normal[i];
+        const double area = clx_shadow_area(body, n);
+        if (area < *least && v3_norm2(n) > 0.5) {
+            *least = area;
+            low = n;
+        }
+        if (area > *greatest) {
+            *greatest = area;
+            high = n;
+        }
+    }
+    *least = descend(body, low);
+    *greatest = climb(body, high);
+}

@@ -1,0 +1,285 @@
+// Measures of one grain from its surface; docs/theory/form.md has every definition and its source.
+#include "shape/grain.h"
+
+#include "base/alloc.h"
+#include "geom/topology.h"
+#include "math/vec3.h"
+#include "shape/shape.h"
+
+#define AXES(id, name, what, source) {name, what, source},
+static const char *const AXES_TEXT[CLAST_N_AXES][3] = {CLAST_AXES_LIST(AXES)};
+#undef AXES
+
+static const char *axes_text(int32_t axes, int column)
+{
+    return axes >= 0 && axes < CLAST_N_AXES ? AXES_TEXT[axes][column] : NULL;
+}
+
+const char *clast_axes_name(int32_t axes)
+{
+    return axes_text(axes, 0);
+}
+
+const char *clast_axes_definition(int32_t axes)
+{
+    return axes_text(axes, 1);
+}
+
+const char *clast_axes_source(int32_t axes)
+{
+    return axes_text(axes, 2);
+}
+
+void clast_grain_scale(clast_grain *grain, double factor)
+{
+    const double square = factor * factor;
+    const double cube = square * factor;
+    grain->volume *= cube;
+    grain->hull_volume *= cube;
+    grain->area *= square;
+    grain->hull_area *= square;
+    grain->projected_mean *= square;
+    grain->projected_least *= square;
+    grain->projected_greatest *= square;
+    grain->longest *= factor;
+    grain->shortest *= factor;
+    for (int k = 0; k < 3; ++k) {
+        grain->centroid[k] *= factor;
+        grain->moments[k] *= cube * square;
+        v3_scale(grain->inertia[k], cube * square, grain->inertia[k]);
+    }
+    for (int a = 0; a < CLAST_N_AXES; ++a) {
+        v3_scale(grain->axes[a].lis, factor, grain->axes[a].lis);
+    }
+}
+
+clast_status clx_grain_inertia(clast_grain *grain)
+{
+    clast_axes *ellipsoid = &grain->axes[CLAST_AXES_ELLIPSOID];
+    double semi_axes[3];
+    const clast_status status =
+        clx_frame_from_inertia(grain->volume, grain->inertia, semi_axes, ellipsoid->direction);
+    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
+        const double b = semi_axes[(k + 1) % 3];
+        const double c = semi_axes[(k + 2) % 3];
+        ellipsoid->lis[k] = 2.0 * semi_axes[k];
+        grain->moments[k] = grain->volume * (b * b + c * c) / 5.0; // L's is the least
+    }
+    return status;
+}
+
+static void sort_widths(clast_axes *axes)
+{
+    for (int i = 1; i < 3; ++i) {
+        for (int j = i; j > 0 && axes->lis[j] > axes->lis[j - 1]; --j) {
+            double keep[3];
+            const double width = axes->lis[j];
+            axes->lis[j] = axes->lis[j - 1];
+            axes->lis[j - 1] = width;
+            v3_copy(keep, axes->direction[j]);
+            v3_copy(axes->direction[j], axes->direction[j - 1]);
+            v3_copy(axes->direction[j - 1], keep);
+        }
+    }
+}
+
+static void take_box(const clx_box *box, clast_axes *axes)
+{
+    v3_copy(axes->lis, box->edge);
+    for (int k = 0; k < 3; ++k) {
+        v3_copy(axes->direction[k], box->axis[k]);
+    }
+}
+
+clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clx_hull_body body = {0};
+    clx_box box;
+    double(*frame)[3] = grain->axes[CLAST_AXES_ELLIPSOID].direction;
+    clast_axes *feret_axes = &grain->axes[CLAST_AXES_FERET];
+    clast_axes *principal = &grain->axes[CLAST_AXES_PRINCIPAL];
+    CLX_TRY(clx_hull_body_make(points, &body));
+    const clx_feret feret = clx_hull_body_feret(&body);
+    CLX_TRY(clx_hull_body_fitted_box(&body, &feret, &box));
+    take_box(&box, &grain->axes[CLAST_AXES_FITTED]);
+    *feret_axes = grain->axes[CLAST_AXES_FITTED];
+    feret_axes->lis[2] = feret.shortest;
+    v3_copy(feret_axes->direction[2], feret.shortest_axis);
+    CLX_TRY(clx_hull_body_least_box(&body, frame, &box));
+    take_box(&box, &grain->axes[CLAST_AXES_BOX]);
+    for (int k = 0; k < 3; ++k) {
+        v3_copy(principal->direction[k], frame[k]);
+        principal->lis[k] = clx_hull_body_width(&body, frame[k]);
+    }
+    sort_widths(principal);
+    clx_shadow_extremes(&body, frame, &grain->projected_least, &grain->projected_greatest);
+    grain->longest = feret.longest;
+    grain->shortest = feret.shortest;
+    grain->hull_volume = body.volume;
+    grain->hull_area = body.surface;
+    grain->projected_mean = 0.25 * body.surface;
+done:
+    clx_hull_body_free(&body);
+    return status;
+}
+
+void clx_grain_ratios(clast_grain *grain)
+{
+    const double v = grain->volume;
+    grain->sphericity = cbrt(36.0 * CLAST_PI * v * v) / grain->area;
+    grain->convexity = v / grain->hull_volume;
+    grain->hull_volume_added = grain->hull_volume / v - 1.0;
+}
+
+double clx_grain_ellipsoid_radius(const clast_grain *grain, const double direction[3])
+{
+    const clast_axes *e = &grain->axes[CLAST_AXES_ELLIPSOID];
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double x = v3_dot(direction, e->direction[k]) / (0.5 * e->lis[k]);
+        sum += x * x;
+    }
+    return 1.0 / sqrt(sum);
+}
+
+static clast_status check_finite(const clast_mesh *mesh)
+{
+    for (int32_t v = 0; v < mesh->n_vert; ++v) {
+        if (!isfinite(v3_norm2(mesh->vert[v]))) {
+            return clx_fail(CLAST_E_GEOMETRY,
+                            "vertex %d of %d is not finite (or beyond 1e154); take it out", v,
+                            mesh->n_vert);
+        }
+    }
+    return CLAST_OK;
+}
+
+/// A solid's surface: every edge used equally often in both directions.
+static clast_status check_closed(const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clx_topology topology = {0};
+    int32_t n_open = 0;
+    int32_t n_turned = 0;
+    CLX_CHECK(mesh->n_tri > 0, CLAST_E_GEOMETRY,
+              "%d vertices and no triangles: measure their convex hull with --hull", mesh->n_vert);
+    CLX_CHECK(mesh->n_tri >= 4, CLAST_E_GEOMETRY, "%d triangles bound no solid; at least 4 do",
+              mesh->n_tri);
+    CLX_TRY(clx_topology_build(mesh, &topology));
+    for (int32_t e = 0; e < topology.n_edge; ++e) {
+        const bool is_even = clx_edge_use(&topology, e) % 2 == 0;
+        n_open += !is_even;
+        n_turned += is_even && clx_edge_balance(mesh, &topology, e) != 0;
+    }
+    CLX_CHECK(n_open == 0, CLAST_E_GEOMETRY,
+              "%d of %d edges are open, so the volume is undefined; run `clast mesh repair`, or "
+              "measure the convex hull with --hull",
+              n_open, topology.n_edge);
+    CLX_CHECK(n_turned == 0, CLAST_E_GEOMETRY,
+              "%d of %d edges join facets that face opposite ways; run `clast mesh repair`, or "
+              "measure the convex hull with --hull",
+              n_turned, topology.n_edge);
+done:
+    clx_topology_free(&topology);
+    return status;
+}
+
+static clast_status check_thick(double volume, double extent)
+{
+    const double rounding = 1e-14 * extent * extent * extent;
+    if (volume < -rounding) {
+        return clx_fail(CLAST_E_GEOMETRY,
+                        "volume is %g: the surface is inside out; run `clast mesh repair`", volume);
+    }
+    if (!(volume > rounding)) {
+        return clx_fail(CLAST_E_GEOMETRY,
+                        "volume is %g at an extent of %g: a grain without thickness has no form",
+                        volume, extent);
+    }
+    return CLAST_OK;
+}
+
+/// The vertices that triangles use, as a mesh without triangles; empty when all are used.
+static clast_status used_vertices(const clast_mesh *mesh, clast_mesh *used)
+{
+    clast_status status = CLAST_OK;
+    bool *is_used = NULL;
+    int32_t n_used = 0;
+    CLX_TRY(clx_alloc(&is_used, mesh->n_vert, sizeof *is_used));
+    for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            n_used += !is_used[mesh->tri[t][k]];
+            is_used[mesh->tri[t][k]] = true;
+        }
+    }
+    if (n_used < mesh->n_vert) {
+        CLX_TRY(clast_mesh_alloc(n_used, 0, used));
+        n_used = 0;
+        for (int32_t v = 0; v < mesh->n_vert; ++v) {
+            if (is_used[v]) {
+                v3_copy(used->vert[n_used++], mesh->vert[v]);
+            }
+        }
+    }
+done:
+    clx_free(is_used);
+    return status;
+}
+
+static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_mass mass = {0};
+    clast_mesh used = {0};
+    double low[3];
+    double high[3];
+    clast_mesh_bounds(mesh, low, high);
+    CLX_TRY(check_thick(clast_mesh_volume(mesh), v3_distance(low, high)));
+    CLX_TRY(clast_mesh_mass(mesh, &mass));
+    grain->volume = mass.volume;
+    grain->area = clast_mesh_area(mesh);
+    v3_copy(grain->centroid, mass.centroid);
+    for (int k = 0; k < 3; ++k) {
+        v3_copy(grain->inertia[k], mass.inertia[k]);
+    }
+    CLX_TRY(clx_grain_inertia(grain));
+    CLX_TRY(used_vertices(mesh, &used));
+    CLX_TRY(clx_grain_hull(used.n_vert > 0 ? &used : mesh, grain));
+    clx_grain_ratios(grain);
+    clx_grain_surface_means(mesh, grain);
+done:
+    clast_mesh_free(&used);
+    return status;
+}
+
+clast_status clast_grain_measure(const clast_mesh *mesh, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_grain made = {0};
+    CLX_TRY(check_finite(mesh));
+    CLX_TRY(check_closed(mesh));
+    CLX_TRY(measure_solid(mesh, &made));
+    *grain = made;
+done:
+    return status;
+}
+
+clast_status clast_grain_measure_hull(const clast_mesh *mesh, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_grain made = {0};
+    clx_hull_body body = {0};
+    CLX_TRY(clx_hull_body_make(mesh, &body));
+    const clast_mesh hull = {body.n_vert, body.n_face, body.vert, body.face};
+    CLX_TRY(measure_solid(&hull, &made));
+    v3_add(made.centroid, made.centroid, body.middle);
+    made.hull_volume_added = NAN;
+    if (mesh->n_tri > 0 && check_closed(mesh) == CLAST_OK) {
+        made.hull_volume_added = made.volume / clast_mesh_volume(mesh) - 1.0;
+    }
+    *grain = made;
+done:
+    clx_hull_body_free(&body);
+    return status;
+}
