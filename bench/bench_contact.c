@@ -1,5 +1,6 @@
 // Contacts of convex pairs: case G1 (4000 pairs out of 16 gravel hulls of 6.7 mm, in metres) cold
 // and remembered, ellipsoids (mass-equivalent axes), next to the plain twins.
+// With the word verify: two million evaluations of moving pairs, remembered against cold.
 // Rows: scene,value,unit,reference,ratio. CPU time of the thread, least of several repeats.
 #include "contact/convex.h"
 #include "gravel.h"
@@ -180,8 +181,63 @@ static void bench_ellipsoids(void)
     bench_gap("ellipsoid_overlap_1e-4", -1e-4 * D);
 }
 
-int main(void)
+/// Random motion of touching and near pairs: remembered and cold gaps compared at every step.
+static void verify(int32_t n_vert, int n_track, int n_step)
 {
+    static const double gaps[] = {-2e-4, -1e-3, 1e-4, -1e-5, 1e-3};
+    static const double jumps[] = {1e-5, 1e-4, 1e-3, 1e-2};
+    double worst = 0.0;
+    int n_off = 0;
+    for (int k = 0; k < N_CORE; ++k) {
+        cores[k] = support_gravel_core(30, (uint64_t)k, n_vert);
+    }
+    for (int i = 0; i < n_track; ++i) {
+        clx_rng rng = clx_rng_at(34, CLX_STREAM_TEST, (uint64_t)i);
+        item it = {.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.3 * D),
+                   .b = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.3 * D)};
+        const double jump = jumps[i % 4];
+        double q[2][4], side[3];
+        place(&it, &rng, gaps[i % 5] * D);
+        for (int k = 0; k < 2; ++k) {
+            double m[3][3];
+            memcpy(m, it.turn[0][k], sizeof m);
+            q_from_matrix(q[k], m);
+        }
+        for (int step = 0; step < n_step; ++step) {
+            clx_contact warm, cold;
+            const clx_pair pair = pair_of(&it, 0);
+            (void)clx_pair_contact(&pair, INFINITY, &it.memory, &warm);
+            (void)clx_pair_contact(&pair, INFINITY, NULL, &cold);
+            worst = fmax(worst, fabs(warm.gap - cold.gap));
+            n_off += fabs(warm.gap - cold.gap) > 1e-11;
+            v3_axpy(it.offset[0], it.offset[0], cold.gap - gaps[i % 5] * D, cold.normal);
+            clx_rng_direction(&rng, side);
+            v3_axpy(it.offset[0], it.offset[0], jump * D, side);
+            for (int k = 0; k < 2; ++k) {
+                for (int c = 0; c < 4; ++c) {
+                    q[k][c] += 0.5 * jump * clx_rng_normal(&rng);
+                }
+                q_unit(q[k]);
+                turn_of(q[k], it.turn[0][k]);
+            }
+        }
+    }
+    printf("verify%d_evaluations,%d,1,,\n", n_vert, n_track * n_step);
+    printf("verify%d_off_by_1e-11,%d,1,,\n", n_vert, n_off);
+    printf("verify%d_worst,%.3g,m,,\n", n_vert, worst);
+    for (int k = 0; k < N_CORE; ++k) {
+        clx_hull_core_destroy(cores[k]);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "verify") == 0) {
+        printf("scene,value,unit,reference,ratio\n");
+        verify(152, 400, 2500);
+        verify(27, 400, 2500);
+        return 0;
+    }
     printf("scene,value,unit,reference,ratio\n");
     bench_hulls("gravel152", 152);
     bench_hulls("gravel27", 27);

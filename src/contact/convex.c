@@ -82,14 +82,14 @@ static bool ellipsoids(const clx_pair *pair, double max_gap, clx_contact_memory 
     v3_copy(e.offset, pair->offset);
     e.roundness = roundness(pair->a) + roundness(pair->b);
     if (memory != NULL) {
-        v3_set(m, -(double)memory->direction[0], -(double)memory->direction[1],
-               -(double)memory->direction[2]);
+        v3_set(m, -(double)memory->seen[0][0], -(double)memory->seen[0][1],
+               -(double)memory->seen[0][2]);
     }
     const double core_gap = clx_ellipsoid_gap(&e, m);
     v3_scale(n, -1.0, m);
     if (memory != NULL) {
         for (int i = 0; i < 3; ++i) {
-            memory->direction[i] = (float)n[i];
+            memory->seen[0][i] = (float)n[i];
         }
     }
     if (core_gap - pair->a->round - pair->b->round > max_gap) {
@@ -160,21 +160,51 @@ static void seed_climbs(clx_gjk_pair *seen)
     }
 }
 
-/// The remembered simplex, where the bodies are now.
-static void recall(const clx_contact_memory *memory, clx_gjk_pair *seen, clx_simplex *simplex)
+/// Three points of A - B on a remembered facet.
+static int recall_facet(const clx_pair *pair, const clx_contact_memory *memory, int32_t vert[4][2])
 {
-    const int32_t n_a = seen->a.core->n_vert;
-    const int32_t n_b = seen->b.core->n_vert;
-    for (int i = 0; i < memory->n && i < 4; ++i) {
-        const int32_t a = memory->vert[0][i];
-        const int32_t b = memory->vert[1][i];
-        if (a >= n_a || b >= n_b) { // not a memory of this pair
-            simplex->n = 0;
-            return;
+    for (int i = 0; i < 3; ++i) {
+        const clx_core_edge *edge;
+        switch (memory->kind) {
+        case CLX_FACET_FACE_VERTEX:
+            vert[i][0] =
+                pair->a->core->side[pair->a->core->face[memory->feature[0]].first + i].vert;
+            vert[i][1] = memory->feature[1];
+            break;
+        case CLX_FACET_VERTEX_FACE:
+            vert[i][0] = memory->feature[0];
+            vert[i][1] =
+                pair->b->core->side[pair->b->core->face[memory->feature[1]].first + i].vert;
+            break;
+        default:
+            edge = &pair->a->core->edge[memory->feature[0]];
+            vert[i][0] = edge->vert[i == 1];
+            edge = &pair->b->core->edge[memory->feature[1]];
+            vert[i][1] = edge->vert[i == 2];
+            break;
         }
-        clx_mink_of(seen, a, b, &simplex->p[simplex->n++]);
-        seen->a.last = a;
-        seen->b.last = b;
+    }
+    return 3;
+}
+
+/// The remembered simplex, where the bodies are now.
+static void recall(const clx_pair *pair, const clx_contact_memory *memory, clx_gjk_pair *seen,
+                   clx_simplex *simplex)
+{
+    int32_t vert[4][2];
+    int n = memory->n;
+    if (memory->kind != CLX_FACET_NONE) {
+        n = recall_facet(pair, memory, vert);
+    } else {
+        for (int i = 0; i < n; ++i) {
+            vert[i][0] = memory->vert[0][i];
+            vert[i][1] = memory->vert[1][i];
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        clx_mink_of(seen, vert[i][0], vert[i][1], &simplex->p[simplex->n++]);
+        seen->a.last = vert[i][0];
+        seen->b.last = vert[i][1];
     }
 }
 
@@ -193,18 +223,17 @@ static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contac
 {
     int32_t vert[2][3] = {{0}};
     clx_contact sharp;
+    double margin = 0.0;
     for (int i = 0; i < 3; ++i) {
         vert[0][i] = simplex->p[i < simplex->n ? i : 0].vert[0];
         vert[1][i] = simplex->p[i < simplex->n ? i : 0].vert[1];
     }
     clx_facet facet = clx_facet_of(pair, vert, contact->normal);
     const double tolerance = 1e-12 * (pair->a->reach + pair->b->reach);
-    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &sharp) &&
+    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &sharp, &margin) &&
         fabs(sharp.gap - contact->gap) <= tolerance) {
         *contact = sharp;
-        memory->kind = (uint16_t)facet.kind;
-        memory->feature[0] = facet.i;
-        memory->feature[1] = facet.j;
+        clx_facet_remember(pair, &facet, memory);
     }
 }
 
@@ -220,7 +249,7 @@ static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *mem
     see(pair, unit, &seen);
     seed_climbs(&seen);
     if (memory != NULL) {
-        recall(memory, &seen, simplex);
+        recall(pair, memory, &seen, simplex);
     }
     switch (clx_gjk(&seen, max_gap / unit, simplex, v, &gap)) {
     case CLX_GJK_BEYOND:
@@ -270,27 +299,66 @@ static bool general(const clx_pair *pair, double max_gap, clx_contact *contact)
     return false;
 }
 
-/// A pair of hulls with a memory: by the facet it remembers, else by its simplex, else cold.
+/// Whether the memory names features that these shapes have.
+static bool is_of_pair(const clx_pair *pair, const clx_contact_memory *memory)
+{
+    const clx_hull_core *a = pair->a->core;
+    const clx_hull_core *b = pair->b->core;
+    const int32_t i = memory->feature[0];
+    const int32_t j = memory->feature[1];
+    bool fits = i >= 0 && j >= 0;
+    switch (memory->kind) {
+    case CLX_FACET_FACE_VERTEX:
+        return fits && i < a->n_face && j < b->n_vert;
+    case CLX_FACET_VERTEX_FACE:
+        return fits && i < a->n_vert && j < b->n_face;
+    case CLX_FACET_EDGE_EDGE:
+        return fits && i < a->n_edge && j < b->n_edge;
+    default:
+        fits = memory->kind == CLX_FACET_NONE && memory->n <= 4;
+        for (int k = 0; fits && k < memory->n; ++k) {
+            fits = memory->vert[0][k] < a->n_vert && memory->vert[1][k] < b->n_vert;
+        }
+        return fits;
+    }
+}
+
+/// What the quick answer cannot say: by the facet's neighbours, else by the simplex, else cold.
+static bool search_hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+                         clx_contact *found)
+{
+    if (!is_of_pair(pair, memory)) {
+        *memory = (clx_contact_memory){0};
+    }
+    clx_facet facet = {(clx_facet_kind)memory->kind, memory->feature[0], memory->feature[1]};
+    double margin = 0.0;
+    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, found, &margin)) {
+        const bool is_same = facet.kind == (clx_facet_kind)memory->kind &&
+                             facet.i == memory->feature[0] && facet.j == memory->feature[1];
+        if (!is_same || margin + (double)memory->sure * found->gap > 0.0) { // else of no use
+            clx_facet_remember(pair, &facet, memory);
+        }
+        return true;
+    }
+    clx_simplex simplex = {0};
+    const bool is_near = search(pair, max_gap, memory, &simplex, found);
+    remember(&simplex, memory);
+    if (is_near) {
+        sharpen(pair, &simplex, found, memory);
+    }
+    return is_near;
+}
+
 static bool hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
                   clx_contact *contact)
 {
     clx_contact found;
-    clx_facet facet = {(clx_facet_kind)memory->kind, memory->feature[0], memory->feature[1]};
-    if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &found)) {
-        memory->kind = (uint16_t)facet.kind;
-        memory->feature[0] = facet.i;
-        memory->feature[1] = facet.j;
-    } else {
-        clx_simplex simplex = {0};
-        const double limit = max_gap + pair->a->round + pair->b->round;
-        const bool is_near = search(pair, limit, memory, &simplex, &found);
-        if (!is_near && !(found.gap <= limit)) {
-            remember(&simplex, memory);
-            contact->gap = found.gap - pair->a->round - pair->b->round;
+    if (!clx_facet_again(pair, memory, &found)) {
+        const double rounds = pair->a->round + pair->b->round;
+        if (!search_hulls(pair, max_gap + rounds, memory, &found)) {
+            contact->gap = found.gap - rounds;
             return false;
         }
-        remember(&simplex, memory);
-        sharpen(pair, &simplex, &found, memory);
     }
     if (!add_rounding(pair, max_gap, &found)) {
         contact->gap = found.gap;

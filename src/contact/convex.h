@@ -44,13 +44,19 @@ typedef struct clx_contact {
 } clx_contact;
 
 /// What a pair remembers from one query to the next; {0} is empty. Always safe to keep: a memory
-/// that no longer holds costs time, never accuracy. Belongs to (a, b) in this order. No padding.
+/// that no longer holds costs time, never accuracy. Belongs to these shapes a and b in this order;
+/// results depend on nothing but the pair and these bytes. No padding; 144 bytes.
 typedef struct clx_contact_memory {
-    uint16_t vert[2][4]; ///< simplex: vertices of a, of b
-    int32_t feature[2];  ///< of a, of b, by `kind`
-    float direction[3];  ///< round bodies: last normal
-    uint16_t kind;       ///< clx_facet_kind
-    uint16_t n;          ///< points of the simplex, 0 to 4
+    int32_t feature[2]; ///< of a, of b, by `kind`
+    uint16_t kind;      ///< clx_facet_kind
+    uint16_t n;         ///< points of the simplex, 0 to 4
+    float sure;         ///< margin wanted over overlap
+    float seen[2][3]; ///< where the record was made: see facet_memory.c; round bodies: last normal
+    float limit[2];   ///< how far from there it holds
+    union {
+        double data[12];     ///< the facet's features, scaled, in their bodies' axes
+        uint16_t vert[2][4]; ///< simplex: vertices of a, of b
+    };
 } clx_contact_memory;
 
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound

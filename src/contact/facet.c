@@ -383,7 +383,7 @@ static bool settle(const clx_pair *pair, const body both[2], clx_facet *facet, v
     return best->margin >= 0.0;
 }
 
-bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact)
+bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact, double *margin)
 {
     const body both[2] = {
         {pair->a->core, pair->turn_a, pair->a->scale, {0.0, 0.0, 0.0}},
@@ -396,6 +396,7 @@ bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *conta
     if (!walk(both, facet, &at) || !(is_sure(pair, &at) || settle(pair, both, facet, &at))) {
         return false;
     }
+    *margin = at.margin;
     contact->gap = at.gap;
     v3_scale(contact->normal, -1.0, at.m);
     v3_axpy(contact->point, at.point, 0.5 * at.gap, at.m);

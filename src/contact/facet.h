@@ -22,7 +22,16 @@ typedef struct clx_facet {
 /// The walk goes from facet to facet, over the side beyond which the foot of the perpendicular
 /// falls; the gap then grows in every step. A foot inside the facet is the answer for bodies that
 /// are apart; for overlap see docs/theory/contact-convex.md eq. 8-10.
-bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact);
+///
+/// @param margin  least distance of the foot from the facet's sides [m]
+bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact, double *margin);
+
+/// Writes the facet, which holds now, into the memory: what is needed to ask it again and how far
+/// the bodies may turn and slip until it must be proved anew.
+void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_contact_memory *memory);
+
+/// The remembered facet's contact (without rounding); false unless it surely still is the closest.
+bool clx_facet_again(const clx_pair *pair, const clx_contact_memory *memory, clx_contact *contact);
 
 /// The facet that three points of A - B name: vertices of a and of b, and its normal from b to a
 /// (world). NONE if they name no facet.

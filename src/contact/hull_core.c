@@ -309,6 +309,7 @@ static clast_status build_near(scratch *s, clx_hull_core *core)
             near->vert = s->hull.tri[s->list[i] / 3][(s->list[i] % 3 + 1) % 3];
             near->edge = edge_between(core, v, near->vert, head, list);
             v3_sub(near->along, core->vert[near->vert], core->vert[v]);
+            near->inverse = 1.0 / v3_norm(near->along);
         }
     }
     core->near_first[core->n_vert] = s->head[core->n_vert];

@@ -31,6 +31,7 @@ typedef struct clx_core_edge {
 /// A neighbour of a vertex.
 typedef struct clx_core_near {
     double along[3]; ///< vert[other] - vert[this]
+    double inverse;  ///< 1 over its length
     int32_t vert;
     int32_t edge; ///< -1: they share a face's plane only
 } clx_core_near;

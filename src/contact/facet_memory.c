@@ -1,0 +1,277 @@
+// A facet that was proved once, asked again from a record of its own.
+//
+// The record holds the features' coordinates, so that a touching pair reads 144 bytes in a row and
+// nothing of the cores. It also holds where the proof was made and how far it reaches: a vertex
+// stays the support until the facet's normal has turned, in that vertex's body, by the sine of the
+// least angle to its neighbours; an edge likewise between its faces; the foot stays inside a face
+// until it has moved by its margin. Overlap wants more margin: `sure` times its depth
+// [docs/theory/contact-convex.md eq. 11-13]. Limits are rounded down by more than the floats'
+// error.
+#include "contact/facet.h"
+
+#include "math/vec3.h"
+
+/// What a unit vector loses as floats, and a point in units of its body.
+static const double FLOAT_SLACK = 4e-7;
+
+/// A record is made anew after this turn [rad] at the latest.
+static const double MOST_TURN = 0.1;
+
+static inline void into(const double t[9], const double x[3], double out[3])
+{
+    v3_set(out, t[0] * x[0] + t[3] * x[1] + t[6] * x[2], t[1] * x[0] + t[4] * x[1] + t[7] * x[2],
+           t[2] * x[0] + t[5] * x[1] + t[8] * x[2]);
+}
+
+static inline void outof(const double t[9], const double x[3], double out[3])
+{
+    v3_set(out, t[0] * x[0] + t[1] * x[1] + t[2] * x[2], t[3] * x[0] + t[4] * x[1] + t[5] * x[2],
+           t[6] * x[0] + t[7] * x[1] + t[8] * x[2]);
+}
+
+static inline double drift2(const double x[3], const float seen[3])
+{
+    const double d[3] = {x[0] - (double)seen[0], x[1] - (double)seen[1], x[2] - (double)seen[2]};
+    return v3_norm2(d);
+}
+
+static void keep(const double x[3], float seen[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        seen[i] = (float)x[i];
+    }
+}
+
+/// Where a face with a vertex stands: the vertex in the face's body, the face's normal in the
+/// vertex's body.
+typedef struct {
+    double p[3];
+    double q[3];
+    double x[3]; ///< the vertex, world axes, relative to a
+    double n[3]; ///< the face's outward normal, world axes
+    double gap;
+} face_place;
+
+/// k: the body that has the face. data: normal, offset, vertex.
+static inline void place_face(const clx_pair *pair, int k, const double data[12], face_place *out)
+{
+    const double *own = k == 0 ? pair->turn_a : pair->turn_b;
+    const double *other = k == 0 ? pair->turn_b : pair->turn_a;
+    double d[3];
+    outof(own, data, out->n);
+    outof(other, data + 4, out->x);
+    into(other, out->n, out->q);
+    if (k == 0) {
+        v3_add(out->x, out->x, pair->offset);
+        into(own, out->x, out->p);
+    } else {
+        v3_sub(d, out->x, pair->offset);
+        into(own, d, out->p);
+    }
+    out->gap = v3_dot(data, out->p) - data[3];
+}
+
+static bool face_again(const clx_pair *pair, int k, const clx_contact_memory *memory,
+                       clx_contact *contact)
+{
+    face_place at;
+    place_face(pair, k, memory->data, &at);
+    const double margin = (double)memory->limit[0] + fmin((double)memory->sure * at.gap, 0.0);
+    const double turn = (double)memory->limit[1];
+    if (!(margin > 0.0 && drift2(at.p, memory->seen[0]) <= margin * margin &&
+          drift2(at.q, memory->seen[1]) <= turn * turn)) {
+        return false;
+    }
+    contact->gap = at.gap;
+    v3_scale(contact->normal, k == 0 ? -1.0 : 1.0, at.n);
+    v3_axpy(contact->point, at.x, -0.5 * at.gap, at.n); // the foot is on the other side of x
+    return true;
+}
+
+/// Where two edges stand.
+typedef struct {
+    double m[3]; ///< unit, from a to b
+    double ma[3], mb[3];
+    double point[3]; ///< on a's edge
+    double gap;
+    double margin; ///< of the foot
+} edge_place;
+
+/// data: from and along of a's edge, of b's.
+static inline bool place_edges(const clx_pair *pair, const clx_contact_memory *memory,
+                               edge_place *at)
+{
+    double a[3], e[3], b[3], f[3], n[3], w[3], c[3];
+    outof(pair->turn_a, memory->data, a);
+    outof(pair->turn_a, memory->data + 3, e);
+    outof(pair->turn_b, memory->data + 6, b);
+    outof(pair->turn_b, memory->data + 9, f);
+    v3_add(b, b, pair->offset);
+    v3_cross(n, e, f);
+    v3_sub(w, b, a);
+    const double n2 = v3_norm2(n);
+    const double e2 = v3_norm2(e);
+    const double f2 = v3_norm2(f);
+    if (!(n2 > 1e-16 * e2 * f2)) {
+        return false;
+    }
+    const double length = sqrt(n2);
+    v3_scale(at->m, (memory->n != 0 ? -1.0 : 1.0) / length, n);
+    at->gap = v3_dot(at->m, w);
+    v3_cross(c, w, f);
+    const double s = v3_dot(c, n) / n2;
+    v3_cross(c, w, e);
+    const double t = v3_dot(c, n) / n2;
+    at->margin =
+        fmin(fmin(s, 1.0 - s) * (length / sqrt(f2)), fmin(t, 1.0 - t) * (length / sqrt(e2)));
+    v3_axpy(at->point, a, s, e);
+    into(pair->turn_a, at->m, at->ma);
+    into(pair->turn_b, at->m, at->mb);
+    return true;
+}
+
+static bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
+                        clx_contact *contact)
+{
+    edge_place at;
+    if (!place_edges(pair, memory, &at)) {
+        return false;
+    }
+    const double turn_a = (double)memory->limit[0];
+    const double turn_b = (double)memory->limit[1];
+    if (!(at.margin + fmin((double)memory->sure * at.gap, 0.0) > 0.0 &&
+          drift2(at.ma, memory->seen[0]) <= turn_a * turn_a &&
+          drift2(at.mb, memory->seen[1]) <= turn_b * turn_b)) {
+        return false;
+    }
+    contact->gap = at.gap;
+    v3_scale(contact->normal, -1.0, at.m);
+    v3_axpy(contact->point, at.point, 0.5 * at.gap, at.m);
+    return true;
+}
+
+bool clx_facet_again(const clx_pair *pair, const clx_contact_memory *memory, clx_contact *contact)
+{
+    switch (memory->kind) {
+    case CLX_FACET_FACE_VERTEX:
+        return face_again(pair, 0, memory, contact);
+    case CLX_FACET_VERTEX_FACE:
+        return face_again(pair, 1, memory, contact);
+    case CLX_FACET_EDGE_EDGE:
+        return edges_again(pair, memory, contact);
+    default:
+        return false;
+    }
+}
+
+/// Margin over overlap that suffices while the record holds: the root of the quadratic in eq. 8 for
+/// the least s and the greatest `aside` that the limits allow, and enough to keep the overlap below
+/// a tenth of the ball inside both bodies. None suffices where there is no such ball.
+static float sure_margin(const clx_pair *pair, double s, double aside, double margin)
+{
+    const double ball = 0.9 * (pair->a->inner + pair->b->inner - pair->a->round - pair->b->round);
+    s -= ball / 9.0; // the overlap itself
+    if (!(ball > 0.0 && s > 0.0)) {
+        return 1e30F;
+    }
+    const double under = aside * aside - (s + ball) * (ball - s);
+    const double k = under > 0.0 ? (aside + sqrt(under)) / (s + ball) : 1.0;
+    return (float)(1.001 * fmax(fmax(k, 1.0), 9.0 * margin / ball));
+}
+
+/// Length of the part of x across unit n.
+static double across(const double n[3], const double x[3])
+{
+    const double along = v3_dot(n, x);
+    return sqrt(fmax(v3_norm2(x) - along * along, 0.0));
+}
+
+static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
+                          clx_contact_memory *memory)
+{
+    const clx_convex *own = k == 0 ? pair->a : pair->b;
+    const clx_convex *other = k == 0 ? pair->b : pair->a;
+    const clx_core_face *face = &own->core->face[f];
+    face_place at;
+    double margin = INFINITY;
+    double turn = 2.0;
+    v3_copy(memory->data, face->normal);
+    memory->data[3] = own->scale * face->offset;
+    v3_scale(memory->data + 4, other->scale, other->core->vert[v]);
+    place_face(pair, k, memory->data, &at);
+    for (int32_t i = face->first; i < face->first + face->n; ++i) {
+        const clx_core_side *side = &own->core->side[i];
+        margin = fmin(margin, own->scale * side->offset - v3_dot(side->out, at.p));
+    }
+    for (int32_t i = other->core->near_first[v]; i < other->core->near_first[v + 1]; ++i) {
+        const clx_core_near *near = &other->core->near[i];
+        turn = fmin(turn, v3_dot(near->along, at.q) * near->inverse);
+    }
+    turn = fmin(turn, MOST_TURN);
+    keep(at.p, memory->seen[0]);
+    keep(at.q, memory->seen[1]);
+    memory->sure = sure_margin(
+        pair, memory->data[3] - v3_dot(at.q, memory->data + 4) - turn * other->reach,
+        across(memory->data, at.p) + margin + across(at.q, memory->data + 4) + turn * other->reach,
+        margin);
+    memory->limit[0] = (float)(margin - FLOAT_SLACK * (own->reach + fabs(margin)));
+    memory->limit[1] = (float)fmax(turn - FLOAT_SLACK, 0.0);
+}
+
+/// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
+static double arc_limit(const clx_core_edge *edge, const double n[3])
+{
+    const double least = fmin(v3_dot(n, edge->out[0]), v3_dot(n, edge->out[1]));
+    return fmin(fmax(least - FLOAT_SLACK, 0.0), MOST_TURN);
+}
+
+static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_contact_memory *memory)
+{
+    const clx_core_edge *ea = &pair->a->core->edge[i];
+    const clx_core_edge *eb = &pair->b->core->edge[j];
+    edge_place at;
+    double back[3];
+    v3_scale(memory->data, pair->a->scale, ea->from);
+    v3_scale(memory->data + 3, pair->a->scale, ea->along);
+    v3_scale(memory->data + 6, pair->b->scale, eb->from);
+    v3_scale(memory->data + 9, pair->b->scale, eb->along);
+    memory->n = 0;
+    if (!place_edges(pair, memory, &at)) {
+        memory->limit[0] = memory->limit[1] = -1.0F;
+        return;
+    }
+    if (v3_dot(at.ma, ea->out[0]) + v3_dot(at.ma, ea->out[1]) < 0.0) {
+        memory->n = 1; // e x f looks into a
+        v3_scale(at.ma, -1.0, at.ma);
+        v3_scale(at.mb, -1.0, at.mb);
+    }
+    v3_scale(back, -1.0, at.mb);
+    keep(at.ma, memory->seen[0]);
+    keep(at.mb, memory->seen[1]);
+    const double turn_a = arc_limit(ea, at.ma);
+    const double turn_b = arc_limit(eb, back);
+    const double lengths = v3_norm(memory->data + 3) + v3_norm(memory->data + 9);
+    const double slack = turn_a * pair->a->reach + turn_b * pair->b->reach;
+    memory->limit[0] = (float)turn_a;
+    memory->limit[1] = (float)turn_b;
+    memory->sure =
+        sure_margin(pair, v3_dot(at.ma, memory->data) - v3_dot(at.mb, memory->data + 6) - slack,
+                    across(at.ma, memory->data) + across(at.mb, memory->data + 6) + lengths + slack,
+                    0.5 * lengths);
+}
+
+void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_contact_memory *memory)
+{
+    *memory = (clx_contact_memory){.feature = {facet->i, facet->j}, .kind = (uint16_t)facet->kind};
+    switch (facet->kind) {
+    case CLX_FACET_FACE_VERTEX:
+        remember_face(pair, 0, facet->i, facet->j, memory);
+        break;
+    case CLX_FACET_VERTEX_FACE:
+        remember_face(pair, 1, facet->j, facet->i, memory);
+        break;
+    default:
+        remember_edges(pair, facet->i, facet->j, memory);
+        break;
+    }
+}
