@@ -100,7 +100,7 @@ static inline bool meet(const clast_dem *dem, clx_link *p, clx_load *on_a, clx_l
         return false;
     }
     clx_dem_touch t = {0};
-    clx_dem_touch_find(dem, p, &t);
+    clx_dem_touch_find(dem, p, clx_link_memory(dem, p), &t);
     if (t.distance >= 0.0) {
         p->wake = travel + t.distance;
         p->flags = 0;
@@ -118,7 +118,7 @@ static void meet_serial(clast_dem *dem)
         clx_load own = {0};
         for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
             clx_link *p = &dem->list.link[k];
-            clx_load wall;
+            clx_load wall = {0};
             clx_load *on_b = p->b >= 0 ? &dem->load[clx_item_grain(dem, p->b)] : &wall;
             (void)meet(dem, p, &own, on_b);
         }

@@ -29,6 +29,7 @@ void clast_dem_destroy(clast_dem *dem)
     }
     for (int32_t i = 0; i < dem->n_body; ++i) {
         clast_shape_free(&dem->body[i].shape);
+        clx_hull_core_destroy(dem->body[i].core);
     }
     clx_list_free(&dem->list);
     clx_free(dem->body);
@@ -39,47 +40,11 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->travel);
     clx_free(dem->item);
     clx_free(dem->item_begin);
+    clx_free(dem->convex);
     clx_free(dem->own);
     clx_free(dem->hit);
     clx_free(dem->block_flag);
     clx_free(dem);
-}
-
-/// Inverse of a symmetric positive definite matrix; false for another.
-static bool invert(double m[3][3], double inverse[3][3])
-{
-    double c[3][3];
-    for (int i = 0; i < 3; ++i) {
-        v3_cross(c[i], m[(i + 1) % 3], m[(i + 2) % 3]);
-    }
-    const double det = v3_dot(m[0], c[0]);
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            inverse[i][j] = c[j][i] / det;
-        }
-    }
-    return det > 0.0 && isfinite(1.0 / det);
-}
-
-clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id)
-{
-    clast_status status = CLAST_OK;
-    clx_dem_body made = {.is_round = shape->kind == CLAST_SHAPE_SPHERE};
-    CLX_CHECK(shape->volume > 0.0 && shape->bounding_radius > 0.0, CLAST_E_GEOMETRY,
-              "shape %s has no volume", shape->name);
-    CLX_TRY(clast_shape_copy(shape, &made.shape));
-    CLX_CHECK(invert(made.shape.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
-              "shape %s has no moments of inertia", shape->name);
-    CLX_CHECK(made.is_round, CLAST_E_GEOMETRY, "shape %s: only spheres can be grains yet",
-              shape->name);
-    CLX_TRY(clx_realloc(&dem->body, dem->n_body + 1, sizeof *dem->body));
-    dem->all_round = dem->all_round && made.is_round;
-    *id = dem->n_body;
-    dem->body[dem->n_body++] = made;
-    made = (clx_dem_body){0};
-done:
-    clast_shape_free(&made.shape);
-    return status;
 }
 
 static bool all_finite(const double *x, int n)
@@ -215,12 +180,11 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
         CLX_TRY(check_grain(dem, &grain[i], (int64_t)dem->n_grain + i));
     }
     CLX_TRY(reserve(dem, (int64_t)dem->n_grain + n));
-    CLX_TRY(clx_list_reserve(&dem->list, (int64_t)dem->n_item + n));
+    CLX_TRY(clx_items_reserve(dem, n, grain));
     for (int32_t i = 0; i < n; ++i) {
-        clx_dem_set_grain(dem, dem->n_grain + i, &grain[i]);
+        clx_dem_set_grain(dem, dem->n_grain, &grain[i]);
+        clx_items_add(dem, dem->n_grain++);
     }
-    dem->n_grain += n;
-    dem->n_item = dem->n_grain;
     dem->list.is_due = true;
 done:
     return status;

@@ -8,6 +8,7 @@
 // items -1, -2, ... The record stays as long as the pair stays near, and with it the contact's
 // memory.
 #include "base/status.h"
+#include "contact/convex.h"
 #include "dem/law.h"
 #include "math/vec3.h"
 #include <clast/dem.h>
@@ -83,6 +84,7 @@ enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256 };
 typedef struct clx_dem_body {
     clast_shape shape;
     double inverse_inertia[3][3]; ///< of the inertia at unit density and scale 1
+    clx_hull_core *core;          ///< of a mesh, else NULL
     bool is_round;                ///< sphere: its turn does not matter
 } clx_dem_body;
 
@@ -118,9 +120,13 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
-    int64_t *begin;     ///< [n_item + 1] first pair of each item
-    clx_anchor *anchor; ///< [n_item]
-    uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
+    clx_contact_memory *memory;       ///< [n_link], or NULL while all items are spheres
+    clx_contact_memory *other_memory; ///< the buffer that the next refresh fills
+    int64_t memory_capacity, other_memory_capacity;
+    int64_t n_remembered; ///< links that `memory` is about: all, or none yet
+    int64_t *begin;       ///< [n_item + 1] first pair of each item
+    clx_anchor *anchor;   ///< [n_item]
+    uint8_t *is_stale;    ///< [n_item] looks for its neighbours in this refresh
     int64_t item_capacity;
     int64_t *in_begin; ///< [n_grain + 1] links whose b is an item of this grain
     int64_t *in_link;  ///< [n_link] their numbers, rising; only with several threads
@@ -145,7 +151,8 @@ struct clast_dem {
     double period[2]; ///< widths of a periodic domain, else 0
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
-    bool all_round;     ///< every shape is a sphere
+    bool has_items;     ///< some shape is a clump: items are not grains
+    bool all_round;     ///< every item is a sphere
     int32_t n_grain;
     int64_t grain_capacity;
     clx_grain *grain;     ///< [n_grain]
@@ -154,9 +161,9 @@ struct clast_dem {
     clx_load *load;       ///< [n_grain] from contacts
     double *travel;       ///< [n_grain] path of the surface's fastest point, at most
     int32_t n_item;
-    int64_t item_room;
     clx_item *item;      ///< [n_item] or NULL without clumps
     int32_t *item_begin; ///< [n_grain + 1] or NULL without clumps
+    clx_convex *convex;  ///< [n_item], or NULL while all items are spheres
     clx_load *own;       ///< [n_item] from the pairs of its own list; several threads only
     int64_t own_capacity;
     clx_load *hit; ///< [n_link] load on b; several threads only
@@ -180,6 +187,12 @@ static inline double clx_item_radius(const clast_dem *dem, int32_t i)
     return dem->item != NULL ? dem->item[i].radius : dem->grain[i].radius;
 }
 
+/// The contact memory of a link, or NULL.
+static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
+{
+    return dem->list.memory != NULL ? &dem->list.memory[link - dem->list.link] : NULL;
+}
+
 /// Whether an item's contacts depend on its turn.
 static inline bool clx_item_is_round(const clast_dem *dem, int32_t i)
 {
@@ -196,6 +209,11 @@ clast_status clx_dem_check_step(const clx_law *law, double time_step, double mas
 
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
+
+/// Room for the items of n more grains; then items of the grain g, which is set.
+clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain);
+void clx_items_add(clast_dem *dem, int32_t g);
+clast_status clx_items_begin_convex(clast_dem *dem);
 
 /// Walls and periods of the domain.
 void clx_dem_build_walls(clast_dem *dem);

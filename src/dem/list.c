@@ -16,6 +16,8 @@ void clx_list_free(clx_list *list)
 {
     clx_free(list->link);
     clx_free(list->other);
+    clx_free(list->memory);
+    clx_free(list->other_memory);
     clx_free(list->begin);
     clx_free(list->anchor);
     clx_free(list->is_stale);
@@ -229,6 +231,23 @@ static bool is_same(const clx_link *old, const clx_found *f)
 }
 
 /// Old and found pairs of one item, both sorted by b, into the other buffer at n.
+/// Keeps an old link, with its memory.
+static void keep(clx_list *l, int64_t old, int64_t n)
+{
+    l->other[n] = l->link[old];
+    if (l->other_memory != NULL) {
+        l->other_memory[n] = old < l->n_remembered ? l->memory[old] : (clx_contact_memory){0};
+    }
+}
+
+static void start(clx_list *l, const clx_found *f, int64_t n)
+{
+    l->other[n] = fresh(f);
+    if (l->other_memory != NULL) {
+        l->other_memory[n] = (clx_contact_memory){0};
+    }
+}
+
 static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
     int64_t f = l->found_begin[i];
@@ -237,21 +256,40 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
         const bool take_old = f == f_end || (old < old_end && l->link[old].b < l->sorted[f].b);
         if (take_old) {
             if (stays(l, &l->link[old])) {
-                l->other[n++] = l->link[old];
+                keep(l, old, n++);
             }
             ++old;
             continue;
         }
         if (old < old_end && l->link[old].b == l->sorted[f].b) {
-            l->other[n++] =
-                is_same(&l->link[old], &l->sorted[f]) ? l->link[old] : fresh(&l->sorted[f]);
+            if (is_same(&l->link[old], &l->sorted[f])) {
+                keep(l, old, n++);
+            } else {
+                start(l, &l->sorted[f], n++);
+            }
             ++old;
         } else {
-            l->other[n++] = fresh(&l->sorted[f]);
+            start(l, &l->sorted[f], n++);
         }
         ++f;
     }
     return n;
+}
+
+static void swap_buffers(clx_list *l)
+{
+    clx_link *const link = l->link;
+    const int64_t capacity = l->capacity;
+    clx_contact_memory *const memory = l->memory;
+    const int64_t memory_capacity = l->memory_capacity;
+    l->link = l->other;
+    l->capacity = l->other_capacity;
+    l->other = link;
+    l->other_capacity = capacity;
+    l->memory = l->other_memory;
+    l->memory_capacity = l->other_memory_capacity;
+    l->other_memory = memory;
+    l->other_memory_capacity = memory_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
@@ -260,6 +298,10 @@ static clast_status merge(clast_dem *dem)
     clx_list *l = &dem->list;
     int64_t n = 0;
     CLX_TRY(clx_grow(&l->other, &l->other_capacity, l->n_link + l->n_found + 1, sizeof *l->other));
+    if (!dem->all_round) {
+        CLX_TRY(clx_grow(&l->other_memory, &l->other_memory_capacity, l->other_capacity,
+                         sizeof *l->other_memory));
+    }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;
@@ -271,13 +313,9 @@ static clast_status merge(clast_dem *dem)
         old = old_end;
     }
     l->begin[dem->n_item] = n;
-    clx_link *const link = l->link;
-    const int64_t capacity = l->capacity;
-    l->link = l->other;
-    l->capacity = l->other_capacity;
-    l->other = link;
-    l->other_capacity = capacity;
+    swap_buffers(l);
     l->n_link = n;
+    l->n_remembered = l->memory != NULL ? n : 0;
 done:
     return status;
 }

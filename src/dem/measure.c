@@ -63,7 +63,7 @@ static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measu
     const clx_grain *a = &dem->grain[clx_item_grain(dem, link->a)];
     double mass = a->mass;
     double radius = a->round_radius;
-    clx_dem_touch_find(dem, link, &t);
+    clx_find_again(dem, link, &t);
     if (link->b >= 0) {
         const clx_grain *b = &dem->grain[clx_item_grain(dem, link->b)];
         mass = a->mass * b->mass / (a->mass + b->mass);
@@ -122,7 +122,7 @@ static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
         }
         clx_dem_touch t = {0};
         double point[3];
-        clx_dem_touch_find(dem, link, &t);
+        clx_find_again(dem, link, &t);
         if (t.distance < 0.0) {
             const int32_t a = clx_item_grain(dem, link->a);
             v3_add(point, dem->grain[a].position, t.arm_a);
@@ -212,7 +212,7 @@ clast_status clx_explain_explosion(const clast_dem *dem)
         const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : link->b;
         clx_dem_touch t = {0};
         if ((a == worst || b == worst) && (link->flags & CLX_LINK_TOUCHES) != 0) {
-            clx_dem_touch_find(dem, link, &t);
+            clx_find_again(dem, link, &t);
             if (-t.distance > depth) {
                 depth = -t.distance;
                 other = a == worst ? b : a;

@@ -1,6 +1,7 @@
 #pragma once
 // Where two items of a link meet: closed forms for spheres and walls, the convex contacts for the
 // rest.
+#include "contact/convex.h"
 #include "dem/dem.h"
 
 /// A meeting seen from a: arms are from the grains' centres to the contact point.
@@ -61,14 +62,51 @@ static inline void clx_touch_wall(const clast_dem *dem, const clx_link *link, cl
     v3_set(t->arm_b, 0.0, 0.0, 0.0);
 }
 
-static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+static inline void clx_touch_take(const clx_contact *c, const double offset[3], clx_dem_touch *t)
 {
+    t->distance = c->gap;
+    v3_scale(t->normal, -1.0, c->normal);
+    v3_copy(t->arm_a, c->point);
+    v3_sub(t->arm_b, c->point, offset);
+}
+
+/// Two items of which one at least is no sphere.
+void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
+                      clx_dem_touch *t);
+
+/// An item that is no sphere at a wall.
+void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
+                           clx_dem_touch *t);
+
+/// @param memory  of the link; NULL when all items are spheres
+static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link,
+                                      clx_contact_memory *memory, clx_dem_touch *t)
+{
+    const bool is_round = memory == NULL || (clx_item_is_round(dem, link->a) &&
+                                             (link->b < 0 || clx_item_is_round(dem, link->b)));
     if (link->b >= 0) {
-        clx_touch_spheres(dem, link, t);
-    } else {
+        if (is_round) {
+            clx_touch_spheres(dem, link, t);
+        } else {
+            clx_touch_convex(dem, link, memory, t);
+        }
+    } else if (is_round) {
         clx_touch_wall(dem, link, t);
+    } else {
+        clx_touch_convex_wall(dem, link, memory, t);
     }
     if (dem->item != NULL && t->distance < 0.0) {
         clx_touch_lever(dem, link, t);
     }
+}
+
+/// The same for measuring: the link's memory is not renewed.
+static inline void clx_find_again(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
+{
+    const clx_contact_memory *kept = clx_link_memory(dem, link);
+    clx_contact_memory memory = {0};
+    if (kept != NULL) {
+        memory = *kept;
+    }
+    clx_dem_touch_find(dem, link, kept != NULL ? &memory : NULL, t);
 }

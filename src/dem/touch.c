@@ -1,0 +1,43 @@
+// Meetings of bodies that are no spheres, by the convex contacts below.
+#include "dem/touch.h"
+
+/// Gaps beyond this share of the smaller radius need no digits: a lower bound serves as budget.
+static const double FAR = 0.1;
+
+void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
+                      clx_dem_touch *t)
+{
+    const int32_t a = clx_item_grain(dem, link->a);
+    const int32_t b = clx_item_grain(dem, link->b);
+    clx_contact contact;
+    clx_pair pair = {.a = &dem->convex[link->a],
+                     .b = &dem->convex[link->b],
+                     .turn_a = dem->turn[a][0],
+                     .turn_b = dem->turn[b][0]};
+    clx_link_offset(dem, link, pair.offset);
+    const double far = FAR * fmin(clx_item_radius(dem, link->a), clx_item_radius(dem, link->b));
+    if (clx_pair_contact(&pair, far, memory, &contact)) {
+        clx_touch_take(&contact, pair.offset, t);
+    } else {
+        t->distance = contact.gap;
+    }
+}
+
+void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
+                           clx_dem_touch *t)
+{
+    static const double axis[2] = {0.0, 0.0};
+    static const double nowhere[3] = {0.0, 0.0, 0.0};
+    const clx_wall *wall = &dem->wall[-1 - link->b];
+    clx_placed body = {.shape = &dem->convex[link->a],
+                       .turn = dem->turn[clx_item_grain(dem, link->a)][0]};
+    clx_contact contact;
+    v3_copy(body.position, clx_item_position(dem, link->a));
+    if (wall->kind == CLX_WALL_PLANE) {
+        const double plane[4] = {wall->normal[0], wall->normal[1], wall->normal[2], wall->offset};
+        clx_plane_contact(&body, plane, &memory->feature[0], &contact);
+    } else {
+        clx_cylinder_contact(&body, axis, wall->radius, &contact);
+    }
+    clx_touch_take(&contact, nowhere, t);
+}
