@@ -12,7 +12,7 @@
 
 typedef struct {
     clast_agglomerate_config agglomerate; // first: the tables share offsets
-    clast_cloud_columns columns;
+    cli_points points;
     char *monomers_column, *speed_rms_column, *temperature_column, *shear_column,
         *dissipation_column, *fixed_column, *fixed_volume_column;
 } config;
@@ -62,7 +62,7 @@ static void join_details(void)
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = cli_point_fields(fields, 0, offsetof(config, columns));
+    int n = cli_point_fields(fields, 0, offsetof(config, points));
     for (size_t k = 0; k < sizeof own / sizeof own[0]; ++k) {
         fields[n++] = own[k];
     }
@@ -98,9 +98,9 @@ static clast_status load_snapshot(const cli_common *common, const config *c, int
 {
     clast_table later = {0};
     clast_table *table = k == 0 ? &l->first : &later;
-    clast_status status = clast_table_read_csv(common->argument[k], NULL, table, NULL);
+    clast_status status = cli_points_read(common->argument[k], &c->points, table);
     if (status == CLAST_OK) {
-        status = clast_cloud_from_table(table, &c->columns, &l->cloud[k]);
+        status = clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]);
         l->input.n_snapshot = k + 1;
     }
     clast_table_free(&later);

@@ -13,7 +13,7 @@
 
 typedef struct {
     clast_decompose_config decompose; // first: the two tables share offsets
-    clast_cloud_columns columns;
+    cli_points points;
     bool test_only;
 } config;
 
@@ -27,7 +27,7 @@ static const clast_field own[N_OWN] = {{"test_only", offsetof(config, test_only)
 
 __attribute__((constructor)) static void join_fields(void)
 {
-    int n = cli_point_fields(fields, 0, offsetof(config, columns));
+    int n = cli_point_fields(fields, 0, offsetof(config, points));
     for (int k = 0; k < N_OWN; ++k) {
         fields[n++] = own[k];
     }
@@ -237,9 +237,9 @@ static clast_status run(const cli_common *common, void *values)
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
-    clast_status status = clast_table_read_csv(common->argument[0], NULL, &table, NULL);
+    clast_status status = cli_points_read(common->argument[0], &c->points, &table);
     if (status == CLAST_OK) {
-        status = clast_cloud_from_table(&table, &c->columns, &cloud);
+        status = clast_cloud_from_table(&table, &c->points.columns, &cloud);
     }
     if (status == CLAST_OK) {
         status = clast_decompose(&cloud, &c->decompose, &result);
@@ -265,7 +265,8 @@ const cli_command cli_decompose = {
     .arguments = "POINTS",
     .summary = "test a particle cloud for uniformity, split it into uniform cells, count "
                "agglomeration events",
-    .details = "Reads delimited text. Method: Martinez Rodriguez et al., Appl. Math. Modelling 90 "
+    .details = "Reads delimited text, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. Method: "
+               "Martinez Rodriguez et al., Appl. Math. Modelling 90 "
                "(2021) 582-614.\n"
                "tests: symmetric, centred and star discrepancy A_n standardised by its exact "
                "variance (two-sided p),\n"

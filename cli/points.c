@@ -1,11 +1,11 @@
-// Options that say which columns of a file hold what.
+// Options that say how a file of points is read and which columns hold what.
 #include "points.h"
 
 #define TEXT(name, help)                                                                           \
     {                                                                                              \
 #name, offsetof(clast_cloud_columns, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""       \
     }
-static const clast_field table[] = {
+static const clast_field rows[] = {
     {"columns", offsetof(clast_cloud_columns, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
      "columns of the coordinates, as many as dimensions", "x,y,z"},
     TEXT(radius_column, "column of radii [m]"),
@@ -14,14 +14,24 @@ static const clast_field table[] = {
     {"velocity_columns", offsetof(clast_cloud_columns, velocity_columns), CLAST_FIELD_TEXT_LIST, 0,
      0, 0, "-", "columns of velocities [m/s], as many as dimensions", ""},
     TEXT(weight_column, "column of weights: real particles that a parcel stands for"),
+    {"dataset", offsetof(cli_points, dataset), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "array or folder of an HDF5 file", ""},
+    {"frame", offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
+     "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
 };
 #undef TEXT
 
 int cli_point_fields(clast_field *fields, int n, size_t offset)
 {
-    for (size_t k = 0; k < sizeof table / sizeof table[0]; ++k) {
-        fields[n] = table[k];
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
+        fields[n] = rows[k];
         fields[n++].offset += offset;
     }
     return n;
+}
+
+clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
+{
+    const clast_points_options options = {points->dataset, points->frame};
+    return clast_points_read(path, &options, table);
 }

@@ -1,7 +1,17 @@
 #pragma once
-// Options that say which columns of a file hold what.
+// Options that say how a file of points is read and which columns hold what.
 #include <clast/clast.h>
 
-/// Appends the options of a clast_cloud_columns that lies `offset` bytes into a configuration
-/// struct to a field table of n rows; returns the new number of rows.
+/// The part of a configuration that cli_point_fields fills.
+typedef struct cli_points {
+    clast_cloud_columns columns; // first: rows of the field table share offsets
+    char *dataset;
+    int64_t frame;
+} cli_points;
+
+/// Appends the options of a cli_points that lies `offset` bytes into a configuration struct to a
+/// field table of n rows; returns the new number of rows.
 int cli_point_fields(clast_field *fields, int n, size_t offset);
+
+/// Reads the file as a table.
+clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table);

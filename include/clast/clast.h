@@ -41,6 +41,7 @@
 #include <clast/porosity_chart.h>
 #include <clast/porosity_model.h>
 #include <clast/porosity_model_file.h>
+#include <clast/points_file.h>
 #include <clast/printable.h>
 #include <clast/reform.h>
 #include <clast/render.h>

@@ -27,9 +27,11 @@ typedef enum {
     CLAST_EVENTS_PAPER  ///< beta dt n^2 / V as printed in eq. 14
 } clast_event_law;
 
+typedef enum { CLAST_OUTSIDE_ERROR, CLAST_OUTSIDE_DROP } clast_outside;
+
 typedef struct clast_decompose_config {
-    char *domain; ///< see clast_domain_parse
-    bool drop;    ///< leave points outside the domain out instead of refusing them
+    char *domain;    ///< see clast_domain_parse
+    int32_t outside; ///< points outside the domain
     int32_t variant, mesh, events;
     double level;  ///< of each test
     int32_t votes; ///< tests that must reject
@@ -115,7 +117,7 @@ typedef struct clast_decomposition {
 /// Splits the cloud's domain into cells of uniform concentration and counts events.
 ///
 /// @return CLAST_E_FORMAT when points are not finite, or lie outside (with their number) unless
-/// config->drop
+/// config->outside is CLAST_OUTSIDE_DROP
 /// @note O(n log n); bytes do not depend on threads
 CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
                                        const clast_decompose_config *config,

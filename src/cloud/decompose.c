@@ -12,8 +12,8 @@
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
      "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R [m]", ""},
-    {FIELD(CLAST_FIELD_BOOL, drop), 0, 0, 0, "-",
-     "leave points outside the domain out instead of refusing them", NULL},
+    {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
+     "points outside the domain: refuse the file, or leave them out", "error|drop"},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
      "how far to go: tests and passes, first test and one pass, one pass, tests alone",
      "full|first|fast|test"},
@@ -105,9 +105,9 @@ static clast_status map_points(const clast_cloud *cloud, const clast_decompose_c
         memcpy(m->u + m->n * d, u, (size_t)d * sizeof *u);
         m->number[m->n++] = i;
     }
-    CLX_CHECK(n_outside == 0 || config->drop, CLAST_E_FORMAT,
+    CLX_CHECK(n_outside == 0 || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
               "%lld of %lld points lie outside the domain %s; give the true domain, or leave them "
-              "out with --drop",
+              "out with --outside drop",
               (long long)n_outside, (long long)cloud->n, config->domain);
 done:
     return status;

@@ -97,7 +97,7 @@ class Decompose(Case):
         self.assert_fails(2, "decompose", file, says=["--domain", "never guessed"])
         self.assert_fails(2, "decompose", file, "--domain", "box:0,0,1", says=["domain 'box:0,0,1'"])
         self.assert_fails(2, "decompose", file, "--domain", "sphere:1", says=["3 dimensions", "2"])
-        self.assert_fails(3, "decompose", file, "--domain", "box:0,0,0.5,0.5", says=["50 points lie outside", "--drop"])
+        self.assert_fails(3, "decompose", file, "--domain", "box:0,0,0.5,0.5", says=["50 points lie outside", "--outside drop"])
         self.assert_fails(3, "decompose", self.folder / "none.csv", "--domain", "box:0,1", says=["none.csv"])
         (self.folder / "nan.csv").write_text("x,y\n0.5,nan\n")
         self.assert_fails(3, "decompose", self.folder / "nan.csv", "--domain", "box:0,0,1,1", says=["point 1"])

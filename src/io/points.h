@@ -1,0 +1,15 @@
+#pragma once
+// One reader for each format of clast_points_read: the whole file to a table.
+#include <clast/points_file.h>
+
+clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);
+clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);
+clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
+                             clast_table *table);
+clast_status clx_points_h5(const char *path, const char *dataset, clast_table *table);
+
+/// Adds an array value [n_row][width] as columns: `name` for one number, name_x .. for two or
+/// three, name_0 .. for more; plain x, y, z for the name "". A name that is taken gets "_2", "_3",
+/// ...
+clast_status clx_points_add(clast_table *table, const char *name, int64_t width,
+                            const double *value);

@@ -1,0 +1,233 @@
+// LAMMPS and LIGGGHTS text dumps: snapshots of "ITEM:" sections. [LAMMPS manual, dump command]
+#include "io/points.h"
+
+#include "base/alloc.h"
+#include "io/text.h"
+#include <inttypes.h>
+#include <string.h>
+
+typedef struct {
+    clx_text text;
+    const char *name;
+    double low[3], high[3]; ///< of the box: its orthogonal bounds, less what a tilt adds
+    int64_t n_atom;
+    clx_word header; ///< names of the columns, the rest of the ATOMS line
+    clx_text rows;   ///< cursor at the first row
+} dump;
+
+/// The rest of the current line as one word.
+static clx_word rest_of_line(const clx_text *text)
+{
+    const char *end = text->at;
+    while (end < text->end && *end != '\n' && *end != '\r') {
+        ++end;
+    }
+    return (clx_word){text->at, end - text->at};
+}
+
+static clast_status next_line(dump *d, const char *what)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(clx_text_next_line(&d->text), CLAST_E_FORMAT, "%s: the file ends before %s", d->name,
+              what);
+done:
+    return status;
+}
+
+/// Three lines "low high [tilt]"; bounds of a tilted box hold the tilt.
+static clast_status read_bounds(dump *d)
+{
+    clast_status status = CLAST_OK;
+    double tilt[3] = {0};
+    for (int k = 0; k < 3; ++k) {
+        clx_word word;
+        CLX_TRY(next_line(d, "the box's bounds"));
+        CLX_TRY(clx_text_number(&d->text, "bound", &d->low[k]));
+        CLX_TRY(clx_text_number(&d->text, "bound", &d->high[k]));
+        if (clx_text_word(&d->text, &word)) {
+            CLX_CHECK(clx_word_number(word, &tilt[k]), CLAST_E_FORMAT,
+                      "%s:%" PRId64 ": the tilt of the box is no number", d->name, d->text.line);
+        }
+    }
+    CLX_CHECK(tilt[0] == 0.0 && tilt[1] == 0.0 && tilt[2] == 0.0, CLAST_E_FORMAT,
+              "%s:%" PRId64 ": the box is tilted; clast reads orthogonal boxes", d->name,
+              d->text.line);
+done:
+    return status;
+}
+
+static clast_status skip_rows(dump *d)
+{
+    clast_status status = CLAST_OK;
+    d->header = rest_of_line(&d->text);
+    CLX_CHECK(d->n_atom >= 0, CLAST_E_FORMAT, "%s:%" PRId64 ": ATOMS before NUMBER OF ATOMS",
+              d->name, d->text.line);
+    for (int64_t i = 0; i <= d->n_atom; ++i) {
+        const bool more = clx_text_next_line(&d->text);
+        if (i == 0) {
+            d->rows = d->text;
+        }
+        CLX_CHECK(more || i == d->n_atom, CLAST_E_FORMAT,
+                  "%s: %" PRId64 " atoms are declared, the file ends after %" PRId64, d->name,
+                  d->n_atom, i);
+    }
+done:
+    return status;
+}
+
+/// Goes over one snapshot; *found is false at the end of the file.
+static clast_status read_frame(dump *d, bool *found)
+{
+    clast_status status = CLAST_OK;
+    clx_word word;
+    clx_word item;
+    *found = false;
+    d->n_atom = -1;
+    while (clx_text_any_word(&d->text, &word)) {
+        CLX_CHECK(word.n == 5 && memcmp(word.text, "ITEM:", 5) == 0, CLAST_E_FORMAT,
+                  "%s:%" PRId64 ": expected ITEM:", d->name, d->text.line);
+        CLX_CHECK(clx_text_word(&d->text, &item), CLAST_E_FORMAT,
+                  "%s:%" PRId64 ": empty ITEM:", d->name, d->text.line);
+        if (clx_word_is(item, "atoms")) {
+            CLX_TRY(skip_rows(d));
+            *found = true;
+            break;
+        }
+        if (clx_word_is(item, "number")) {
+            CLX_TRY(next_line(d, "the number of atoms"));
+            CLX_TRY(clx_text_integer(&d->text, "number of atoms", 0, d->text.end - d->text.at,
+                                     &d->n_atom));
+        } else if (clx_word_is(item, "box")) {
+            CLX_TRY(read_bounds(d));
+        } else { // TIMESTEP, TIME, UNITS: one line
+            CLX_TRY(next_line(d, "the end of a section"));
+        }
+        CLX_TRY(next_line(d, "ITEM: ATOMS"));
+    }
+done:
+    return status;
+}
+
+/// Columns by the names of the ATOMS line; all their cells must be numbers, texts become NaN-free
+/// refusals, except "element" and "type" words, which are left out.
+static clast_status fill_rows(dump *d, clast_table *table, const bool *is_text)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < d->n_atom; ++i) {
+        int32_t number = 0;
+        clx_word word;
+        int32_t column = 0;
+        for (; clx_text_word(&d->rows, &word); ++column) {
+            CLX_CHECK(column < 1024, CLAST_E_FORMAT, "%s:%" PRId64 ": more than 1024 cells",
+                      d->name, d->rows.line);
+            if (is_text[column]) {
+                continue;
+            }
+            CLX_CHECK(number < table->n_column &&
+                          clx_word_number(word, &table->column[number].number[i]),
+                      CLAST_E_FORMAT, "%s:%" PRId64 ": cell %d is no number of a known column",
+                      d->name, d->rows.line, column + 1);
+            ++number;
+        }
+        CLX_CHECK(number == table->n_column, CLAST_E_FORMAT,
+                  "%s:%" PRId64 ": %d numbers for %d columns", d->name, d->rows.line, number,
+                  table->n_column);
+        (void)clx_text_next_line(&d->rows);
+    }
+done:
+    return status;
+}
+
+/// Scaled coordinates xs, ys, zs as x, y, z.
+static clast_status unscale(const dump *d, clast_table *table)
+{
+    static const char *const scaled[3] = {"xs", "ys", "zs"};
+    static const char *const plain[3] = {"x", "y", "z"};
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < 3; ++k) {
+        double *column = NULL;
+        if (clast_table_numbers(table, scaled[k]) == NULL ||
+            clast_table_find(table, plain[k]) >= 0) {
+            continue;
+        }
+        CLX_TRY(clast_table_add_number(table, plain[k], "-", &column));
+        const double *from = clast_table_numbers(table, scaled[k]);
+        for (int64_t i = 0; i < table->n_row; ++i) {
+            column[i] = d->low[k] + from[i] * (d->high[k] - d->low[k]);
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status add_columns(const dump *d, clast_table *table, bool is_text[1024])
+{
+    clast_status status = CLAST_OK;
+    clx_text names = clx_text_begin(d->header.text, (size_t)d->header.n, '\0', false);
+    clx_word word;
+    int32_t n = 0;
+    while (clx_text_word(&names, &word)) {
+        char name[128];
+        double *column = NULL;
+        CLX_CHECK(n < 1024 && word.n < (int64_t)sizeof name, CLAST_E_FORMAT,
+                  "%s: column %d of ITEM: ATOMS is not a name", d->name, n + 1);
+        memcpy(name, word.text, (size_t)word.n);
+        name[word.n] = '\0';
+        is_text[n] = strcmp(name, "element") == 0;
+        CLX_CHECK(memchr(name, '\0', (size_t)word.n) == NULL, CLAST_E_FORMAT,
+                  "%s: column %d of ITEM: ATOMS is not a name", d->name, n + 1);
+        if (!is_text[n++]) {
+            // a cell takes two bytes at least, so that a long header cannot claim memory
+            CLX_CHECK(d->n_atom * n <= d->rows.end - d->rows.at + 1, CLAST_E_FORMAT,
+                      "%s: %" PRId64 " atoms of %d columns do not fit into the file", d->name,
+                      d->n_atom, n);
+            CLX_CHECK(clast_table_find(table, name) < 0, CLAST_E_FORMAT,
+                      "%s: two columns are named '%s'", d->name, name);
+            CLX_TRY(clast_table_add_number(table, name, "-", &column));
+        }
+    }
+done:
+    return status;
+}
+
+/// The wanted snapshot; counts them first when it is named from the end.
+static clast_status find_frame(dump *d, int64_t frame)
+{
+    clast_status status = CLAST_OK;
+    const clx_text begin = d->text;
+    int64_t n = 0;
+    bool found = true;
+    for (; found && frame < 0; n += found ? 1 : 0) {
+        CLX_TRY(read_frame(d, &found));
+    }
+    const int64_t wanted = frame < 0 ? n + frame : frame;
+    d->text = begin;
+    found = wanted >= 0;
+    for (int64_t k = 0; k <= wanted && found; ++k) {
+        CLX_TRY(read_frame(d, &found));
+        n = k + (found ? 1 : 0);
+    }
+    CLX_CHECK(found, CLAST_E_FORMAT, "%s: there is no snapshot %" PRId64 " among %" PRId64, d->name,
+              frame, n);
+done:
+    return status;
+}
+
+clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
+                             clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    bool is_text[1024] = {false};
+    dump d = {.text = clx_text_begin(bytes, n, '\0', false), .name = name};
+    CLX_TRY(find_frame(&d, frame));
+    CLX_TRY(clast_table_init(&made, name, d.n_atom));
+    CLX_TRY(add_columns(&d, &made, is_text));
+    CLX_TRY(fill_rows(&d, &made, is_text));
+    CLX_TRY(unscale(&d, &made));
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}

@@ -1,0 +1,103 @@
+// Points from files: which format, then its reader.
+#include "io/points.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include <clast/table_file.h>
+#include <stdio.h>
+#include <string.h>
+
+#define BYTE_LIMIT (INT64_C(16) << 30)
+enum { NAME_SIZE = 256, LOOK = 1024 };
+
+/// The name without control characters, with a number when it is taken.
+static void free_name(const clast_table *table, char *wanted, char name[NAME_SIZE])
+{
+    for (char *c = wanted; *c != '\0'; ++c) {
+        *c = (unsigned char)*c < ' ' || *c == 0x7F ? '_' : *c;
+    }
+    (void)snprintf(name, NAME_SIZE, "%.200s", wanted[0] != '\0' ? wanted : "unnamed");
+    for (int k = 2; clast_table_find(table, name) >= 0; ++k) {
+        (void)snprintf(name, NAME_SIZE, "%.200s_%d", wanted[0] != '\0' ? wanted : "unnamed", k);
+    }
+}
+
+clast_status clx_points_add(clast_table *table, const char *name, int64_t width,
+                            const double *value)
+{
+    static const char *const axis[3] = {"x", "y", "z"};
+    clast_status status = CLAST_OK;
+    for (int64_t k = 0; k < width; ++k) {
+        char wanted[NAME_SIZE];
+        char taken[NAME_SIZE];
+        double *column = NULL;
+        if (width == 1) {
+            (void)snprintf(wanted, sizeof wanted, "%.200s", name);
+        } else if (width <= 3) {
+            (void)snprintf(wanted, sizeof wanted, "%.200s%s%s", name, name[0] != '\0' ? "_" : "",
+                           axis[k]);
+        } else {
+            (void)snprintf(wanted, sizeof wanted, "%.200s_%lld", name, (long long)k);
+        }
+        free_name(table, wanted, taken);
+        CLX_TRY(clast_table_add_number(table, taken, "-", &column));
+        for (int64_t i = 0; i < table->n_row; ++i) {
+            column[i] = value[i * width + k];
+        }
+    }
+done:
+    return status;
+}
+
+static bool begins(const void *bytes, size_t n, const char *mark)
+{
+    return n >= strlen(mark) && memcmp(bytes, mark, strlen(mark)) == 0;
+}
+
+/// <VTKFile among the first bytes.
+static bool is_vtk_xml(const char *bytes, size_t n)
+{
+    static const char mark[] = "<VTKFile";
+    const size_t last = n < LOOK ? n : LOOK;
+    for (size_t i = 0; i + sizeof mark - 1 <= last; ++i) {
+        if (memcmp(bytes + i, mark, sizeof mark - 1) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
+                                const clast_points_options *options, clast_table *table)
+{
+    const clast_points_options chosen = options != NULL ? *options : (clast_points_options){0};
+    if (begins(bytes, n, "# vtk DataFile")) {
+        return clx_points_vtk(name, bytes, n, table);
+    }
+    if (begins(bytes, n, "ITEM:")) {
+        return clx_points_dump(name, bytes, n, chosen.frame, table);
+    }
+    if (is_vtk_xml(bytes, n)) {
+        return clx_points_vtx(name, bytes, n, table);
+    }
+    return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
+}
+
+clast_status clast_points_read(const char *path, const clast_points_options *options,
+                               clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    char *bytes = NULL;
+    int64_t n = 0;
+    CLX_TRY(clx_file_read_all(path, BYTE_LIMIT, &bytes, &n));
+    if (begins(bytes, (size_t)n, "\x89HDF")) {
+        clx_free(bytes);
+        bytes = NULL;
+        CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, table));
+    } else {
+        CLX_TRY(clast_points_parse(path, bytes, (size_t)n, options, table));
+    }
+done:
+    clx_free(bytes);
+    return status;
+}

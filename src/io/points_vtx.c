@@ -1,0 +1,428 @@
+// VTP and VTU files: points of one piece and their data; ASCII, base64 or appended raw, plain or
+// zlib. [VTK file formats, "XML file formats"]
+#include "io/points.h"
+
+#include "base/alloc.h"
+#include "io/text.h"
+#include "io/vtk_number.h"
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/// A stretch of the file.
+typedef struct {
+    const char *at, *end;
+} stretch;
+
+typedef struct {
+    const char *name; ///< of the file
+    stretch xml;      ///< before appended data
+    stretch appended; ///< after its '_'
+    bool is_base64;   ///< appended data
+    bool is_big, is_zlib;
+    int header;      ///< bytes of a number of a block header
+    int64_t n;       ///< points
+    int64_t n_value; ///< numbers of all arrays so far
+    clast_table table;
+    bool has_points;
+} vtx;
+
+static const char *find(stretch s, const char *mark)
+{
+    const size_t length = strlen(mark);
+    for (const char *p = s.at; (size_t)(s.end - p) >= length; ++p) {
+        p = memchr(p, mark[0], (size_t)(s.end - p) - length + 1);
+        if (p == NULL) {
+            return NULL;
+        }
+        if (memcmp(p, mark, length) == 0) {
+            return p;
+        }
+    }
+    return NULL;
+}
+
+/// Value of an attribute of a tag; empty and false when it has none.
+static bool attribute(stretch tag, const char *name, stretch *value)
+{
+    const size_t length = strlen(name);
+    *value = (stretch){tag.end, tag.end};
+    for (const char *p = tag.at; p < tag.end; ++p) {
+        const bool begins =
+            p > tag.at && (p[-1] == ' ' || p[-1] == '\t' || p[-1] == '\n' || p[-1] == '\r');
+        if (!begins || (size_t)(tag.end - p) < length + 2 || memcmp(p, name, length) != 0 ||
+            p[length] != '=') {
+            continue;
+        }
+        const char quote = p[length + 1];
+        const char *from = p + length + 2;
+        const char *to = from < tag.end ? memchr(from, quote, (size_t)(tag.end - from)) : NULL;
+        if ((quote == '"' || quote == '\'') && to != NULL) {
+            *value = (stretch){from, to};
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_word(stretch s, const char *word)
+{
+    return (size_t)(s.end - s.at) == strlen(word) && memcmp(s.at, word, strlen(word)) == 0;
+}
+
+static bool integer_of(stretch s, int64_t *value)
+{
+    return clx_word_integer((clx_word){s.at, s.end - s.at}, value);
+}
+
+/// Printable copy for messages.
+static const char *show(stretch s, char shown[CLX_WORD_SHOWN])
+{
+    return clx_word_show((clx_word){s.at, s.end - s.at}, shown);
+}
+
+/// Next tag "<name ...>" of this name at or after *at; *at goes behind it.
+static bool next_tag(stretch xml, const char *name, const char **at, stretch *tag)
+{
+    const size_t length = strlen(name);
+    for (;;) {
+        const char *p = find((stretch){*at, xml.end}, "<");
+        if (p == NULL) {
+            return false;
+        }
+        const char *end = find((stretch){p, xml.end}, ">");
+        if (end == NULL) {
+            return false;
+        }
+        *at = end + 1;
+        if ((size_t)(end - p) > length && memcmp(p + 1, name, length) == 0 &&
+            strchr(" \t\r\n/>", p[1 + length]) != NULL) {
+            *tag = (stretch){p + 1 + length, end};
+            return true;
+        }
+    }
+}
+
+static int digit_of(char c)
+{
+    if (c >= 'A' && c <= 'Z') {
+        return c - 'A';
+    }
+    if (c >= 'a' && c <= 'z') {
+        return c - 'a' + 26;
+    }
+    if (c >= '0' && c <= '9') {
+        return c - '0' + 52;
+    }
+    return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+/// Base64 of one or several texts in a row, each with its padding, up to the first other character.
+static clast_status decode_base64(stretch text, uint8_t **bytes, int64_t *n)
+{
+    clast_status status = CLAST_OK;
+    uint8_t *made = NULL;
+    uint32_t held = 0;
+    int n_digit = 0;
+    int n_pad = 0;
+    int64_t used = 0;
+    CLX_TRY(clx_alloc(&made, (text.end - text.at) / 4 * 3 + 3, 1));
+    for (const char *p = text.at; p < text.end; ++p) {
+        const int digit = digit_of(*p);
+        if (*p == ' ' || *p == '\n' || *p == '\r' || *p == '\t') {
+            continue;
+        }
+        if (digit < 0 && *p != '=') {
+            break;
+        }
+        n_pad += digit < 0 ? 1 : 0;
+        held = held << 6 | (uint32_t)(digit < 0 ? 0 : digit);
+        if (++n_digit == 4) {
+            for (int k = 0; k < 3 - n_pad && n_pad < 3; ++k) {
+                made[used++] = (uint8_t)(held >> (16 - 8 * k));
+            }
+            n_digit = n_pad = 0;
+            held = 0;
+        }
+    }
+    *bytes = made;
+    *n = used;
+    made = NULL;
+done:
+    clx_free(made);
+    return status;
+}
+
+static uint64_t header_number(const vtx *v, const uint8_t *p)
+{
+    uint64_t word = 0;
+    for (int k = 0; k < v->header; ++k) {
+        word = word << 8 | p[v->is_big ? k : v->header - 1 - k];
+    }
+    return word;
+}
+
+/// Blocks of zlib streams into out [size] exactly.
+static clast_status inflate_blocks(const vtx *v, const uint8_t *bytes, int64_t n, int64_t size,
+                                   uint8_t *out)
+{
+    clast_status status = CLAST_OK;
+    const int64_t h = v->header;
+    CLX_CHECK(n >= 3 * h, CLAST_E_FORMAT, "%s: a compressed array is cut short", v->name);
+    const uint64_t n_block = header_number(v, bytes);
+    CLX_CHECK(n_block <= (uint64_t)(n / h - 3), CLAST_E_FORMAT,
+              "%s: a compressed array of %" PRIu64 " blocks is cut short", v->name, n_block);
+    int64_t at = (3 + (int64_t)n_block) * h;
+    int64_t filled = 0;
+    for (uint64_t k = 0; k < n_block; ++k) {
+        const uint64_t packed = header_number(v, bytes + (3 + (int64_t)k) * h);
+        uLongf room = (uLongf)(size - filled);
+        CLX_CHECK(packed <= (uint64_t)(n - at), CLAST_E_FORMAT,
+                  "%s: block %" PRIu64 " of a compressed array is cut short", v->name, k + 1);
+        CLX_CHECK(uncompress(out + filled, &room, bytes + at, (uLong)packed) == Z_OK,
+                  CLAST_E_FORMAT, "%s: block %" PRIu64 " of a compressed array is damaged", v->name,
+                  k + 1);
+        filled += (int64_t)room;
+        at += (int64_t)packed;
+    }
+    CLX_CHECK(filled == size, CLAST_E_FORMAT,
+              "%s: a compressed array holds %" PRId64 " bytes instead of %" PRId64, v->name, filled,
+              size);
+done:
+    return status;
+}
+
+/// Numbers of an array whose stored bytes (header and data) are given.
+static clast_status unpack(const vtx *v, const uint8_t *bytes, int64_t n, clx_vtk_number type,
+                           int64_t n_value, double *value)
+{
+    enum { MOST_RATIO = 1032 }; // of deflate
+    clast_status status = CLAST_OK;
+    uint8_t *out = NULL;
+    const int64_t size = n_value * clx_vtk_number_size(type);
+    if (v->is_zlib) {
+        CLX_CHECK(size / MOST_RATIO <= n, CLAST_E_FORMAT,
+                  "%s: an array of %" PRId64 " bytes cannot come from %" PRId64, v->name, size, n);
+        CLX_TRY(clx_alloc(&out, size, 1));
+        CLX_TRY(inflate_blocks(v, bytes, n, size, out));
+        clx_vtk_numbers(out, n_value, type, v->is_big, value);
+    } else {
+        CLX_CHECK(n >= v->header && header_number(v, bytes) == (uint64_t)size &&
+                      n - v->header >= size,
+                  CLAST_E_FORMAT, "%s: an array of %" PRId64 " bytes is cut short", v->name, size);
+        clx_vtk_numbers(bytes + v->header, n_value, type, v->is_big, value);
+    }
+done:
+    clx_free(out);
+    return status;
+}
+
+static clast_status read_ascii(const vtx *v, stretch content, int64_t n, double *value)
+{
+    clast_status status = CLAST_OK;
+    clx_text text = clx_text_begin(content.at, (size_t)(content.end - content.at), '\0', false);
+    for (int64_t i = 0; i < n; ++i) {
+        clx_word word;
+        CLX_CHECK(clx_text_any_word(&text, &word) && clx_word_number(word, &value[i]),
+                  CLAST_E_FORMAT,
+                  "%s: number %" PRId64 " of %" PRId64 " of an array is missing or not finite",
+                  v->name, i + 1, n);
+    }
+done:
+    return status;
+}
+
+/// Where the stored bytes of an array begin: inline or in the appended data.
+static clast_status stored_at(const vtx *v, stretch tag, stretch content, bool is_appended,
+                              stretch *stored)
+{
+    clast_status status = CLAST_OK;
+    int64_t offset = 0;
+    stretch text;
+    *stored = content;
+    if (is_appended) {
+        CLX_CHECK(v->appended.at != NULL && attribute(tag, "offset", &text) &&
+                      integer_of(text, &offset) && offset >= 0 &&
+                      offset <= v->appended.end - v->appended.at,
+                  CLAST_E_FORMAT, "%s: an array's offset lies outside the appended data", v->name);
+        *stored = (stretch){v->appended.at + offset, v->appended.end};
+    }
+done:
+    return status;
+}
+
+static clast_status read_values(const vtx *v, stretch tag, stretch content, clx_vtk_number type,
+                                int64_t n, double *value)
+{
+    clast_status status = CLAST_OK;
+    uint8_t *bytes = NULL;
+    int64_t n_byte = 0;
+    stretch format;
+    stretch stored;
+    (void)attribute(tag, "format", &format);
+    const bool is_appended = is_word(format, "appended");
+    CLX_CHECK(is_appended || is_word(format, "ascii") || is_word(format, "binary"), CLAST_E_FORMAT,
+              "%s: an array's format is neither ascii, binary nor appended", v->name);
+    CLX_TRY(stored_at(v, tag, content, is_appended, &stored));
+    if (is_word(format, "ascii")) {
+        CLX_TRY(read_ascii(v, content, n, value));
+    } else if (is_appended && !v->is_base64) {
+        CLX_TRY(unpack(v, (const uint8_t *)stored.at, stored.end - stored.at, type, n, value));
+    } else {
+        CLX_TRY(decode_base64(stored, &bytes, &n_byte));
+        CLX_TRY(unpack(v, bytes, n_byte, type, n, value));
+    }
+done:
+    clx_free(bytes);
+    return status;
+}
+
+/// Before memory is taken for n more numbers: no file of this size holds all of them (deflate packs
+/// 1032 to 1), even if arrays share their bytes.
+static clast_status check_room(vtx *v, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    const int64_t size =
+        (v->xml.end - v->xml.at) + (v->appended.at != NULL ? v->appended.end - v->appended.at : 0);
+    v->n_value += n;
+    CLX_CHECK(v->n_value <= (v->is_zlib ? size * 1032 : size), CLAST_E_FORMAT,
+              "%s: %" PRId64 " numbers are declared, the file is too short", v->name, v->n_value);
+done:
+    return status;
+}
+
+/// One <DataArray> of points or their data.
+static clast_status read_array(vtx *v, stretch tag, stretch content, bool is_points)
+{
+    clast_status status = CLAST_OK;
+    double *value = NULL;
+    clx_vtk_number type = CLX_VTK_F32;
+    int64_t width = is_points ? 3 : 1;
+    stretch text;
+    char label[128] = "";
+    char shown[CLX_WORD_SHOWN];
+    (void)attribute(tag, "type", &text);
+    if (is_word(text, "String")) {
+        return CLAST_OK; // texts are left out
+    }
+    CLX_CHECK(clx_vtk_number_of(text.at, (size_t)(text.end - text.at), &type), CLAST_E_FORMAT,
+              "%s: an array of unknown type '%s'", v->name, show(text, shown));
+    if (attribute(tag, "NumberOfComponents", &text)) {
+        CLX_CHECK(integer_of(text, &width) && width >= 1 && width <= 1024, CLAST_E_FORMAT,
+                  "%s: an array has '%s' components", v->name, show(text, shown));
+    }
+    CLX_CHECK(!is_points || width == 3, CLAST_E_FORMAT, "%s: points have %" PRId64 " coordinates",
+              v->name, width);
+    CLX_TRY(check_room(v, v->n * width));
+    CLX_TRY(clx_alloc(&value, v->n * width, sizeof *value));
+    CLX_TRY(read_values(v, tag, content, type, v->n * width, value));
+    if (!is_points && attribute(tag, "Name", &text)) {
+        const size_t length = text.end - text.at < 100 ? (size_t)(text.end - text.at) : 100;
+        memcpy(label, text.at, length);
+        label[length] = '\0';
+    }
+    CLX_TRY(clx_points_add(&v->table,
+                           is_points          ? ""
+                           : label[0] != '\0' ? label
+                                              : "data",
+                           width, value));
+    v->has_points = v->has_points || is_points;
+done:
+    clx_free(value);
+    return status;
+}
+
+/// All arrays of <Points> or <PointData>.
+static clast_status read_group(vtx *v, const char *name, const char *closing)
+{
+    clast_status status = CLAST_OK;
+    const char *at = v->xml.at;
+    stretch tag;
+    if (!next_tag(v->xml, name, &at, &tag) || (tag.end > tag.at && tag.end[-1] == '/')) {
+        return CLAST_OK;
+    }
+    const char *end = find((stretch){at, v->xml.end}, closing);
+    const stretch group = {at, end != NULL ? end : v->xml.end};
+    while (next_tag(group, "DataArray", &at, &tag)) {
+        const bool is_empty = tag.end > tag.at && tag.end[-1] == '/';
+        const char *last = is_empty ? at : find((stretch){at, group.end}, "<");
+        CLX_CHECK(last != NULL, CLAST_E_FORMAT, "%s: an array has no end", v->name);
+        CLX_TRY(read_array(v, tag, (stretch){at, last}, strcmp(name, "Points") == 0));
+        CLX_CHECK(!(strcmp(name, "Points") == 0) || v->table.n_column == 3, CLAST_E_FORMAT,
+                  "%s: more than one array of points", v->name);
+    }
+done:
+    return status;
+}
+
+/// Byte order, header, compressor; where appended data begin.
+static clast_status read_head(vtx *v, stretch all)
+{
+    clast_status status = CLAST_OK;
+    const char *at = all.at;
+    stretch tag;
+    stretch text;
+    char shown[CLX_WORD_SHOWN];
+    const char *appended = find(all, "<AppendedData");
+    v->xml = (stretch){all.at, appended != NULL ? appended : all.end};
+    CLX_CHECK(next_tag(v->xml, "VTKFile", &at, &tag), CLAST_E_FORMAT, "%s: there is no <VTKFile>",
+              v->name);
+    CLX_CHECK(attribute(tag, "type", &text) &&
+                  (is_word(text, "PolyData") || is_word(text, "UnstructuredGrid")),
+              CLAST_E_FORMAT,
+              "%s: a VTK file of type '%s'; points come from PolyData or "
+              "UnstructuredGrid",
+              v->name, show(text, shown));
+    v->is_big = attribute(tag, "byte_order", &text) && is_word(text, "BigEndian");
+    v->header = attribute(tag, "header_type", &text) && is_word(text, "UInt64") ? 8 : 4;
+    v->is_zlib = attribute(tag, "compressor", &text) && text.end > text.at;
+    CLX_CHECK(!v->is_zlib || is_word(text, "vtkZLibDataCompressor"), CLAST_E_FORMAT,
+              "%s: compressor '%s' is not read; write the file with zlib or without", v->name,
+              show(text, shown));
+    if (appended != NULL) {
+        const char *behind = appended;
+        CLX_CHECK(next_tag((stretch){appended, all.end}, "AppendedData", &behind, &tag),
+                  CLAST_E_FORMAT, "%s: <AppendedData> is cut short", v->name);
+        v->is_base64 = attribute(tag, "encoding", &text) && is_word(text, "base64");
+        const char *mark = find((stretch){behind, all.end}, "_");
+        CLX_CHECK(mark != NULL, CLAST_E_FORMAT, "%s: appended data do not begin with '_'", v->name);
+        v->appended = (stretch){mark + 1, all.end};
+    }
+done:
+    return status;
+}
+
+static clast_status read_piece(vtx *v)
+{
+    clast_status status = CLAST_OK;
+    const char *at = v->xml.at;
+    stretch tag;
+    stretch more;
+    stretch text;
+    CLX_CHECK(next_tag(v->xml, "Piece", &at, &tag) && attribute(tag, "NumberOfPoints", &text) &&
+                  integer_of(text, &v->n) && v->n >= 0 && v->n < INT64_C(1) << 40,
+              CLAST_E_FORMAT, "%s: there is no <Piece> with a number of points", v->name);
+    CLX_CHECK(!next_tag(v->xml, "Piece", &at, &more), CLAST_E_FORMAT,
+              "%s: the file has several pieces; write it as one", v->name);
+done:
+    return status;
+}
+
+clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    vtx v = {.name = name};
+    const char *text = bytes;
+    CLX_TRY(read_head(&v, (stretch){text, text + n}));
+    CLX_TRY(read_piece(&v));
+    CLX_TRY(clast_table_init(&v.table, name, v.n));
+    CLX_TRY(read_group(&v, "Points", "</Points>"));
+    CLX_CHECK(v.has_points, CLAST_E_FORMAT, "%s: the file has no array of points", name);
+    CLX_TRY(read_group(&v, "PointData", "</PointData>"));
+    *table = v.table;
+    v.table = (clast_table){0};
+done:
+    clast_table_free(&v.table);
+    return status;
+}

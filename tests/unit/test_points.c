@@ -1,0 +1,178 @@
+/* Unit: points from files that were written here by hand, number by number. */
+#include "support.h"
+
+#include <clast/points_file.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char vtk[] = "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                          "POINTS 2 float\n0.5 1 2\n3 4 -5e-1\n"
+                          "CELLS 3 2\nOFFSETS vtktypeint64\n0 1 2\nCONNECTIVITY vtktypeint64\n0 1\n"
+                          "CELL_TYPES 2\n1 1\nCELL_DATA 2\nSCALARS of_cell int\nLOOKUP_TABLE "
+                          "default\n7 8\nPOINT_DATA 2\nFIELD FieldData 2\nmass 1 2 double\n0.25 "
+                          "0.75\nv 3 2 float\n1 2 3 4 5 6\nTENSORS t float\n1 2 3 4 5 6 7 8 9\n9 8 "
+                          "7 6 5 4 3 2 1\n";
+
+static void check_row(const clast_table *table, const char *name, double first, double second)
+{
+    const double *value = clast_table_numbers(table, name);
+    assert_non_null(value);
+    CHECK_ABS(value[0], first, 0.0);
+    CHECK_ABS(value[1], second, 0.0);
+}
+
+static void legacy_file_gives_points_and_their_data(void **state)
+{
+    (void)state;
+    clast_table table = {0};
+    CHECK_OK(clast_points_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table));
+    assert_int_equal(table.n_row, 2);
+    assert_int_equal(table.n_column, 3 + 1 + 3 + 9);
+    check_row(&table, "x", 0.5, 3.0);
+    check_row(&table, "z", 2.0, -0.5);
+    check_row(&table, "mass", 0.25, 0.75);
+    check_row(&table, "v_y", 2.0, 5.0);
+    check_row(&table, "t_8", 9.0, 1.0);
+    assert_int_equal(clast_table_find(&table, "of_cell"), -1);
+    clast_table_free(&table);
+}
+
+/* Numbers of every type, least and greatest, most significant byte first. */
+static void binary_numbers_of_every_type_are_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *type, *bytes;
+        size_t n;
+        double low, high;
+    } cases[] = {
+        {"char", "\x80\x7f", 2, -128, 127},
+        {"unsigned_char", "\x00\xff", 2, 0, 255},
+        {"short", "\x80\x00\x7f\xff", 4, -32768, 32767},
+        {"unsigned_short", "\x00\x00\xff\xff", 4, 0, 65535},
+        {"int", "\x80\x00\x00\x00\x7f\xff\xff\xff", 8, -2147483648.0, 2147483647.0},
+        {"unsigned_int", "\x00\x00\x00\x00\xff\xff\xff\xff", 8, 0, 4294967295.0},
+        {"long", "\xff\xff\xff\xff\xff\xff\xff\xfe\x00\x00\x00\x00\x00\x00\x01\x00", 16, -2, 256},
+        {"float", "\x3f\x80\x00\x00\xc0\x00\x00\x00", 8, 1, -2},
+        {"double", "\x3f\xf8\x00\x00\x00\x00\x00\x00\xc0\x00\x00\x00\x00\x00\x00\x00", 16, 1.5,
+         -2}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char file[512];
+        clast_table table = {0};
+        static const char head[] =
+            "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS "
+            "2 unsigned_char\nabcdef\nPOINT_DATA 2\n";
+        int n = snprintf(file, sizeof file, "%sSCALARS s %s 1\nLOOKUP_TABLE default\n", head,
+                         cases[k].type);
+        memcpy(file + n, cases[k].bytes, cases[k].n);
+        n += (int)cases[k].n;
+        CHECK_OK(clast_points_parse("b.vtk", file, (size_t)n, NULL, &table));
+        check_row(&table, "x", 'a', 'd');
+        check_row(&table, "s", cases[k].low, cases[k].high);
+        clast_table_free(&table);
+        CHECK_STATUS(clast_points_parse("b.vtk", file, (size_t)n - 1, NULL, &table),
+                     CLAST_E_FORMAT);
+    }
+}
+
+static void names_that_repeat_are_told_apart(void **state)
+{
+    (void)state;
+    static const char file[] = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 "
+                               "float\n1 2 3\nPOINT_DATA 1\nSCALARS x float\nLOOKUP_TABLE "
+                               "default\n9\nSCALARS x float\n8\n";
+    clast_table table = {0};
+    CHECK_OK(clast_points_parse("c.vtk", file, sizeof file - 1, NULL, &table));
+    CHECK_ABS(clast_table_numbers(&table, "x")[0], 1.0, 0.0);
+    CHECK_ABS(clast_table_numbers(&table, "x_2")[0], 9.0, 0.0);
+    CHECK_ABS(clast_table_numbers(&table, "x_3")[0], 8.0, 0.0);
+    clast_table_free(&table);
+}
+
+/* An array of float [3][2], deflated; ints [3] and a text beside it. */
+static const char *h5_file(void)
+{
+    static char path[512];
+    const hsize_t size[2] = {3, 2};
+    const float value[6] = {1, 2, 3, 4, 5, 6};
+    const int32_t number[3] = {-1, 0, 1};
+    (void)snprintf(path, sizeof path, "%s/points.h5", support_scratch());
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(2, size, NULL);
+    const hid_t line = H5Screate_simple(1, size, NULL);
+    const hid_t plist = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t group = H5Gcreate2(file, "/run", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Pset_chunk(plist, 2, size) >= 0 && H5Pset_deflate(plist, 6) >= 0);
+    const hid_t set =
+        H5Dcreate2(file, "/run/pos", H5T_IEEE_F32BE, space, H5P_DEFAULT, plist, H5P_DEFAULT);
+    const hid_t ids =
+        H5Dcreate2(file, "/run/number", H5T_STD_I32LE, line, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+    assert_true(H5Dwrite(ids, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, number) >= 0);
+    assert_true(H5Dclose(set) >= 0 && H5Dclose(ids) >= 0 && H5Gclose(group) >= 0);
+    assert_true(H5Pclose(plist) >= 0 && H5Sclose(space) >= 0 && H5Sclose(line) >= 0);
+    assert_true(H5Fclose(file) >= 0);
+    return path;
+}
+
+static void hdf5_arrays_and_folders_are_columns(void **state)
+{
+    (void)state;
+    const char *path = h5_file();
+    clast_table table = {0};
+    clast_points_options options = {.dataset = "run/pos"};
+    CHECK_OK(clast_points_read(path, &options, &table));
+    assert_int_equal(table.n_row, 3);
+    check_row(&table, "x", 1.0, 3.0);
+    check_row(&table, "y", 2.0, 4.0);
+    clast_table_free(&table);
+    options.dataset = "/run";
+    CHECK_OK(clast_points_read(path, &options, &table));
+    check_row(&table, "number", -1.0, 0.0);
+    check_row(&table, "x", 1.0, 3.0);
+    clast_table_free(&table);
+    options.dataset = "/none";
+    CHECK_STATUS(clast_points_read(path, &options, &table), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_points_read(path, NULL, &table), CLAST_E_FORMAT); // "/" holds a folder only
+    assert_null(table.column);
+}
+
+static clast_status read_once(void *context)
+{
+    clast_table table = {0};
+    const clast_status status = clast_points_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table);
+    (void)context;
+    clast_table_free(&table);
+    return status;
+}
+
+static clast_status read_h5_once(void *context)
+{
+    clast_table table = {0};
+    const clast_points_options options = {.dataset = "/run"};
+    const clast_status status = clast_points_read(context, &options, &table);
+    clast_table_free(&table);
+    return status;
+}
+
+static void every_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    static char path[512];
+    (void)snprintf(path, sizeof path, "%s", h5_file());
+    support_refuse_each_allocation(read_once, NULL);
+    support_refuse_each_allocation(read_h5_once, path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(legacy_file_gives_points_and_their_data),
+        cmocka_unit_test(binary_numbers_of_every_type_are_read),
+        cmocka_unit_test(names_that_repeat_are_told_apart),
+        cmocka_unit_test(hdf5_arrays_and_folders_are_columns),
+        cmocka_unit_test(every_refused_allocation_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
