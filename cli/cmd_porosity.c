@@ -16,6 +16,7 @@ typedef struct {
     double layer, cut, trim;
     bool at_slice;
     double gap;
+    bool local;
 } porosity_config;
 
 #define FIELD(type, member) #member, offsetof(porosity_config, member), type
@@ -38,6 +39,8 @@ static const clast_field fields[] = {
      "end the bed with a slice, as the reference program; else between slices", NULL},
     {FIELD(CLAST_FIELD_F64, gap), 0, 0, 1e9, "m",
      "grains this close touch, where the run does not know its contacts", NULL},
+    {FIELD(CLAST_FIELD_BOOL, local), 0, 0, 1, "-",
+     "porosity around each grain too, by radical Voronoi cells of equal-volume spheres", NULL},
     {0},
 };
 #undef FIELD
@@ -106,6 +109,8 @@ static double mean_diameter(const clast_assembly *a)
 typedef struct {
     clast_table profile;
     clast_table coordination; ///< without columns where contacts are not known
+    clast_table fabric;       ///< directions of contacts and grains
+    clast_table local;        ///< without columns unless asked for
     clast_porosity_bulk bulk;
     double mean_coordination; ///< NAN where contacts are not known
 } findings;
@@ -114,24 +119,69 @@ static void findings_free(findings *f)
 {
     clast_table_free(&f->profile);
     clast_table_free(&f->coordination);
+    clast_table_free(&f->fabric);
+    clast_table_free(&f->local);
 }
 
-static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
-                            const clast_porosity_options *options, double gap, findings *f)
+static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *bed, double gap,
+                                     findings *f)
 {
-    clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
+    const double period[2] = {bed->high[0] - bed->low[0], bed->high[1] - bed->low[1]};
+    clast_status status = CLAST_OK;
     f->mean_coordination = NAN;
-    if (status == CLAST_OK) {
-        status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
-    }
-    if (status == CLAST_OK && gap > 0.0) {
+    if (gap > 0.0) {
         status = clast_assembly_find_contacts(assembly, gap);
     }
     if (status == CLAST_OK && assembly->contact != NULL) {
         f->mean_coordination = 2.0 * assembly->n_contact / assembly->n_grain;
         status = clast_assembly_coordination(assembly, &f->coordination);
     }
+    if (status == CLAST_OK) {
+        status =
+            clast_fabric(assembly, bed->kind == CLAST_BED_PERIODIC ? period : NULL, &f->fabric);
+    }
     return status;
+}
+
+static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
+                            const clast_porosity_options *options, const porosity_config *config,
+                            findings *f)
+{
+    clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
+    if (status == CLAST_OK) {
+        status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
+    }
+    if (status == CLAST_OK) {
+        status = measure_contacts(assembly, bed, config->gap, f);
+    }
+    if (status == CLAST_OK && config->local) {
+        status = clast_local_porosity(assembly, bed, bed->floor, f->bulk.top, &f->local);
+    }
+    return status;
+}
+
+/// Mean and standard deviation of the local porosity of grains whose cell no wall cuts.
+static int64_t local_moments(const clast_table *local, double *mean, double *deviation)
+{
+    const double *porosity = clast_table_numbers(local, "porosity");
+    const double *border = clast_table_numbers(local, "border");
+    int64_t n = 0;
+    double sum = 0.0;
+    double square = 0.0;
+    for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
+        if (border[i] == 0.0) {
+            ++n;
+            sum += porosity[i];
+        }
+    }
+    *mean = n > 0 ? sum / (double)n : (double)NAN;
+    for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
+        if (border[i] == 0.0) {
+            square += (porosity[i] - *mean) * (porosity[i] - *mean);
+        }
+    }
+    *deviation = n > 1 ? sqrt(square / (double)(n - 1)) : (double)NAN;
+    return n;
 }
 
 static json_t *to_json(const clast_assembly *assembly, const porosity_config *config,
@@ -157,6 +207,18 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     cli_json_number(object, "solid", f->bulk.solid);
     cli_json_number(object, "coordination", f->mean_coordination);
     cli_json_text(object, "unit", assembly->unit);
+    if (f->local.n_column > 0) {
+        double mean = NAN;
+        double deviation = NAN;
+        cli_json_count(object, "n_local", local_moments(&f->local, &mean, &deviation));
+        cli_json_number(object, "local_mean", mean);
+        cli_json_number(object, "local_deviation", deviation);
+    }
+    json_t *fabric = json_object();
+    for (int64_t k = 0; k < f->fabric.n_row; ++k) {
+        cli_json_number(fabric, f->fabric.column[0].text[k], f->fabric.column[1].number[k]);
+    }
+    (void)json_object_set_new(object, "fabric", fabric);
     (void)json_object_set_new(object, "profile", rows);
     return object;
 }
@@ -172,19 +234,25 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
                                  const findings *f)
 {
     char path[4096];
-    clast_status status = path_in(path, folder, "profile.csv");
+    clast_status status = CLAST_OK;
     if (mkdir(folder, 0777) != 0) {
         struct stat info;
         if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
             return cli_fail(CLAST_E_DISK, "cannot make the folder %s", folder);
         }
     }
-    if (status == CLAST_OK) {
-        status = clast_table_write_csv(&f->profile, path);
-    }
-    if (status == CLAST_OK && f->coordination.n_column > 0) {
-        status = path_in(path, folder, "coordination.csv");
-        status = status == CLAST_OK ? clast_table_write_csv(&f->coordination, path) : status;
+    const struct {
+        const char *name;
+        const clast_table *table;
+    } files[] = {{"profile.csv", &f->profile},
+                 {"coordination.csv", &f->coordination},
+                 {"fabric.csv", &f->fabric},
+                 {"local.csv", &f->local}};
+    for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
+        if (files[k].table->n_column > 0) {
+            status = path_in(path, folder, files[k].name);
+            status = status == CLAST_OK ? clast_table_write_csv(files[k].table, path) : status;
+        }
     }
     if (status == CLAST_OK) {
         status = path_in(path, folder, "profile.svg");
@@ -212,8 +280,19 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)printf("mean coordination   %.4f   from %d contacts\n", f->mean_coordination,
                      assembly->n_contact);
     }
+    if (f->local.n_column > 0) {
+        double mean = NAN;
+        double deviation = NAN;
+        const int64_t n = local_moments(&f->local, &mean, &deviation);
+        (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n", mean,
+                     deviation, (long long)n);
+    }
+    for (int64_t k = 0; k < f->fabric.n_row; ++k) {
+        (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
+                     f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
+    }
     if (common->output != NULL) {
-        (void)printf("%s: profile.csv, profile.svg\n", common->output);
+        (void)printf("tables and profile.svg are in %s\n", common->output);
     }
     return CLAST_OK;
 }
@@ -246,7 +325,7 @@ static clast_status run(const cli_common *common, void *context)
         options.layer = 0.1 * mean_diameter(&assembly);
     }
     if (status == CLAST_OK) {
-        status = measure(&assembly, &bed, &options, config->gap, &found);
+        status = measure(&assembly, &bed, &options, config, &found);
     }
     if (status == CLAST_OK && common->output != NULL) {
         status = write_folder(common->output, &assembly, &found);
@@ -270,8 +349,9 @@ const cli_command cli_porosity = {
         "The bed ends where n(z), from above, falls through --cut; bulk is the porosity between\n"
         "floor + trim and top - trim (Rettinger et al., section 4.4, eq. 16). As published:\n"
         "  cylinder  --method spheres                 periodic  --method spheres --trim 31.5mm\n"
-        "-o FOLDER writes profile.csv, profile.svg and, where contacts are known, "
-        "coordination.csv.",
+        "-o FOLDER writes profile.csv, profile.svg, fabric.csv (directions of contacts and "
+        "grains),\n"
+        "coordination.csv where contacts are known, local.csv with --local.",
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,

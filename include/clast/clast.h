@@ -18,6 +18,7 @@
 #include <clast/domain.h>
 #include <clast/envelope.h>
 #include <clast/export.h>
+#include <clast/fabric.h>
 #include <clast/field.h>
 #include <clast/fill.h>
 #include <clast/form.h>
@@ -28,6 +29,7 @@
 #include <clast/grain.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
+#include <clast/local_porosity.h>
 #include <clast/manifest.h>
 #include <clast/mesh.h>
 #include <clast/mesh_check.h>

@@ -30,13 +30,37 @@ class Porosity(Case):
         # whole layers hold pi / 6
         mean = sum(row["porosity"] for row in result["profile"][:50]) / 50
         self.assertAlmostEqual(mean, 1 - 3.141592653589793 / 6, 12)
-        rows = list(csv.DictReader(open(self.folder / "out/profile.csv", encoding="ascii")))
+        with open(self.folder / "out/profile.csv", encoding="ascii") as file:
+            rows = list(csv.DictReader(file))
         self.assertEqual(float(rows[3]["porosity"]), result["profile"][3]["porosity"])
         self.assertIn("<svg", (self.folder / "out/profile.svg").read_text())
 
     def test_contacts_of_a_lattice(self):
         result = clast("porosity", self.lattice(4), "--bed", "box:0,0,4,4", "--layer", 0.1, "--gap", 1e-6, "--json").json
         self.assertAlmostEqual(result["coordination"], 2 * 3 * 4 * 4 * 3 / 64, 12)
+
+    def test_local_porosity_of_a_lattice(self):
+        path = self.lattice(5)
+        found = clast("porosity", path, "--bed", "periodic:0,0,5,5", "--layer", 0.1, "--local", "--json")
+        self.assertEqual(found.code, 0, found.err)
+        self.assertEqual(found.json["n_local"], 75)  # all but the lowest and the highest layer
+        self.assertAlmostEqual(found.json["local_mean"], 1 - 3.141592653589793 / 6, 12)
+        self.assertAlmostEqual(found.json["local_deviation"], 0, 12)
+
+    def test_voronoi_cells_of_others_fill_their_container(self):
+        """voro++'s packing of 1000 unit spheres: cells add up to the container below the bed's top."""
+        path = shared("packings/voro/pack_ten_cube.txt")
+        if path is None:
+            return
+        rows = [line.split() for line in path.read_text().splitlines()]
+        file = self.spheres([(x, y, z, 0.5) for _, x, y, z in rows])
+        found = clast("porosity", file, "--bed", "box:-5,-5,5,5", "--layer", 0.1, "--cut", 0.9, "--local", "--json",
+                      "-o", self.folder / "out")
+        self.assertEqual(found.code, 0, found.err)
+        with open(self.folder / "out/local.csv", encoding="ascii") as local:
+            cells = list(csv.DictReader(local))
+        total = sum(float(row["cell_m3"]) for row in cells)
+        self.assertAlmostEqual(total / (100 * found.json["top"]), 1, 9)
 
     def test_bad_input(self):
         path = self.lattice(2)

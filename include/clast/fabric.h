@@ -1,0 +1,21 @@
+#pragma once
+#include <clast/assembly.h>
+#include <clast/table.h>
+
+/// How an assembly's contacts and grains are directed: columns name, value, unit, meaning.
+///
+/// Contacts (absent where they are not known): mean coordination, shares of grains with none and
+/// with fewer than four contacts, mean without the latter; eigenvalues and vertical entry of the
+/// fabric tensor                 F = 1/N sum b b^T          [Satake1982]
+/// of unit branch vectors b between the centroids of touching grains. In a periodic bed pass its
+/// period, so that branches take the short way.
+///
+/// Grains (absent for spheres): the same for Q = sum V a a^T / sum V over the longest and the
+/// shortest principal axes a, by volume V, and the mean angle of the longest axis to the
+/// horizontal. Random directions give eigenvalues of 1/3; a layered bed has a high vertical entry
+/// of the shortest axis.
+///
+/// @param period  x and y period [m], 0 for none; NULL: none
+/// @param table   must be empty; written only on success
+CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const double period[2],
+                                    clast_table *table);

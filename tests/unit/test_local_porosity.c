@@ -1,0 +1,214 @@
+// Unit: convex cells and radical Voronoi cells against closed forms.
+#include "support.h"
+
+#include "geom/convex_cell.h"
+#include "math/rng.h"
+#include "math/vec3.h"
+
+static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+
+static void cube_is_cut_to_known_bodies(void **state)
+{
+    (void)state;
+    static clx_cell cell;
+    const double low[3] = {-1.0, -1.0, -1.0};
+    const double high[3] = {1.0, 1.0, 1.0};
+    clx_cell_box(low, high, &cell);
+    CHECK_REL(clx_cell_volume(&cell), 8.0, 1e-15);
+    CHECK_REL(clx_cell_reach2(&cell), 3.0, 1e-15);
+    // eight corners off: the cuboctahedron (corners in edge middles), 5/6 of the cube
+    for (int k = 0; k < 8; ++k) {
+        const double normal[3] = {k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0};
+        CHECK_OK(clx_cell_cut(&cell, normal, 2.0, k));
+    }
+    CHECK_REL(clx_cell_volume(&cell), 8.0 * 5.0 / 6.0, 1e-14);
+    assert_int_equal(cell.n_face, 14);
+    const double all[3] = {0.0, 0.0, 1.0};
+    CHECK_OK(clx_cell_cut(&cell, all, 5.0, 99)); // misses
+    assert_int_equal(cell.n_face, 14);
+    CHECK_OK(clx_cell_cut(&cell, all, -5.0, 99)); // takes everything
+    assert_int_equal(cell.n_face, 0);
+    CHECK_ABS(clx_cell_volume(&cell), 0.0, 0.0);
+}
+
+static void add(clast_assembly *a, double x, double y, double z, double radius)
+{
+    const double p[3] = {x, y, z};
+    if (a->n_shape == 0) {
+        clast_shape ball = {0};
+        CHECK_OK(clast_shape_sphere("ball", 1.0, &ball));
+        CHECK_OK(clast_assembly_add_shape(a, &ball, NULL));
+        clast_shape_free(&ball);
+    }
+    CHECK_OK(clast_assembly_add_grain(a, 0, p, upright, radius, 1.0));
+}
+
+/// Face-centred cubic, touching spheres: every cell is a rhombic dodecahedron, porosity 0.2595.
+static void close_packing_has_twelve_faces_and_its_porosity(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    const double shift[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    for (int k = 0; k < 4 * 64; ++k) {
+        const double *s = shift[k % 4];
+        add(&a, k / 4 % 4 + s[0] + 0.1, k / 16 % 4 + s[1] + 0.1, k / 64 + s[2] + 0.1,
+            sqrt(2.0) / 4.0);
+    }
+    CHECK_OK(clast_bed_parse("periodic:0,0,4,4", &bed));
+    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 4.0, &local));
+    const double *porosity = clast_table_numbers(&local, "porosity");
+    const double *faces = clast_table_numbers(&local, "n_face");
+    const double *border = clast_table_numbers(&local, "border");
+    const double *cell = clast_table_numbers(&local, "cell_m3");
+    double sum = 0.0;
+    int n_inner = 0;
+    for (int64_t i = 0; i < local.n_row; ++i) {
+        sum += cell[i];
+        if (border[i] == 0.0) {
+            CHECK_ABS(porosity[i], 1.0 - CLAST_PI / (3.0 * sqrt(2.0)), 1e-13);
+            assert_true(faces[i] >= 12.0);
+            ++n_inner;
+        }
+    }
+    assert_true(n_inner >= 128);
+    CHECK_REL(sum, 64.0, 1e-13);
+    clast_table_free(&local);
+    clast_assembly_free(&a);
+}
+
+/// Two spheres in a box: the radical plane lies where |x - a|^2 - R^2 = |x - b|^2 - r^2.
+static void unequal_spheres_share_by_the_radical_plane(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    add(&a, 1.0, 1.0, 1.0, 0.9);
+    add(&a, 3.0, 1.0, 1.0, 0.3);
+    CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
+    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 2.0, &local));
+    const double plane = 1.0 + (4.0 + 0.81 - 0.09) / 4.0;
+    CHECK_REL(clast_table_numbers(&local, "cell_m3")[0], 4.0 * plane, 1e-14);
+    CHECK_REL(clast_table_numbers(&local, "cell_m3")[1], 4.0 * (4.0 - plane), 1e-14);
+    clast_table_free(&local);
+    clast_assembly_free(&a);
+}
+
+/// The grain whose power distance to a point is least, images included.
+static int32_t owner(const clast_assembly *a, const clast_bed *bed, const double x[3])
+{
+    int32_t best = -1;
+    double least = HUGE_VAL;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        double d[3];
+        v3_sub(d, x, a->position[i]);
+        for (int k = 0; k < 2 && bed->kind == CLAST_BED_PERIODIC; ++k) {
+            d[k] -= 2.0 * round(d[k] / 2.0);
+        }
+        const double power = v3_norm2(d) - a->scale[i] * a->scale[i];
+        if (power < least) {
+            least = power;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// Even points fall into cells by their volumes: chi-squared of the counts within six deviations.
+static void check_by_points(const clast_assembly *a, const clast_bed *bed, const clast_table *local)
+{
+    enum { POINTS = 20000 };
+    double count[400] = {0};
+    double chi2 = 0.0;
+    double n = 0.0;
+    for (int k = 0; k < POINTS; ++k) {
+        const double x[3] = {2.0 * fmod(0.8191725134 * k, 1.0) - 1.0,
+                             2.0 * fmod(0.6710436067 * k, 1.0) - 1.0,
+                             3.0 * fmod(0.5497004779 * k, 1.0)};
+        if (bed->kind != CLAST_BED_CYLINDER || hypot(x[0], x[1]) < 1.0) {
+            count[owner(a, bed, x)] += 1.0;
+            n += 1.0;
+        }
+    }
+    for (int64_t i = 0; i < local->n_row; ++i) {
+        const int32_t grain = (int32_t)clast_table_numbers(local, "grain")[i];
+        const double expected =
+            n * clast_table_numbers(local, "cell_m3")[i] / (3.0 * clast_bed_area(bed));
+        chi2 += (count[grain] - expected) * (count[grain] - expected) / fmax(expected, 1.0);
+    }
+    const double free = (double)local->n_row - 1.0;
+    assert_true(chi2 < free + 6.0 * sqrt(2.0 * free));
+}
+
+/// Random unequal spheres: cells add up to the container, in each kind of bed.
+static void cells_fill_the_bed(void **state)
+{
+    (void)state;
+    static const char *const beds[] = {"box:-1,-1,1,1", "periodic:-1,-1,1,1", "cylinder:1"};
+    for (int b = 0; b < 3; ++b) {
+        clast_assembly a = {0};
+        clast_bed bed;
+        clast_table local = {0};
+        double sum = 0.0;
+        for (uint64_t i = 0; i < 400; ++i) {
+            double u[4];
+            for (int k = 0; k < 4; ++k) {
+                u[k] = fmod(
+                    0.6180339887498949 * (double)(i * 4 + (uint64_t)k + 1) * (1.0 + 0.37 * k), 1.0);
+            }
+            u[0] = 2.0 * u[0] - 1.0;
+            u[1] = 2.0 * u[1] - 1.0;
+            if (b < 2 || hypot(u[0], u[1]) < 0.999) {
+                add(&a, u[0], u[1], 3.0 * u[2], 0.01 + 0.1 * u[3] * u[3]);
+            }
+        }
+        CHECK_OK(clast_bed_parse(beds[b], &bed));
+        CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 3.0, &local));
+        for (int64_t i = 0; i < local.n_row; ++i) {
+            sum += clast_table_numbers(&local, "cell_m3")[i];
+        }
+        CHECK_REL(sum, 3.0 * clast_bed_area(&bed), 1e-12);
+        check_by_points(&a, &bed, &local);
+        clast_table_free(&local);
+        clast_assembly_free(&a);
+    }
+}
+
+static clast_status make_local(void *context)
+{
+    clast_bed bed;
+    clast_table local = {0};
+    CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
+    const clast_status status = clast_local_porosity(context, &bed, 0.0, 2.0, &local);
+    clast_table_free(&local);
+    return status;
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    add(&a, 1.0, 1.0, 1.0, 0.9);
+    add(&a, 3.0, 1.0, 1.0, 0.3);
+    support_refuse_each_allocation(make_local, &a);
+    CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
+    CHECK_STATUS(clast_local_porosity(&a, &bed, 5.0, 6.0, &local), CLAST_E_USAGE);
+    CHECK_STATUS(clast_local_porosity(&a, &bed, 6.0, 5.0, &local), CLAST_E_USAGE);
+    clast_assembly_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_is_cut_to_known_bodies),
+        cmocka_unit_test(close_packing_has_twelve_faces_and_its_porosity),
+        cmocka_unit_test(unequal_spheres_share_by_the_radical_plane),
+        cmocka_unit_test(cells_fill_the_bed),
+        cmocka_unit_test(refused_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
