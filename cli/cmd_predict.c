@@ -60,10 +60,27 @@ static void free_job(job *j)
     clast_form_set_free(&j->set);
 }
 
+/// A fitted model of table columns: every row is a bed.
+static clast_status predict_columns(job *j)
+{
+    const clast_status status = clast_porosity_predict_columns(&j->model, &j->table, &j->beds);
+    if (status == CLAST_OK && j->beds.n_row < j->table.n_row) {
+        (void)fprintf(
+            stderr, "clast predict: %s: %lld of %lld rows left out: missing or infinite\n",
+            j->table.name, (long long)(j->table.n_row - j->beds.n_row), (long long)j->table.n_row);
+    }
+    return status;
+}
+
 static clast_status predict_table(const config *c, job *j)
 {
     char complaint[512];
-    clast_status status = clast_form_set_of(&j->table, c->columns, &j->set);
+    clast_status status = cli_choose_model(c->model, c->grading, false, &j->model);
+    if (status == CLAST_OK && j->model.kind == CLAST_MODEL_COLUMNS) {
+        return predict_columns(j);
+    }
+    clast_porosity_model_free(&j->model);
+    status = status == CLAST_OK ? clast_form_set_of(&j->table, c->columns, &j->set) : status;
     if (status != CLAST_OK) {
         return status;
     }

@@ -41,6 +41,7 @@
 #include <clast/parallel.h>
 #include <clast/porosity.h>
 #include <clast/porosity_chart.h>
+#include <clast/porosity_fit.h>
 #include <clast/porosity_model.h>
 #include <clast/porosity_model_file.h>
 #include <clast/points_file.h>

@@ -149,6 +149,11 @@ CLAST_API clast_status clast_porosity_predict_moments(const clast_porosity_model
 CLAST_API clast_status clast_porosity_predict_each(const clast_porosity_model *model,
                                                    const clast_form_set *set, clast_table *beds);
 
+/// One row a bed of a table with the columns that a model of kind CLAST_MODEL_COLUMNS names;
+/// columns as above. Rows with a cell that is not finite are left out.
+CLAST_API clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
+                                                      const clast_table *table, clast_table *beds);
+
 /// One row: porosity, the errors, in_range and the inputs' means and deviations.
 CLAST_API clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
                                                        const clast_form_inputs *inputs,

@@ -267,6 +267,13 @@ static json_t *real_or_null(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+/// Text as JSON; one that is not UTF-8 is told so, as JSON cannot hold it.
+static json_t *plain(const char *text)
+{
+    json_t *value = json_string(text);
+    return value != NULL ? value : json_string("(not UTF-8)");
+}
+
 static json_t *write_terms(const clast_porosity_model *m)
 {
     json_t *terms = json_array();
@@ -313,8 +320,8 @@ static json_t *model_json(const clast_porosity_model *m, const char *const (*pro
     json_t *notes = json_object();
     (void)json_object_set_new(root, "format", json_string("clast porosity model"));
     (void)json_object_set_new(root, "version", json_integer(1));
-    (void)json_object_set_new(root, "name", json_string(m->name));
-    (void)json_object_set_new(root, "source", json_string(m->source));
+    (void)json_object_set_new(root, "name", plain(m->name));
+    (void)json_object_set_new(root, "source", plain(m->source));
     (void)json_object_set_new(root, "kind", json_string(clast_model_kind_name(m->kind)));
     (void)json_object_set_new(root, "intercept", real_or_null(m->intercept));
     (void)json_object_set_new(root, "terms", write_terms(m));
@@ -328,9 +335,7 @@ static json_t *model_json(const clast_porosity_model *m, const char *const (*pro
     (void)json_object_set_new(root, "cv_mean_error", real_or_null(m->cv_mean_error));
     (void)json_object_set_new(root, "cv_median_error", real_or_null(m->cv_median_error));
     for (int32_t k = 0; k < n; ++k) {
-        json_t *value = json_string(provenance[k][1]);
-        (void)json_object_set_new(notes, provenance[k][0],
-                                  value != NULL ? value : json_string("(not UTF-8)"));
+        (void)json_object_set_new(notes, provenance[k][0], plain(provenance[k][1]));
     }
     (void)json_object_set_new(root, "provenance", notes);
     return root;
@@ -341,9 +346,19 @@ clast_status clast_porosity_model_write(const clast_porosity_model *model,
                                         const char *path)
 {
     clast_status status = CLAST_OK;
-    json_t *root = model_json(model, provenance, n);
-    char *dump = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    json_t *root = NULL;
+    char *dump = NULL;
     clx_file file = {0};
+    for (int32_t k = 0; k < model->n_term; ++k) {
+        json_t *name = json_string(model->term[k].feature);
+        const bool is_text = name != NULL;
+        json_decref(name);
+        CLX_CHECK(is_text, CLAST_E_FORMAT,
+                  "model %s: the name of feature %d is not UTF-8; rename the column", model->name,
+                  k + 1);
+    }
+    root = model_json(model, provenance, n);
+    dump = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
     CLX_CHECK(dump != NULL, CLAST_E_MEMORY, "no memory to write model %s", model->name);
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_file_write(&file, dump, strlen(dump)));

@@ -1,0 +1,264 @@
+// clast fit: linear porosity models of a table of beds.
+#include "command.h"
+#include "json.h"
+
+#include <clast/manifest.h>
+#include <clast/porosity_fit.h>
+#include <clast/porosity_model_file.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct {
+    clast_porosity_fit_config fit; // first: the two tables share offsets
+    int32_t features;
+    char *grains;
+    char *name;
+} config;
+
+enum { N_OWN = 3, MAX_FIELD = 32 };
+enum { AUTO, FORM, MIXTURE, COLUMNS };
+
+static clast_field fields[MAX_FIELD];
+
+static const clast_field own[N_OWN] = {
+    {"features", offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+     "form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: "
+     "mixture with --grains, else form where the table has forms, else columns",
+     "auto|form|mixture|columns"},
+    {"grains", offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "table of all beds' grains, with a column that names the bed (--group)", ""},
+    {"name", offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", "name of the model",
+     "fitted"}};
+
+__attribute__((constructor)) static void join_fields(void)
+{
+    int n = 0;
+    for (const clast_field *f = clast_porosity_fit_fields; f->name != NULL && n < MAX_FIELD; ++f) {
+        fields[n++] = *f;
+    }
+    for (int k = 0; k < N_OWN && n + 1 < MAX_FIELD; ++k) {
+        fields[n++] = own[k];
+    }
+}
+
+typedef struct {
+    clast_table beds, grains;
+    clast_fit_data data;
+    clast_porosity_fit fit;
+} job;
+
+static void free_job(job *j)
+{
+    clast_table_free(&j->beds);
+    clast_table_free(&j->grains);
+    clast_fit_data_free(&j->data);
+    clast_porosity_fit_free(&j->fit);
+}
+
+static bool has_forms(const config *c, const clast_table *beds)
+{
+    clast_form_set set = {0};
+    const bool has = clast_form_set_of(beds, c->fit.columns, &set) == CLAST_OK;
+    clast_form_set_free(&set);
+    return has;
+}
+
+static clast_status gather(const config *c, const char *path, job *j)
+{
+    clast_status status = clast_table_read_csv(path, NULL, &j->beds, NULL);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    int32_t what = c->features;
+    if (what == AUTO) {
+        what = c->grains[0] != '\0' ? MIXTURE : has_forms(c, &j->beds) ? FORM : COLUMNS;
+    }
+    if ((what == MIXTURE) != (c->grains[0] != '\0')) {
+        return cli_fail(
+            CLAST_E_USAGE,
+            "--features mixture and --grains FILE belong together: the 104 features are "
+            "means and deviations over the grains");
+    }
+    if (what == FORM) {
+        return clast_fit_data_single(&j->beds, &c->fit, &j->data);
+    }
+    if (what == COLUMNS) {
+        return clast_fit_data_columns(&j->beds, &c->fit, &j->data);
+    }
+    status = clast_table_read_csv(c->grains, NULL, &j->grains, NULL);
+    return status == CLAST_OK ? clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data)
+                              : status;
+}
+
+/// Rows of a table as JSON objects.
+static json_t *json_rows(const clast_table *t)
+{
+    json_t *list = json_array();
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        json_t *row = json_object();
+        for (int32_t c = 0; c < t->n_column; ++c) {
+            const clast_column *column = &t->column[c];
+            if (column->text != NULL) {
+                cli_json_text(row, column->name, column->text[i]);
+            } else {
+                cli_json_number(row, column->name, column->number[i]);
+            }
+        }
+        (void)json_array_append_new(list, row);
+    }
+    return list;
+}
+
+static json_t *summary(const job *j)
+{
+    json_t *out = json_object();
+    const clast_porosity_model *m = &j->fit.model;
+    cli_json_text(out, "model", m->name);
+    cli_json_text(out, "kind", clast_model_kind_name(m->kind));
+    cli_json_count(out, "n_bed", m->n_bed);
+    cli_json_count(out, "n_left_out", j->data.left_out.n_row);
+    cli_json_count(out, "n_candidate", j->data.beds.n_column - 2);
+    cli_json_count(out, "n_removed", j->fit.n_removed);
+    cli_json_number(out, "r2", m->r2);
+    cli_json_number(out, "cv_mean_error", m->cv_mean_error);
+    cli_json_number(out, "cv_median_error", m->cv_median_error);
+    cli_json_number(out, "residual_deviation", m->deviation);
+    cli_json_number(out, "condition", j->fit.condition);
+    (void)json_object_set_new(out, "terms", json_rows(&j->fit.terms));
+    (void)json_object_set_new(out, "ranking", json_rows(&j->fit.ranking));
+    (void)json_object_set_new(out, "trials", json_rows(&j->fit.trials));
+    return out;
+}
+
+static void print_words(const job *j)
+{
+    const clast_porosity_model *m = &j->fit.model;
+    const clast_table *rank = &j->fit.ranking;
+    const clast_table *terms = &j->fit.terms;
+    const double *const c = clast_table_numbers(terms, "coefficient");
+    const double *const e = clast_table_numbers(terms, "standard_error");
+    const double *const vif = clast_table_numbers(terms, "vif");
+    (void)printf(
+        "%lld beds, %lld rows left out, %d candidate features, %d removed as like a chosen "
+        "one\n\n",
+        (long long)m->n_bed, (long long)j->data.left_out.n_row, j->data.beds.n_column - 2,
+        j->fit.n_removed);
+    (void)printf("%-44s %9s  %s\n", "correlation with the porosity", "r", "state");
+    for (int64_t k = 0; k < rank->n_row && k < 10; ++k) {
+        (void)printf("%-44s %9.4f  %s\n", rank->column[0].text[k], rank->column[1].number[k],
+                     rank->column[3].text[k]);
+    }
+    (void)printf("\n%-44s %12s %12s %8s\n", "model", "coefficient", "std. error", "VIF");
+    for (int64_t k = 0; k < terms->n_row; ++k) {
+        (void)printf("%-44s %12.6g %12.3g", terms->column[0].text[k], c[k], e[k]);
+        (void)(k > 0 ? printf(" %8.3g\n", vif[k]) : printf("\n"));
+    }
+    (void)printf("\nR2 %.4f, residual deviation %.3g, condition %.3g\n"
+                 "held-out absolute error: mean %.4g, median %.4g\n",
+                 m->r2, m->deviation, j->fit.condition, m->cv_mean_error, m->cv_median_error);
+}
+
+static clast_status write_model(const cli_common *common, const config *c, const job *j,
+                                const char *folder)
+{
+    char path[4096];
+    char hash[2][65] = {"", ""};
+    char seed[32];
+    int64_t n_byte = 0;
+    clast_status status = clast_sha256_file(common->argument[0], hash[0], &n_byte);
+    if (status == CLAST_OK && c->grains[0] != '\0') {
+        status = clast_sha256_file(c->grains, hash[1], &n_byte);
+    }
+    (void)snprintf(seed, sizeof seed, "%llu", (unsigned long long)c->fit.seed);
+    const char *const notes[][2] = {{"clast", clast_version()},
+                                    {"table_sha256", hash[0]},
+                                    {"grains_sha256", hash[1]},
+                                    {"target", c->fit.target},
+                                    {"seed", seed}};
+    (void)snprintf(path, sizeof path, "%s/model.json", folder);
+    return status == CLAST_OK
+               ? clast_porosity_model_write(&j->fit.model, notes,
+                                            (int32_t)(sizeof notes / sizeof notes[0]), path)
+               : status;
+}
+
+static clast_status write_folder(const cli_common *common, const config *c, const job *j)
+{
+    char path[4096];
+    const char *folder = common->output;
+    const struct {
+        const char *name;
+        const clast_table *table;
+    } tables[] = {{"ranking", &j->fit.ranking}, {"trials", &j->fit.trials},
+                  {"terms", &j->fit.terms},     {"rows", &j->fit.rows},
+                  {"features", &j->data.beds},  {"left_out", &j->data.left_out}};
+    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
+    clast_status status = write_model(common, c, j, folder);
+    for (size_t k = 0; k < sizeof tables / sizeof tables[0] && status == CLAST_OK; ++k) {
+        if (tables[k].table->n_row > 0) {
+            (void)snprintf(path, sizeof path, "%s/%s.csv", folder, tables[k].name);
+            status = clast_table_write_csv(tables[k].table, path);
+        }
+    }
+    return status;
+}
+
+static void tell_left_out(const job *j)
+{
+    const clast_table *t = &j->data.left_out;
+    if (t->n_row > 0) {
+        (void)fprintf(stderr, "clast fit: %s: %lld of %lld rows left out (first: row %.0f, %s)\n",
+                      j->beds.name, (long long)t->n_row, (long long)j->beds.n_row,
+                      t->column[0].number[0], t->column[1].text[0]);
+    }
+}
+
+static clast_status run(const cli_common *common, void *values)
+{
+    const config *c = values;
+    char source[256];
+    job j = {0};
+    clast_status status = gather(c, common->argument[0], &j);
+    if (status == CLAST_OK) {
+        tell_left_out(&j);
+        (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(),
+                       j.beds.name);
+        status = clast_porosity_fit_data(&j.data, &c->fit, c->name, source, &j.fit);
+    }
+    if (status == CLAST_OK && common->output != NULL) {
+        status = write_folder(common, c, &j);
+    }
+    if (status == CLAST_OK && common->json) {
+        status = cli_print_json(summary(&j));
+    } else if (status == CLAST_OK) {
+        print_words(&j);
+    }
+    free_job(&j);
+    return status;
+}
+
+const cli_command cli_fit = {
+    .name = "fit",
+    .arguments = "TABLE",
+    .summary = "fit a linear porosity model to a table of beds",
+    .details =
+        "TABLE has a row a bed: its porosity and its form (flatness and elongation, or L, I, S), "
+        "or\n"
+        "other columns of numbers; with --grains a second table holds the grains of all beds.\n"
+        "1. Features are ranked by their correlation with the porosity; the first is taken.\n"
+        "2. Features with |r| > 0.8 to a taken one are removed.\n"
+        "3. Of the others the one with the least held-out error (10 folds) joins, until --n-term.\n"
+        "Method: Rettinger et al., Granular Matter 24 (2022) 118, sec. 6.3 and 7.2.\n"
+        "-o FOLDER writes model.json (for clast predict --model), ranking.csv, trials.csv, "
+        "terms.csv,\n"
+        "rows.csv (residual, held-out value, leverage, studentised residual, Cook's distance),\n"
+        "features.csv and left_out.csv. Theory: docs/theory/predict.md.",
+    .fields = fields,
+    .config_size = sizeof(config),
+    .n_min = 1,
+    .n_max = 1,
+    .run = run,
+};

@@ -1,0 +1,47 @@
+#pragma once
+// Parts of a porosity fit.
+#include <clast/porosity_fit.h>
+
+/// A fit under way: candidates and which of them are in the model.
+typedef struct clx_fit {
+    const clast_porosity_fit_config *config;
+    int64_t n; ///< beds
+    const double *y, *row;
+    int32_t m;                     ///< candidates
+    const clast_column *candidate; ///< [m] borrowed
+    double *r, *p;                 ///< [m] correlation with the porosity
+    int32_t *state;                ///< [m] enum clx_candidate
+    int32_t *against;              ///< [m] candidate that a removed one is like
+    int32_t *rank;                 ///< [m] by falling |r|
+    int32_t n_chosen;
+    int32_t *chosen;              ///< [m]
+    int32_t *fold;                ///< [n_repeat][n]
+    double *x, *held_out, *error; ///< scratch [n][m + 1], [n], [n]
+    clast_table *trials;          ///< borrowed
+} clx_fit;
+
+typedef enum {
+    CLX_CANDIDATE_KEPT,
+    CLX_CANDIDATE_NOT_FINITE,
+    CLX_CANDIDATE_CONSTANT,
+    CLX_CANDIDATE_REMOVED,
+    CLX_CANDIDATE_CHOSEN
+} clx_candidate;
+
+/// Ranks the candidates and sets aside those without use.
+clast_status clx_fit_begin(const clast_fit_data *data, const clast_porosity_fit_config *config,
+                           clx_fit *fit);
+void clx_fit_end(clx_fit *fit);
+
+/// Chooses features by the rule, or those that the configuration names.
+clast_status clx_fit_select(clx_fit *fit);
+
+/// Design matrix of the chosen candidates and one more (-1: none) into fit->x; its columns.
+int32_t clx_fit_design(clx_fit *fit, int32_t more);
+
+/// Held-out errors of the design of p columns: mean and median, averaged over the repeats; held_out
+/// of the last repeat stays in fit->held_out.
+clast_status clx_fit_score(clx_fit *fit, int32_t p, double *mean, double *median);
+
+/// Model and tables of the chosen features.
+clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_porosity_fit *out);

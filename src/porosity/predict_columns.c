@@ -1,0 +1,82 @@
+// Porosities of beds from the columns that a fitted model names.
+#include <clast/porosity_model.h>
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include <math.h>
+
+static clast_status find_columns(const clast_porosity_model *model, const clast_table *table,
+                                 const double **column)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t k = 0; k < model->n_term + model->n_range; ++k) {
+        const char *name =
+            k < model->n_term ? model->term[k].feature : model->range[k - model->n_term].feature;
+        column[k] = clast_table_numbers(table, name);
+        CLX_CHECK(column[k] != NULL, CLAST_E_FORMAT,
+                  "table %s has no column of numbers '%s', which model %s needs", table->name, name,
+                  model->name);
+    }
+done:
+    return status;
+}
+
+static clast_status start(int64_t n_row, clast_table *t)
+{
+    static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
+    double *unused = NULL;
+    clast_status status = clast_table_init(t, "beds", n_row);
+    for (int k = 0; k < 4 && status == CLAST_OK; ++k) {
+        status = clast_table_add_number(t, name[k], "-", &unused);
+    }
+    return status;
+}
+
+clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
+                                            const clast_table *table, clast_table *beds)
+{
+    clast_status status = CLAST_OK;
+    clast_table t = {0};
+    const double **column = NULL;
+    double *value = NULL;
+    const int32_t m = model->n_term + model->n_range;
+    int64_t n = 0;
+    CLX_CHECK(model->kind == CLAST_MODEL_COLUMNS, CLAST_E_USAGE,
+              "model %s takes forms, not columns of a table", model->name);
+    CLX_TRY(clx_alloc(&column, m, sizeof *column));
+    CLX_TRY(clx_alloc(&value, m, sizeof *value));
+    CLX_TRY(find_columns(model, table, column));
+    CLX_TRY(start(table->n_row, &t));
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        clast_prediction p = {0};
+        bool is_finite = true;
+        for (int32_t k = 0; k < m; ++k) {
+            value[k] = column[k][i];
+            is_finite = is_finite && isfinite(value[k]);
+        }
+        if (!is_finite) {
+            continue;
+        }
+        status = clast_porosity_model_apply(model, value, value + model->n_term, &p);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("row %lld: ", (long long)i + 1);
+            goto done;
+        }
+        const double cell[4] = {(double)i + 1.0, p.porosity, p.standard_error,
+                                p.in_range ? 1.0 : 0.0};
+        for (int k = 0; k < 4; ++k) {
+            t.column[k].number[n] = cell[k];
+        }
+        ++n;
+    }
+    CLX_CHECK(n > 0, CLAST_E_FORMAT, "table %s: none of its %lld rows has all that model %s needs",
+              table->name, (long long)table->n_row, model->name);
+    CLX_TRY(clast_table_resize(&t, n));
+    *beds = t;
+    t = (clast_table){0};
+done:
+    clast_table_free(&t);
+    clx_free((void *)column);
+    clx_free(value);
+    return status;
+}

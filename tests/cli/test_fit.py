@@ -1,0 +1,86 @@
+"""CLI: clast fit finds the model behind a table, and clast predict uses its file."""
+import csv
+import json
+import math
+import unittest
+
+from clitest import Case, clast
+
+
+def beds(noise=0.0):
+    """63 beds of one form each with eq. 17's porosity; the noise is a fixed wave."""
+    rows = ["flatness,elongation,porosity"]
+    for k in range(63):
+        flatness = 0.62 + 0.3 * math.sin(1.3 * k + 0.2)
+        elongation = 0.7 + 0.2 * math.cos(2.1 * k)
+        porosity = 0.278 + 0.019 / (flatness * elongation) + 0.014 / elongation + noise * math.sin(k * k)
+        rows.append(f"{flatness!r},{elongation!r},{porosity!r}")
+    return "\n".join(rows) + "\n"
+
+
+class Fit(Case):
+    def write(self, text, name="beds.csv"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def test_equation_17_comes_back_and_predicts(self):
+        run = self.folder / "run"
+        out = clast("fit", self.write(beds()), "--json", "-o", run)
+        self.assertEqual(out.code, 0, out.err)
+        terms = {t["term"]: t["coefficient"] for t in out.json["terms"]}
+        self.assertEqual(list(terms), ["intercept", "inverse_equancy", "inverse_elongation"])
+        self.assertAlmostEqual(terms["inverse_equancy"], 0.019, places=12)
+        self.assertEqual(out.json["n_candidate"], 26)
+        answer = clast("predict", "--flatness", 0.6, "--elongation", 0.7, "--model", run / "model.json", "--json").json
+        self.assertAlmostEqual(answer["porosity"], 0.278 + 0.019 / 0.42 + 0.014 / 0.7, places=11)
+        self.assertTrue(answer["in_range"])
+        self.assertIn("beds.csv", answer["source"])
+        outside = clast("predict", "--flatness", 0.2, "--elongation", 0.7, "--model", run / "model.json", "--json").json
+        self.assertFalse(outside["in_range"])
+
+    def test_standard_error_is_that_of_a_new_bed(self):
+        run = self.folder / "run"
+        out = clast("fit", self.write(beds(0.01)), "--use", "inverse_equancy,inverse_elongation", "--json", "-o", run).json
+        answer = clast("predict", "--flatness", 0.6, "--elongation", 0.7, "--model", run / "model.json", "--json").json
+        self.assertEqual(answer["errors"]["model"], out["residual_deviation"])
+        model = json.loads((run / "model.json").read_text())
+        x = [1.0, 1 / 0.42, 1 / 0.7]
+        variance = sum(x[i] * x[j] * model["covariance"][i][j] for i in range(3) for j in range(3))
+        self.assertAlmostEqual(answer["errors"]["coefficients"], math.sqrt(variance), places=12)
+        with open(run / "rows.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertAlmostEqual(sum(float(r["leverage"]) for r in rows), 3.0, places=10)
+        errors = sorted(abs(float(r["held_out"]) - float(r["porosity"])) for r in rows)
+        self.assertAlmostEqual(out["cv_mean_error"], sum(errors) / 63, places=14)
+        self.assertAlmostEqual(out["cv_median_error"], errors[31], places=14)
+
+    def test_columns_of_any_table(self):
+        text = "porosity,clay,depth_m\n" + "".join(
+            f"{0.4 - 0.3 * c + 0.01 * d},{c},{d}\n" for c, d in ((0.1 * k % 0.37, math.sin(k)) for k in range(30)))
+        run = self.folder / "run"
+        out = clast("fit", self.write(text), "--json", "-o", run).json
+        self.assertEqual(out["kind"], "columns")
+        answer = clast("predict", self.write("clay,depth_m\n0.2,0.5\n,1\n", "new.csv"), "--model", run / "model.json",
+                       "--json")
+        self.assertAlmostEqual(answer.json["beds"][0]["porosity"], 0.4 - 0.06 + 0.005, places=12)
+        self.assertIn("1 of 2 rows left out", answer.err)
+
+    def test_folds_follow_the_seed_and_not_the_threads(self):
+        path = self.write(beds(0.01))
+        texts = {clast("fit", path, "--json", "-j", j).out for j in (1, 2)}
+        self.assertEqual(len(texts), 1)
+        self.assertNotEqual(clast("fit", path, "--json", "--seed", 2).out, texts.pop())
+
+    def test_refusals(self):
+        self.assert_fails(3, "fit", self.write("a,b\n1,2\n"), says=["porosity"])
+        self.assert_fails(3, "fit", self.write("porosity,a\n0.3,1\n0.31,2\n"), says=["too few"])
+        self.assert_fails(3, "fit", self.write(beds()), "--use", "beauty", says=["beauty"])
+        self.assert_fails(2, "fit", self.write(beds()), "--features", "mixture", says=["--grains"])
+        self.assert_fails(3, "fit", self.folder / "none.csv", says=["none.csv"])
+        self.assert_fails(3, "predict", self.write("FL,EL\n0.5,0.6\n"), "--model", self.write("{}", "m.json"),
+                          says=["no model file"])
+
+
+if __name__ == "__main__":
+    unittest.main()

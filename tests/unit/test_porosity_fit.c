@@ -1,0 +1,393 @@
+/* Unit: fitted porosity models against R 4.2.2 and closed forms.
+ *
+ *   i <- 0:39; a <- 1 + 0.1 * i; b <- sin(i); c <- a^2 + cos(2 * i)
+ *   y <- 0.3 + 0.02 * a - 0.05 * b + 0.001 * c + 0.01 * sin(17 * i * i); m <- lm(y ~ a + b + c)
+ *   cooks.distance(m); rstudent(m); summary(m)$coefficients[, 4]
+ *   1 / (1 - summary(lm(a ~ b + c))$r.squared)                            (variance inflation of a)
+ */
+#include "support.h"
+
+#include "math/rng.h"
+#include <clast/porosity_fit.h>
+#include <clast/table_file.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { N = 40 };
+
+static clast_porosity_fit_config usual(void)
+{
+    clast_porosity_fit_config c;
+    CHECK_OK(clast_fields_default(clast_porosity_fit_fields, &c));
+    return c;
+}
+
+static void set_use(clast_porosity_fit_config *c, const char *use)
+{
+    CHECK_OK(clast_field_set(clast_fields_find(clast_porosity_fit_fields, "use"), c, use, false));
+}
+
+static void add_column(clast_table *t, const char *name, double (*value)(int i))
+{
+    double *v = NULL;
+    CHECK_OK(clast_table_add_number(t, name, "-", &v));
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        v[i] = value((int)i);
+    }
+}
+
+static double col_a(int i)
+{
+    return 1.0 + 0.1 * i;
+}
+
+static double col_b(int i)
+{
+    return sin(i);
+}
+
+static double col_c(int i)
+{
+    return col_a(i) * col_a(i) + cos(2.0 * i);
+}
+
+static double col_y(int i)
+{
+    return 0.3 + 0.02 * col_a(i) - 0.05 * col_b(i) + 0.001 * col_c(i) + 0.01 * sin(17.0 * i * i);
+}
+
+static double col_same(int i)
+{
+    (void)i;
+    return 7.0;
+}
+
+static double col_gap(int i)
+{
+    return i == 4 ? (double)NAN : cos(i);
+}
+
+static void make_beds(clast_table *t)
+{
+    CHECK_OK(clast_table_init(t, "beds", N));
+    add_column(t, "porosity", col_y);
+    add_column(t, "a", col_a);
+    add_column(t, "b", col_b);
+    add_column(t, "c", col_c);
+}
+
+static void diagnostics_match_r(void **state)
+{
+    (void)state;
+    static const int row[4] = {0, 1, 20, 39};
+    static const double cook[4] = {0.016648657117721496, 0.079712498217128447, 0.032738676388355897,
+                                   0.073322203845526457};
+    static const double studentised[4] = {0.44649835147171513, -1.36744972261344699,
+                                          0.97109481984004931, 1.18166524163340969};
+    static const double vif[4] = {0.0, 24.5686984539405096, 1.0053876808100404,
+                                  24.5483626526112495};
+    static const double p[4] = {6.1081652902493993e-33, 8.4091937048367101e-06,
+                                2.1682766434338329e-27, 7.5016100832753874e-01};
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    make_beds(&t);
+    set_use(&c, "a,b,c");
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    for (int k = 0; k < 4; ++k) {
+        CHECK_REL(clast_table_numbers(&f.rows, "cook")[row[k]], cook[k], 1e-10);
+        CHECK_REL(clast_table_numbers(&f.rows, "studentised")[row[k]], studentised[k], 1e-10);
+        CHECK_REL(clast_table_numbers(&f.terms, "p")[k], p[k], 1e-8);
+        if (k > 0) {
+            CHECK_REL(clast_table_numbers(&f.terms, "vif")[k], vif[k], 1e-10);
+        }
+    }
+    CHECK_REL(f.model.r2, 9.7984626459780355e-01, 1e-12);
+    CHECK_REL(f.model.deviation, sqrt(5.0879531319717774e-05), 1e-11);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* By the rule: c has r = 0.71.. with y? whichever leads, a and c are alike (r > 0.97), so the
+ * second feature must be b, and the third cannot be had at a limit of 0.8. */
+static void like_features_are_removed(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    make_beds(&t);
+    add_column(&t, "same", col_same);
+    c.n_term = 3;
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    assert_int_equal(f.model.n_term, 2);
+    assert_int_equal(f.n_removed, 1);
+    int found = 0;
+    for (int64_t k = 0; k < f.ranking.n_row; ++k) {
+        const char *name = f.ranking.column[0].text[k];
+        const char *is = f.ranking.column[3].text[k];
+        found += strcmp(name, "same") == 0 && strcmp(is, "constant") == 0 ? 1 : 0;
+        found += strncmp(is, "removed: like ", 14) == 0 ? 1 : 0;
+        found += strcmp(name, "b") == 0 && strcmp(is, "chosen") == 0 ? 1 : 0;
+    }
+    assert_int_equal(found, 3);
+    clast_porosity_fit_free(&f);
+    c.correlation_limit = 1.0; /* nothing is removed: all three join */
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    assert_int_equal(f.model.n_term, 3);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* Flatness and elongation of 63 beds, seeded, in the paper's ranges. */
+static void make_forms(clast_table *t, double noise)
+{
+    double *fl = NULL;
+    double *el = NULL;
+    double *y = NULL;
+    CHECK_OK(clast_table_init(t, "forms", 63));
+    CHECK_OK(clast_table_add_number(t, "flatness", "-", &fl));
+    CHECK_OK(clast_table_add_number(t, "elongation", "-", &el));
+    CHECK_OK(clast_table_add_number(t, "porosity", "-", &y));
+    fl = clast_table_numbers(t, "flatness");
+    el = clast_table_numbers(t, "elongation");
+    for (int i = 0; i < 63; ++i) {
+        clx_rng rng = clx_rng_at(17, CLX_STREAM_TEST, (uint64_t)i);
+        fl[i] = 0.3 + 0.65 * clx_rng_uniform(&rng);
+        el[i] = 0.45 + 0.5 * clx_rng_uniform(&rng);
+        y[i] = 0.278 + 0.019 / (fl[i] * el[i]) + 0.014 / el[i] + noise * clx_rng_normal(&rng);
+    }
+}
+
+/* Data made by eq. 17 without noise: features and coefficients come back. */
+static void equation_17_is_found(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    make_forms(&t, 0.0);
+    CHECK_OK(clast_fit_data_single(&t, &c, &d));
+    assert_int_equal(d.beds.n_column, 2 + 26);
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    assert_string_equal(f.model.term[0].feature, "inverse_equancy");
+    assert_string_equal(f.model.term[1].feature, "inverse_elongation");
+    CHECK_ABS(f.model.intercept, 0.278, 1e-12);
+    CHECK_ABS(f.model.term[0].coefficient, 0.019, 1e-12);
+    CHECK_ABS(f.model.term[1].coefficient, 0.014, 1e-12);
+    CHECK_ABS(f.model.cv_mean_error, 0.0, 1e-12);
+    assert_int_equal(f.model.n_range, 4); /* both terms, flatness, elongation */
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* With noise of 0.005 the coefficients stay within 4 of their standard errors, and 63 residuals
+ * know the noise to 1 / sqrt(2 * 60) = 9 %, 4 deviations 37 %. */
+static void noise_is_measured(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    make_forms(&t, 0.005);
+    set_use(&c, "inverse_equancy,inverse_elongation");
+    CHECK_OK(clast_fit_data_single(&t, &c, &d));
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    const double *e = clast_table_numbers(&f.terms, "standard_error");
+    CHECK_ABS(f.model.term[0].coefficient, 0.019, 4.0 * e[1]);
+    CHECK_ABS(f.model.term[1].coefficient, 0.014, 4.0 * e[2]);
+    CHECK_REL(f.model.deviation, 0.005, 0.37);
+    /* mean |error| of a normal is sqrt(2 / pi) s; held out it is a little more */
+    CHECK_REL(f.model.cv_mean_error, sqrt(2.0 / CLAST_PI) * 0.005, 0.40);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* Ten beds of five grains, porosity linear in two mixture features: they are found exactly. */
+static void mixtures_are_grouped_by_bed(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table beds = {0};
+    clast_table grains = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    static char text[2][16384];
+    int n[2] = {0};
+    n[0] = snprintf(text[0], sizeof text[0], "bed,porosity\nlonely,0.3\n");
+    n[1] = snprintf(text[1], sizeof text[1], "bed,flatness,elongation\nlonely,0.5,0.5\n");
+    for (int b = 0; b < 30; ++b) {
+        double sum = 0.0;
+        for (int g = 0; g < 5; ++g) {
+            const double fl = 0.45 + 0.01 * b + 0.08 * sin(3.0 * g + b);
+            const double el = 0.6 + 0.05 * sin(1.7 * b) + 0.07 * cos(2.0 * g + b);
+            sum += fl * el / 5.0;
+            n[1] += snprintf(text[1] + n[1], sizeof text[1] - (size_t)n[1], "b%d,%.17g,%.17g\n", b,
+                             fl, el);
+        }
+        n[0] += snprintf(text[0] + n[0], sizeof text[0] - (size_t)n[0], "b%d,%.17g\n", b,
+                         0.25 + 0.03 / sum);
+    }
+    CHECK_OK(clast_table_parse_csv("beds", text[0], (size_t)n[0], NULL, &beds, NULL));
+    CHECK_OK(clast_table_parse_csv("grains", text[1], (size_t)n[1], NULL, &grains, NULL));
+    CHECK_OK(clast_fit_data_mixture(&beds, &grains, &c, &d));
+    assert_int_equal(d.beds.n_column, 2 + 104);
+    assert_int_equal(d.beds.n_row, 30);
+    assert_int_equal(d.left_out.n_row, 1);
+    assert_string_equal(d.left_out.column[1].text[0], "fewer than two grains");
+    c.n_term = 1;
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    assert_string_equal(f.model.term[0].feature, "inverse_mean_equancy");
+    CHECK_ABS(f.model.term[0].coefficient, 0.03, 1e-12);
+    CHECK_ABS(f.model.intercept, 0.25, 1e-12);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&beds);
+    clast_table_free(&grains);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+/* Bad porosities, gaps and forms: the rows are told, the fit is that of the rest. */
+static void bad_rows_change_nothing(void **state)
+{
+    (void)state;
+    static const char text[] = "porosity,a\n0.30,1\n0.31,2\n0.32,3.1\n0.33,4\n1.5,5\n,6\n0.35,\n"
+                               "0.34,5\n0.36,inf\n-0.1,3\n";
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    c.n_fold = 5;
+    CHECK_OK(clast_table_parse_csv("beds", text, sizeof text - 1, NULL, &t, NULL));
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    assert_int_equal(d.beds.n_row, 5);
+    assert_int_equal(d.left_out.n_row, 5);
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    for (int64_t i = 0; i < 5; ++i) {
+        assert_true(isfinite(clast_table_numbers(&f.rows, "held_out")[i]));
+    }
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+static void hopeless_tables_are_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {
+        "porosity\n0.3\n0.31\n0.32\n0.33\n0.34\n",                /* nothing to fit with */
+        "a,b\n1,2\n",                                             /* no porosity */
+        "porosity,a\n0.3,1\n0.31,2\n",                            /* too few beds */
+        "porosity,a\n0.3,1\n0.3,2\n0.3,3\n0.3,4\n0.3,5\n0.3,6\n", /* the same porosity */
+        "porosity,a\n0.3,7\n0.31,7\n0.32,7\n0.33,7\n0.34,7\n",    /* a constant column alone */
+        "porosity,a\nx,7\n0.31,8\n",                              /* words */
+    };
+    clast_porosity_fit_config c = usual();
+    c.n_fold = 5;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        clast_table t = {0};
+        clast_fit_data d = {0};
+        clast_porosity_fit f = {0};
+        CHECK_OK(clast_table_parse_csv("beds", bad[k], strlen(bad[k]), NULL, &t, NULL));
+        clast_status status = clast_fit_data_columns(&t, &c, &d);
+        if (status == CLAST_OK) {
+            status = clast_porosity_fit_data(&d, &c, "m", "test", &f);
+        }
+        CHECK_STATUS(status, CLAST_E_FORMAT);
+        assert_null(f.rows.column);
+        clast_fit_data_free(&d);
+        clast_table_free(&t);
+    }
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+static void columns_with_gaps_are_no_candidates(void **state)
+{
+    (void)state;
+    clast_porosity_fit_config c = usual();
+    clast_table t = {0};
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    CHECK_OK(clast_table_init(&t, "beds", N));
+    add_column(&t, "porosity", col_y);
+    add_column(&t, "a", col_a);
+    add_column(&t, "b", col_b);
+    CHECK_OK(clast_fit_data_columns(&t, &c, &d));
+    add_column(&d.beds, "gap", col_gap); /* as an undefined form factor would be */
+    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    int found = 0;
+    for (int64_t k = 0; k < f.ranking.n_row; ++k) {
+        found += strcmp(f.ranking.column[3].text[k], "not finite in some row") == 0 ? 1 : 0;
+    }
+    assert_int_equal(found, 1);
+    set_use(&c, "gap");
+    clast_porosity_fit g = {0};
+    CHECK_STATUS(clast_porosity_fit_data(&d, &c, "m", "test", &g), CLAST_E_FORMAT);
+    set_use(&c, "nothing");
+    CHECK_STATUS(clast_porosity_fit_data(&d, &c, "m", "test", &g), CLAST_E_FORMAT);
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    clast_table_free(&t);
+    clast_fields_free(clast_porosity_fit_fields, &c);
+}
+
+typedef struct {
+    clast_table beds;
+    clast_porosity_fit_config config;
+} job;
+
+static clast_status fit_all(void *context)
+{
+    job *j = context;
+    clast_fit_data d = {0};
+    clast_porosity_fit f = {0};
+    clast_status status = clast_fit_data_columns(&j->beds, &j->config, &d);
+    if (status == CLAST_OK) {
+        status = clast_porosity_fit_data(&d, &j->config, "m", "test", &f);
+    }
+    clast_porosity_fit_free(&f);
+    clast_fit_data_free(&d);
+    return status;
+}
+
+static void every_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    job j = {.config = usual()};
+    make_beds(&j.beds);
+    j.config.n_fold = 3;
+    support_refuse_each_allocation(fit_all, &j);
+    clast_table_free(&j.beds);
+    clast_fields_free(clast_porosity_fit_fields, &j.config);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(diagnostics_match_r),
+        cmocka_unit_test(like_features_are_removed),
+        cmocka_unit_test(equation_17_is_found),
+        cmocka_unit_test(noise_is_measured),
+        cmocka_unit_test(mixtures_are_grouped_by_bed),
+        cmocka_unit_test(bad_rows_change_nothing),
+        cmocka_unit_test(hopeless_tables_are_refused),
+        cmocka_unit_test(columns_with_gaps_are_no_candidates),
+        cmocka_unit_test(every_refused_allocation_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
