@@ -235,30 +235,40 @@ static bool image(const diagram *d, int axis, int32_t index, int32_t *in_grid, d
     return index >= 0 && index < d->size[axis];
 }
 
+/// Cuts by all spheres of one grid cell, which may lie beyond the border of a periodic bed.
+static clast_status cut_grid_cell(const diagram *d, int32_t i, const int32_t at[3], clx_cell *cell)
+{
+    clast_status status = CLAST_OK;
+    int32_t g[3];
+    double shift[3];
+    for (int k = 0; k < 3; ++k) {
+        if (!image(d, k, at[k], &g[k], &shift[k])) {
+            return CLAST_OK;
+        }
+    }
+    const int64_t c = grid_cell(d, g[0], g[1], g[2]);
+    const double reach2 = clx_cell_reach2(cell);
+    for (int32_t k = d->first[c]; k < d->first[c + 1]; ++k) {
+        CLX_TRY(cut_by(d, i, d->item[k], shift, reach2, cell));
+    }
+done:
+    return status;
+}
+
 /// Cuts by all spheres of the grid cells at `ring` cells' distance.
 static clast_status cut_ring(const diagram *d, int32_t i, int32_t ring, clx_cell *cell)
 {
     clast_status status = CLAST_OK;
-    int32_t at[3];
+    int32_t home[3];
     for (int k = 0; k < 3; ++k) {
-        at[k] = grid_index(d, d->centre[i], k);
+        home[k] = grid_index(d, d->centre[i], k);
     }
     for (int32_t z = -ring; z <= ring; ++z) {
         for (int32_t y = -ring; y <= ring; ++y) {
             const bool is_face = abs(z) == ring || abs(y) == ring;
             for (int32_t x = -ring; x <= ring; x += is_face || ring == 0 ? 1 : 2 * ring) {
-                int32_t g[3];
-                double shift[3];
-                if (!image(d, 0, at[0] + x, &g[0], &shift[0]) ||
-                    !image(d, 1, at[1] + y, &g[1], &shift[1]) ||
-                    !image(d, 2, at[2] + z, &g[2], &shift[2])) {
-                    continue;
-                }
-                const int64_t c = grid_cell(d, g[0], g[1], g[2]);
-                const double reach2 = clx_cell_reach2(cell);
-                for (int32_t k = d->first[c]; k < d->first[c + 1]; ++k) {
-                    CLX_TRY(cut_by(d, i, d->item[k], shift, reach2, cell));
-                }
+                const int32_t at[3] = {home[0] + x, home[1] + y, home[2] + z};
+                CLX_TRY(cut_grid_cell(d, i, at, cell));
             }
         }
     }
