@@ -62,7 +62,7 @@ typedef struct clx_contact_memory {
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound
 /// of the gap that exceeds max_gap, and the rest is untouched.
 ///
-/// Error of gap: 1e-12 of the bodies' size for hulls and spheres at any depth and for ellipsoids.
+/// Error of gap: 1e-14 of the bodies' size; 1e-11 for a hull with an ellipsoid.
 ///
 /// @param memory  of this pair, or NULL for a cold query
 /// @note no allocation, thread-safe, deterministic

@@ -14,6 +14,9 @@ enum { MAX_STEP = 60, MAX_HALVING = 30 };
 /// Tangential residual that ends the search, in sizes of the pair; the gap's error is its square.
 static const double TOLERANCE = 1e-13;
 
+/// Residual from which one Newton step is the last: it leaves 1e-9 of the normal, 1e-18 of the gap.
+static const double LAST_STEP = 3e-5;
+
 static void sym_mul(const double m[6], const double x[3], double out[3])
 {
     v3_set(out, m[0] * x[0] + m[5] * x[1] + m[4] * x[2], m[5] * x[0] + m[1] * x[1] + m[3] * x[2],
@@ -116,6 +119,14 @@ static void newton_step(const local *at, double size, double step[2])
     }
 }
 
+/// m + step in the tangent plane, unit.
+static void move(const local *at, const double m[3], const double step[2], double out[3])
+{
+    v3_axpy(out, m, step[0], at->tangent[0]);
+    v3_axpy(out, out, step[1], at->tangent[1]);
+    (void)v3_unit(out, out);
+}
+
 /// Climbs from m to a maximum of s.
 static double climb(const clx_ellipsoids *p, double size, double m[3])
 {
@@ -123,16 +134,15 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
     expand(p, m, &at);
     for (int k = 0; k < MAX_STEP; ++k) {
         double step[2];
-        double s = -INFINITY;
         double trial[3];
-        if (fabs(at.g[0]) + fabs(at.g[1]) <= TOLERANCE * size) {
+        double s = -INFINITY;
+        const double residual = fabs(at.g[0]) + fabs(at.g[1]);
+        if (residual <= TOLERANCE * size) {
             break;
         }
         newton_step(&at, size, step);
         for (int halving = 0; halving < MAX_HALVING; ++halving) {
-            v3_axpy(trial, m, step[0], at.tangent[0]);
-            v3_axpy(trial, trial, step[1], at.tangent[1]);
-            (void)v3_unit(trial, trial);
+            move(&at, m, step, trial);
             s = value(p, trial);
             if (s >= at.s - 1e-16 * size) {
                 break;
@@ -140,11 +150,13 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
             step[0] *= 0.5;
             step[1] *= 0.5;
         }
-        const double before = fabs(at.g[0]) + fabs(at.g[1]);
-        const double s_before = at.s;
+        if (residual <= LAST_STEP * size) { // what this step leaves is its square
+            v3_copy(m, trial);
+            return s;
+        }
         local next;
         expand(p, trial, &next);
-        if (next.s <= s_before && fabs(next.g[0]) + fabs(next.g[1]) >= before) {
+        if (next.s <= at.s && fabs(next.g[0]) + fabs(next.g[1]) >= residual) {
             break; // rounding
         }
         at = next;

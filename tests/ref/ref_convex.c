@@ -194,8 +194,7 @@ static double support(const clx_convex *shape, const double t[9], const double d
     return shape->scale * best;
 }
 
-/// Gap in direction m from a to b.
-static double along(const clx_pair *pair, const double m[3])
+double ref_support_along(const clx_pair *pair, const double m[3])
 {
     const double back[3] = {-m[0], -m[1], -m[2]};
     return v3_dot(m, pair->offset) - support(pair->a, pair->turn_a, m) -
@@ -205,7 +204,7 @@ static double along(const clx_pair *pair, const double m[3])
 /// Pattern search for the greatest gap from m.
 static double refine(const clx_pair *pair, double m[3])
 {
-    double best = along(pair, m);
+    double best = ref_support_along(pair, m);
     double step = 0.1;
     while (step > 1e-10) {
         double u[3], v[3];
@@ -217,7 +216,7 @@ static double refine(const clx_pair *pair, double m[3])
             v3_axpy(x, m, step * cos(t), u);
             v3_axpy(x, x, step * sin(t), v);
             (void)v3_unit(x, x);
-            const double s = along(pair, x);
+            const double s = ref_support_along(pair, x);
             if (s > best) {
                 best = s;
                 v3_copy(m, x);
@@ -243,7 +242,7 @@ double ref_support_gap(const clx_pair *pair)
         const double turn = i * CLAST_PI * (3.0 - sqrt(5.0));
         const double rim = sqrt(1.0 - z * z);
         const double d[3] = {rim * cos(turn), rim * sin(turn), z};
-        const double gap = along(pair, d);
+        const double gap = ref_support_along(pair, d);
         int worst = 0;
         for (int k = 1; k < KEEP; ++k) {
             worst = s[k] < s[worst] ? k : worst;

@@ -26,6 +26,9 @@ double ref_gap_along(const ref_polytope *a, const ref_polytope *b, const double 
 /// pattern steps.
 double ref_ellipsoid_gap(const clx_pair *pair);
 
-/// Signed gap of a pair that may mix kinds, by a grid and pattern search over directions: overlap
-/// and shallow gaps of any convex pair.
+/// A lower bound of the signed gap of any pair, close to it for round ones: a grid and pattern
+/// search over directions, which may stop at the kinks of a hull.
 double ref_support_gap(const clx_pair *pair);
+
+/// Gap in the unit direction m from a to b, rounding included.
+double ref_support_along(const clx_pair *pair, const double m[3]);
