@@ -205,16 +205,18 @@ static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluste
 
 static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_landing *landing)
 {
+    clast_status status = CLAST_OK;
     const double begun = clx_clock();
     do {
-        clx_search_run(search, landing);
+        CLX_TRY(clx_search_run(search, landing));
     } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+              "merger %d: all rays of %d axes miss the larger cluster; let rays start at a grain "
+              "(origin: grain)",
+              a->n_placed + 1, a->config->max_tries);
+done:
     a->contact_s += clx_clock() - begun;
-    return landing->found ? CLAST_OK
-                          : clx_fail(CLAST_E_CONVERGE,
-                                     "merger %d: all rays of %d axes miss the larger cluster; "
-                                     "let rays start at a grain (origin: grain)",
-                                     a->n_placed + 1, a->config->max_tries);
+    return status;
 }
 
 /// Contact points of the thrown cluster turn and move with it.

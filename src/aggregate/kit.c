@@ -3,8 +3,11 @@
 
 #include "aggregate/form.h"
 #include "base/alloc.h"
+#include "contact/touch_inside.h"
 #include "contact/touch_tree.h"
+#include "geom/bvh.h"
 #include "math/vec3.h"
+#include <string.h>
 
 void clx_kit_free(clx_kit *kit)
 {
@@ -92,6 +95,57 @@ done:
     return status;
 }
 
+/// Distance of a point in a closed surface to its triangles; 0 when it is outside.
+static double depth_in_mesh(const clx_kit_shape *shape, const double p[3])
+{
+    double least = INFINITY;
+    if (!clx_bvh_is_closed(&shape->shape->mesh) || !clx_touch_tree_inside(shape->tree, p)) {
+        return 0.0;
+    }
+    for (int32_t i = 0; i < shape->tree->n_item; ++i) {
+        double closest[3];
+        double corner[3][3];
+        memcpy(corner, shape->tree->corner[i], sizeof corner);
+        least = fmin(least, clx_triangle_closest(corner, p, closest));
+    }
+    return sqrt(least);
+}
+
+/// Radius of a ball about p within a shape at scale 1, not always the largest; may be negative.
+static double depth_in_shape(const clx_kit_shape *shape, const double p[3])
+{
+    const clx_touch_body *body = &shape->body;
+    double most = 0.0;
+    if (body->kind == CLX_TOUCH_MESH) {
+        return depth_in_mesh(shape, p);
+    }
+    if (body->kind == CLX_TOUCH_SPHERES) {
+        for (int32_t i = 0; i < body->tree->n_item; ++i) {
+            const double *ball = body->tree->ball[i];
+            most = fmax(most, ball[3] - v3_distance(ball, p));
+        }
+        return most;
+    }
+    const double *a = body->semi_axes;
+    const double least = body->kind == CLX_TOUCH_SPHERE ? a[0] : fmin(a[0], fmin(a[1], a[2]));
+    return least - v3_norm(p);
+}
+
+/// A ball about the centre of mass that lies within a part lies within the group.
+static void measure_inner(const clx_kit *kit, clx_kit_group *group)
+{
+    for (int32_t i = 0; i < group->n_part; ++i) {
+        const clx_kit_part *part = &group->part[i];
+        const double *q = part->orientation;
+        const double back[4] = {q[0], -q[1], -q[2], -q[3]};
+        double arm[3];
+        v3_scale(arm, -1.0 / part->scale, part->position);
+        q_rotate(arm, back, arm);
+        const double depth = part->scale * depth_in_shape(&kit->shape[part->shape], arm);
+        group->inner = fmax(group->inner, depth * (1.0 - 1e-9));
+    }
+}
+
 static clast_status copy_contacts(const clast_assembly *assembly, clx_kit_group *group)
 {
     clast_status status = CLAST_OK;
@@ -151,6 +205,7 @@ static clast_status add_group(const clast_aggregate_config *config, const clast_
     }
     if (assembly != NULL) {
         CLX_TRY(make_group(kit, assembly, first_shape, group));
+        measure_inner(kit, group);
         CLX_TRY(measure_form(kit, meaning == CLAST_SIZE_MEAN, group));
     }
 done:

@@ -34,6 +34,7 @@ typedef struct clx_kit_group {
     double length;        ///< greatest distance of two of its points
     double mean_diameter; ///< (L I S)^(1/3); 0 where no size means it
     double radius;        ///< everything lies within this distance of the centre of mass
+    double inner;         ///< everything within this distance of the centre of mass is solid, or 0
     bool is_round;        ///< one sphere: turning it changes nothing
 } clx_kit_group;
 

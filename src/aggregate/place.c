@@ -40,17 +40,18 @@ static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *
 /// The landing, with new axes as long as every ray misses.
 static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_landing *landing)
 {
+    clast_status status = CLAST_OK;
     const double begun = clx_clock();
     do {
-        clx_search_run(search, landing);
+        CLX_TRY(clx_search_run(search, landing));
     } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    CLX_CHECK(landing->found, CLAST_E_CONVERGE,
+              "particle %d of %d: all rays of %d axes miss the aggregate; widen the cone or let "
+              "rays start at a grain (origin: grain)",
+              a->n_placed + 1, a->n_particle, a->config->max_tries);
+done:
     a->contact_s += clx_clock() - begun;
-    return landing->found
-               ? CLAST_OK
-               : clx_fail(CLAST_E_CONVERGE,
-                          "particle %d of %d: all rays of %d axes miss the aggregate; widen the "
-                          "cone or let rays start at a grain (origin: grain)",
-                          a->n_placed + 1, a->n_particle, a->config->max_tries);
+    return status;
 }
 
 static clast_status place_by_touch(clast_aggregate *a)

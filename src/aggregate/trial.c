@@ -4,32 +4,43 @@
 // Trials run in any order on any number of threads. The best distance so far is shared only to cut
 // short trials that are certainly worse: a trial is abandoned when it must end more than ROUNDING
 // beyond the best, so the winner, with ties to the lower trial number, is always the same.
+//
+// Rays are scouted first: the largest sphere about the particle's centre that lies within it goes
+// as far as any orientation can, so its landing bounds all trials of a ray from below. Rays are
+// tried from the most promising on, and a ray that cannot win is skipped. EJ15 tight (30 rays of
+// 10 orientations): SAVED.
 #include "aggregate/trial.h"
 
+#include "base/alloc.h"
 #include "base/parallel.h"
 #include "contact/touch_tree.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <math.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 
-enum { TRIAL_BLOCK = 4 };
+enum { TRIAL_BLOCK = 4, RAY_BLOCK = 8 };
 
 /// Margin of the bound, in units of the numbers it is made of.
 static const double ROUNDING = 1e-9;
 
 typedef struct {
-    const clx_search *search;
-    atomic_flag lock; ///< of best
-    clx_landing best;
-    _Atomic double bound; ///< best distance so far, readable without the lock
-} race;
-
-typedef struct {
     int64_t number;
     double origin[3], direction[3];
     double t_low;
+    double least; ///< distance to the target that no orientation on this ray falls below
+    double rank;  ///< rays of low rank are tried first
 } ray;
+
+typedef struct {
+    const clx_search *search;
+    ray *rays;             ///< [aim.n_ray] in the order of trying
+    int64_t n_orientation; ///< that differ
+    atomic_flag lock;      ///< of best
+    clx_landing best;
+    _Atomic double bound; ///< best distance so far, readable without the lock
+} race;
 
 /// Centre of the k-th sphere of all composites, in the world.
 static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
@@ -82,26 +93,76 @@ static double start_of(const clx_search *s, const clx_touch_path *path, const do
                                                                : -HUGE_VAL;
 }
 
-static void make_ray(const clx_search *s, int64_t number, ray *r)
-{
-    double back[3];
-    r->number = number;
-    clx_aim_direction(&s->aim, number, r->direction);
-    draw_origin(s, number, r->origin);
-    v3_scale(back, -1.0, r->direction);
-    const clx_touch_path path = clx_touch_path_along(back);
-    r->t_low = start_of(s, &path, r->origin);
-}
-
-/// Where along the ray the particle certainly loses: distance to the target is
-/// sqrt(h2 + (s - b)^2), so s beyond b + sqrt(best^2 - h2) is worse than the best.
-static double losing_place(const clx_search *s, const ray *r, double best)
+/// The foot of the target on a ray: the distance to the target at s is sqrt(h2 + (s - b)^2).
+static void foot_of(const clx_search *s, const ray *r, double *b, double *h2)
 {
     double to[3];
     v3_sub(to, s->target, r->origin);
-    const double b = v3_dot(to, r->direction);
-    const double h2 = fmax(0.0, v3_norm2(to) - b * b);
-    const double margin = ROUNDING * (s->scale * s->group->radius + best);
+    *b = v3_dot(to, r->direction);
+    *h2 = fmax(0.0, v3_norm2(to) - *b * *b);
+}
+
+/// How near the target the group's inner sphere comes on this ray.
+static void scout(const clx_search *s, const clx_touch_path *path, ray *r)
+{
+    clx_touch hit;
+    double b;
+    double h2;
+    clx_touch_body ball = clx_touch_body_sphere(s->scale * s->group->inner);
+    clx_touch_body_place(&ball, r->origin, (const double[4]){1.0, 0.0, 0.0, 0.0}, 1.0);
+    r->rank = HUGE_VAL;
+    if (clx_touch_scene_first(s->scene, &ball, path, &hit)) {
+        foot_of(s, r, &b, &h2);
+        const double beyond = fmax(0.0, -hit.t - b);
+        r->rank = sqrt(h2 + beyond * beyond);
+        r->least = hit.overlap ? 0.0 : r->rank;
+    }
+}
+
+static void make_ray(const clx_search *s, int64_t number, ray *r)
+{
+    double back[3];
+    *r = (ray){.number = number};
+    clx_aim_direction(&s->aim, number, r->direction);
+    draw_origin(s, number, r->origin);
+    v3_scale(back, -1.0, r->direction);
+    clx_touch_path path = clx_touch_path_along(back);
+    path.t_low = r->t_low = start_of(s, &path, r->origin);
+    if (s->group->inner > 0.0 && s->aim.n_ray > 1) {
+        scout(s, &path, r);
+    }
+}
+
+static void make_rays(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const race *all = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        make_ray(all->search, i, &all->rays[i]);
+    }
+}
+
+static int by_rank(const void *a, const void *b)
+{
+    const ray *x = a;
+    const ray *y = b;
+    return x->rank != y->rank ? (x->rank > y->rank ? 1 : -1)
+                              : (x->number > y->number) - (x->number < y->number);
+}
+
+/// Margin that covers rounding in distances and places along a ray.
+static double margin_of(const clx_search *s, double best)
+{
+    return ROUNDING * (s->scale * s->group->radius + best);
+}
+
+/// Where along the ray the particle certainly loses: beyond b + sqrt(best^2 - h2).
+static double losing_place(const clx_search *s, const ray *r, double best)
+{
+    double b;
+    double h2;
+    foot_of(s, r, &b, &h2);
+    const double margin = margin_of(s, best);
     const double reach = best + margin;
     return isfinite(best) ? b + sqrt(fmax(0.0, reach * reach - h2)) + margin : HUGE_VAL;
 }
@@ -189,28 +250,34 @@ static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     race *all = context;
     const clx_search *s = all->search;
-    const int64_t n_orientation = s->group->is_round ? 1 : s->n_orientation;
-    ray r = {.number = -1};
     for (int64_t i = begin; i < end; ++i) {
         clx_landing landing = {0};
-        if (r.number != i / n_orientation) {
-            make_ray(s, i / n_orientation, &r);
-        }
-        const int64_t trial = r.number * s->n_orientation + i % n_orientation;
+        const ray *r = &all->rays[i / all->n_orientation];
+        const int64_t trial = r->number * s->n_orientation + i % all->n_orientation;
         const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
-        if (attempt_trial(s, &r, trial, bound, &landing) && landing.distance <= bound) {
+        if (r->least <= bound + margin_of(s, bound) &&
+            attempt_trial(s, r, trial, bound, &landing) && landing.distance <= bound) {
             keep(all, &landing);
         }
     }
 }
 
-void clx_search_run(const clx_search *search, clx_landing *best)
+clast_status clx_search_run(const clx_search *search, clx_landing *best)
 {
-    race all = {.search = search, .lock = ATOMIC_FLAG_INIT};
+    clast_status status = CLAST_OK;
+    const int64_t n_ray = search->aim.n_ray;
+    race all = {.search = search,
+                .n_orientation = search->group->is_round ? 1 : search->n_orientation,
+                .lock = ATOMIC_FLAG_INIT};
     atomic_init(&all.bound, HUGE_VAL);
-    const int64_t n_orientation = search->group->is_round ? 1 : search->n_orientation;
-    clx_parallel_for(search->aim.n_ray * n_orientation, TRIAL_BLOCK, run_trials, &all);
+    CLX_TRY(clx_alloc(&all.rays, n_ray, sizeof *all.rays));
+    clx_parallel_for(n_ray, RAY_BLOCK, make_rays, &all);
+    qsort(all.rays, (size_t)n_ray, sizeof *all.rays, by_rank);
+    clx_parallel_for(n_ray * all.n_orientation, TRIAL_BLOCK, run_trials, &all);
     *best = all.best;
+done:
+    clx_free(all.rays);
+    return status;
 }
 
 double clx_search_overlap(const clx_search *search, const clx_landing *landing)

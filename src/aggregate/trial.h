@@ -36,7 +36,9 @@ typedef struct clx_landing {
 } clx_landing;
 
 /// The best of all trials; ties go to the lower trial number, so threads do not matter.
-void clx_search_run(const clx_search *search, clx_landing *best);
+///
+/// @return CLAST_E_MEMORY
+clast_status clx_search_run(const clx_search *search, clx_landing *best);
 
 /// Distance that the landed particle must step back along its ray until nothing overlaps; 0 when
 /// it touches within rounding. Checks the answer by another way than the one that found it.

@@ -72,6 +72,11 @@ static clx_bvh_rule rule_of(const clast_mesh *mesh)
     return parity[0] == 0 && parity[1] == 0 ? CLX_BVH_PARITY : CLX_BVH_SOLID_ANGLE;
 }
 
+bool clx_bvh_is_closed(const clast_mesh *mesh)
+{
+    return rule_of(mesh) == CLX_BVH_WINDING;
+}
+
 static void fill_boxes(const clast_bvh *bvh, clx_tree_box *box)
 {
     const double pad = 0x1p-50 * bvh->reach;

@@ -32,6 +32,9 @@ struct clast_bvh {
 bool clx_bvh_blocked(const clast_bvh *bvh, const double origin[3], const double direction[3],
                      double t_low, double t_high);
 
+/// True if every edge of the surface is used equally often in both directions.
+bool clx_bvh_is_closed(const clast_mesh *mesh);
+
 /// Closest point of a triangle to a point: squared distance; *closest is on the triangle to
 /// rounding, also for slivers and triangles that are segments or points.
 double clx_triangle_closest(double corner[3][3], const double point[3], double closest[3]);
