@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/parallel.h"
 #include <clast/overlap.h>
 #include <clast/settling.h>
 #include <clast/structure.h>
@@ -189,18 +190,66 @@ done:
 }
 
 /// Terminal velocity in air of a body with the first envelope's volume and the aggregate's form.
-static clast_status measure_settling(const clast_assembly *grains, clast_aggregate_result *result)
+static clast_status measure_settling(const clast_extent *extent, clast_aggregate_result *result)
 {
     clast_status status = CLAST_OK;
-    clast_extent extent;
     clast_drag drag;
     clast_settling settling;
     const clast_fluid air = clast_fluid_air();
-    CLX_TRY(clast_assembly_extent(grains, &extent));
-    CLX_TRY(clast_drag_of_form(extent.width[0], extent.width[1], extent.width[2], result->d_agg,
+    CLX_TRY(clast_drag_of_form(extent->width[0], extent->width[1], extent->width[2], result->d_agg,
                                result->density / air.density, &drag));
     CLX_TRY(clast_terminal_velocity(result->d_agg, result->density, &drag, &air, &settling));
     result->settling_velocity = settling.velocity;
+done:
+    return status;
+}
+
+enum { AT_END = 3, DETAIL = 512 };
+
+/// The three measures at the end that do not need each other.
+typedef struct {
+    const clast_aggregate *a;
+    const clast_assembly *grains;
+    clast_aggregate_result *result;
+    clast_extent extent;
+    clast_status status[AT_END];
+    char detail[AT_END][DETAIL];
+} end_measures;
+
+static clast_status measure_one(end_measures *m, int64_t which)
+{
+    if (which == 0) {
+        return measure_solid(m->a, m->grains, m->result);
+    }
+    return which == 1 ? clast_assembly_extent(m->grains, &m->extent)
+                      : measure(m->a, m->grains, END_TOLERANCE, m->result->envelope);
+}
+
+static void measure_some(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    end_measures *m = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        m->status[i] = measure_one(m, i);
+        if (m->status[i] != CLAST_OK) { // the message is the worker's: carry it over
+            (void)snprintf(m->detail[i], DETAIL, "%s", clast_error_detail());
+        }
+    }
+}
+
+/// Side by side when each runs on one thread anyway; other envelopes than hulls use all threads.
+static clast_status measure_all(end_measures *m)
+{
+    clast_status status = CLAST_OK;
+    bool all_hulls = true;
+    for (int32_t k = 0; k < m->a->n_kind; ++k) {
+        all_hulls = all_hulls && (m->a->kind[k] == CLAST_ENVELOPE_SURFACE_HULL ||
+                                  m->a->kind[k] == CLAST_ENVELOPE_SPHERE_HULL);
+    }
+    clx_parallel_for(AT_END, all_hulls ? 1 : AT_END, measure_some, m);
+    for (int i = 0; i < AT_END; ++i) {
+        CLX_CHECK(m->status[i] == CLAST_OK, m->status[i], "%s", m->detail[i]);
+    }
 done:
     return status;
 }
@@ -210,19 +259,20 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     clast_status status = CLAST_OK;
     clast_assembly part = {0};
     const clast_assembly *grains = &a->assembly;
+    end_measures m = {.a = a, .result = result};
     if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
         CLX_TRY(view(a, clx_clusters_largest(&a->clusters), &part));
         grains = &part;
     }
-    CLX_TRY(measure(a, grains, END_TOLERANCE, result->envelope));
-    CLX_TRY(measure_solid(a, grains, result));
+    m.grains = grains;
+    CLX_TRY(measure_all(&m));
     for (int32_t k = 0; k < a->n_kind; ++k) {
         result->porosity[k] = 1.0 - result->solid_sum / result->envelope[k].volume;
     }
     result->n_envelope = a->n_kind;
     result->d_agg = equivalent_diameter(result->envelope[0].volume);
     result->density = result->mass / result->envelope[0].volume;
-    CLX_TRY(measure_settling(grains, result));
+    CLX_TRY(measure_settling(&m.extent, result));
 done:
     free_view(&part);
     return status;

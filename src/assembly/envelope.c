@@ -92,9 +92,7 @@ static clast_status hull_envelope(const clast_assembly *assembly, clast_envelope
     clx_smooth_hull hull = {0};
     clx_hull_volume volume;
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to enclose");
-    for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        CLX_TRY(clx_hull_parts_add(&parts, assembly, i, &hull));
-    }
+    CLX_TRY(clx_hull_parts_add_all(&parts, assembly, &hull));
     CLX_TRY(settle_hull(&hull, tolerance, &volume));
     *envelope = clx_envelope_of_hull(kind, &volume);
 done:

@@ -148,9 +148,7 @@ clast_status clast_assembly_extent(const clast_assembly *assembly, clast_extent 
     double value[3];
     clast_extent made;
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
-    for (int32_t i = 0; i < assembly->n_grain; ++i) {
-        CLX_TRY(clx_hull_parts_add(&parts, assembly, i, &hull));
-    }
+    CLX_TRY(clx_hull_parts_add_all(&parts, assembly, &hull));
     CLX_TRY(clx_smooth_hull_refine(&hull, 5e-3));
     made.length = longest(&hull);
     second_moments(assembly, c);

@@ -3,6 +3,12 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include <stdlib.h>
+
+enum { FIRST_REFINE = 32 };
+
+/// Gap at which most grains of a large assembly are hidden.
+static const double COARSE = 1e-2;
 
 static void part_free(clx_hull_part *part)
 {
@@ -149,5 +155,55 @@ clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *ass
     }
     CLX_TRY(clx_smooth_hull_add_points(hull, part->n_vert, (const double(*)[3])part->at));
 done:
+    return status;
+}
+
+/// A grain and how far out it reaches.
+typedef struct {
+    double reach;
+    int32_t grain;
+} outer;
+
+static int farther_first(const void *a, const void *b)
+{
+    const outer *x = a;
+    const outer *y = b;
+    return x->reach != y->reach ? (x->reach < y->reach ? 1 : -1)
+                                : (x->grain > y->grain) - (x->grain < y->grain);
+}
+
+/// The grains by their distance from the mean of all, bounding radius included.
+static void rank_grains(const clx_hull_parts *parts, const clast_assembly *assembly, outer *order)
+{
+    double mean[3] = {0.0, 0.0, 0.0};
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        v3_axpy(mean, mean, 1.0 / assembly->n_grain, assembly->position[i]);
+    }
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        const double radius = parts->part[assembly->shape_id[i]].radius;
+        order[i].grain = i;
+        order[i].reach = v3_distance(assembly->position[i], mean) + assembly->scale[i] * radius;
+    }
+    qsort(order, (size_t)assembly->n_grain, sizeof *order, farther_first);
+}
+
+clast_status clx_hull_parts_add_all(clx_hull_parts *parts, const clast_assembly *assembly,
+                                    clx_smooth_hull *hull)
+{
+    clast_status status = CLAST_OK;
+    outer *order = NULL;
+    CLX_TRY(clx_hull_parts_update(parts, assembly));
+    CLX_TRY(clx_alloc(&order, assembly->n_grain, sizeof *order));
+    rank_grains(parts, assembly, order);
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        const bool at_doubling = i >= FIRST_REFINE && (i & (i - 1)) == 0;
+        if (at_doubling && hull->inner.is_solid) {
+            CLX_TRY(clx_smooth_hull_refine(hull, COARSE));
+            clx_smooth_hull_prune(hull);
+        }
+        CLX_TRY(clx_hull_parts_add(parts, assembly, order[i].grain, hull));
+    }
+done:
+    clx_free(order);
     return status;
 }

@@ -32,5 +32,10 @@ clast_status clx_hull_parts_update(clx_hull_parts *parts, const clast_assembly *
 clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *assembly, int32_t i,
                                 clx_smooth_hull *hull);
 
+/// All grains of an assembly, the outermost first, so that most of a large one are found hidden
+/// and a hull costs O(n log n).
+clast_status clx_hull_parts_add_all(clx_hull_parts *parts, const clast_assembly *assembly,
+                                    clx_smooth_hull *hull);
+
 /// A hull's volume under an envelope's name.
 clast_envelope clx_envelope_of_hull(clast_envelope_kind kind, const clx_hull_volume *volume);

@@ -9,6 +9,15 @@
 #include "base/alloc.h"
 #include "base/status.h"
 
+// Clang takes no vectors by value between a clone and what it inlines, and the thread sanitizer
+// starts after the choice is made: those builds keep to SSE2.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
+    !defined(__SANITIZE_THREAD__)
+#define FOR_EACH_MACHINE __attribute__((target_clones("avx2", "default")))
+#else
+#define FOR_EACH_MACHINE
+#endif
+
 enum { MAX_POINTS = 1000000, PRUNE_STEP = 24 };
 
 void clx_smooth_hull_free(clx_smooth_hull *hull)
@@ -16,6 +25,7 @@ void clx_smooth_hull_free(clx_smooth_hull *hull)
     clx_hull_inc_free(&hull->inner);
     clx_free(hull->body);
     clx_free(hull->exposed);
+    clx_free(hull->balls);
     clx_free(hull->touch);
     clx_free(hull->touch_tag);
     clx_free(hull->wait);
@@ -49,6 +59,60 @@ static void look(clx_smooth_hull *hull, clx_hull_facet *facet, double offset, in
     }
 }
 
+typedef double lanes __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int64_t marks __attribute__((vector_size(32)));
+
+/// First group from `group` on with a ball that reaches beyond `excess`, or n_group. This loop is
+/// most of the time of an envelope's growth.
+FOR_EACH_MACHINE
+static int32_t next_group(const clx_hull_balls *balls, int32_t group, int32_t n_group,
+                          const double n[3], double beyond)
+{
+    for (; group < n_group; ++group) {
+        const clx_hull_balls *b = &balls[group];
+        const lanes *x = (const lanes *)b->centre[0];
+        const lanes *y = (const lanes *)b->centre[1];
+        const lanes *z = (const lanes *)b->centre[2];
+        const lanes *r = (const lanes *)b->radius;
+        const marks far = n[0] * *x + n[1] * *y + n[2] * *z + *r > beyond;
+        if ((far[0] | far[1] | far[2] | far[3]) != 0) {
+            break;
+        }
+    }
+    return group;
+}
+
+/// Looks from a facet at all exposed bodies. Four bounding balls at a time tell which to look at:
+/// nearly none, once the facet's own bodies are known.
+static void look_at_exposed(clx_smooth_hull *hull, clx_hull_facet *facet, double offset)
+{
+    const int32_t n_group = (hull->n_exposed + 3) / 4;
+    for (int32_t group = 0;; ++group) {
+        // a rounding below, so that what look() would keep is never passed over
+        const double beyond = (offset + facet->excess) - 1e-15 * fabs(offset);
+        group = next_group(hull->balls, group, n_group, facet->normal, beyond);
+        if (group == n_group) {
+            break;
+        }
+        for (int32_t i = 4 * group; i < 4 * group + 4 && i < hull->n_exposed; ++i) {
+            look(hull, facet, offset, hull->exposed[i]);
+        }
+    }
+}
+
+/// Makes body b number i of the exposed.
+static void expose(clx_smooth_hull *hull, int32_t i, int32_t b)
+{
+    clx_hull_balls *balls = &hull->balls[i / 4];
+    hull->exposed[i] = b;
+    for (int k = i % 4; k < 4; ++k) { // and empties the slots behind
+        balls->radius[k] = k == i % 4 ? hull->body[b].radius : -HUGE_VAL;
+        for (int j = 0; j < 3; ++j) {
+            balls->centre[j][k] = hull->body[b].centre[j];
+        }
+    }
+}
+
 /// Looks from a facet at all bodies, its own first.
 static void survey_facet(clx_smooth_hull *hull, clx_hull_facet *facet)
 {
@@ -62,9 +126,7 @@ static void survey_facet(clx_smooth_hull *hull, clx_hull_facet *facet)
             look(hull, facet, offset, tag);
         }
     }
-    for (int32_t i = 0; i < hull->n_exposed; ++i) {
-        look(hull, facet, offset, hull->exposed[i]);
-    }
+    look_at_exposed(hull, facet, offset);
 }
 
 /// Most volume of the hull beyond this facet, within its cone from the centre:
@@ -269,7 +331,7 @@ void clx_smooth_hull_prune(clx_smooth_hull *hull)
     int32_t n = 0;
     for (int32_t i = 0; i < hull->n_exposed; ++i) {
         if (sticks_out(hull, hull->exposed[i])) {
-            hull->exposed[n++] = hull->exposed[i];
+            expose(hull, n++, hull->exposed[i]);
         }
     }
     hull->n_exposed = n;
@@ -323,6 +385,8 @@ clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *bod
     CLX_TRY(clx_grow(&hull->body, &hull->body_room, (int64_t)b + 1, sizeof *hull->body));
     CLX_TRY(clx_grow(&hull->exposed, &hull->exposed_room, (int64_t)hull->n_exposed + 1,
                      sizeof *hull->exposed));
+    CLX_TRY(clx_grow(&hull->balls, &hull->balls_room, (int64_t)hull->n_exposed / 4 + 1,
+                     sizeof *hull->balls));
     hull->body[b] = *body;
     if (hull->inner.is_solid) {
         CLX_TRY(look_at_new(hull, b, &shows));
@@ -331,9 +395,9 @@ clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *bod
     }
     hull->n_body = b + 1;
     if (shows) {
-        hull->exposed[hull->n_exposed++] = b;
+        expose(hull, hull->n_exposed++, b);
     }
-    if (hull->n_exposed > hull->n_pruned + PRUNE_STEP) {
+    if (hull->n_exposed > hull->n_pruned + hull->n_pruned / 2 + PRUNE_STEP) {
         clx_smooth_hull_prune(hull);
     }
 done:

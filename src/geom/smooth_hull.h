@@ -11,6 +11,12 @@ typedef struct clx_hull_wait {
     int64_t serial; ///< of the facet at its survey
 } clx_hull_wait;
 
+/// Bounding balls of four exposed bodies side by side; an empty slot has radius -INFINITY.
+typedef struct clx_hull_balls {
+    double centre[3][4];
+    double radius[4];
+} clx_hull_balls;
+
 /// {0} is empty; free with clx_smooth_hull_free. One thread at a time.
 typedef struct clx_smooth_hull {
     clx_hull_inc inner; ///< hull of touch points; a vertex's tag is its body, or -1 - k for point k
@@ -20,6 +26,8 @@ typedef struct clx_smooth_hull {
     int32_t *exposed; ///< [n_exposed] bodies that may stick out of the inner hull
     int32_t n_exposed, n_pruned;
     int64_t exposed_room;
+    clx_hull_balls *balls; ///< [ceil(n_exposed / 4)] in the order of exposed
+    int64_t balls_room;
     int32_t n_point;      ///< points added so far
     double centre[3];     ///< inside the inner hull: apex of the facets' cones
     double centre_volume; ///< inner volume when it was chosen
