@@ -27,6 +27,8 @@
 #include <clast/grading_file.h>
 #include <clast/form_set.h>
 #include <clast/grain.h>
+#include <clast/harmonics.h>
+#include <clast/harmonics_file.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/local_porosity.h>
@@ -62,3 +64,5 @@
 #include <clast/table.h>
 #include <clast/table_file.h>
 #include <clast/uniformity.h>
+#include <clast/voxels.h>
+#include <clast/voxels_file.h>
