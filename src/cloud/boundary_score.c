@@ -7,6 +7,7 @@
 #include "cloud/boundary_score.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "math/quadrature.h"
 #include "math/sort.h"
 #include "math/special.h"
@@ -86,8 +87,9 @@ double clx_depth_quantile(const clx_depth_law *law, double p)
 /// Integral of |g - H| over [a, b], g constant.
 static double constant_part(const clx_depth_law *law, double g, double a, double b)
 {
-    const double over = clx_depth_quantile(law, g);
-    const double cross = fmin(fmax(over, a), b);
+    const double cross = clx_depth_cdf(law, a) >= g   ? a // H is above g in all of [a, b]
+                         : clx_depth_cdf(law, b) <= g ? b
+                                                      : clx_depth_quantile(law, g);
     const double below = g * (cross - a) - (depth_integral(law, cross) - depth_integral(law, a));
     const double above = depth_integral(law, b) - depth_integral(law, cross) - g * (b - cross);
     return below + above;
@@ -203,6 +205,37 @@ double clx_depth_of(const clx_depth_law *law, const double *u)
     return depth;
 }
 
+typedef struct {
+    const clx_depth_law *law;
+    const double *u;
+    double *z;
+} depth_context;
+
+static void take_depths(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const depth_context *c = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        c->z[i] = clx_depth_of(c->law, c->u + i * c->law->d);
+    }
+}
+
+clast_status clx_boundary_depths(const clx_depth_law *law, const double *u, int64_t n, double **z)
+{
+    enum { POINTS_A_BLOCK = 16384 };
+    clast_status status = CLAST_OK;
+    double *made = NULL;
+    CLX_TRY(clx_alloc(&made, n, sizeof *made));
+    depth_context context = {law, u, made};
+    clx_parallel_for(n, POINTS_A_BLOCK, take_depths, &context);
+    CLX_TRY(clx_sort_doubles(made, n));
+    *z = made;
+    made = NULL;
+done:
+    clx_free(made);
+    return status;
+}
+
 clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, const double *side,
                                        clast_boundary_score *result)
 {
@@ -216,12 +249,8 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
     for (int32_t j = 0; j < d; ++j) {
         CLX_CHECK(side[j] > 0.0, CLAST_E_USAGE, "side %d of the domain is %g", j, side[j]);
     }
-    CLX_TRY(clx_alloc(&z, n, sizeof *z));
     const clx_depth_law law = clx_depth_law_of_box(d, side);
-    for (int64_t i = 0; i < n; ++i) {
-        z[i] = clx_depth_of(&law, u + i * d);
-    }
-    CLX_TRY(clx_sort_doubles(z, n));
+    CLX_TRY(clx_boundary_depths(&law, u, n, &z));
     made.score = clx_depth_distance(&law, z, n);
     made.trapezoid = trapezoid(&law, z, n);
     made.ideal = clx_depth_ideal(&law, (double)n);

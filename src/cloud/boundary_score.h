@@ -20,3 +20,6 @@ double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n);
 
 /// Its expectation for n uniform points.
 double clx_depth_ideal(const clx_depth_law *law, double n);
+
+/// Depths of n points in ascending order into a fresh block.
+clast_status clx_boundary_depths(const clx_depth_law *law, const double *u, int64_t n, double **z);

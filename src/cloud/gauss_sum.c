@@ -10,6 +10,7 @@ enum {
     ROWS_A_BLOCK = 64,
     HALF_WIDTH = 26, ///< kernel coefficients kept on each side
     SYSTEM = 40,     ///< half-size of the system that finds them
+    TILE = 64,       ///< lines that are convolved side by side
     GROUP = 8, ///< slabs of axis 0 a task spreads; at least 4, so that only neighbours overlap
     MARGIN = 2 ///< nodes beyond the outermost points
 };
@@ -159,23 +160,38 @@ static void spread_groups(int64_t begin, int64_t end, int32_t worker, void *cont
     }
 }
 
-/// Points by slab, in index order within a slab.
-static void sort_by_slab(grid *g)
+/// Column of a point: its slabs of axis 0 and, in more dimensions, axis 1.
+static int64_t column_of(const grid *g, int64_t i)
 {
     double unused[4];
+    const double *y = g->y + i * g->d;
+    const int64_t slab = spline_weights(g, y[0], 0, unused);
+    return g->d > 1 ? slab * g->count[1] + spline_weights(g, y[1], 1, unused) : slab;
+}
+
+/// Points by column, so that neighbours on the grid follow each other; in index order within one.
+static clast_status sort_by_column(grid *g)
+{
+    clast_status status = CLAST_OK;
+    int64_t *start = NULL;
+    const int64_t width = g->d > 1 ? g->count[1] : 1;
+    const int64_t n_column = g->count[0] * width;
+    CLX_TRY(clx_alloc(&start, n_column + 1, sizeof *start));
     for (int64_t i = 0; i < g->n; ++i) {
-        ++g->start[spline_weights(g, g->y[i * g->d], 0, unused) + 1];
+        ++start[column_of(g, i) + 1];
     }
-    for (int64_t s = 0; s < g->count[0]; ++s) {
-        g->start[s + 1] += g->start[s];
+    for (int64_t c = 0; c < n_column; ++c) {
+        start[c + 1] += start[c];
+    }
+    for (int64_t s = 0; s <= g->count[0]; ++s) {
+        g->start[s] = start[s * width];
     }
     for (int64_t i = 0; i < g->n; ++i) {
-        g->order[g->start[spline_weights(g, g->y[i * g->d], 0, unused)]++] = i;
+        g->order[start[column_of(g, i)]++] = i;
     }
-    for (int64_t s = g->count[0]; s > 0; --s) {
-        g->start[s] = g->start[s - 1];
-    }
-    g->start[0] = 0;
+done:
+    clx_free(start);
+    return status;
 }
 
 static clast_status lay_grid(grid *g)
@@ -211,24 +227,80 @@ typedef struct {
     const double *from;
     double *to;
     int64_t length, stride; ///< of a line along the axis
+    const double *zero;     ///< [TILE] zeros
+    double *padded;         ///< a row between zeros for each worker
 } convolution;
 
-static void convolve_lines(int64_t begin, int64_t end, int32_t worker, void *context)
+/// One output node of `width` neighbouring lines, whose nodes lie side by side.
+static void convolve_node(const convolution *c, int64_t start, int64_t i, int64_t width)
 {
-    const convolution *c = context;
-    (void)worker;
-    for (int64_t line = begin; line < end; ++line) {
-        const int64_t start = line / c->stride * c->stride * c->length + line % c->stride;
-        for (int64_t i = 0; i < c->length; ++i) {
-            double sum = c->g->kernel[0] * c->from[start + i * c->stride];
-            for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
-                const double left = i >= m ? c->from[start + (i - m) * c->stride] : 0.0;
-                const double right = i + m < c->length ? c->from[start + (i + m) * c->stride] : 0.0;
-                sum += c->g->kernel[m] * (left + right);
-            }
-            c->to[start + i * c->stride] = sum;
+    const double *kernel = c->g->kernel;
+    const double *from = c->from + start;
+    double sum[TILE];
+    for (int64_t l = 0; l < width; ++l) {
+        sum[l] = kernel[0] * from[i * c->stride + l];
+    }
+    for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
+        const double *left = i >= m ? from + (i - m) * c->stride : c->zero;
+        const double *right = i + m < c->length ? from + (i + m) * c->stride : c->zero;
+        for (int64_t l = 0; l < width; ++l) {
+            sum[l] += kernel[m] * (left[l] + right[l]);
         }
     }
+    memcpy(c->to + start + i * c->stride, sum, (size_t)width * sizeof *sum);
+}
+
+/// Lines across which the memory runs, TILE of them at a time.
+static void convolve_tiles(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const convolution *c = context;
+    const int64_t n_tile = (c->stride + TILE - 1) / TILE;
+    (void)worker;
+    for (int64_t tile = begin; tile < end; ++tile) {
+        const int64_t first = tile % n_tile * TILE;
+        const int64_t width = c->stride - first < TILE ? c->stride - first : TILE;
+        for (int64_t i = 0; i < c->length; ++i) {
+            convolve_node(c, tile / n_tile * c->stride * c->length + first, i, width);
+        }
+    }
+}
+
+/// Lines along the memory: copied between zeros, so that every node has all its neighbours.
+static void convolve_rows(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const convolution *c = context;
+    double *padded = c->padded + worker * (c->length + 2 * HALF_WIDTH);
+    for (int64_t row = begin; row < end; ++row) {
+        double *to = c->to + row * c->length;
+        memcpy(padded + HALF_WIDTH, c->from + row * c->length, (size_t)c->length * sizeof *padded);
+        for (int64_t i = 0; i < c->length; ++i) {
+            to[i] = c->g->kernel[0] * padded[HALF_WIDTH + i];
+        }
+        for (int64_t m = 1; m <= HALF_WIDTH; ++m) {
+            const double weight = c->g->kernel[m];
+            const double *left = padded + HALF_WIDTH - m;
+            const double *right = padded + HALF_WIDTH + m;
+            for (int64_t i = 0; i < c->length; ++i) {
+                to[i] += weight * (left[i] + right[i]);
+            }
+        }
+    }
+}
+
+static clast_status convolve(convolution *c)
+{
+    clast_status status = CLAST_OK;
+    if (c->stride == 1) {
+        CLX_TRY(clx_alloc(&c->padded, clx_parallel_workers() * (c->length + 2 * HALF_WIDTH),
+                          sizeof *c->padded));
+        clx_parallel_for(c->g->size / c->length, 16, convolve_rows, c);
+    } else {
+        const int64_t n_tile = (c->stride + TILE - 1) / TILE;
+        clx_parallel_for(c->g->size / (c->length * c->stride) * n_tile, 1, convolve_tiles, c);
+    }
+done:
+    clx_free(c->padded);
+    return status;
 }
 
 /// (g, K g): one axis at a time; the last axis is needed only as a sum.
@@ -239,11 +311,12 @@ static clast_status quadratic_form(grid *g, double *sum)
     double *from = g->node;
     double *to = g->other;
     int64_t stride = g->size;
+    const double zero[TILE] = {0};
     CLX_TRY(clx_alloc(&spare, g->d > 1 ? g->size : 1, sizeof *spare));
     for (int32_t j = 0; j < g->d; ++j) {
         stride /= g->count[j];
-        convolution c = {g, from, to, g->count[j], stride};
-        clx_parallel_for(g->size / g->count[j], 64, convolve_lines, &c);
+        convolution c = {g, from, to, g->count[j], stride, zero, NULL};
+        CLX_TRY(convolve(&c));
         from = to;
         to = to == g->other ? spare : g->other;
     }
@@ -262,7 +335,7 @@ clast_status clx_gauss_sum_gridded(const double *y, int64_t n, int32_t d, double
     grid g = {.y = y, .n = n, .d = d, .h = SPACING / beta};
     kernel_coefficients(g.kernel);
     CLX_TRY(lay_grid(&g));
-    sort_by_slab(&g);
+    CLX_TRY(sort_by_column(&g));
     for (int parity = 0; parity < 2; ++parity) {
         colour c = {&g, parity};
         clx_parallel_for((g.count[0] + 2 * GROUP - 1) / (2 * GROUP), 1, spread_groups, &c);

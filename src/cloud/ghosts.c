@@ -2,6 +2,7 @@
 #include "cloud/ghosts.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include <math.h>
 
 clx_ghost_plan clx_ghosts_plan(const int32_t *count, const uint8_t *label, int64_t n_bin)
@@ -44,13 +45,14 @@ static void depth_range(const clx_depth_law *law, const double low[3], const dou
 
 /// Share of the bin that is shallower than z.
 static double shallower(const clx_depth_law *law, const double low[3], const double high[3],
-                        double z)
+                        double density, double z)
 {
-    double deeper = 1.0;
+    double deeper = density;
     for (int32_t j = 0; j < law->d; ++j) {
         const double margin = 0.5 * law->c[j] * z;
-        const double inside = fmin(high[j], 1.0 - margin) - fmax(low[j], margin);
-        deeper *= fmax(0.0, inside) / (high[j] - low[j]);
+        const double inside =
+            (high[j] < 1.0 - margin ? high[j] : 1.0 - margin) - (low[j] > margin ? low[j] : margin);
+        deeper *= inside > 0.0 ? inside : 0.0;
     }
     return 1.0 - deeper;
 }
@@ -61,18 +63,22 @@ typedef struct {
     int64_t *whole; ///< [n_grid] bins that are whole from this depth on
 } shell_sums;
 
-static void add_bin(const clx_ghost_sample *sample, int64_t bin, shell_sums *sums)
+static void add_bin(const clx_ghost_sample *sample, int64_t bin, const shell_sums *sums)
 {
     const int32_t n_grid = sample->n_grid;
     double low[3];
     double high[3];
     double range[2];
+    double density = 1.0; // one over the bin's volume
     clx_bins_box(sample->bins, bin, low, high);
+    for (int32_t j = 0; j < sample->law->d; ++j) {
+        density *= sample->bins->nb[j];
+    }
     depth_range(sample->law, low, high, range);
     const int32_t first = (int32_t)fmax(0.0, ceil(range[0] * n_grid - 0.5));
     const int32_t last = (int32_t)fmin(n_grid, ceil(range[1] * n_grid - 0.5)); // z_last >= range[1]
     for (int32_t k = first; k < last; ++k) {
-        const double share = shallower(sample->law, low, high, (k + 0.5) / n_grid);
+        const double share = shallower(sample->law, low, high, density, (k + 0.5) / n_grid);
         sums->p[k] += share;
         sums->p2[k] += share * share;
     }
@@ -94,35 +100,66 @@ static double integrand(const clx_ghost_plan *plan, double m, double p, double p
            fabs(m) * erf(fabs(m) / (s * sqrt(2.0)));
 }
 
+enum { N_CHUNK = 8 }; // fixed, so that sums have one order for any thread count
+
+typedef struct {
+    const clx_ghost_sample *sample;
+    shell_sums sums; ///< [N_CHUNK][n_grid] each
+} chunk_context;
+
+static void add_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const chunk_context *c = context;
+    const int64_t n_bin = c->sample->bins->n_bin;
+    (void)worker;
+    for (int64_t chunk = begin; chunk < end; ++chunk) {
+        const int64_t at = chunk * c->sample->n_grid;
+        const shell_sums part = {c->sums.p + at, c->sums.p2 + at, c->sums.whole + at};
+        for (int64_t b = n_bin * chunk / N_CHUNK; b < n_bin * (chunk + 1) / N_CHUNK; ++b) {
+            if (c->sample->label[b] != 0) {
+                add_bin(c->sample, b, &part);
+            }
+        }
+    }
+}
+
+/// Adds all chunks to the first.
+static void add_up(const shell_sums *sums, int32_t n_grid)
+{
+    for (int64_t i = n_grid; i < (int64_t)N_CHUNK * n_grid; ++i) {
+        sums->p[i % n_grid] += sums->p[i];
+        sums->p2[i % n_grid] += sums->p2[i];
+        sums->whole[i % n_grid] += sums->whole[i];
+    }
+}
+
 clast_status clx_ghosts_expected_score(const clx_ghost_sample *sample, double *score)
 {
     clast_status status = CLAST_OK;
     const clx_ghost_plan *plan = &sample->plan;
     const int32_t n_grid = sample->n_grid;
-    shell_sums sums = {0};
+    chunk_context context = {.sample = sample};
+    shell_sums *sums = &context.sums;
     double sum = 0.0;
     int64_t kept = 0;
     int64_t outside = 0;
-    CLX_TRY(clx_alloc(&sums.p, n_grid, sizeof *sums.p));
-    CLX_TRY(clx_alloc(&sums.p2, n_grid, sizeof *sums.p2));
-    CLX_TRY(clx_alloc(&sums.whole, n_grid, sizeof *sums.whole));
-    for (int64_t b = 0; b < sample->bins->n_bin; ++b) {
-        if (sample->label[b] != 0) {
-            add_bin(sample, b, &sums);
-        }
-    }
+    CLX_TRY(clx_alloc(&sums->p, (int64_t)N_CHUNK * n_grid, sizeof *sums->p));
+    CLX_TRY(clx_alloc(&sums->p2, (int64_t)N_CHUNK * n_grid, sizeof *sums->p2));
+    CLX_TRY(clx_alloc(&sums->whole, (int64_t)N_CHUNK * n_grid, sizeof *sums->whole));
+    clx_parallel_for(N_CHUNK, 1, add_chunk, &context);
+    add_up(sums, n_grid);
     for (int32_t k = 0; k < n_grid; ++k) {
         kept += sample->depth_count[k];
-        outside += sums.whole[k];
-        const double total = sums.p[k] + (double)outside;
+        outside += sums->whole[k];
+        const double total = sums->p[k] + (double)outside;
         const double g = ((double)kept + plan->per_bin * total) / plan->n_expected;
         const double h = clx_depth_cdf(sample->law, (k + 0.5) / n_grid);
-        sum += integrand(plan, g - h, total, sums.p2[k] + (double)outside, g);
+        sum += integrand(plan, g - h, total, sums->p2[k] + (double)outside, g);
     }
     *score = sum / n_grid;
 done:
-    clx_free(sums.p);
-    clx_free(sums.p2);
-    clx_free(sums.whole);
+    clx_free(sums->p);
+    clx_free(sums->p2);
+    clx_free(sums->whole);
     return status;
 }

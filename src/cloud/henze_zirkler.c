@@ -25,21 +25,62 @@ static void take_scores(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
-static void moments(const double *y, int64_t n, int32_t d, clast_henze_zirkler *r)
+/// Sums over the points of a block; blocks are added in order.
+typedef struct {
+    double sum[3], product[3][3], gauss;
+} block_sums;
+
+typedef struct {
+    const double *centre; ///< NULL: first pass
+    double (*l)[3];       ///< Cholesky factor
+    double *y;
+    int32_t d;
+    double narrow; ///< of the exponential
+    block_sums *block;
+} block_context;
+
+static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    for (int64_t i = 0; i < n; ++i) {
+    const block_context *c = context;
+    const int32_t d = c->d;
+    block_sums s = {{0}, {{0}}, 0.0};
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        for (int32_t a = 0; a < d; ++a) {
+            const double off = c->y[i * d + a] - (c->centre != NULL ? c->centre[a] : 0.0);
+            s.sum[a] += off;
+            for (int32_t b = 0; b <= a && c->centre != NULL; ++b) {
+                s.product[a][b] += off * (c->y[i * d + b] - c->centre[b]);
+            }
+        }
+    }
+    c->block[begin / POINTS_A_BLOCK] = s;
+}
+
+static int64_t n_block_of(int64_t n)
+{
+    return (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK;
+}
+
+/// Mean, then covariance about it.
+static void moments(block_context *c, int64_t n, clast_henze_zirkler *r)
+{
+    const int32_t d = c->d;
+    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
+    for (int64_t k = 0; k < n_block_of(n); ++k) {
         for (int32_t j = 0; j < d; ++j) {
-            r->centre[j] += y[i * d + j];
+            r->centre[j] += c->block[k].sum[j];
         }
     }
     for (int32_t j = 0; j < d; ++j) {
         r->centre[j] /= (double)n;
     }
-    for (int64_t i = 0; i < n; ++i) {
+    c->centre = r->centre;
+    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
+    for (int64_t k = 0; k < n_block_of(n); ++k) {
         for (int32_t a = 0; a < d; ++a) {
             for (int32_t b = 0; b <= a; ++b) {
-                r->covariance[a][b] +=
-                    (y[i * d + a] - r->centre[a]) * (y[i * d + b] - r->centre[b]);
+                r->covariance[a][b] += c->block[k].product[a][b];
             }
         }
     }
@@ -73,17 +114,26 @@ static bool factor(double covariance[3][3], int32_t d, double l[3][3])
     return true;
 }
 
-static void whiten(double *y, int64_t n, int32_t d, const double centre[3], double l[3][3])
+/// Whitens the scores of a block and sums their Gaussians.
+static void whiten_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    for (int64_t i = 0; i < n; ++i) {
+    const block_context *c = context;
+    const int32_t d = c->d;
+    double gauss = 0.0;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        double r2 = 0.0;
         for (int32_t a = 0; a < d; ++a) {
-            double sum = y[i * d + a] - centre[a];
+            double sum = c->y[i * d + a] - c->centre[a];
             for (int32_t b = 0; b < a; ++b) {
-                sum -= l[a][b] * y[i * d + b];
+                sum -= c->l[a][b] * c->y[i * d + b];
             }
-            y[i * d + a] = sum / l[a][a];
+            c->y[i * d + a] = sum / c->l[a][a];
+            r2 += c->y[i * d + a] * c->y[i * d + a];
         }
+        gauss += exp(-c->narrow * r2);
     }
+    c->block[begin / POINTS_A_BLOCK].gauss = gauss;
 }
 
 static void null_law(double b2, int32_t dimension, clast_henze_zirkler *r)
@@ -105,31 +155,31 @@ static void null_law(double b2, int32_t dimension, clast_henze_zirkler *r)
     r->log_sd = sqrt(log(1.0 + r->variance / m2));
 }
 
-static double single_sum(const double *y, int64_t n, int32_t d, double b2)
+/// Sum of exp(-b2 |y|^2 / (2 (1 + b2))) over whitened scores, which this makes.
+static double single_sum(block_context *c, int64_t n, double b2)
 {
     double sum = 0.0;
-    for (int64_t i = 0; i < n; ++i) {
-        double r2 = 0.0;
-        for (int32_t j = 0; j < d; ++j) {
-            r2 += y[i * d + j] * y[i * d + j];
-        }
-        sum += exp(-b2 * r2 / (2.0 * (1.0 + b2)));
+    c->narrow = b2 / (2.0 * (1.0 + b2));
+    clx_parallel_for(n, POINTS_A_BLOCK, whiten_block, c);
+    for (int64_t k = 0; k < n_block_of(n); ++k) {
+        sum += c->block[k].gauss;
     }
     return sum;
 }
 
-static clast_status statistic(double *y, int64_t n_point, int32_t d, clast_sums sums,
+static clast_status statistic(block_context *c, int64_t n_point, clast_sums sums,
                               clast_henze_zirkler *r)
 {
     double pairs = 0.0;
+    const int32_t d = c->d;
     const double n = (double)n_point;
     const double b2 = r->beta * r->beta;
     const bool exact =
         sums == CLAST_SUMS_EXACT || (sums == CLAST_SUMS_AUTO && n_point <= EXACT_LIMIT);
-    const clast_status status = exact ? clx_gauss_sum_exact(y, n_point, d, r->beta, &pairs)
-                                      : clx_gauss_sum_gridded(y, n_point, d, r->beta, &pairs);
-    r->HZ = pairs / n - 2.0 * pow(1.0 + b2, -d / 2.0) * single_sum(y, n_point, d, b2) +
-            n * pow(1.0 + 2.0 * b2, -d / 2.0);
+    const double singles = single_sum(c, n_point, b2);
+    const clast_status status = exact ? clx_gauss_sum_exact(c->y, n_point, d, r->beta, &pairs)
+                                      : clx_gauss_sum_gridded(c->y, n_point, d, r->beta, &pairs);
+    r->HZ = pairs / n - 2.0 * pow(1.0 + b2, -d / 2.0) * singles + n * pow(1.0 + 2.0 * b2, -d / 2.0);
     return status;
 }
 
@@ -140,17 +190,19 @@ clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, cla
     clast_henze_zirkler made = {0};
     double l[3][3] = {{0}};
     score_context context = {u, d, NULL};
+    block_context blocks = {.d = d, .l = l};
     CLX_CHECK(n >= 2 && d >= 1 && d <= 3, CLAST_E_USAGE,
               "a Henze-Zirkler test needs at least 2 points in 1 to 3 dimensions, not %lld in %d",
               (long long)n, d);
     CLX_TRY(clx_alloc(&context.y, n * d, sizeof *context.y));
+    CLX_TRY(clx_alloc(&blocks.block, n_block_of(n), sizeof *blocks.block));
     clx_parallel_for(n, POINTS_A_BLOCK, take_scores, &context);
     made.beta = pow((2.0 * d + 1.0) * (double)n / 4.0, 1.0 / (d + 4.0)) / sqrt(2.0);
     null_law(made.beta * made.beta, d, &made);
-    moments(context.y, n, d, &made);
+    blocks.y = context.y;
+    moments(&blocks, n, &made);
     if (factor(made.covariance, d, l)) {
-        whiten(context.y, n, d, made.centre, l);
-        CLX_TRY(statistic(context.y, n, d, sums, &made));
+        CLX_TRY(statistic(&blocks, n, sums, &made));
     } else {
         made.HZ = 4.0 * (double)n;
     }
@@ -160,5 +212,6 @@ clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, cla
     *result = made;
 done:
     clx_free(context.y);
+    clx_free(blocks.block);
     return status;
 }

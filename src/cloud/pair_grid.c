@@ -10,7 +10,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { N_CHUNK = 8 }; // fixed, so that sums have one order for any thread count
+enum { N_CHUNK = 8, SPARSE_CHUNK = 3, DENSE = 1000000 };
+
+/// Tensors filled side by side: more for many points. By their number alone, so that sums have one
+/// order for any thread count; 3 at least, for the axes take turns between two.
+static int n_chunk_of(int64_t n)
+{
+    return n < DENSE ? SPARSE_CHUNK : N_CHUNK;
+}
 
 static int32_t cells_an_axis(int32_t d)
 {
@@ -21,6 +28,7 @@ typedef struct {
     const double *u;
     int64_t n, size; ///< points; moments in the tensor, (2 G)^d
     int32_t d, g;
+    int n_chunk;
     double *moment[N_CHUNK]; ///< [size] each; index axis-major, (cell, power) along each axis
     double own[N_CHUNK][CLAST_N_DISCREPANCY]; ///< sum over points of the product of in-slab factors
                                               ///< with themselves
@@ -78,7 +86,7 @@ static void add_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
     tensor *t = context;
     (void)worker;
     for (int64_t chunk = begin; chunk < end; ++chunk) {
-        for (int64_t i = t->n * chunk / N_CHUNK; i < t->n * (chunk + 1) / N_CHUNK; ++i) {
+        for (int64_t i = t->n * chunk / t->n_chunk; i < t->n * (chunk + 1) / t->n_chunk; ++i) {
             add_point(t, (int32_t)chunk, t->u + i * t->d);
         }
     }
@@ -170,11 +178,11 @@ static double contract(const tensor *t, int k, const double *moment, double *a, 
 static clast_status fill_tensor(tensor *t)
 {
     clast_status status = CLAST_OK;
-    for (int chunk = 0; chunk < N_CHUNK; ++chunk) {
+    for (int chunk = 0; chunk < t->n_chunk; ++chunk) {
         CLX_TRY(clx_alloc(&t->moment[chunk], t->size, sizeof *t->moment[chunk]));
     }
-    clx_parallel_for(N_CHUNK, 1, add_chunk, t);
-    for (int chunk = 1; chunk < N_CHUNK; ++chunk) {
+    clx_parallel_for(t->n_chunk, 1, add_chunk, t);
+    for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
         for (int64_t i = 0; i < t->size; ++i) {
             t->moment[0][i] += t->moment[chunk][i];
         }
@@ -190,7 +198,7 @@ clast_status clx_pair_sums_binned(const double *u, int64_t n, int32_t d,
                                   double sum[CLAST_N_DISCREPANCY])
 {
     clast_status status = CLAST_OK;
-    tensor t = {.u = u, .n = n, .d = d, .g = cells_an_axis(d), .size = 1};
+    tensor t = {.u = u, .n = n, .d = d, .g = cells_an_axis(d), .n_chunk = n_chunk_of(n), .size = 1};
     for (int32_t j = 0; j < d; ++j) {
         t.size *= 2 * t.g;
     }

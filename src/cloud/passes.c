@@ -2,12 +2,15 @@
 #include "cloud/passes.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "cloud/ghosts.h"
 #include "cloud/levels.h"
+#include "cloud/uniformity.h"
 #include "math/rng.h"
 #include <math.h>
 #include <string.h>
 
+enum { N_CHUNK = 8, POINTS_A_BLOCK = 16384 };
 enum { GRID_MOST = 20000, GRID_LEAST = 1000, GRID_WORK = 20000000 };
 
 typedef struct {
@@ -20,7 +23,7 @@ typedef struct {
     uint8_t *active;            ///< [n_bin]
     uint8_t *label, *best;      ///< [n_bin]
     int32_t *bin_of, *depth_of; ///< [n] bin and depth class of each point
-    int64_t *depth_count;       ///< [n_grid + 1]
+    int64_t *depth_count;       ///< [N_CHUNK][n_grid + 1]
     int32_t n_grid;
 } work;
 
@@ -34,29 +37,67 @@ static void choose_grid(work *w)
     w->n_grid = (int32_t)fmin(GRID_MOST, fmax(GRID_LEAST, fits));
 }
 
+static void classify_points(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    work *w = context;
+    const int32_t d = w->passes->bins.d;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        w->bin_of[i] = (int32_t)clx_bins_of(&w->passes->bins, w->u + i * d);
+        w->depth_of[i] = clx_ghosts_depth_class(&w->law, w->u + i * d, w->n_grid);
+    }
+}
+
 static clast_status classify(work *w)
 {
     clast_status status = CLAST_OK;
-    const int32_t d = w->passes->bins.d;
+    clx_bins *bins = &w->passes->bins;
     clx_free(w->bin_of);
     clx_free(w->depth_of);
     w->bin_of = NULL;
     w->depth_of = NULL;
     CLX_TRY(clx_alloc(&w->bin_of, w->n, sizeof *w->bin_of));
     CLX_TRY(clx_alloc(&w->depth_of, w->n, sizeof *w->depth_of));
-    CLX_TRY(clx_bins_count(&w->passes->bins, w->u, w->n, w->bin_of));
+    if (bins->count == NULL) {
+        CLX_TRY(clx_alloc(&bins->count, bins->n_bin, sizeof *bins->count));
+    }
+    clx_parallel_for(w->n, POINTS_A_BLOCK, classify_points, w);
+    memset(bins->count, 0, (size_t)bins->n_bin * sizeof *bins->count);
     for (int64_t i = 0; i < w->n; ++i) {
-        w->depth_of[i] = clx_ghosts_depth_class(&w->law, w->u + i * d, w->n_grid);
+        ++bins->count[w->bin_of[i]];
     }
 done:
     return status;
 }
 
+typedef struct {
+    const work *w;
+    const uint8_t *label;
+} depth_context;
+
+/// Depth classes of the kept points, a histogram a chunk: integers add up alike in any order.
+static void count_depths(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const depth_context *c = context;
+    const work *w = c->w;
+    (void)worker;
+    for (int64_t chunk = begin; chunk < end; ++chunk) {
+        int64_t *count = w->depth_count + chunk * (w->n_grid + 1);
+        memset(count, 0, ((size_t)w->n_grid + 1) * sizeof *count);
+        for (int64_t i = w->n * chunk / N_CHUNK; i < w->n * (chunk + 1) / N_CHUNK; ++i) {
+            count[w->depth_of[i]] += c->label[w->bin_of[i]] == 0 ? 1 : 0;
+        }
+    }
+}
+
 static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan, double *score)
 {
-    memset(w->depth_count, 0, ((size_t)w->n_grid + 1) * sizeof *w->depth_count);
-    for (int64_t i = 0; i < w->n; ++i) {
-        w->depth_count[w->depth_of[i]] += label[w->bin_of[i]] == 0 ? 1 : 0;
+    depth_context context = {w, label};
+    clx_parallel_for(N_CHUNK, 1, count_depths, &context);
+    for (int chunk = 1; chunk < N_CHUNK; ++chunk) {
+        for (int32_t k = 0; k <= w->n_grid; ++k) {
+            w->depth_count[k] += w->depth_count[(int64_t)chunk * (w->n_grid + 1) + k];
+        }
     }
     *plan = clx_ghosts_plan(w->passes->bins.count, label, w->passes->bins.n_bin);
     const clx_ghost_sample sample = {&w->passes->bins, label,    &w->law, *plan,
@@ -169,7 +210,7 @@ static clast_status iterate(work *w, clast_decomposition *result)
     const int32_t most = again ? w->config->max_pass : 1;
     result->stop = again ? CLAST_STOP_MAX_PASS : CLAST_STOP_ONE_PASS;
     for (int32_t k = 0; k < most; ++k) {
-        clast_uniformity after;
+        bool reject = false;
         bool selected = false;
         clast_pass pass = {0};
         CLX_TRY(one_pass(w, k + 1, &pass, &selected));
@@ -179,9 +220,9 @@ static clast_status iterate(work *w, clast_decomposition *result)
         }
         result->pass[result->n_pass++] = pass;
         if (again) {
-            CLX_TRY(clast_uniformity_test(w->u, w->n, w->passes->bins.d, w->side, w->config->level,
-                                          w->config->votes, &after));
-            if (!after.reject) {
+            CLX_TRY(clx_uniformity_decide(w->u, w->n, w->passes->bins.d, w->config->level,
+                                          w->config->votes, &reject));
+            if (!reject) {
                 result->stop = CLAST_STOP_UNIFORM;
                 break;
             }
@@ -205,7 +246,7 @@ static clast_status prepare(work *w, const double *u, int64_t n, int32_t d)
     memset(w->active, 1, (size_t)w->passes->bins.n_bin);
     w->n = n;
     choose_grid(w);
-    CLX_TRY(clx_alloc(&w->depth_count, (int64_t)w->n_grid + 1, sizeof *w->depth_count));
+    CLX_TRY(clx_alloc(&w->depth_count, N_CHUNK * ((int64_t)w->n_grid + 1), sizeof *w->depth_count));
 done:
     return status;
 }

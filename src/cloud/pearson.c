@@ -1,45 +1,83 @@
 // Pearson correlation of coordinate pairs with Student's t and Bonferroni's correction.
 #include <clast/uniformity.h>
 
-#include "base/status.h"
+#include "base/alloc.h"
+#include "base/parallel.h"
 #include "math/special.h"
 #include <math.h>
 
-static double correlation(const double *u, int64_t n, int32_t d, int32_t a, int32_t b)
+enum { POINTS_A_BLOCK = 65536 };
+
+/// Sums of a block of points; blocks are added in order.
+typedef struct {
+    double sum[3], product[3][3];
+} block_sums;
+
+typedef struct {
+    const double *u;
+    int32_t d;
+    double mean[3];
+    block_sums *block;
+} sum_context;
+
+static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    double mean_a = 0.0;
-    double mean_b = 0.0;
-    double aa = 0.0;
-    double bb = 0.0;
-    double ab = 0.0;
-    for (int64_t i = 0; i < n; ++i) {
-        mean_a += u[i * d + a];
-        mean_b += u[i * d + b];
+    const sum_context *c = context;
+    block_sums s = {{0}, {{0}}};
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        for (int32_t a = 0; a < c->d; ++a) {
+            const double x = c->u[i * c->d + a] - c->mean[a];
+            s.sum[a] += x;
+            for (int32_t b = 0; b <= a; ++b) {
+                s.product[a][b] += x * (c->u[i * c->d + b] - c->mean[b]);
+            }
+        }
     }
-    mean_a /= (double)n;
-    mean_b /= (double)n;
-    for (int64_t i = 0; i < n; ++i) {
-        const double x = u[i * d + a] - mean_a;
-        const double y = u[i * d + b] - mean_b;
-        aa += x * x;
-        bb += y * y;
-        ab += x * y;
+    c->block[begin / POINTS_A_BLOCK] = s;
+}
+
+/// Covariances times n: means first, then products about them.
+static void moments(sum_context *c, int64_t n, double product[3][3])
+{
+    const int64_t n_block = (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK;
+    double mean[3] = {0};
+    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
+    for (int64_t k = 0; k < n_block; ++k) {
+        for (int32_t a = 0; a < c->d; ++a) {
+            mean[a] += c->block[k].sum[a];
+        }
     }
-    return aa > 0.0 && bb > 0.0 ? ab / sqrt(aa * bb) : 0.0;
+    for (int32_t a = 0; a < c->d; ++a) {
+        c->mean[a] = mean[a] / (double)n;
+    }
+    clx_parallel_for(n, POINTS_A_BLOCK, sum_block, c);
+    for (int64_t k = 0; k < n_block; ++k) {
+        for (int32_t a = 0; a < c->d; ++a) {
+            for (int32_t b = 0; b <= a; ++b) {
+                product[a][b] += c->block[k].product[a][b];
+            }
+        }
+    }
 }
 
 clast_status clast_pearson_test(const double *u, int64_t n, int32_t d, clast_pearson *result)
 {
-    if (n < 3 || d < 1 || d > 3) {
-        return clx_fail(
-            CLAST_E_USAGE,
-            "a correlation needs at least 3 points in 1 to 3 dimensions, not %lld in %d",
-            (long long)n, d);
-    }
+    clast_status status = CLAST_OK;
     clast_pearson made = {.p_bonferroni = 1.0};
+    sum_context context = {.u = u, .d = d};
+    double product[3][3] = {{0}};
+    CLX_CHECK(n >= 3 && d >= 1 && d <= 3, CLAST_E_USAGE,
+              "a correlation needs at least 3 points in 1 to 3 dimensions, not %lld in %d",
+              (long long)n, d);
+    CLX_TRY(clx_alloc(&context.block, (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK,
+                      sizeof *context.block));
+    moments(&context, n, product);
     for (int32_t a = 0; a < d; ++a) {
         for (int32_t b = a + 1; b < d; ++b) {
-            const double r = correlation(u, n, d, a, b);
+            const double spread = product[a][a] * product[b][b];
+            const double r =
+                product[a][a] > 0.0 && product[b][b] > 0.0 ? product[b][a] / sqrt(spread) : 0.0;
             const double free = (double)n - 2.0;
             const double rest = 1.0 - r * r;
             made.r[made.n_pair] = r;
@@ -52,5 +90,7 @@ clast_status clast_pearson_test(const double *u, int64_t n, int32_t d, clast_pea
         made.p_bonferroni = fmin(made.p_bonferroni, made.n_pair * made.p[k]);
     }
     *result = made;
-    return CLAST_OK;
+done:
+    clx_free(context.block);
+    return status;
 }

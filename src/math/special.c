@@ -20,16 +20,18 @@ double clx_normal_sf(double z)
 }
 
 /// Root of P(Z > z) = p for p <= 1/2: Hastings' start (4.5e-4), then Halley's steps, each of which
-/// triples the digits.
+/// triples the digits: after one below 1e-6 only rounding is left.
 static double upper_quantile(double p)
 {
     const double t = sqrt(-2.0 * log(p));
     double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
                        (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-    for (int i = 0; i < 3; ++i) {
+    double step = 1.0;
+    for (int i = 0; i < 3 && fabs(step) > 1e-6; ++i) {
         const double density = exp(-0.5 * z * z) / SQRT_TWO_PI;
         const double u = (clx_normal_sf(z) - p) / density;
-        z += u / (1.0 + 0.5 * z * u);
+        step = u / (1.0 - 0.5 * z * u);
+        z += step;
     }
     return z;
 }
