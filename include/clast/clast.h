@@ -61,6 +61,7 @@
 #include <clast/status.h>
 #include <clast/structure.h>
 #include <clast/study.h>
+#include <clast/synthesize.h>
 #include <clast/table.h>
 #include <clast/table_file.h>
 #include <clast/uniformity.h>
