@@ -237,6 +237,17 @@ static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contac
     }
 }
 
+/// Normal of the body that is a hull, in the frame of a.
+static void push_off(const clx_gjk_pair *seen, double n[3])
+{
+    v3_set(n, 0.0, 0.0, 1.0);
+    if (seen->b.core != NULL) {
+        out_of_frame(seen->b.turn, seen->b.core->face[0].normal, n);
+    } else if (seen->a.core != NULL) {
+        v3_scale(n, -1.0, seen->a.core->face[0].normal);
+    }
+}
+
 /// GJK, then EPA if they overlap, from the simplex on. The contact is without rounding. False if
 /// beyond max_gap.
 static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
@@ -259,9 +270,13 @@ static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *mem
         (void)v3_unit(n, v);
         break;
     default:
-        (void)clx_epa(&seen, simplex, n, &gap);
-        v3_scale(n, -1.0, n);
-        gap = -gap;
+        if (clx_epa(&seen, simplex, n, &gap) < (double)INFINITY) {
+            v3_scale(n, -1.0, n);
+            gap = -gap;
+        } else { // a point in the plane of a flat hull: either side will do
+            gap = 0.0;
+            push_off(&seen, n);
+        }
         break;
     }
     witness(simplex, on_a);

@@ -176,26 +176,45 @@ static clx_facet edge_facet(int k, int32_t own, int32_t other)
                   : (clx_facet){CLX_FACET_EDGE_EDGE, other, own};
 }
 
-/// Turns the normal about edge `e` of body k from n (world, out of body k) towards that of face f,
-/// while vertex v of the other body touches: the facet that is met first.
-static clx_facet turn_about(const body both[2], int k, int32_t e, const double n[3], int32_t f,
-                            int32_t v)
+/// While the normal turns from q0 to q1 (axes of the body that has vertex v): the edge at v that is
+/// met first, -1 if none is.
+static int32_t first_met(const clx_hull_core *core, int32_t v, const double q0[3],
+                         const double q1[3])
 {
-    const body *other = &both[1 - k];
-    double to[3], q0[3], q1[3];
     double first = 1.0;
     int32_t edge = -1;
-    outof(both[k].turn, both[k].core->face[f].normal, to);
-    into(other->turn, n, q0);
-    into(other->turn, to, q1);
-    for (int32_t i = other->core->near_first[v]; i < other->core->near_first[v + 1]; ++i) {
-        const clx_core_near *near = &other->core->near[i];
+    for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
+        const clx_core_near *near = &core->near[i];
         const double now = fmax(v3_dot(near->along, q0), 0.0);
         const double then = v3_dot(near->along, q1);
         if (then < 0.0 && near->edge >= 0 && now < first * (now - then)) {
             first = now / (now - then);
             edge = near->edge;
         }
+    }
+    return edge;
+}
+
+/// Turns the normal about edge `e` of body k from n (world, out of body k) towards that of face f,
+/// while vertex v of the other body touches: the facet that is met first.
+static clx_facet turn_about(const body both[2], int k, int32_t e, const double n[3], int32_t f,
+                            int32_t v)
+{
+    const body *own = &both[k];
+    const body *other = &both[1 - k];
+    double to[3], q0[3], q1[3];
+    int32_t edge = -1;
+    outof(own->turn, own->core->face[f].normal, to);
+    into(other->turn, n, q0);
+    if (v3_dot(n, to) < -0.5) { // a sharp edge, or a flat hull's: by way of straight out
+        outof(own->turn, own->core->edge[e].out[0], q1);
+        into(other->turn, q1, q1);
+        edge = first_met(other->core, v, q0, q1);
+        v3_copy(q0, q1);
+    }
+    if (edge < 0) {
+        into(other->turn, to, q1);
+        edge = first_met(other->core, v, q0, q1);
     }
     return edge < 0 ? face_facet(k, f, v) : edge_facet(k, e, edge);
 }

@@ -1,0 +1,175 @@
+/* Unit: bodies before walls of triangles. */
+#include "support.h"
+
+#include "contact/wall_mesh.h"
+#include "gravel.h"
+#include "math/vec3.h"
+#include <clast/hull.h>
+
+/* A floor z = 0 of 2 n^2 triangles on the square |x|, |y| <= 2. */
+static void make_floor(int n, clast_mesh *mesh)
+{
+    CHECK_OK(clast_mesh_alloc((n + 1) * (n + 1), 2 * n * n, mesh));
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= n; ++j) {
+            v3_set(mesh->vert[i * (n + 1) + j], -2.0 + 4.0 * i / n, -2.0 + 4.0 * j / n, 0.0);
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const int32_t v = i * (n + 1) + j;
+            const int32_t t[2][3] = {{v, v + n + 1, v + n + 2}, {v, v + n + 2, v + 1}};
+            for (int k = 0; k < 6; ++k) {
+                mesh->tri[2 * (i * n + j) + k / 3][k % 3] = t[k / 3][k % 3];
+            }
+        }
+    }
+}
+
+static void random_turn(clx_rng *rng, double turn[9])
+{
+    double q[4], m[3][3];
+    clx_rng_orientation(rng, q);
+    q_matrix(m, q);
+    for (int i = 0; i < 9; ++i) {
+        turn[i] = m[i / 3][i % 3];
+    }
+}
+
+/* Bodies of every kind on a floor of triangles, from above and from below: the plane's answer. */
+static void floor_of_triangles_is_a_plane(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_wall_mesh *wall = NULL;
+    clx_hull_core *gravel = support_gravel_core(4, 0, 60);
+    const clx_convex shapes[3] = {clx_convex_hull(gravel, 1.0), clx_convex_sphere(0.4),
+                                  clx_convex_ellipsoid((const double[3]){0.6, 0.4, 0.3})};
+    make_floor(7, &mesh);
+    CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+    for (uint64_t i = 0; i < 240; ++i) {
+        clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
+        double turn[9];
+        clx_placed body = {&shapes[i % 3], turn, {0.0, 0.0, 0.0}};
+        clx_contact flat;
+        clx_wall_contact met[4];
+        random_turn(&rng, turn);
+        const double side = i % 2 == 0 ? 1.0 : -1.0;
+        const double plane[4] = {0.0, 0.0, side, 0.0};
+        clx_plane_contact(&body, plane, NULL, &flat);
+        const double gap = i % 5 == 0 ? 1e-3 : -1e-4 * (double)(1 + i % 7);
+        v3_set(body.position, clx_rng_uniform(&rng) - 0.5, clx_rng_uniform(&rng) - 0.5,
+               side * (gap - flat.gap));
+        clx_plane_contact(&body, plane, NULL, &flat);
+        CHECK_ABS(flat.gap, gap, 1e-14);
+        assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.01, 4, met), 1);
+        CHECK_ABS(met[0].contact.gap, gap, 1e-11);
+        CHECK_ABS(met[0].contact.normal[2], side, 1e-10);
+        for (int k = 0; k < 3; ++k) {
+            CHECK_ABS(met[0].contact.point[k], flat.point[k], 1e-5);
+        }
+        v3_set(body.position, 0.0, 0.0, side * 1.5);
+        assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.01, 4, met), 0);
+    }
+    clx_wall_mesh_destroy(wall);
+    clx_hull_core_destroy(gravel);
+    clast_mesh_free(&mesh);
+}
+
+/* A ball in a box's corner meets its three walls; on a box's outer edge it meets the edge once. */
+static void box_pushes_from_each_wall(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_wall_mesh *wall = NULL;
+    const clx_convex ball = clx_convex_sphere(0.3);
+    static const double unturned[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    CHECK_OK(clast_mesh_box(1.0, 2.0, 3.0, &mesh));
+    CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+    clx_placed body = {&ball, unturned, {0.29, 0.28, 0.27}};
+    clx_wall_contact met[8];
+    assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.0, 8, met), 3);
+    for (int k = 0; k < 3; ++k) { // deepest first
+        CHECK_ABS(met[k].contact.gap, -0.03 + 0.01 * k, 1e-14);
+        CHECK_ABS(met[k].contact.normal[2 - k], 1.0, 1e-14);
+    }
+    v3_set(body.position, -0.2, -0.2, 1.3);
+    assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.0, 8, met), 1);
+    CHECK_ABS(met[0].contact.gap, 0.2 * sqrt(2.0) - 0.3, 1e-14);
+    CHECK_ABS(met[0].contact.normal[0], -sqrt(0.5), 1e-14);
+    v3_set(body.position, -0.1, -0.1, -0.1);
+    assert_int_equal(clx_wall_mesh_contacts(wall, &body, 0.0, 8, met), 1);
+    CHECK_ABS(met[0].contact.gap, 0.1 * sqrt(3.0) - 0.3, 1e-14);
+    clx_wall_mesh_destroy(wall);
+    clast_mesh_free(&mesh);
+}
+
+/* A hull with one triangle: remembered and cold answers while it rolls over the triangle. */
+static void triangle_remembers(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    clx_wall_mesh *wall = NULL;
+    clx_hull_core *gravel = support_gravel_core(4, 1, 60);
+    const clx_convex shape = clx_convex_hull(gravel, 1.0);
+    make_floor(1, &mesh);
+    CHECK_OK(clx_wall_mesh_create(&mesh, &wall));
+    for (uint64_t i = 0; i < 20; ++i) {
+        clx_rng rng = clx_rng_at(42, CLX_STREAM_TEST, i);
+        double q[4], m[3][3], turn[9], side[3];
+        clx_placed body = {&shape, turn, {0.0, 0.0, 0.3}};
+        clx_contact_memory memory = {0};
+        clx_rng_orientation(&rng, q);
+        for (int k = 0; k < 2; ++k) {
+            body.position[k] = 4.0 * clx_rng_uniform(&rng) - 2.0;
+        }
+        for (int step = 0; step < 200; ++step) {
+            clx_contact warm, cold;
+            q_matrix(m, q);
+            for (int k = 0; k < 9; ++k) {
+                turn[k] = m[k / 3][k % 3];
+            }
+            (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, &memory, &warm);
+            (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, NULL, &cold);
+            CHECK_ABS(warm.gap, cold.gap, 1e-13);
+            v3_axpy(body.position, body.position, -1e-4 - cold.gap, cold.normal);
+            clx_rng_direction(&rng, side);
+            v3_axpy(body.position, body.position, 1e-3, side);
+            for (int k = 0; k < 4; ++k) {
+                q[k] += 2e-3 * clx_rng_normal(&rng);
+            }
+            q_unit(q);
+        }
+    }
+    clx_wall_mesh_destroy(wall);
+    clx_hull_core_destroy(gravel);
+    clast_mesh_free(&mesh);
+}
+
+static clast_status make_wall(void *context)
+{
+    clx_wall_mesh *wall = NULL;
+    const clast_status status = clx_wall_mesh_create(context, &wall);
+    clx_wall_mesh_destroy(wall);
+    return status;
+}
+
+static void walls_survive_refused_memory(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    make_floor(3, &mesh);
+    support_refuse_each_allocation(make_wall, &mesh);
+    clast_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floor_of_triangles_is_a_plane),
+        cmocka_unit_test(box_pushes_from_each_wall),
+        cmocka_unit_test(triangle_remembers),
+        cmocka_unit_test(walls_survive_refused_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
