@@ -55,7 +55,8 @@ static clx_pair pair_of(const item *it, int pose)
                       {it->offset[pose][0], it->offset[pose][1], it->offset[pose][2]}};
 }
 
-/// Moves b along `line` to this gap in pose 0; the other pose is jittered: 1e-5 D, 1e-4 rad.
+/// Moves b along `line` to this gap in pose 0; the other pose is what a time step of a
+/// shaken bed makes of it: 1e-5 D, 2e-5 rad.
 static void place(item *it, clx_rng *rng, double gap)
 {
     double q[2][4], line[3];
@@ -76,7 +77,7 @@ static void place(item *it, clx_rng *rng, double gap)
     }
     for (int k = 0; k < 2; ++k) {
         for (int i = 0; i < 4; ++i) {
-            q[k][i] += 3e-5 * clx_rng_normal(rng);
+            q[k][i] += 5e-6 * clx_rng_normal(rng);
         }
         q_unit(q[k]);
         turn_of(q[k], it->turn[1][k]);

@@ -14,8 +14,12 @@ enum { MAX_STEP = 60, MAX_HALVING = 30 };
 /// Tangential residual that ends the search, in sizes of the pair; the gap's error is its square.
 static const double TOLERANCE = 1e-13;
 
-/// Residual from which one Newton step is the last: it leaves 1e-9 of the normal, 1e-18 of the gap.
+/// Newton steps shorter than this are the last: what they leave of the normal is of the order of
+/// their square, of the gap their fourth power.
 static const double LAST_STEP = 3e-5;
+
+/// Steps shorter than this need no new value: s + g.step / 2 is exact to their third power.
+static const double SHORT_STEP = 1e-5;
 
 static void sym_mul(const double m[6], const double x[3], double out[3])
 {
@@ -53,9 +57,10 @@ void clx_ellipsoid_tip(const double matrix[6], const double m[3], double tip[3])
 
 static double value(const clx_ellipsoids *p, const double m[3])
 {
-    double tip[3];
-    const double h_a = support(p->a, m, tip);
-    return v3_dot(m, p->offset) - h_a - support(p->b, m, tip);
+    double a[3], b[3];
+    sym_mul(p->a, m, a);
+    sym_mul(p->b, m, b);
+    return v3_dot(m, p->offset) - sqrt(fmax(v3_dot(m, a), 0.0)) - sqrt(fmax(v3_dot(m, b), 0.0));
 }
 
 /// Everything at one m.
@@ -150,7 +155,7 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
             step[0] *= 0.5;
             step[1] *= 0.5;
         }
-        if (residual <= LAST_STEP * size) { // what this step leaves is its square
+        if (step[0] * step[0] + step[1] * step[1] <= LAST_STEP * LAST_STEP) {
             v3_copy(m, trial);
             return s;
         }
@@ -163,6 +168,37 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
         v3_copy(m, trial);
     }
     return at.s;
+}
+
+/// One short step from a remembered normal of about unit length; false if it is not short, or K not
+/// safely positive definite.
+static bool follow(const clx_ellipsoids *p, double size, double m[3], double *s)
+{
+    local at;
+    double start[3];
+    const double e = v3_norm2(m) - 1.0;
+    if (!(fabs(e) < 1e-5)) {
+        return false;
+    }
+    v3_scale(start, 1.0 - 0.5 * e + 0.375 * e * e, m); // 1 / sqrt(1 + e)
+    expand(p, start, &at);
+    const double trace = at.k[0] + at.k[2];
+    const double det = at.k[0] * at.k[2] - at.k[1] * at.k[1];
+    if (!(trace > 0.0 && det > 1e-3 * size * trace)) { // both eigenvalues beyond 1e-3 of the size
+        return false;
+    }
+    const double inverse = 1.0 / det;
+    const double u = (at.k[2] * at.g[0] - at.k[1] * at.g[1]) * inverse;
+    const double v = (at.k[0] * at.g[1] - at.k[1] * at.g[0]) * inverse;
+    const double step2 = u * u + v * v;
+    if (!(step2 <= SHORT_STEP * SHORT_STEP)) {
+        return false;
+    }
+    *s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
+    v3_axpy(m, start, u, at.tangent[0]);
+    v3_axpy(m, m, v, at.tangent[1]);
+    v3_scale(m, 1.0 - 0.5 * step2, m); // 1 / sqrt(1 + step2)
+    return true;
 }
 
 /// Where the normal would be if A + B were the ellipsoid of matrix A + B.
@@ -206,9 +242,12 @@ static double climb_from_everywhere(const clx_ellipsoids *p, double size, double
 double clx_ellipsoid_gap(const clx_ellipsoids *p, double m[3])
 {
     const double size = sqrt(p->a[0] + p->a[1] + p->a[2]) + sqrt(p->b[0] + p->b[1] + p->b[2]);
-    if (!v3_unit(m, m)) {
-        first_guess(p, m);
+    double s = 0.0;
+    if (!follow(p, size, m, &s)) {
+        if (!v3_unit(m, m)) {
+            first_guess(p, m);
+        }
+        s = climb(p, size, m);
     }
-    const double s = climb(p, size, m);
     return s > -p->roundness ? s : climb_from_everywhere(p, size, s, m);
 }

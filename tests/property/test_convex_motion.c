@@ -4,7 +4,7 @@
 #include "gravel.h"
 #include "math/vec3.h"
 
-enum { N_CORE = 6 };
+enum { N_CORE = 6, FIRST_ROUND = 1000 };
 
 static clx_hull_core *cores[N_CORE];
 
@@ -56,9 +56,14 @@ static void nudge(clx_rng *rng, double angle, double q[4])
 static double worst_difference(uint64_t index, double gap, double jump, int n_step, int *n_bad)
 {
     clx_rng rng = clx_rng_at(21, CLX_STREAM_TEST, index);
-    const clx_convex a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
-    const clx_convex b =
-        clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 0.3 + clx_rng_uniform(&rng));
+    const double axes[3] = {0.5, 0.3 + 0.2 * clx_rng_uniform(&rng),
+                            0.15 + 0.15 * clx_rng_uniform(&rng)};
+    clx_convex a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
+    clx_convex b = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 0.3 + clx_rng_uniform(&rng));
+    if (index >= FIRST_ROUND) {
+        a = clx_convex_ellipsoid(axes);
+        b = clx_convex_ellipsoid((const double[3]){axes[1], axes[0], axes[2]});
+    }
     double q[2][4], turn[2][9], side[3];
     clx_pair pair = {&a, &b, turn[0], turn[1], {0.0, 0.0, 0.0}};
     clx_contact_memory memory = {0};
@@ -102,10 +107,24 @@ static void warm_equals_cold(void **state)
     }
 }
 
+static void warm_ellipsoids_equal_cold_ones(void **state)
+{
+    (void)state;
+    static const double gaps[] = {-2e-4, 1e-3, -1e-6, -5e-3, 1e-6, 0.05};
+    static const double jumps[] = {1e-7, 3e-6, 1e-5, 1e-4, 1e-2};
+    for (int i = 0; i < 30; ++i) {
+        int n_bad = 0;
+        const double worst =
+            worst_difference((uint64_t)(FIRST_ROUND + i), gaps[i % 6], jumps[i % 5], 600, &n_bad);
+        CHECK_ABS(worst, 0.0, 1e-13);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(warm_equals_cold),
+        cmocka_unit_test(warm_ellipsoids_equal_cold_ones),
     };
     return cmocka_run_group_tests(tests, make_cores, free_cores);
 }
