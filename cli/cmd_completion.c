@@ -16,7 +16,8 @@ static void print_options(const cli_command *command)
 {
     (void)printf("--output --threads --set --json --quiet --help");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
-        (void)printf(" --");
+        const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
+        (void)printf(is_on ? " --no-" : " --");
         for (const char *c = f->name; *c != '\0'; ++c) {
             (void)putchar(*c == '_' ? '-' : *c);
         }

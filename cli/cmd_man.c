@@ -21,7 +21,8 @@ static void print_text(const char *text)
 
 static void print_option(const clast_field *f)
 {
-    (void)printf(".TP\n.B \\-\\-");
+    (void)printf(".TP\n.B \\-\\-%s",
+                 f->type == CLAST_FIELD_BOOL && f->value != 0.0 ? "[no\\-]" : "");
     for (const char *c = f->name; *c != '\0'; ++c) {
         (void)fputs(*c == '_' ? "\\-" : (char[]){*c, '\0'}, stdout);
     }

@@ -63,7 +63,7 @@ static int set_field(parser *p, const char *name, const char *value)
     return 0;
 }
 
-/// A bool option may stand without a value.
+/// A bool option may stand without a value; --NAME=false and --no-NAME turn it off.
 static bool takes_value(const parser *p, const char *name)
 {
     const clast_field *f =
@@ -118,6 +118,17 @@ static int common_option(parser *p, const char *name, const char *value, bool *u
     return 1;
 }
 
+/// The switch that --no-NAME turns off, or NULL when the option is nothing of the kind.
+static const clast_field *negated(const parser *p, const char *name)
+{
+    const clast_field *fields = p->command->fields;
+    if (fields == NULL || strncmp(name, "no-", 3) != 0 || clast_fields_find(fields, name) != NULL) {
+        return NULL;
+    }
+    const clast_field *f = clast_fields_find(fields, name + 3);
+    return f != NULL && f->type == CLAST_FIELD_BOOL ? f : NULL;
+}
+
 static int long_option(parser *p, int argc, char **argv, int *at)
 {
     char name[128];
@@ -131,6 +142,11 @@ static int long_option(parser *p, int argc, char **argv, int *at)
     if (known != 0) {
         *at += used && equals == NULL ? 1 : 0;
         return known > 0 ? 0 : 2;
+    }
+    if (negated(p, name) != NULL) {
+        return equals == NULL
+                   ? set_field(p, name + 3, "false")
+                   : usage_error(p, "--%s takes no value; see --%s=true", name, name + 3);
     }
     if (!takes_value(p, name)) {
         return set_field(p, name, equals != NULL ? equals + 1 : "true");
@@ -251,9 +267,10 @@ static int execute(parser *p)
     return clast_status_exit_code(status);
 }
 
-int cli_run(const cli_command *command, int argc, char **argv)
+int cli_run(const cli_command *command, int n_skip, int argc, char **argv)
 {
-    parser p = {.command = command, .common = {.command = command->name}};
+    parser p = {.command = command,
+                .common = {.command = command->name, .n_word = argc, .word = argv}};
     int code = 4;
     int32_t n_field = 1;
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
@@ -267,7 +284,7 @@ int cli_run(const cli_command *command, int argc, char **argv)
         (void)fputs("clast: not enough memory\n", stderr);
         goto done;
     }
-    code = parse(&p, argc, argv);
+    code = parse(&p, argc - n_skip, argv + n_skip);
     if (code == 0 && p.help) {
         cli_help(command);
     } else if (code == 0) {

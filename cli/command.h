@@ -11,6 +11,8 @@ typedef struct cli_common {
     int32_t n_argument;  ///< positional arguments
     char **argument;     ///< borrowed from argv
     const char *command; ///< "mesh check"
+    int32_t n_word;      ///< the whole command line
+    char *const *word;   ///< [n_word] borrowed from argv
 } cli_common;
 
 typedef struct cli_command {
@@ -28,8 +30,9 @@ typedef struct cli_command {
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 
-/// Parses argv and runs the command: returns the exit code; the error's one line goes to stderr.
-int cli_run(const cli_command *command, int argc, char **argv);
+/// Parses what follows the command's n_skip words in argv ("clast mesh check") and runs the command:
+/// returns the exit code; the error's one line goes to stderr.
+int cli_run(const cli_command *command, int n_skip, int argc, char **argv);
 
 /// A command's own refusal: keeps one line (printf style) for the frame to print, returns `status`.
 clast_status cli_fail(clast_status status, const char *format, ...)

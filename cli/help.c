@@ -36,7 +36,8 @@ static void print_field(const clast_field *f)
 {
     char name[64];
     char value[128];
-    (void)snprintf(name, sizeof name, "%s", f->name);
+    const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
+    (void)snprintf(name, sizeof name, "%s%s", is_on ? "[no-]" : "", f->name);
     for (char *c = name; *c != '\0'; ++c) {
         *c = *c == '_' ? '-' : *c;
     }
@@ -78,7 +79,8 @@ void cli_help(const cli_command *command)
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
         "  --json                 one JSON object on stdout\n"
         "  -q, --quiet            no progress on stderr\n"
-        "  -h, --help             this page\n\n"
+        "  -h, --help             this page\n"
+        "a switch is turned off by --no-NAME or --NAME=false, on by --NAME or --NAME=true\n\n"
         "exit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough memory or "
         "disk,\n"
         "            5 did not converge, 130/143 stopped with a checkpoint\n");

@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     for (const cli_command *const *c = commands; *c != NULL; ++c) {
         const int words = words_matched(*c, argc, argv);
         if (words > 0) {
-            return cli_run(*c, argc - 1 - words, argv + 1 + words);
+            return cli_run(*c, 1 + words, argc, argv);
         }
     }
     const bool asked = argc > 2 && (strcmp(argv[2], "--help") == 0 || strcmp(argv[2], "-h") == 0);

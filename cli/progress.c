@@ -77,6 +77,9 @@ clast_monitor cli_monitor(const cli_common *common)
     struct sigaction action = {.sa_handler = on_signal};
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
-    return (clast_monitor){
-        .report = common->quiet ? NULL : report, .stop = stop, .context = &now_state};
+    return (clast_monitor){.report = common->quiet ? NULL : report,
+                           .stop = stop,
+                           .context = &now_state,
+                           .n_word = common->n_word,
+                           .word = common->word};
 }

@@ -8,4 +8,6 @@ typedef struct clast_monitor {
     /// True asks the work to write its checkpoint and return CLAST_E_STOPPED. May be NULL.
     bool (*stop)(void *context);
     void *context;
+    int32_t n_word;    ///< the command line, for manifests; 0: none
+    char *const *word; ///< [n_word] borrowed
 } clast_monitor;
