@@ -91,11 +91,15 @@ static const char details[] =
     "--fit finds rays, orientations, cone and replicate that explain an observed size, density or\n"
     "settling velocity, with their spread, and says when none do (exit code 1).\n"
     "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
-    "With -o RUN: state.h5, history.csv, structure.csv, radial.csv, summary.json, aggregate.stl "
-    "(um),\n"
-    "manifest.json, charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and "
-    "the\n"
-    "page report.html; --printable adds printable.stl.";
+    "With -o RUN: state.h5, history.csv (history_band.csv: mean and interval of repeats), "
+    "sizes.csv\n"
+    "(wanted and placed), structure.csv, radial.csv, summary.json, aggregate.stl (um), "
+    "manifest.json,\n"
+    "charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and the page\n"
+    "report.html; --printable adds printable.stl and its\n"
+    "smallest feature (printable.json). A folder that holds a run is refused: go on "
+    "with\n"
+    "--resume RUN if it has not ended, or replace it with --force.";
 
 const cli_command cli_aggregate = {
     .name = "aggregate",

@@ -126,6 +126,7 @@ typedef struct clast_aggregate_config {
     int32_t checkpoint_every;
     bool picture, printable;
     double neck, spacing; ///< of the printable surface
+    bool force;           ///< replace an earlier run in the output folder
     char *resume;
 } clast_aggregate_config;
 
@@ -250,3 +251,14 @@ CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, doubl
 /// particles, from the histories of several repeats one below the other.
 CLAST_API clast_status clast_aggregate_band(const clast_table *history, double confidence,
                                             clast_table *band);
+
+/// Sizes wanted beside those placed: a row for each distinct size or bin of the list, or for each
+/// of 12 classes of a law over what it drew. Columns low_m, high_m, wanted, placed (particles of
+/// one aggregate, mean over the repeats) and the shares by number up to there, wanted_finer and
+/// placed_finer.
+///
+/// @param sizes  NULL when a law draws them    @param table  empty
+/// @return CLAST_E_USAGE when `history` has no particle of a law, or no columns n and size_m
+CLAST_API clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
+                                                const clast_sizes *sizes,
+                                                const clast_table *history, clast_table *table);

@@ -28,7 +28,7 @@ CLAST_API bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const cla
 /// evenly, first and last kept.
 ///
 /// @param table   history of clast_aggregate_history (column repeat is optional), or radial
-/// @param wanted  SIZES only, may be NULL: columns low_m, high_m and count; else NULL
+/// @param wanted  SIZES only, may be NULL: columns low_m, high_m and count or wanted; else NULL
 /// @return CLAST_E_FORMAT when the table does not fit
 CLAST_API clast_status clast_aggregate_chart_write(clast_aggregate_chart chart,
                                                    const clast_table *table,

@@ -9,7 +9,8 @@ CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, 
 /// Loads what the configuration names and fits; with a folder writes fit.csv, summary.json and
 /// manifest.json into it (the first two are the same bytes for equal runs).
 ///
-/// @param folder  NULL for no files; made if missing; refused when it holds an unfinished run
+/// @param folder  NULL for no files; made if missing; refused when it holds a run, unless
+/// config->force
 CLAST_API clast_status clast_aggregate_fit_study(const clast_aggregate_config *config,
                                                  const char *folder, const clast_monitor *monitor,
                                                  clast_aggregate_fit *fit);

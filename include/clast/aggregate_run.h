@@ -28,7 +28,8 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 /// @param folder   NULL for no files    @param monitor  may be NULL
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
 ///         CLAST_E_CONVERGE when a stop criterion was not reached (all files are written);
-///         CLAST_E_USAGE when the folder holds an unfinished run
+///         CLAST_E_USAGE when the folder holds a run, finished or not, and config->force is not
+///         set; with it that run's files are removed first (others stay)
 CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
                                            const clast_monitor *monitor,
                                            clast_aggregate_report *report);

@@ -5,9 +5,9 @@
 /// How an assembly becomes one body that can be printed.
 typedef struct clast_printable_config {
     double neck; ///< diameter of the ball that joins two grains at their contact [m]; 0: half the
-                 ///< thinnest grain
-    double spacing;  ///< of the sampling grid [m]; 0: a quarter of the neck, or 1/300 of the extent
-                     ///< if that is coarser
+                 ///< thinnest grain, and no less than 3 spacings
+    double spacing; ///< of the sampling grid [m]; 0: a quarter of the neck, 1/300 of the extent, or
+                    ///< what gives a million triangles (50 MB of STL), whichever is coarsest
     bool keep_voids; ///< leave closed voids open inside (they cannot be emptied after printing)
 } clast_printable_config;
 
@@ -16,6 +16,7 @@ typedef struct clast_printable_report {
     double neck, spacing;    ///< as used [m]
     double smallest_feature; ///< thinner of neck and thinnest grain [m]; below 2 spacing it may be
                              ///< lost
+    bool resolved;           ///< smallest_feature is 2 spacings or more
     int32_t n_part;          ///< connected pieces; 1 on success
     int32_t n_void;          ///< closed voids found
     double void_volume;      ///< their volume, filled unless keep_voids [m3]

@@ -135,8 +135,12 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints"),
     {FIELD(BOOL, picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},
     FLAG(printable, "printable.stl: one closed surface around all grains and necks at contacts"),
-    NUMBER(neck, 0, 0, 1e6, "m", "printable: thickness of the necks; 0: half the thinnest grain"),
-    NUMBER(spacing, 0, 0, 1e6, "m", "printable: spacing of the sampling grid; 0: a quarter neck"),
+    NUMBER(neck, 0, 0, 1e6, "m",
+           "printable: thickness of the necks; 0: half the thinnest grain, 3 spacings at least"),
+    NUMBER(spacing, 0, 0, 1e6, "m",
+           "printable: spacing of the sampling grid; 0: a quarter neck, coarser where the file "
+           "would pass 50 MB"),
+    FLAG(force, "replace an earlier run in the output folder; refused without this"),
     TEXT(resume, "", "run folder to go on with; all other options come from it"),
     {0},
 };

@@ -15,18 +15,43 @@ static double thinnest_grain(const clast_assembly *a)
     return thinnest;
 }
 
+/// Surface of all grains, each taken as the ellipsoid of its semi-axes (Thomsen's formula, 1 %).
+static double total_surface(const clast_assembly *a)
+{
+    const double p = 1.6075;
+    double sum = 0.0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const double *axis = a->shape[a->shape_id[i]].semi_axes;
+        const double x = pow(axis[0] * axis[1], p);
+        const double y = pow(axis[0] * axis[2], p);
+        const double z = pow(axis[1] * axis[2], p);
+        sum += 4.0 * CLAST_PI * a->scale[i] * a->scale[i] * pow((x + y + z) / 3.0, 1.0 / p);
+    }
+    return sum;
+}
+
+/// Triangles of marching tetrahedra on a surface of one square spacing: 8.9 on spheres.
+static const double TRIANGLES_A_SQUARE = 8.9;
+/// 50 MB of binary STL.
+static const double TRIANGLE_BUDGET = 1e6;
+
 static clast_status choose(const clast_assembly *a, const clast_printable_config *config,
                            const double low[3], const double high[3],
                            clast_printable_report *report)
 {
     const double extent = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
     const double thinnest = thinnest_grain(a);
+    const double budget = sqrt(TRIANGLES_A_SQUARE * total_surface(a) / TRIANGLE_BUDGET);
     report->neck = config->neck > 0.0 ? config->neck : 0.5 * thinnest;
     report->spacing = config->spacing;
     if (!(report->spacing > 0.0)) {
-        report->spacing = fmax(0.25 * report->neck, extent / 300.0);
+        report->spacing = fmax(0.25 * report->neck, fmax(extent / 300.0, budget));
+    }
+    if (!(config->neck > 0.0)) { // a neck that the grid can show
+        report->neck = fmax(report->neck, 3.0 * report->spacing);
     }
     report->smallest_feature = fmin(report->neck, thinnest);
+    report->resolved = report->smallest_feature >= 2.0 * report->spacing;
     if (report->spacing > 0.5 * extent) {
         return clx_fail(CLAST_E_USAGE, "a spacing of %g cannot show a body of extent %g",
                         report->spacing, extent);

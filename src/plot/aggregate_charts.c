@@ -265,12 +265,14 @@ static clast_status wanted_line(const clast_table *wanted, line *out)
     clast_status status = CLAST_OK;
     const double *low = clast_table_numbers(wanted, "low_m");
     const double *high = clast_table_numbers(wanted, "high_m");
-    const double *count = clast_table_numbers(wanted, "count");
+    const double *count =
+        clast_table_numbers(wanted, clast_table_find(wanted, "wanted") >= 0 ? "wanted" : "count");
     double total = 0.0;
     double sum = 0.0;
     line l = {.label = "wanted"};
     CLX_CHECK(low != NULL && high != NULL && count != NULL, CLAST_E_FORMAT,
-              "table %s: wanted sizes need the columns low_m, high_m and count", wanted->name);
+              "table %s: wanted sizes need the columns low_m, high_m and count (or wanted)",
+              wanted->name);
     CLX_TRY(room(&l, 2 * wanted->n_row));
     for (int64_t i = 0; i < wanted->n_row; ++i) {
         total += count[i];

@@ -139,8 +139,8 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
     clast_table nodes = {0};
     CLX_TRY(clast_aggregate_load(config, &source));
     if (folder != NULL) {
-        CLX_TRY(clx_folder_check_free(folder));
-        CLX_TRY(clast_manifest_create("aggregate", 0, NULL, &manifest));
+        CLX_TRY(clx_folder_take(folder, config->force));
+        CLX_TRY(clx_folder_start(monitor, &manifest));
         CLX_TRY(note_inputs(config, manifest));
     }
     CLX_TRY(clast_aggregate_fit_run(config, &source.input, monitor, fit, &nodes));

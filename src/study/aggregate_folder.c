@@ -144,21 +144,6 @@ done:
     return status;
 }
 
-clast_status clx_folder_check_free(const char *folder)
-{
-    clast_status status = CLAST_OK;
-    char *path = NULL;
-    int64_t step = 0;
-    if (clx_checkpoint_newest(folder, &path, &step, NULL) == CLAST_OK) {
-        status = clx_fail(CLAST_E_USAGE,
-                          "%s holds a run that has not ended; go on with --resume %s, or take "
-                          "another folder",
-                          folder, folder);
-    }
-    clx_free(path);
-    return status;
-}
-
 static int level_for(const clast_assembly *assembly)
 {
     int level = 3;
@@ -229,6 +214,20 @@ done:
     return status;
 }
 
+/// sizes.csv; mergers of clusters place no sizes.
+static clast_status write_sizes(const char *folder, const clx_folder_results *r)
+{
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    if (r->config->mode == CLAST_AGGREGATE_CORE) {
+        CLX_TRY(clast_aggregate_achieved(r->config, r->sizes, r->history, &table));
+        CLX_TRY(write_table(folder, "sizes.csv", &table));
+    }
+done:
+    clast_table_free(&table);
+    return status;
+}
+
 clast_status clx_folder_write_results(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
@@ -238,6 +237,7 @@ clast_status clx_folder_write_results(const char *folder, const clx_folder_resul
         CLX_TRY(clast_aggregate_band(r->history, r->report->confidence, &band));
         CLX_TRY(write_table(folder, "history_band.csv", &band));
     }
+    CLX_TRY(write_sizes(folder, r));
     CLX_TRY(write_structure(folder, r));
     CLX_TRY(write_stl(folder, r->first));
     CLX_TRY(clx_folder_write_pictures(folder, r));

@@ -1,6 +1,7 @@
 #pragma once
 // Files of an aggregation's run folder.
 #include <clast/aggregate_run.h>
+#include <clast/manifest.h>
 #include <clast/state.h>
 
 /// State of one repeat: `folder`/state.h5 for the first, state-0002.h5 for the second, ...
@@ -19,8 +20,12 @@ clast_status clx_folder_read_checkpoint(const char *folder, clast_state *state);
 /// missing.
 clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *saved);
 
-/// CLAST_E_USAGE when a run in the folder has not ended.
-clast_status clx_folder_check_free(const char *folder);
+/// Makes sure that no earlier run is overwritten or mixed in: CLAST_E_USAGE when the folder holds
+/// one, ended or not. With force that run's own files are removed (others stay).
+clast_status clx_folder_take(const char *folder, bool force);
+
+/// A manifest of this command line.
+clast_status clx_folder_start(const clast_monitor *monitor, clast_manifest **manifest);
 
 /// Everything that a finished run leaves but its states.
 typedef struct clx_folder_results {
@@ -32,7 +37,7 @@ typedef struct clx_folder_results {
     const clast_monitor *monitor; ///< or NULL
 } clx_folder_results;
 
-/// history.csv, history_band.csv (several repeats), structure.csv, radial.csv, summary.json,
+/// history.csv, history_band.csv (several repeats), sizes.csv, structure.csv, radial.csv, summary.json,
 /// aggregate.stl, charts, picture.png, printable.stl; the checkpoints go last.
 clast_status clx_folder_write_results(const char *folder, const clx_folder_results *results);
 

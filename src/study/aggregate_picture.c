@@ -2,6 +2,7 @@
 #include "study/aggregate_folder.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "math/vec3.h"
 #include <clast/aggregate_charts.h>
 #include <clast/mesh_check.h>
@@ -52,6 +53,32 @@ done:
     return status;
 }
 
+/// printable.json: what the body can and cannot show.
+static clast_status write_printable_report(const char *folder, const clast_printable_report *r,
+                                           int64_t n_triangle)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PATH_LIMIT];
+    clx_file file = {0};
+    CLX_TRY(clx_folder_join(path, folder, "printable.json"));
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(clx_file_print(&file,
+                           "{\n  \"smallest_feature\": %.17g,\n  \"resolved\": %s,\n"
+                           "  \"neck\": %.17g,\n  \"spacing\": %.17g,\n",
+                           r->smallest_feature, r->resolved ? "true" : "false", r->neck,
+                           r->spacing));
+    CLX_TRY(clx_file_print(&file,
+                           "  \"n_part\": %d,\n  \"n_void_filled\": %d,\n"
+                           "  \"void_volume\": %.17g,\n  \"solid_volume\": %.17g,\n"
+                           "  \"volume\": %.17g,\n  \"n_triangle\": %lld\n}\n",
+                           r->n_part, r->n_void, r->void_volume, r->solid_volume, r->volume,
+                           (long long)n_triangle));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}
+
 static clast_status write_printable(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
@@ -67,6 +94,7 @@ static clast_status write_printable(const char *folder, const clx_folder_results
     CLX_TRY(clx_folder_join(path, folder, "printable.stl"));
     CLX_TRY(clast_mesh_write(path, &mesh, &options));
     CLX_TRY(verify(path));
+    CLX_TRY(write_printable_report(folder, &report, mesh.n_tri));
 done:
     clast_mesh_free(&mesh);
     return status;

@@ -13,6 +13,7 @@
 typedef struct {
     const clast_aggregate_config *config;
     const char *folder; ///< or NULL
+    bool force;         ///< an earlier run in it may be replaced
     const clast_monitor *monitor;
     clast_aggregate_source source;
     clast_manifest *manifest; ///< NULL without a folder
@@ -194,8 +195,8 @@ static clast_status begin(run *r)
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
     CLX_TRY(clast_aggregate_create(r->config, &r->source.input, 0, &r->aggregate));
     if (r->folder != NULL) {
-        CLX_TRY(clx_folder_check_free(r->folder));
-        CLX_TRY(clast_manifest_create("aggregate", 0, NULL, &r->manifest));
+        CLX_TRY(clx_folder_take(r->folder, r->force));
+        CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
         CLX_TRY(note_inputs(r));
         CLX_TRY(clx_folder_make(r->folder));
         CLX_TRY(write_manifest(r, "running"));
@@ -207,7 +208,9 @@ done:
 clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
                                  const clast_monitor *monitor, clast_aggregate_report *report)
 {
-    run r = {.config = config, .folder = folder, .monitor = monitor};
+    clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
+    run r = {.config = &own, .folder = folder, .force = config->force, .monitor = monitor};
+    own.force = false;
     clast_status status = begin(&r);
     if (status == CLAST_OK) {
         status = finish(&r, grow_all(&r));
@@ -255,7 +258,7 @@ static clast_status begin_again(run *r, const clast_state *state)
     r->report.confidence = r->config->confidence;
     CLX_TRY(clx_folder_saved(state, &saved));
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
-    CLX_TRY(clast_manifest_create("aggregate", 0, NULL, &r->manifest));
+    CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
     CLX_TRY(note_inputs(r));
     CLX_TRY(clast_manifest_note(r->manifest, "resumed", "yes"));
     CLX_TRY(restore_finished(r, saved.repeat));

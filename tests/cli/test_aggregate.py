@@ -72,6 +72,38 @@ class Results(Case):
         self.assertEqual(manifest["outcome"], "done")
         self.assertEqual(manifest["config"]["core"], "sphere")
 
+        self.assertEqual(manifest["command_line"][1:4], ["aggregate", "--core", "sphere"])
+        self.assertIn("--printable", manifest["command_line"])
+        with open(run / "sizes.csv", newline="") as file:
+            (row,) = csv.DictReader(file)
+        self.assertEqual((row["wanted"], row["placed"]), ("20", "20"))
+        printable = json.loads((run / "printable.json").read_text())
+        self.assertTrue(printable["resolved"])
+        self.assertEqual((run / "printable.stl").stat().st_size, 84 + 50 * printable["n_triangle"])
+
+    def test_an_earlier_run_is_not_overwritten(self):
+        run = self.folder / "run"
+        command = (*SPHERES, "--no-picture", "-o", run)
+        self.assertEqual(clast(*command, "--repeats", 2).code, 0)
+        self.assertFalse((run / "picture.png").exists())
+        (run / "notes.txt").write_text("mine")
+        before = (run / "manifest.json").read_bytes()
+        self.assert_fails(2, *command, says=("finished run", "--force"))
+        self.assertEqual((run / "manifest.json").read_bytes(), before)
+        self.assertEqual(clast(*command, "--force").code, 0)
+        names = {path.name for path in run.iterdir()}
+        self.assertNotIn("state-0002.h5", names)
+        self.assertNotIn("history_band.csv", names)
+        self.assertIn("notes.txt", names)
+        forced = (run / "state.h5").read_bytes()
+        self.assertEqual(clast(*SPHERES, "--no-picture", "-o", self.folder / "other").code, 0)
+        self.assertEqual((self.folder / "other/state.h5").read_bytes(), forced)
+
+    def test_switches_turn_off(self):
+        self.assert_fails(2, *SPHERES, "--no-picture=true", says=("no value",))
+        self.assert_fails(2, *SPHERES, "--no-core", says=("unknown option",))
+        self.assertIn("--[no-]picture", clast("aggregate", "--help").out)
+
     def test_a_run_is_a_core_and_a_coating(self):
         run = self.folder / "run"
         self.assertEqual(clast(*SPHERES, "--replicate", 4, "-o", run, *QUICK).code, 0)

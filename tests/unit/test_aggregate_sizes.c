@@ -197,6 +197,60 @@ static void bands_are_means_over_repeats(void **state)
     clast_table_free(&history);
 }
 
+static void take_history(double *size, int n, clast_table *history)
+{
+    double *step = NULL;
+    double *placed = NULL;
+    CHECK_OK(clast_table_init(history, "history", n + 1));
+    CHECK_OK(clast_table_add_number(history, "n", "-", &step));
+    CHECK_OK(clast_table_add_number(history, "size_m", "m", &placed));
+    placed[0] = 1.0; /* the core counts for nothing */
+    for (int i = 1; i <= n; ++i) {
+        step[i] = i;
+        placed[i] = size[i - 1];
+    }
+}
+
+static void wanted_sizes_stand_beside_placed_ones(void **state)
+{
+    (void)state;
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    clast_table history = {0};
+    clast_table table = {0};
+    default_config(&c);
+    CHECK_OK(clast_sizes_parse("list", "d_um,count\n30,1\n10,2\n10,3\n20,1\n", "", "", &sizes));
+    c.replicate = 2;
+    take_history((double[]){10e-6, 30e-6, 10e-6}, 3, &history); /* stopped early */
+    CHECK_OK(clast_aggregate_achieved(&c, &sizes, &history, &table));
+    assert_int_equal(table.n_row, 3); /* two rows of 10 um are one class */
+    const double wanted[] = {10.0, 2.0, 2.0};
+    const double placed[] = {2.0, 0.0, 1.0};
+    const double finer[] = {2.0 / 3.0, 2.0 / 3.0, 1.0};
+    for (int i = 0; i < 3; ++i) {
+        CHECK_REL(clast_table_numbers(&table, "wanted")[i], wanted[i], 1e-15);
+        CHECK_ABS(clast_table_numbers(&table, "placed")[i], placed[i], 1e-15);
+        CHECK_REL(clast_table_numbers(&table, "placed_finer")[i], finer[i], 1e-15);
+    }
+    CHECK_REL(clast_table_numbers(&table, "wanted_finer")[0], 10.0 / 14.0, 1e-15);
+    clast_table_free(&table);
+    /* a law: shares of the logarithm of its range, 1/12 to each class */
+    c.size_law = CLAST_SIZE_LOGUNIFORM;
+    c.size_low = 10e-6;
+    c.size_high = 30e-6;
+    c.n_particle = 60;
+    CHECK_OK(clast_aggregate_achieved(&c, NULL, &history, &table));
+    assert_int_equal(table.n_row, 12);
+    CHECK_REL(clast_table_numbers(&table, "wanted")[5], 10.0, 1e-9);
+    CHECK_REL(clast_table_numbers(&table, "placed")[0], 2.0, 1e-15);
+    CHECK_REL(clast_table_numbers(&table, "placed")[11], 1.0, 1e-15);
+    clast_table_free(&table);
+    clast_table_free(&history);
+    clast_sizes_free(&sizes);
+    c.size_law = CLAST_SIZE_LIST;
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +262,7 @@ int main(void)
         cmocka_unit_test(meanings_of_size_agree_for_an_ellipsoid),
         cmocka_unit_test(intervals_are_students),
         cmocka_unit_test(bands_are_means_over_repeats),
+        cmocka_unit_test(wanted_sizes_stand_beside_placed_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
