@@ -17,6 +17,8 @@ typedef struct {
     bool at_slice;
     double gap;
     bool local;
+    int32_t rings;
+    int64_t pores;
 } porosity_config;
 
 #define FIELD(type, member) #member, offsetof(porosity_config, member), type
@@ -41,9 +43,15 @@ static const clast_field fields[] = {
      "grains this close touch, where the run does not know its contacts", NULL},
     {FIELD(CLAST_FIELD_BOOL, local), 0, 0, 1, "-",
      "porosity around each grain too, by radical Voronoi cells of equal-volume spheres", NULL},
+    {FIELD(CLAST_FIELD_I32, rings), 0, 0, 100000, "-",
+     "porosity over the radius of a cylinder too, in this many rings", NULL},
+    {FIELD(CLAST_FIELD_I64, pores), 0, 0, 1e8, "-",
+     "sizes of pores too, from this many even points of the bed", NULL},
     {0},
 };
 #undef FIELD
+
+enum { PORE_BINS = 50 };
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -110,7 +118,9 @@ typedef struct {
     clast_table profile;
     clast_table coordination; ///< without columns where contacts are not known
     clast_table fabric;       ///< directions of contacts and grains
-    clast_table local;        ///< without columns unless asked for
+    clast_table local;        ///< without columns unless asked for, as the next
+    clast_table radial, pores;
+    double pore_porosity, pore_mean;
     clast_porosity_bulk bulk;
     double mean_coordination; ///< NAN where contacts are not known
 } findings;
@@ -121,6 +131,8 @@ static void findings_free(findings *f)
     clast_table_free(&f->coordination);
     clast_table_free(&f->fabric);
     clast_table_free(&f->local);
+    clast_table_free(&f->radial);
+    clast_table_free(&f->pores);
 }
 
 static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *bed, double gap,
@@ -156,6 +168,19 @@ static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
     }
     if (status == CLAST_OK && config->local) {
         status = clast_local_porosity(assembly, bed, bed->floor, f->bulk.top, &f->local);
+    }
+    if (status == CLAST_OK && config->rings > 0) {
+        status = clast_radial_porosity(assembly, bed, options->method, f->bulk.z_low,
+                                       f->bulk.z_high, config->rings, 0, &f->radial);
+    }
+    if (status == CLAST_OK && config->pores > 0) {
+        const bool periodic = bed->kind == CLAST_BED_PERIODIC;
+        const clast_pore_options pores = {config->pores,
+                                          PORE_BINS,
+                                          {periodic ? bed->high[0] - bed->low[0] : 0.0,
+                                           periodic ? bed->high[1] - bed->low[1] : 0.0}};
+        status = clast_pore_sizes(assembly, bed, f->bulk.z_low, f->bulk.z_high, &pores,
+                                  &f->pore_porosity, &f->pore_mean, &f->pores);
     }
     return status;
 }
@@ -214,6 +239,10 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
         cli_json_number(object, "local_mean", mean);
         cli_json_number(object, "local_deviation", deviation);
     }
+    if (f->pores.n_column > 0) {
+        cli_json_number(object, "pore_mean", f->pore_mean);
+        cli_json_number(object, "pore_porosity", f->pore_porosity);
+    }
     json_t *fabric = json_object();
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         cli_json_number(fabric, f->fabric.column[0].text[k], f->fabric.column[1].number[k]);
@@ -244,10 +273,9 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
     const struct {
         const char *name;
         const clast_table *table;
-    } files[] = {{"profile.csv", &f->profile},
-                 {"coordination.csv", &f->coordination},
-                 {"fabric.csv", &f->fabric},
-                 {"local.csv", &f->local}};
+    } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
+                 {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
+                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
             status = path_in(path, folder, files[k].name);
@@ -259,6 +287,16 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
     }
     if (status == CLAST_OK) {
         status = clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path);
+    }
+    if (status == CLAST_OK && f->radial.n_column > 0) {
+        status = path_in(path, folder, "radial.svg");
+        status = status == CLAST_OK ? clast_radial_chart_write(&f->radial, assembly->unit, path)
+                                    : status;
+    }
+    if (status == CLAST_OK && f->pores.n_column > 0) {
+        status = path_in(path, folder, "pores.svg");
+        status =
+            status == CLAST_OK ? clast_pore_chart_write(&f->pores, assembly->unit, path) : status;
     }
     return status;
 }
@@ -286,6 +324,12 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         const int64_t n = local_moments(&f->local, &mean, &deviation);
         (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n", mean,
                      deviation, (long long)n);
+    }
+    if (f->pores.n_column > 0) {
+        (void)printf(
+            "pores               %.6g %s   mean distance to the nearest grain; porosity by "
+            "points %.4f\n",
+            f->pore_mean, assembly->unit, f->pore_porosity);
     }
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
@@ -351,7 +395,9 @@ const cli_command cli_porosity = {
         "  cylinder  --method spheres                 periodic  --method spheres --trim 31.5mm\n"
         "-o FOLDER writes profile.csv, profile.svg, fabric.csv (directions of contacts and "
         "grains),\n"
-        "coordination.csv where contacts are known, local.csv with --local.",
+        "coordination.csv where contacts are known, local.csv with --local, radial.csv and .svg "
+        "with\n"
+        "--rings, pores.csv and .svg with --pores.",
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,

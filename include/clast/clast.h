@@ -41,6 +41,7 @@
 #include <clast/monitor.h>
 #include <clast/overlap.h>
 #include <clast/parallel.h>
+#include <clast/pores.h>
 #include <clast/porosity.h>
 #include <clast/porosity_chart.h>
 #include <clast/porosity_fit.h>

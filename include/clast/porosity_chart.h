@@ -8,3 +8,11 @@
 CLAST_API clast_status clast_porosity_chart_write(const clast_table *profile,
                                                   const clast_porosity_bulk *bulk, const char *unit,
                                                   const char *path);
+
+/// Draws porosity over the distance from a cylinder's axis, with error bars.
+CLAST_API clast_status clast_radial_chart_write(const clast_table *radial, const char *unit,
+                                                const char *path);
+
+/// Draws the share of pore space nearer than delta to a grain.
+CLAST_API clast_status clast_pore_chart_write(const clast_table *pores, const char *unit,
+                                              const char *path);

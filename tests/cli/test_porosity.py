@@ -62,6 +62,18 @@ class Porosity(Case):
         total = sum(float(row["cell_m3"]) for row in cells)
         self.assertAlmostEqual(total / (100 * found.json["top"]), 1, 9)
 
+    def test_rings_and_pores(self):
+        path = self.lattice(4)
+        out = self.folder / "out"
+        bed = ["--bed", "cylinder:2,2,2", "--layer", 0.1]
+        found = clast("porosity", path, *bed, "--rings", 5, "--pores", 2000, "--json", "-o", out)
+        self.assertEqual(found.code, 0, found.err)
+        self.assertTrue(0 < found.json["pore_mean"] < 0.37)
+        for name in ("radial.csv", "radial.svg", "pores.csv", "pores.svg", "profile.svg"):
+            self.assertTrue((out / name).stat().st_size > 100, name)
+        self.assert_fails(2, "porosity", path, "--bed", "box:0,0,4,4", "--layer", 0.1, "--rings", 5,
+                          says=["cylindrical bed"])
+
     def test_bad_input(self):
         path = self.lattice(2)
         self.assert_fails(2, "porosity", path, says=["--bed"])

@@ -1,0 +1,125 @@
+// Porosity by distance from the axis of a cylinder, by even points inside the grains.
+#include <clast/pores.h>
+
+#include "assembly/grain_points.h"
+#include "assembly/touch_set.h"
+#include "base/status.h"
+#include "math/vec3.h"
+
+enum { POINTS = 512, RING_LIMIT = 1000000 };
+
+/// Rings under construction; error is a variance until the end.
+typedef struct {
+    const clast_bed *bed;
+    double z_low, z_high, step;
+    int32_t n_ring, n_point;
+    double *solid, *error;
+} rings;
+
+/// Adds a point that stands for `volume`.
+static void add_point(const rings *r, const double x[3], double volume)
+{
+    const double rho = hypot(x[0] - r->bed->centre[0], x[1] - r->bed->centre[1]);
+    const double k = floor(rho / r->step);
+    if (x[2] < r->z_low || x[2] > r->z_high) {
+        return;
+    }
+    // What pokes through the wall counts in the last ring.
+    const int32_t ring = k < r->n_ring ? (int32_t)k : r->n_ring - 1;
+    r->solid[ring] += volume;
+    r->error[ring] += volume * volume;
+}
+
+static void add_grain(const rings *r, const clx_touch_body *body, double volume)
+{
+    double c[3] = {0.5, 0.5, 0.5};
+    double point[3];
+    int32_t n = 0;
+    // A surface fills at least a thousandth of its box, or its points are few.
+    for (int64_t tried = 0; n < r->n_point && tried < 1000LL * r->n_point; ++tried) {
+        clx_lattice_step(c);
+        n += clx_body_draw(body, c, point) ? 1 : 0;
+    }
+    const int32_t n_found = n;
+    v3_set(c, 0.5, 0.5, 0.5);
+    for (n = 0; n < n_found;) { // the same points again, now that their number is known
+        clx_lattice_step(c);
+        if (clx_body_draw(body, c, point)) {
+            add_point(r, point, volume / n_found);
+            ++n;
+        }
+    }
+}
+
+static void add_grains(const clast_assembly *a, const clx_touch_set *set,
+                       clast_porosity_method method, const rings *r)
+{
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const double s = a->scale[i];
+        const double volume = s * s * s * a->shape[a->shape_id[i]].volume;
+        if (method == CLAST_POROSITY_SPHERES) {
+            const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+            clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume));
+            clx_touch_body_place(&ball, a->position[i], upright, 1.0);
+            add_grain(r, &ball, volume);
+        } else {
+            add_grain(r, clx_touch_scene_body(set->scene, i), volume);
+        }
+    }
+}
+
+static clast_status make_columns(clast_table *table)
+{
+    static const char *const column[][2] = {{"r_low_m", "m"},    {"r_high_m", "m"},
+                                            {"solid_m3", "m^3"}, {"solid_error_m3", "m^3"},
+                                            {"porosity", "-"},   {"porosity_error", "-"}};
+    clast_status status = CLAST_OK;
+    for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
+        CLX_TRY(clast_table_add_number(table, column[k][0], column[k][1], NULL));
+    }
+done:
+    return status;
+}
+
+clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_bed *bed,
+                                   clast_porosity_method method, double z_low, double z_high,
+                                   int32_t n_ring, int32_t n_point, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    clx_touch_set set = {0};
+    CLX_CHECK(bed->kind == CLAST_BED_CYLINDER && bed->radius > 0.0, CLAST_E_USAGE,
+              "a radial profile needs a cylindrical bed");
+    CLX_CHECK(assembly->n_grain > 0 && z_high > z_low, CLAST_E_USAGE,
+              "no grain to measure between %g and %g", z_low, z_high);
+    CLX_CHECK(n_ring >= 1 && n_ring <= RING_LIMIT && n_point >= 0, CLAST_E_USAGE,
+              "radial profile of %d rings", n_ring);
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    CLX_TRY(clast_table_init(&made, "radial", n_ring));
+    CLX_TRY(make_columns(&made));
+    const rings r = {.bed = bed,
+                     .z_low = z_low,
+                     .z_high = z_high,
+                     .step = bed->radius / n_ring,
+                     .n_ring = n_ring,
+                     .n_point = n_point > 0 ? n_point : POINTS,
+                     .solid = made.column[2].number,
+                     .error = made.column[3].number};
+    add_grains(assembly, &set, method, &r);
+    for (int32_t k = 0; k < n_ring; ++k) {
+        const double low = k * r.step;
+        const double high = (k + 1) * r.step;
+        const double volume = CLAST_PI * (high * high - low * low) * (z_high - z_low);
+        made.column[0].number[k] = low;
+        made.column[1].number[k] = high;
+        r.error[k] = sqrt(r.error[k]);
+        made.column[4].number[k] = 1.0 - r.solid[k] / volume;
+        made.column[5].number[k] = r.error[k] / volume;
+    }
+    *table = made;
+    made = (clast_table){0};
+done:
+    clx_touch_set_free(&set);
+    clast_table_free(&made);
+    return status;
+}

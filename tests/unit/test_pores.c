@@ -1,0 +1,128 @@
+// Unit: radial porosity and pore sizes of arrangements with known answers.
+#include "support.h"
+
+static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+
+static void add(clast_assembly *a, const clast_shape *shape, double x, double y, double z)
+{
+    const double p[3] = {x, y, z};
+    if (a->n_shape == 0) {
+        CHECK_OK(clast_assembly_add_shape(a, shape, NULL));
+    }
+    CHECK_OK(clast_assembly_add_grain(a, 0, p, upright, 1.0, 1.0));
+}
+
+/// A box of 2 x 2 x 2 on the axis: solid within radius r <= 1 over height 2 is pi r^2 2.
+static void box_on_the_axis_is_solid_within(void **state)
+{
+    (void)state;
+    clast_mesh box = {0};
+    clast_shape shape = {0};
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table radial = {0};
+    CHECK_OK(clast_mesh_box(2.0, 2.0, 2.0, &box));
+    CHECK_OK(clast_shape_mesh("box", &box, &shape));
+    add(&a, &shape, 0.0, 0.0, 1.0);
+    CHECK_OK(clast_bed_parse("cylinder:2", &bed));
+    CHECK_OK(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 0.0, 2.0, 4, 20000, &radial));
+    const double *porosity = clast_table_numbers(&radial, "porosity");
+    const double *error = clast_table_numbers(&radial, "porosity_error");
+    CHECK_ABS(porosity[0], 0.0, 4.0 * error[0]);
+    CHECK_ABS(porosity[1], 0.0, 4.0 * error[1]);
+    // between radius 1 and 1.5: the corners, 4 - pi, all within sqrt 2
+    CHECK_ABS(porosity[2], 1.0 - (4.0 - CLAST_PI) / (CLAST_PI * 1.25), 4.0 * error[2]);
+    CHECK_ABS(porosity[3], 1.0, 0.0);
+    clast_table_free(&radial);
+    CHECK_STATUS(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 2.0, 0.0, 4, 0, &radial),
+                 CLAST_E_USAGE);
+    CHECK_OK(clast_bed_parse("box:0,0,1,1", &bed));
+    CHECK_STATUS(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 0.0, 2.0, 4, 0, &radial),
+                 CLAST_E_USAGE);
+    clast_assembly_free(&a);
+    clast_shape_free(&shape);
+    clast_mesh_free(&box);
+}
+
+/// Periodic lattice of touching spheres: porosity 1 - pi / 6, largest pore in the cell's corner.
+static void lattice_has_its_pores(void **state)
+{
+    (void)state;
+    clast_shape ball = {0};
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table pores = {0};
+    double porosity = 0.0;
+    double mean = 0.0;
+    const clast_pore_options options = {.n_point = 20000, .n_bin = 20, .period = {3.0, 3.0}};
+    CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
+    for (int k = 0; k < 45; ++k) {
+        add(&a, &ball, k % 3 + 0.5, k / 3 % 3 + 0.5, k / 9 + 0.5);
+    }
+    CHECK_OK(clast_bed_parse("periodic:0,0,3,3", &bed));
+    CHECK_OK(clast_pore_sizes(&a, &bed, 1.0, 4.0, &options, &porosity, &mean, &pores));
+    CHECK_ABS(porosity, 1.0 - CLAST_PI / 6.0, 4.0 * sqrt(0.25 / 20000.0));
+    // An independent mean: midpoints of a grid of 60^3 in an eighth of the cell.
+    double sum = 0.0;
+    double count = 0.0;
+    for (int k = 0; k < 60 * 60 * 60; ++k) {
+        const double x = (k % 60 + 0.5) / 120.0;
+        const double y = (k / 60 % 60 + 0.5) / 120.0;
+        const double z = (k / 3600 + 0.5) / 120.0;
+        const double d = sqrt(x * x + y * y + z * z) - 0.5;
+        sum += d > 0.0 ? d : 0.0;
+        count += d > 0.0 ? 1.0 : 0.0;
+    }
+    CHECK_ABS(mean, sum / count, 4.0 * 0.07 / sqrt(0.4764 * 20000.0));
+    const double largest = clast_table_numbers(&pores, "delta_high_m")[19];
+    assert_true(largest <= 0.5 * (sqrt(3.0) - 1.0) + 1e-12 && largest > 0.34);
+    CHECK_ABS(clast_table_numbers(&pores, "share_smaller")[19], 1.0, 0.0);
+    clast_table_free(&pores);
+    clast_assembly_free(&a);
+    clast_shape_free(&ball);
+}
+
+typedef struct {
+    clast_assembly assembly;
+    clast_bed bed;
+} scene;
+
+static clast_status make_both(void *context)
+{
+    scene *s = context;
+    clast_table pores = {0};
+    clast_table radial = {0};
+    const clast_pore_options options = {.n_point = 50, .n_bin = 5};
+    clast_status status =
+        clast_pore_sizes(&s->assembly, &s->bed, 0.0, 1.0, &options, NULL, NULL, &pores);
+    if (status == CLAST_OK) {
+        status = clast_radial_porosity(&s->assembly, &s->bed, CLAST_POROSITY_SPHERES, 0.0, 1.0, 3,
+                                       10, &radial);
+    }
+    clast_table_free(&pores);
+    clast_table_free(&radial);
+    return status;
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    scene s = {0};
+    clast_shape ball = {0};
+    CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
+    add(&s.assembly, &ball, 0.0, 0.0, 0.5);
+    CHECK_OK(clast_bed_parse("cylinder:1", &s.bed));
+    support_refuse_each_allocation(make_both, &s);
+    clast_assembly_free(&s.assembly);
+    clast_shape_free(&ball);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(box_on_the_axis_is_solid_within),
+        cmocka_unit_test(lattice_has_its_pores),
+        cmocka_unit_test(refused_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
