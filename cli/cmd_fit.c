@@ -5,6 +5,7 @@
 #include <clast/manifest.h>
 #include <clast/porosity_fit.h>
 #include <clast/porosity_model_file.h>
+#include <clast/statistics_charts.h>
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
@@ -206,6 +207,18 @@ static clast_status write_folder(const cli_common *common, const config *c, cons
     return status;
 }
 
+static clast_status write_charts(const char *folder, const job *j)
+{
+    char path[4096];
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < CLAST_N_FIT_CHART && status == CLAST_OK; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s.svg", folder,
+                       clast_fit_chart_name((clast_fit_chart)k));
+        status = clast_chart_fit((clast_fit_chart)k, &j->data, &j->fit, path);
+    }
+    return status;
+}
+
 static void tell_left_out(const job *j)
 {
     const clast_table *t = &j->data.left_out;
@@ -230,6 +243,7 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK && common->output != NULL) {
         status = write_folder(common, c, &j);
+        status = status == CLAST_OK ? write_charts(common->output, &j) : status;
     }
     if (status == CLAST_OK && common->json) {
         status = cli_print_json(summary(&j));
@@ -255,7 +269,9 @@ const cli_command cli_fit = {
         "-o FOLDER writes model.json (for clast predict --model), ranking.csv, trials.csv, "
         "terms.csv,\n"
         "rows.csv (residual, held-out value, leverage, studentised residual, Cook's distance),\n"
-        "features.csv and left_out.csv. Theory: docs/theory/predict.md.",
+        "features.csv, left_out.csv and the charts feature, predicted, residuals and leverage "
+        "(SVG).\n"
+        "Theory: docs/theory/predict.md.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

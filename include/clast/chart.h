@@ -35,7 +35,17 @@ typedef struct clast_heat {
     int32_t n_x, n_y;
     const double *value; ///< [n_y][n_x], NaN is left blank
     double x_low, x_high, y_low, y_high;
+    const char *const *x_name; ///< [n_x] names of columns in place of ticks, or NULL
+    const char *const *y_name; ///< [n_y] names of rows
+    bool is_signed;            ///< blue below 0, white at 0, red above: for a symmetric value axis
+    bool has_text;             ///< writes each value into its cell
 } clast_heat;
+
+/// A word in the plot, centred at a place of the axes.
+typedef struct clast_note {
+    double x, y;
+    const char *text;
+} clast_note;
 
 typedef struct clast_chart {
     const char *title; ///< or NULL
@@ -47,6 +57,8 @@ typedef struct clast_chart {
     const double *mark_y;   ///< horizontal reference lines, with labels
     const char *const *mark_label;
     int32_t n_mark;
+    const clast_note *note;
+    int32_t n_note;
     bool equal;           ///< one unit of x is as long as one unit of y
     double width, height; ///< points (1/72 inch); 0: 480 x 340
 } clast_chart;

@@ -29,6 +29,7 @@
 #include <clast/grain.h>
 #include <clast/harmonics.h>
 #include <clast/harmonics_file.h>
+#include <clast/grain_statistics.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/local_porosity.h>
@@ -59,6 +60,7 @@
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <clast/statistics.h>
+#include <clast/statistics_charts.h>
 #include <clast/status.h>
 #include <clast/structure.h>
 #include <clast/study.h>

@@ -72,6 +72,9 @@ CLAST_API clast_status clast_statistics_of(const clast_table *table,
                                            clast_statistics *statistics);
 CLAST_API void clast_statistics_free(clast_statistics *statistics);
 
+/// Takes the principal components of the first n_column columns alone (form factors without sizes).
+CLAST_API clast_status clast_statistics_limit_pca(clast_statistics *statistics, int32_t n_column);
+
 /// One row a column: column, n, mean, mean_low, mean_high, deviation, ... shapiro_w, shapiro_p.
 CLAST_API clast_status clast_statistics_summary_table(const clast_statistics *statistics,
                                                       clast_table *table);
@@ -96,9 +99,9 @@ typedef struct clast_histogram {
     double mean, deviation_ml;
 } clast_histogram;
 
-/// Bins of width 2 IQR n^(-1/3) [Freedman1981], rounded to 1, 2 or 5 times a power of ten, with
-/// edges at its multiples; at most 200. A constant sample gets one bin. Values that are not finite
-/// are left out.
+/// Bins of width 2 IQR n^(-1/3) [Freedman1981], rounded to the nearest of 1, 2 or 5 times a power
+/// of ten, with edges at its multiples; at most 200. A constant sample gets one bin. Values that
+/// are not finite are left out.
 ///
 /// @return CLAST_E_FORMAT without a finite value; CLAST_E_MEMORY
 CLAST_API clast_status clast_histogram_of(const double *x, int64_t n, clast_histogram *histogram);

@@ -29,3 +29,13 @@ void clx_colour_sequence(double t, double rgb[3])
         rgb[k] = map[i][k] + (s - i) * (map[i + 1][k] - map[i][k]);
     }
 }
+
+void clx_colour_diverging(double t, double rgb[3])
+{
+    static const double end[2][3] = {{0.000, 0.300, 0.600}, {0.780, 0.250, 0.000}};
+    const double s = fmin(fmax(t, 0.0), 1.0);
+    const double amount = fabs(2.0 * s - 1.0);
+    for (int k = 0; k < 3; ++k) {
+        rgb[k] = 1.0 + amount * (end[s > 0.5 ? 1 : 0][k] - 1.0);
+    }
+}

@@ -9,3 +9,7 @@ void clx_colour_category(int index, double rgb[3]);
 /// Sequential map, dark blue through green to yellow, perceptually even (viridis sampled at 16
 /// points); t in [0, 1].
 void clx_colour_sequence(double t, double rgb[3]);
+
+/// Diverging map, blue through white to red (Okabe and Ito's blue and vermilion); t in [0, 1],
+/// white at 1/2.
+void clx_colour_diverging(double t, double rgb[3]);

@@ -10,12 +10,15 @@
 
 enum { MAX_BIN = 200 };
 
-/// 1, 2 or 5 times a power of ten, not below `rough`.
+/// 1, 2 or 5 times a power of ten, the nearest to `rough` by ratio.
 static double round_width(double rough)
 {
     const double power = pow(10.0, floor(log10(rough)));
     const double lead = rough / power;
-    return power * (lead <= 1.0 ? 1.0 : lead <= 2.0 ? 2.0 : lead <= 5.0 ? 5.0 : 10.0);
+    return power * (lead < sqrt(2.0)    ? 1.0
+                    : lead < sqrt(10.0) ? 2.0
+                    : lead < sqrt(50.0) ? 5.0
+                                        : 10.0);
 }
 
 /// Lower edge and width for a sorted sample that is not constant.

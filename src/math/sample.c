@@ -5,6 +5,10 @@
 #include <float.h>
 #include <math.h>
 
+/// A spread below this share of the values is rounding: sizes that were all scaled to 1 differ by
+/// 1e-15.
+static const double ROUNDING = 64.0 * DBL_EPSILON;
+
 clx_moments clx_sample_moments(const double *x, int64_t n)
 {
     clx_moments m = {.n = n, NAN, NAN, NAN, NAN, NAN, true};
@@ -31,7 +35,7 @@ clx_moments clx_sample_moments(const double *x, int64_t n)
         power[4] += d * d * d * d;
     }
     const double variance = power[2] / (double)n;
-    m.is_constant = sqrt(variance) <= 4.0 * DBL_EPSILON * most;
+    m.is_constant = sqrt(variance) <= ROUNDING * most;
     m.deviation_ml = sqrt(variance);
     m.deviation = n > 1 ? sqrt(power[2] / (double)(n - 1)) : (double)NAN;
     if (!m.is_constant) {
@@ -82,8 +86,7 @@ double clx_sample_correlation(const double *x, const double *y, int64_t n, int64
         }
     }
     const double spread[2] = {sqrt(square[0] / (double)count), sqrt(square[1] / (double)count)};
-    if (count < 3 || spread[0] <= 4.0 * DBL_EPSILON * most[0] ||
-        spread[1] <= 4.0 * DBL_EPSILON * most[1]) {
+    if (count < 3 || spread[0] <= ROUNDING * most[0] || spread[1] <= ROUNDING * most[1]) {
         return NAN;
     }
     return fmin(fmax(square[2] / (sqrt(square[0]) * sqrt(square[1])), -1.0), 1.0);

@@ -124,15 +124,15 @@ static void correlate(const double *const *column, int64_t n_row, clast_statisti
     }
 }
 
-/// Components of the correlation matrix of the columns without gaps and with some spread.
-static clast_status components(int64_t n_row, clast_statistics *s)
+/// Components of the correlation matrix of the first n columns without gaps and with some spread.
+static clast_status components(int32_t n, clast_statistics *s)
 {
     clast_status status = CLAST_OK;
     double *matrix = NULL;
     int32_t m = 0;
     CLX_TRY(clx_alloc(&matrix, (int64_t)s->n * s->n, sizeof *matrix));
-    for (int32_t k = 0; k < s->n; ++k) {
-        if (s->summary[k].n == n_row && isfinite(s->r[k * s->n + k])) {
+    for (int32_t k = 0; k < n; ++k) {
+        if (s->summary[k].n_left_out == 0 && isfinite(s->r[k * s->n + k])) {
             s->pca_column[m++] = k;
         }
     }
@@ -141,8 +141,8 @@ static clast_status components(int64_t n_row, clast_statistics *s)
     }
     if (m > 1) {
         CLX_TRY(clx_symmetric_eigen(matrix, m, s->variance, s->loading));
-        s->n_pca = m;
     }
+    s->n_pca = m > 1 ? m : 0;
     double sum = 0.0;
     for (int32_t k = 0; k < s->n_pca; ++k) { // the trace of a correlation matrix is m
         sum += s->variance[k] = fmax(s->variance[k], 0.0);
@@ -178,7 +178,7 @@ clast_status clast_statistics_of(const clast_table *table, const clast_bootstrap
         }
     }
     correlate(column, table->n_row, &s);
-    CLX_TRY(components(table->n_row, &s));
+    CLX_TRY(components(s.n, &s));
     *statistics = s;
     s = (clast_statistics){0};
 done:
@@ -195,4 +195,9 @@ int32_t clast_statistics_n_component(const clast_statistics *statistics, double 
         }
     }
     return statistics->n_pca;
+}
+
+clast_status clast_statistics_limit_pca(clast_statistics *statistics, int32_t n_column)
+{
+    return components(n_column < statistics->n ? n_column : statistics->n, statistics);
 }

@@ -24,6 +24,22 @@ static void draw_marks(clx_figure *f)
     }
 }
 
+static void draw_notes(clx_figure *f)
+{
+    static const double middle[2] = {0.5, 0.5};
+    for (int32_t i = 0; i < f->chart->n_note; ++i) {
+        const clast_note *note = &f->chart->note[i];
+        const double x = clx_figure_x(f, note->x);
+        const double y = clx_figure_y(f, note->y);
+        const double width = clx_canvas_text_width(f->canvas, CLX_FONT_TICK, note->text) + 4.0;
+        cairo_set_source_rgba(f->canvas->cr, 1.0, 1.0, 1.0, 0.8); // points may lie below
+        cairo_rectangle(f->canvas->cr, x - 0.5 * width, y - 7.0, width, 14.0);
+        cairo_fill(f->canvas->cr);
+        cairo_set_source_rgb(f->canvas->cr, 0.3, 0.3, 0.3);
+        clx_canvas_text(f->canvas, x, y, middle, CLX_FONT_TICK, note->text);
+    }
+}
+
 static void draw(clx_figure *f)
 {
     cairo_t *cr = f->canvas->cr;
@@ -39,6 +55,7 @@ static void draw(clx_figure *f)
         clx_figure_series(f, &f->chart->series[i]);
     }
     draw_marks(f);
+    draw_notes(f);
     cairo_restore(cr);
     clx_figure_frame(f);
     if (f->has_value) {

@@ -29,15 +29,39 @@ static double widest_label(clx_figure *f, const clx_ticks *ticks)
     return widest;
 }
 
+/// Names of a heat map's columns or rows, and the room that they take.
+static double widest_name(clx_figure *f, const char *const *name, int32_t n)
+{
+    double widest = 0.0;
+    for (int32_t i = 0; i < n; ++i) {
+        widest = fmax(widest, clx_canvas_text_width(f->canvas, CLX_FONT_TICK, name[i]));
+    }
+    return widest;
+}
+
+static const char *const *x_names(const clx_figure *f)
+{
+    return f->chart->heat != NULL ? f->chart->heat->x_name : NULL;
+}
+
+static const char *const *y_names(const clx_figure *f)
+{
+    return f->chart->heat != NULL ? f->chart->heat->y_name : NULL;
+}
+
 void clx_figure_lay_out(clx_figure *f)
 {
     const clast_chart *c = f->chart;
-    f->left = 10.0 + widest_label(f, &f->y) + 8.0 + (c->y.label != NULL ? 18.0 : 0.0);
+    const double beside =
+        y_names(f) != NULL ? widest_name(f, y_names(f), c->heat->n_y) : widest_label(f, &f->y);
+    const double below =
+        x_names(f) != NULL ? widest_name(f, x_names(f), c->heat->n_x) - CLX_FONT_TICK : 0.0;
+    f->left = 10.0 + beside + 8.0 + (c->y.label != NULL ? 18.0 : 0.0);
     f->right = f->canvas->width - 16.0;
     if (f->has_value) {
         f->right -= 12.0 + 14.0 + 6.0 + widest_label(f, &f->value) + 22.0;
     }
-    f->bottom = f->canvas->height - 26.0 - (c->x.label != NULL ? 16.0 : 0.0);
+    f->bottom = f->canvas->height - 26.0 - below - (c->x.label != NULL ? 16.0 : 0.0);
     f->legend_top = 12.0 + (c->title != NULL ? 20.0 : 0.0);
     f->top = f->legend_top + clx_figure_legend(f, false);
     if (c->equal) {
@@ -100,6 +124,9 @@ double clx_figure_legend(clx_figure *f, bool draw)
 void clx_figure_grid(clx_figure *f)
 {
     cairo_t *cr = f->canvas->cr;
+    if (x_names(f) != NULL || y_names(f) != NULL) {
+        return;
+    }
     cairo_set_line_width(cr, 0.6);
     cairo_set_source_rgb(cr, 0.90, 0.90, 0.90);
     for (int i = 0; i < f->x.n; ++i) {
@@ -109,6 +136,26 @@ void clx_figure_grid(clx_figure *f)
     for (int i = 0; i < f->y.n; ++i) {
         const double y = clx_figure_y(f, f->y.at[i]);
         clx_canvas_line(f->canvas, f->left, y, f->right, y);
+    }
+}
+
+static void draw_x_names(clx_figure *f)
+{
+    const clast_heat *h = f->chart->heat;
+    for (int32_t i = 0; i < h->n_x; ++i) {
+        const double x = clx_figure_x(f, h->x_low + (i + 0.5) * (h->x_high - h->x_low) / h->n_x);
+        const double width = clx_canvas_text_width(f->canvas, CLX_FONT_TICK, h->x_name[i]);
+        clx_canvas_text_up(f->canvas, x + 3.0, f->bottom + 6.0 + 0.5 * width, CLX_FONT_TICK,
+                           h->x_name[i]);
+    }
+}
+
+static void draw_y_names(clx_figure *f)
+{
+    const clast_heat *h = f->chart->heat;
+    for (int32_t i = 0; i < h->n_y; ++i) {
+        const double y = clx_figure_y(f, h->y_low + (i + 0.5) * (h->y_high - h->y_low) / h->n_y);
+        clx_canvas_text(f->canvas, f->left - 6.0, y, RIGHT_MIDDLE, CLX_FONT_TICK, h->y_name[i]);
     }
 }
 
@@ -156,8 +203,8 @@ void clx_figure_frame(clx_figure *f)
     cairo_t *cr = f->canvas->cr;
     cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
     cairo_set_line_width(cr, 0.8);
-    draw_x_axis(f);
-    draw_y_axis(f);
+    (x_names(f) != NULL ? draw_x_names : draw_x_axis)(f);
+    (y_names(f) != NULL ? draw_y_names : draw_y_axis)(f);
     cairo_rectangle(cr, f->left, f->top, f->right - f->left, f->bottom - f->top);
     cairo_stroke(cr);
     if (f->chart->title != NULL) {
@@ -174,7 +221,8 @@ void clx_figure_value_bar(clx_figure *f)
     cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
     for (int i = 0; i < N_STRIP; ++i) {
         double rgb[3];
-        clx_colour_sequence((i + 0.5) / N_STRIP, rgb);
+        const bool is_signed = f->chart->heat != NULL && f->chart->heat->is_signed;
+        (is_signed ? clx_colour_diverging : clx_colour_sequence)((i + 0.5) / N_STRIP, rgb);
         clx_canvas_colour(f->canvas, rgb, 1.0);
         cairo_rectangle(cr, x, f->bottom - height * (i + 1) / N_STRIP, 14.0, height / N_STRIP);
         cairo_fill(cr);

@@ -3,6 +3,7 @@
 
 #include "math/colour.h"
 #include <math.h>
+#include <stdio.h>
 
 static void draw_path(clx_figure *f, const clast_series *e)
 {
@@ -85,6 +86,32 @@ static void draw_bars(clx_figure *f, const clast_series *e)
     cairo_stroke(cr);
 }
 
+/// Values in the cells, dark on light colours and light on dark ones.
+static void write_cells(clx_figure *f)
+{
+    const clast_heat *h = f->chart->heat;
+    static const double middle[2] = {0.5, 0.5};
+    const double size = fmin(8.0, (f->right - f->left) / h->n_x / 3.2);
+    for (int64_t k = 0; k < (int64_t)h->n_x * h->n_y; ++k) {
+        double rgb[3];
+        char text[16];
+        if (!isfinite(h->value[k])) {
+            continue;
+        }
+        (h->is_signed ? clx_colour_diverging
+                      : clx_colour_sequence)(clx_ticks_place(&f->value, h->value[k]), rgb);
+        const double light = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+        const double ink = light > 0.5 ? 0.0 : 1.0;
+        const int64_t row = k / h->n_x;
+        const double column = (double)(k % h->n_x) + 0.5;
+        const double x = h->x_low + column * (h->x_high - h->x_low) / h->n_x;
+        const double y = h->y_low + ((double)row + 0.5) * (h->y_high - h->y_low) / h->n_y;
+        cairo_set_source_rgb(f->canvas->cr, ink, ink, ink);
+        (void)snprintf(text, sizeof text, "%.2f", h->value[k]);
+        clx_canvas_text(f->canvas, clx_figure_x(f, x), clx_figure_y(f, y), middle, size, text);
+    }
+}
+
 void clx_figure_heat(clx_figure *f)
 {
     const clast_heat *h = f->chart->heat;
@@ -103,12 +130,16 @@ void clx_figure_heat(clx_figure *f)
         const double x1 = clx_figure_x(f, h->x_low + (column + 1) * dx);
         const double y0 = clx_figure_y(f, h->y_low + row * dy);
         const double y1 = clx_figure_y(f, h->y_low + (row + 1) * dy);
-        clx_colour_sequence(clx_ticks_place(&f->value, h->value[k]), rgb);
+        (h->is_signed ? clx_colour_diverging
+                      : clx_colour_sequence)(clx_ticks_place(&f->value, h->value[k]), rgb);
         clx_canvas_colour(f->canvas, rgb, 1.0);
         cairo_rectangle(cr, x0, y1, x1 - x0, y0 - y1);
         cairo_fill(cr);
     }
     cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+    if (h->has_text) {
+        write_cells(f);
+    }
 }
 
 void clx_figure_series(clx_figure *f, const clast_series *e)

@@ -46,7 +46,7 @@ static clast_status write_heat(const char *path)
         value[i] = pow(10.0, (i % 30) / 10.0 - (i / 30) / 20.0);
     }
     value[37] = NAN;
-    const clast_heat heat = {30, 20, value, 0.0, 3.0, 0.0, 2.0};
+    const clast_heat heat = {.n_x = 30, .n_y = 20, .value = value, .x_high = 3.0, .y_high = 2.0};
     const clast_chart chart = {.title = "Heat",
                                .x = {.label = "x (m)"},
                                .y = {.label = "y (m)"},

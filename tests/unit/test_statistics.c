@@ -229,6 +229,11 @@ static void two_numbers_need_two_components(void **state)
     CHECK_OK(clast_statistics_of(&t, NULL, &s));
     assert_int_equal(clast_statistics_n_component(&s, 1.0 - 1e-12), 2);
     CHECK_ABS(s.variance[2], 0.0, 1e-14 * 4);
+    const double r = s.r[1]; /* two columns: 1 + |r| and 1 - |r| */
+    CHECK_OK(clast_statistics_limit_pca(&s, 2));
+    assert_int_equal(s.n_pca, 2);
+    CHECK_REL(s.variance[0], 1.0 + fabs(r), 1e-14);
+    CHECK_REL(s.variance[1], 1.0 - fabs(r), 1e-14);
     clast_statistics_free(&s);
     clast_table_free(&t);
 }
@@ -334,7 +339,7 @@ static void histogram_counts_everything_once(void **state)
     }
     x[62] = INFINITY;
     CHECK_OK(clast_histogram_of(x, 63, &h));
-    CHECK_REL(h.edge[1] - h.edge[0], 0.2, 1e-12); /* 2 IQR / cbrt(62) = 0.115 -> 0.2 */
+    CHECK_REL(h.edge[1] - h.edge[0], 0.1, 1e-12); /* 2 IQR / cbrt(62) = 0.115 -> 0.1 */
     int64_t count = 0;
     double area = 0.0;
     for (int32_t k = 0; k < h.n_bin; ++k) {

@@ -1,0 +1,124 @@
+// Statistics of a set of grains, with their tables and charts.
+#include <clast/grain_statistics.h>
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include <clast/statistics_charts.h>
+#include <clast/table_file.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PATH_SIZE = 4096 };
+
+void clast_grain_statistics_free(clast_grain_statistics *statistics)
+{
+    clast_form_set_free(&statistics->set);
+    clast_statistics_free(&statistics->statistics);
+    *statistics = (clast_grain_statistics){0};
+}
+
+clast_status clast_grain_statistics_of(const clast_table *table, const char *columns,
+                                       const clast_bootstrap *bootstrap,
+                                       clast_grain_statistics *statistics)
+{
+    clast_status status = CLAST_OK;
+    clast_grain_statistics g = {0};
+    clast_table factors = {0};
+    CLX_TRY(clast_form_set_of(table, columns, &g.set));
+    CLX_TRY(clast_form_set_factors(&g.set, &factors));
+    CLX_TRY(clast_statistics_of(&factors, bootstrap, &g.statistics));
+    CLX_TRY(clast_statistics_limit_pca(&g.statistics, CLAST_N_FORM_FACTOR));
+    for (int64_t i = 0; i < g.set.n; ++i) {
+        ++g.zingg[clast_form_zingg(g.set.flatness[i], g.set.elongation[i])];
+    }
+    *statistics = g;
+    g = (clast_grain_statistics){0};
+done:
+    clast_table_free(&factors);
+    clast_grain_statistics_free(&g);
+    return status;
+}
+
+static clast_status path_of(const char *folder, const char *name, const char *extension,
+                            char path[PATH_SIZE])
+{
+    const int n = snprintf(path, PATH_SIZE, "%s/%s.%s", folder, name, extension);
+    return n < PATH_SIZE
+               ? CLAST_OK
+               : clx_fail(CLAST_E_DISK, "the path of folder %.40s... is too long", folder);
+}
+
+/// Writes a table that one of the library's functions made, and frees it.
+static clast_status write_table(clast_status made, clast_table *table, const char *folder,
+                                const char *name)
+{
+    clast_status status = made;
+    char path[PATH_SIZE];
+    CLX_TRY(status);
+    CLX_TRY(path_of(folder, name, "csv", path));
+    CLX_TRY(clast_table_write_csv(table, path));
+done:
+    clast_table_free(table);
+    return status;
+}
+
+static clast_status write_tables(const clast_grain_statistics *g, const char *folder)
+{
+    clast_status status = CLAST_OK;
+    const clast_statistics *s = &g->statistics;
+    clast_table t = {0};
+    CLX_TRY(write_table(clast_form_set_factors(&g->set, &t), &t, folder, "factors"));
+    CLX_TRY(write_table(clast_statistics_summary_table(s, &t), &t, folder, "statistics"));
+    CLX_TRY(write_table(clast_statistics_correlation_table(s, &t), &t, folder, "correlation"));
+    CLX_TRY(write_table(clast_statistics_pca_table(s, &t), &t, folder, "pca"));
+    if (g->set.n_left_out > 0) {
+        CLX_TRY(write_table(clast_form_set_left_out(&g->set, &t), &t, folder, "left_out"));
+    }
+done:
+    return status;
+}
+
+/// Histogram of one column as table and chart.
+static clast_status write_histogram(const double *x, int64_t n, const char *column,
+                                    const char *label, const char *folder, const char *extension)
+{
+    clast_status status = CLAST_OK;
+    clast_histogram h = {0};
+    clast_table t = {0};
+    char name[64];
+    char path[PATH_SIZE];
+    (void)snprintf(name, sizeof name, "histogram_%s", column);
+    CLX_TRY(clast_histogram_of(x, n, &h));
+    CLX_TRY(write_table(clast_histogram_table(&h, name, &t), &t, folder, name));
+    CLX_TRY(path_of(folder, name, extension, path));
+    CLX_TRY(clast_chart_histogram(x, n, label, path));
+done:
+    clast_histogram_free(&h);
+    return status;
+}
+
+clast_status clast_grain_statistics_write(const clast_grain_statistics *statistics,
+                                          const char *folder, const char *extension)
+{
+    clast_status status = CLAST_OK;
+    const clast_form_set *set = &statistics->set;
+    char path[PATH_SIZE];
+    CLX_TRY(write_tables(statistics, folder));
+    CLX_TRY(path_of(folder, "zingg", extension, path));
+    CLX_TRY(clast_chart_zingg(set, path));
+    CLX_TRY(
+        write_histogram(set->flatness, set->n, "flatness", "flatness S/I (-)", folder, extension));
+    CLX_TRY(write_histogram(set->elongation, set->n, "elongation", "elongation I/L (-)", folder,
+                            extension));
+    if (set->size != NULL && statistics->statistics.summary[statistics->statistics.n - 1].n > 0) {
+        CLX_TRY(write_histogram(set->size, set->n, "size", set->size_label, folder, extension));
+    }
+    CLX_TRY(path_of(folder, "correlation", extension, path));
+    CLX_TRY(clast_chart_correlation(&statistics->statistics, path));
+    if (statistics->statistics.n_pca > 0) {
+        CLX_TRY(path_of(folder, "pca", extension, path));
+        CLX_TRY(clast_chart_pca(&statistics->statistics, path));
+    }
+done:
+    return status;
+}
