@@ -41,6 +41,9 @@
 #include <clast/mesh_simplify.h>
 #include <clast/monitor.h>
 #include <clast/overlap.h>
+#include <clast/pack.h>
+#include <clast/pack_file.h>
+#include <clast/pack_run.h>
 #include <clast/parallel.h>
 #include <clast/pores.h>
 #include <clast/porosity.h>

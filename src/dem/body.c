@@ -33,6 +33,9 @@ static clast_status check_convex(const clast_shape *shape)
         "shape %s is not closed: %d open edges; run clast mesh repair, or take its hull (clast "
         "mesh hull)",
         shape->name, found.n_open_edge);
+    CLX_CHECK(found.n_part == 1, CLAST_E_GEOMETRY,
+              "shape %s has %d parts; a grain is one convex body, or a clump of spheres",
+              shape->name, found.n_part);
     CLX_CHECK(
         found.hull_volume - shape->volume <= DENT * found.hull_volume, CLAST_E_GEOMETRY,
         "shape %s is not convex: it fills %.4g %% of its hull; take the hull (clast mesh hull), "
@@ -71,6 +74,12 @@ done:
     clast_shape_free(&made.shape);
     clx_hull_core_destroy(made.core);
     return status;
+}
+
+void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
+{
+    measures[0] = dem->body[shape].shape.bounding_radius;
+    measures[1] = dem->body[shape].shape.volume;
 }
 
 static int32_t n_item_of(const clast_dem *dem, int32_t shape)

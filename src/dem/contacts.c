@@ -167,11 +167,30 @@ static void gather_block(int64_t begin, int64_t end, int32_t worker, void *conte
     }
 }
 
+/// Grains below which two threads took longer than one (bench_dem, 2 cores).
+enum { FEW = 1500 };
+
+bool clx_dem_is_serial(const clast_dem *dem)
+{
+    return clx_parallel_workers() == 1 || dem->n_grain < FEW;
+}
+
+void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context)
+{
+    if (!clx_dem_is_serial(dem)) {
+        clx_parallel_for(n, block, kernel, context);
+        return;
+    }
+    for (int64_t begin = 0; begin < n; begin += block) {
+        kernel(begin, begin + block < n ? begin + block : n, 0, context);
+    }
+}
+
 void clx_contacts(clast_dem *dem)
 {
     if (dem->list.in_begin != NULL) {
-        clx_parallel_for(dem->n_item, BLOCK, meet_block, dem);
-        clx_parallel_for(dem->n_grain, BLOCK, gather_block, dem);
+        clx_dem_for(dem, dem->n_item, BLOCK, meet_block, dem);
+        clx_dem_for(dem, dem->n_grain, BLOCK, gather_block, dem);
         return;
     }
     for (int32_t g = 0; g < dem->n_grain; ++g) {

@@ -7,6 +7,7 @@
 // A pair of items lies in the list of its lower item `a` (half list), sorted by `b`; walls are
 // items -1, -2, ... The record stays as long as the pair stays near, and with it the contact's
 // memory.
+#include "base/parallel.h"
 #include "base/status.h"
 #include "contact/convex.h"
 #include "dem/law.h"
@@ -227,6 +228,13 @@ void clx_list_free(clx_list *list);
 
 /// Room for n items; new ones are stale.
 clast_status clx_list_reserve(clx_list *list, int64_t n_item);
+
+/// Whether one thread does all the work: there is no other, or too few grains for the threads'
+/// meetings to pay.
+bool clx_dem_is_serial(const clast_dem *dem);
+
+/// clx_parallel_for, or the same blocks in this thread where that is as fast.
+void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context);
 
 /// Forces of all contacts: loads on all grains, memories gone on by a step.
 void clx_contacts(clast_dem *dem);

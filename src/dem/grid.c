@@ -7,11 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-bool clx_dem_is_serial(void)
-{
-    return clx_parallel_workers() == 1;
-}
-
 void clx_dem_grid_free(clx_dem_grid *grid)
 {
     clx_free(grid->cell);

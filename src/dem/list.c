@@ -340,7 +340,7 @@ clast_status clx_list_gather(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
-    if (clx_dem_is_serial()) {
+    if (clx_dem_is_serial(dem)) {
         clx_free(l->in_begin);
         l->in_begin = NULL;
         l->in_grain_capacity = 0;

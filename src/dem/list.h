@@ -31,6 +31,3 @@ static inline bool clx_dem_grid_is_here(const clx_dem_grid *grid, const clx_dem_
 
 /// Lists of links by the grain that they load, for several threads.
 clast_status clx_list_gather(clast_dem *dem);
-
-/// Whether one thread does all the work, which then needs no gathering.
-bool clx_dem_is_serial(void);

@@ -224,7 +224,7 @@ bool clx_move(clast_dem *dem)
                 .damping = pow(dem->drive.damping, dem->config.time_step),
                 .is_lost = dem->block_flag,
                 .is_due = dem->block_flag + n_block};
-    clx_parallel_for(dem->n_grain, BLOCK, move_block, &c);
+    clx_dem_for(dem, dem->n_grain, BLOCK, move_block, &c);
     bool fine = true;
     for (int64_t b = 0; b < n_block; ++b) {
         fine = fine && c.is_lost[b] == 0;

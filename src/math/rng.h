@@ -39,7 +39,10 @@ enum clx_stream {
     CLX_STREAM_FORM = 32,
     CLX_STREAM_SYNTHESIS = 33,
     CLX_STREAM_RESAMPLE = 40,
-    CLX_STREAM_FOLD = 41
+    CLX_STREAM_FOLD = 41,
+    CLX_STREAM_PACK_SHAPE = 50,
+    CLX_STREAM_PACK_VELOCITY = 51,
+    CLX_STREAM_PACK_TURN = 52
 };
 
 /// Cursor at the first draw of (seed, stream, index).

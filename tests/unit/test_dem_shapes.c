@@ -263,7 +263,7 @@ static void unusable_shapes_are_refused(void **state)
     CHECK_OK(clast_mesh_append(&box, &open));
     CHECK_OK(clast_shape_mesh("two", &box, &shape));
     CHECK_STATUS(clast_dem_add_shape(dem, &shape, &id), CLAST_E_GEOMETRY);
-    assert_non_null(strstr(clast_error_detail(), "not convex"));
+    assert_non_null(strstr(clast_error_detail(), "2 parts"));
     clast_shape_free(&shape);
     clast_mesh_free(&open);
     clast_mesh_free(&box);

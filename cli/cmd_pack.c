@@ -1,0 +1,112 @@
+// clast pack: pour, shake and calm a bed of grains by the discrete element method.
+#include "command.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// An option that --resume would overrule, or NULL.
+static const char *changed_option(const clast_pack_config *config)
+{
+    clast_pack_config fresh;
+    const char *changed = NULL;
+    if (clast_fields_default(clast_pack_fields, &fresh) != CLAST_OK) {
+        return NULL;
+    }
+    for (const clast_field *f = clast_pack_fields; f->name != NULL && changed == NULL; ++f) {
+        char a[512] = "";
+        char b[512] = "";
+        const int32_t n = clast_field_count(f, config);
+        if (strcmp(f->name, "resume") == 0) {
+            continue;
+        }
+        changed = n != clast_field_count(f, &fresh) ? f->name : NULL;
+        for (int32_t i = 0; i < n && changed == NULL; ++i) {
+            (void)clast_field_format(f, config, i, a, sizeof a);
+            (void)clast_field_format(f, &fresh, i, b, sizeof b);
+            changed = strcmp(a, b) != 0 ? f->name : NULL;
+        }
+    }
+    clast_fields_free(clast_pack_fields, &fresh);
+    return changed;
+}
+
+static clast_status resume(const cli_common *common, const clast_pack_config *config,
+                           const clast_monitor *monitor, clast_pack_result *result)
+{
+    const char *changed = changed_option(config);
+    if (changed != NULL) {
+        return cli_fail(CLAST_E_USAGE, "--resume takes every option from %s; drop %s",
+                        config->resume, changed);
+    }
+    if (common->output != NULL) {
+        return cli_fail(CLAST_E_USAGE, "--resume writes into %s; drop -o", config->resume);
+    }
+    return clast_pack_resume(config->resume, monitor, result);
+}
+
+static void print_text(const clast_pack_result *r)
+{
+    (void)printf("%-26s %d in %d fills, %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
+                 r->dem.mass);
+    (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
+                 r->converged ? " (still)" : "", (long long)r->dem.step, r->dem.time);
+    if (isfinite(r->porosity)) {
+        (void)printf("%-26s %.4f between z = %.4g and %.4g mm\n", "bulk porosity", r->porosity,
+                     1e3 * r->z_low, 1e3 * r->z_high);
+    } else {
+        (void)printf("%-26s none: no bed yet, or trimmed away\n", "bulk porosity");
+    }
+    (void)printf("%-26s %.3f (%lld contacts of grains, %lld of walls)\n", "coordination",
+                 r->dem.coordination, (long long)r->dem.n_contact,
+                 (long long)r->dem.n_wall_contact);
+    (void)printf("%-26s %.3g m\n", "deepest overlap", r->dem.max_overlap);
+    (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
+                 r->grain_steps > 0.0 ? 1e9 * r->step_s / r->grain_steps : 0.0);
+    (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    const clast_pack_config *config = context;
+    clast_pack_result result = {0};
+    const clast_monitor monitor = cli_monitor(common);
+    char *text = NULL;
+    const clast_status status = config->resume[0] != '\0'
+                                    ? resume(common, config, &monitor, &result)
+                                    : clast_pack_run(config, common->output, &monitor, &result);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    if (!common->json) {
+        print_text(&result);
+        return CLAST_OK;
+    }
+    const clast_status made = clast_pack_result_json(&result, true, &text);
+    if (made == CLAST_OK) {
+        (void)puts(text);
+    }
+    clast_text_free(text);
+    return made;
+}
+
+static const char details[] =
+    "Grains are made in the upper part of the domain and fall, fill after fill, until the mass is\n"
+    "reached; shaken meanwhile and for shaking_time more; then damped until the bed is still.\n"
+    "Defaults are those of Rettinger, Ruede, Vollmer and Frings (eqs 4 to 15, sec. 4); options "
+    "name\n"
+    "where their program differs. --max-steps ends a run early, as it is then.\n\n"
+    "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json,\n"
+    "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
+    "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.";
+
+const cli_command cli_pack = {
+    .name = "pack",
+    .arguments = "",
+    .summary = "pour, shake and calm a bed of grains (DEM); its porosity",
+    .details = details,
+    .fields = clast_pack_fields,
+    .config_size = sizeof(clast_pack_config),
+    .takes_config = true,
+    .run = run,
+};

@@ -1,0 +1,129 @@
+#pragma once
+// A bed of grains, poured, shaken and calmed: the published process as a state machine.
+//                                  [Rettinger, Ruede, Vollmer, Frings, sec. 4; docs/theory/dem.md]
+#include <clast/dem.h>
+#include <clast/grading.h>
+#include <clast/monitor.h>
+#include <clast/porosity.h>
+
+typedef enum {
+    CLAST_PACK_GENERATE, ///< grains are made in the upper part and fall
+    CLAST_PACK_SHAKE,    ///< all are made; shaken for shaking_time
+    CLAST_PACK_DAMP,     ///< velocities are damped until the bed is still
+    CLAST_PACK_DONE
+} clast_pack_phase;
+
+typedef enum {
+    CLAST_PACK_CUBIC, ///< hexahedral lattice, as published
+    CLAST_PACK_HCP,   ///< hexagonal close packed, as the reference program has it
+    CLAST_PACK_SHELF  ///< rows and layers as close as the grains' spheres allow
+} clast_pack_generator;
+
+typedef enum {
+    CLAST_PACK_BY_HEIGHT, ///< mean height changes by less than height_change in check_time
+    CLAST_PACK_BY_SPEED,  ///< no grain is faster than still_speed
+    CLAST_PACK_BY_EITHER  ///< the reference program's way: whichever comes first
+} clast_pack_rule;
+
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of the process
+typedef struct clast_pack_config {
+    clast_dem_config dem;
+
+    char *curve; ///< sizes, as clast_grading_load reads them
+    int32_t spread, count;
+    int32_t size_meaning; ///< 0: sieve size of eq. 1; 1: volume-equivalent diameter
+    clast_text_list shapes;
+    clast_f64_list shape_weight;
+    char *unit;    ///< of surface files; only ratios count, so it may be empty
+    bool hull;     ///< take convex hulls of surfaces
+    bool form_law; ///< stretch every grain to a form drawn from a law
+    double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
+    double density; ///< [kg/m3]
+    double mass;    ///< wanted [kg]
+    uint64_t seed;
+
+    int32_t generator;
+    double spacing;               ///< h_g; 0: the published one of the curve, or as grains need [m]
+    double fill_low, fill_high;   ///< of the height
+    double first_low, first_high; ///< the same for the first fill; below 0: as all
+    double initial_speed;         ///< u_init [m/s]
+    bool random_turn;             ///< grains begin at random turns; off: as their shape is stored
+
+    double shake_amplitude, shake_period; ///< A_s [m], T_s [s]
+    double shaking_time;                  ///< t_s after the last grain is made [s]
+    bool shake_from_start;
+    double damping; ///< c_d
+
+    int32_t rule;
+    double height_change;    ///< [m]
+    double check_time;       ///< [s]
+    double still_speed;      ///< [m/s]
+    int64_t max_steps;       ///< stop there, whatever the state; 0: never
+    double max_damping_time; ///< of the damped phase before giving up [s]
+
+    double layer, cut, trim; ///< porosity profile [m], [-], [m]; trim below 0: as published
+    double series_time;      ///< between rows of the time series [s]
+    double frame_time;       ///< between pictures of the state for ParaView; 0: only the end [s]
+    double checkpoint_time;  ///< between checkpoints, of the clock [s]
+    char *resume;            ///< run folder to go on with
+} clast_pack_config;
+
+CLAST_API extern const clast_field clast_pack_fields[];
+
+/// What a packing is made of, loaded. Borrowed by clast_pack_create.
+typedef struct clast_pack_input {
+    const clast_grading *grading;
+    const clast_curve *curve; ///< wanted, or NULL when sizes follow no sieve curve
+    int32_t n_shape;
+    const clast_shape *shape; ///< [n_shape], any size
+} clast_pack_input;
+
+/// A packing under way. Opaque.
+typedef struct clast_pack clast_pack;
+
+/// @return CLAST_E_CONFIG for weights that do not match the shapes, a mass that cannot fit under
+/// the place of generation, a lattice that holds no grain; what clast_dem_create and
+/// clast_dem_add_shape refuse
+CLAST_API clast_status clast_pack_create(const clast_pack_config *config,
+                                         const clast_pack_input *input, clast_pack **pack);
+CLAST_API void clast_pack_destroy(clast_pack *pack); ///< NULL is allowed
+
+/// Goes on by at most n_step steps, or until done.
+/// @return CLAST_E_CONVERGE when the run explodes, or is not still after max_damping_time
+CLAST_API clast_status clast_pack_advance(clast_pack *pack, int64_t n_step);
+
+CLAST_API bool clast_pack_is_over(const clast_pack *pack); ///< done, or at max_steps
+CLAST_API clast_pack_phase clast_pack_phase_of(const clast_pack *pack);
+CLAST_API const char *clast_pack_phase_name(clast_pack_phase phase); ///< "generate"
+CLAST_API const clast_dem *clast_pack_dem(const clast_pack *pack);
+CLAST_API double clast_pack_mass(const clast_pack *pack); ///< made so far [kg]
+
+/// Expected step of the end, as far as it can be told; 0 when not.
+CLAST_API int64_t clast_pack_expected_steps(const clast_pack *pack);
+
+/// What a packing ended as.
+typedef struct clast_pack_result {
+    clast_dem_measures dem;
+    clast_pack_phase phase;
+    bool converged;
+    uint64_t hash;
+    int32_t n_fill;
+    double wall_s, step_s; ///< clock of the run; of the stepping alone
+    double grain_steps;    ///< sum over steps of the grains that were there
+    double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
+    double z_low, z_high;  ///< its interval [m]
+} clast_pack_result;
+
+CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);
+
+/// Where the grains lie, for porosities.
+CLAST_API clast_bed clast_pack_bed(const clast_pack_config *config);
+CLAST_API clast_porosity_options clast_pack_porosity(const clast_pack_config *config);
+
+/// Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J,
+/// max_speed_m/s, n_contact, n_wall_contact, max_overlap_m. Borrowed.
+CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
+
+/// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
+/// @return CLAST_E_USAGE when sizes follow no sieve curve
+CLAST_API clast_status clast_pack_achieved(const clast_pack *pack, clast_table *table);

@@ -1,0 +1,25 @@
+#pragma once
+// A whole run of a packing: its inputs, folder, checkpoints, and going on.
+#include <clast/pack.h>
+
+/// Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv,
+/// summary.json, manifest.json, charts and frames into it, and checkpoints on the way.
+///
+/// All files but manifest.json are the same bytes for equal runs, however often they were stopped.
+///
+/// @param folder   NULL for no files    @param monitor  may be NULL
+/// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, result is untouched;
+///         CLAST_E_CONVERGE when the run explodes or is never still; CLAST_E_USAGE when the folder
+///         holds an unfinished run
+CLAST_API clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
+                                      const clast_monitor *monitor, clast_pack_result *result);
+
+/// Goes on from the newest whole checkpoint of a folder.
+CLAST_API clast_status clast_pack_resume(const char *folder, const clast_monitor *monitor,
+                                         clast_pack_result *result);
+
+/// The result as one JSON object, names of DESIGN section 7. Free it with clast_text_free.
+///
+/// @param times  with the clocks wall_s and ns_per_grain_step, which differ from run to run
+CLAST_API clast_status clast_pack_result_json(const clast_pack_result *result, bool times,
+                                              char **text);

@@ -1,0 +1,183 @@
+// Simulations to plain arrays and back.
+#include "dem/saved.h"
+
+#include "base/alloc.h"
+#include "dem/list.h"
+#include <string.h>
+
+enum { MEMORY = sizeof(clx_contact_memory) };
+
+void clx_dem_saved_free(clx_dem_saved *s)
+{
+    clx_free(s->shape);
+    clx_free(s->grain);
+    clx_free(s->anchor);
+    clx_free(s->id);
+    clx_free(s->link);
+    clx_free(s->memory);
+    *s = (clx_dem_saved){0};
+}
+
+static void put_grain(const clast_dem *dem, int64_t i, double *out)
+{
+    const clx_grain *g = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    memcpy(out, g->position, 3 * sizeof *out);
+    memcpy(out + 3, g->velocity, 3 * sizeof *out);
+    memcpy(out + 6, g->spin, 3 * sizeof *out);
+    memcpy(out + 9, m->orientation, 4 * sizeof *out);
+    memcpy(out + 13, m->angular, 3 * sizeof *out);
+    out[16] = g->scale;
+    out[17] = m->density;
+    out[18] = dem->travel[i];
+}
+
+static void put_link(const clx_link *link, int32_t *id, double *out)
+{
+    id[0] = link->a;
+    id[1] = link->b;
+    id[2] = link->period[0];
+    id[3] = link->period[1];
+    id[4] = link->flags;
+    out[0] = link->wake;
+    memcpy(out + 1, link->slide, 3 * sizeof *out);
+}
+
+clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
+{
+    clast_status status = CLAST_OK;
+    const clx_list *l = &dem->list;
+    clx_dem_saved s = {.step = dem->step,
+                       .n_refresh = l->n_refresh,
+                       .n_grain = dem->n_grain,
+                       .n_known = l->n_known,
+                       .n_link = l->n_link,
+                       .memory_width = MEMORY,
+                       .is_due = l->is_due};
+    CLX_TRY(clx_alloc(&s.shape, s.n_grain, sizeof *s.shape));
+    CLX_TRY(clx_alloc(&s.grain, s.n_grain * CLX_SAVED_GRAIN, sizeof *s.grain));
+    CLX_TRY(clx_alloc(&s.anchor, s.n_known * CLX_SAVED_ANCHOR, sizeof *s.anchor));
+    CLX_TRY(clx_alloc(&s.id, s.n_link * CLX_SAVED_ID, sizeof *s.id));
+    CLX_TRY(clx_alloc(&s.link, s.n_link * CLX_SAVED_LINK, sizeof *s.link));
+    for (int64_t i = 0; i < s.n_grain; ++i) {
+        s.shape[i] = dem->grain[i].shape;
+        put_grain(dem, i, &s.grain[i * CLX_SAVED_GRAIN]);
+    }
+    for (int64_t i = 0; i < s.n_known; ++i) {
+        memcpy(&s.anchor[i * CLX_SAVED_ANCHOR], &l->anchor[i], CLX_SAVED_ANCHOR * sizeof(double));
+    }
+    for (int64_t k = 0; k < s.n_link; ++k) {
+        put_link(&l->link[k], &s.id[k * CLX_SAVED_ID], &s.link[k * CLX_SAVED_LINK]);
+    }
+    if (l->memory != NULL && l->n_remembered == l->n_link) {
+        CLX_TRY(clx_alloc(&s.memory, s.n_link * MEMORY, 1));
+        memcpy(s.memory, l->memory, (size_t)s.n_link * MEMORY);
+    }
+    *saved = s;
+    s = (clx_dem_saved){0};
+done:
+    clx_dem_saved_free(&s);
+    return status;
+}
+
+static clast_status take_grains(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < s->n_grain; ++i) {
+        const double *in = &s->grain[i * CLX_SAVED_GRAIN];
+        clast_dem_grain g = {.shape = s->shape[i], .scale = in[16], .density = in[17]};
+        v3_copy(g.position, in);
+        v3_copy(g.velocity, in + 3);
+        v3_copy(g.spin, in + 6);
+        memcpy(g.orientation, in + 9, sizeof g.orientation);
+        CLX_TRY(clast_dem_add_grains(dem, 1, &g));
+        v3_copy(dem->motion[i].angular, in + 13);
+        dem->travel[i] = in[18];
+        CLX_CHECK(isfinite(in[13]) && isfinite(in[14]) && isfinite(in[15]) && in[18] >= 0.0 &&
+                      isfinite(in[18]),
+                  CLAST_E_FORMAT, "grain %lld of the checkpoint: momentum or path is not finite",
+                  (long long)i);
+    }
+done:
+    if (status == CLAST_E_USAGE || status == CLAST_E_GEOMETRY) {
+        clx_fail_prefix("checkpoint");
+        status = CLAST_E_FORMAT;
+    }
+    return status;
+}
+
+static clast_status take_link(const clast_dem *dem, const clx_dem_saved *s, int64_t k)
+{
+    clast_status status = CLAST_OK;
+    const int32_t *id = &s->id[k * CLX_SAVED_ID];
+    const double *in = &s->link[k * CLX_SAVED_LINK];
+    const bool is_next = k == 0 || id[0] > id[-CLX_SAVED_ID] ||
+                         (id[0] == id[-CLX_SAVED_ID] && id[1] > id[1 - CLX_SAVED_ID]);
+    CLX_CHECK(id[0] >= 0 && id[0] < dem->n_item && id[1] < dem->n_item && id[1] >= -dem->n_wall &&
+                  (id[1] < 0 || id[1] > id[0]) && is_next,
+              CLAST_E_FORMAT, "link %lld of the checkpoint joins %d and %d", (long long)k, id[0],
+              id[1]);
+    CLX_CHECK(!isnan(in[0]) && isfinite(in[1]) && isfinite(in[2]) && isfinite(in[3]),
+              CLAST_E_FORMAT, "link %lld of the checkpoint is not finite", (long long)k);
+    clx_link *link = &dem->list.link[k];
+    *link = (clx_link){.a = id[0],
+                       .b = id[1],
+                       .period = {(int16_t)id[2], (int16_t)id[3]},
+                       .flags = id[4],
+                       .wake = in[0]};
+    memcpy(link->slide, in + 1, sizeof link->slide);
+done:
+    return status;
+}
+
+static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    CLX_TRY(clx_list_reserve(l, dem->n_item));
+    CLX_TRY(clx_grow(&l->link, &l->capacity, s->n_link + 1, sizeof *l->link));
+    for (int64_t k = 0; k < s->n_link; ++k) {
+        CLX_TRY(take_link(dem, s, k));
+    }
+    int64_t k = 0;
+    for (int32_t i = 0; i <= dem->n_item; ++i) {
+        while (k < s->n_link && l->link[k].a < i) {
+            ++k;
+        }
+        l->begin[i] = k;
+    }
+    l->n_link = s->n_link;
+    if (s->memory != NULL) {
+        CLX_CHECK(!dem->all_round && s->memory_width == MEMORY, CLAST_E_FORMAT,
+                  "the checkpoint's contact memories are of another version, or of other shapes");
+        CLX_TRY(clx_grow(&l->memory, &l->memory_capacity, l->capacity, sizeof *l->memory));
+        memcpy(l->memory, s->memory, (size_t)s->n_link * MEMORY);
+        l->n_remembered = s->n_link;
+    }
+    CLX_TRY(clx_list_gather(dem));
+done:
+    return status;
+}
+
+clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(dem->n_grain == 0 && s->n_grain <= INT32_MAX && s->step >= 0, CLAST_E_FORMAT,
+              "the checkpoint does not fit");
+    CLX_TRY(take_grains(dem, s));
+    CLX_CHECK(s->n_known >= 0 && s->n_known <= dem->n_item, CLAST_E_FORMAT,
+              "the checkpoint knows %lld items of %d", (long long)s->n_known, dem->n_item);
+    CLX_TRY(take_links(dem, s));
+    for (int64_t i = 0; i < s->n_known; ++i) {
+        memcpy(&dem->list.anchor[i], &s->anchor[i * CLX_SAVED_ANCHOR],
+               CLX_SAVED_ANCHOR * sizeof(double));
+        CLX_CHECK(isfinite(dem->list.anchor[i].margin) && isfinite(dem->list.anchor[i].position[0]),
+                  CLAST_E_FORMAT, "anchor %lld of the checkpoint is not finite", (long long)i);
+    }
+    dem->list.n_known = (int32_t)s->n_known;
+    dem->list.is_due = s->is_due;
+    dem->list.n_refresh = s->n_refresh;
+    dem->step = s->step;
+done:
+    return status;
+}

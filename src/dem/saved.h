@@ -1,0 +1,28 @@
+#pragma once
+// All that a simulation needs to go on bit by bit, as plain arrays for a checkpoint.
+#include "base/status.h"
+#include <clast/dem.h>
+
+enum { CLX_SAVED_GRAIN = 19, CLX_SAVED_ANCHOR = 8, CLX_SAVED_ID = 5, CLX_SAVED_LINK = 4 };
+
+typedef struct clx_dem_saved {
+    int64_t step, n_refresh;
+    int64_t n_grain, n_known, n_link;
+    bool is_due;
+    int32_t *shape; ///< [n_grain]
+    double *grain;  ///< [n_grain][19] position, velocity, spin, orientation, angular momentum,
+                    ///< scale, density, travel
+    double *anchor; ///< [n_known][8] of items: position, orientation, margin
+    int32_t *id;    ///< [n_link][5] a, b, image in x and y, flags
+    double *link;   ///< [n_link][4] wake, slide
+    int32_t memory_width; ///< bytes of a contact memory
+    uint8_t
+        *memory; ///< [n_link][memory_width] contact memories, or NULL while all items are spheres
+} clx_dem_saved;
+
+clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved);
+void clx_dem_saved_free(clx_dem_saved *saved);
+
+/// Fills a simulation that has the same shapes and no grains.
+/// @return CLAST_E_FORMAT for numbers that no simulation writes
+clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *saved);

@@ -1,0 +1,159 @@
+// Loads what a packing's configuration names: sizes and shapes.
+#include <clast/pack_file.h>
+
+#include "aggregate/config.h"
+#include "base/alloc.h"
+#include <clast/grading_file.h>
+#include <clast/hull.h>
+#include <clast/mesh_file.h>
+#include <clast/spheres_file.h>
+#include <clast/state.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void clast_pack_unload(clast_pack_source *source)
+{
+    for (int32_t i = 0; i < source->n_shape; ++i) {
+        clast_shape_free(&source->shape[i]);
+    }
+    clx_free(source->shape);
+    clast_grading_destroy(source->grading);
+    clast_curve_free(&source->curve);
+    *source = (clast_pack_source){0};
+}
+
+static bool ends_in(const char *text, const char *end)
+{
+    const size_t n = strlen(text);
+    const size_t m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/// "ellipsoid:a,b,c" with full axes, any unit.
+static clast_status read_ellipsoid(const char *text, const char *name, clast_shape *shape)
+{
+    double axes[3];
+    if (clx_numbers_parse(text + strlen("ellipsoid:"), 3, axes) != CLAST_OK ||
+        fmin(axes[0], fmin(axes[1], axes[2])) <= 0.0) {
+        return clx_fail(CLAST_E_CONFIG, "'%s': write ellipsoid:a,b,c with three axes above 0",
+                        text);
+    }
+    for (int k = 0; k < 3; ++k) {
+        axes[k] *= 0.5;
+    }
+    return clast_shape_ellipsoid(name, axes, shape);
+}
+
+static clast_status read_surface(const clast_pack_config *config, const char *path,
+                                 const char *name, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh mesh = {0};
+    clast_mesh hull = {0};
+    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
+    if (config->hull) {
+        CLX_TRY(clast_mesh_hull(&mesh, &hull));
+    }
+    CLX_TRY(clast_shape_mesh(name, config->hull ? &hull : &mesh, shape));
+done:
+    clast_mesh_free(&mesh);
+    clast_mesh_free(&hull);
+    return status;
+}
+
+static clast_status read_clump(const char *path, const char *name, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres spheres = {0};
+    CLX_TRY(clast_spheres_read(path, NULL, &spheres));
+    CLX_TRY(clast_shape_clump(name, &spheres, shape));
+done:
+    clast_spheres_free(&spheres);
+    return status;
+}
+
+static clast_status read_shape(const clast_pack_config *config, int32_t i, clast_shape *shape)
+{
+    const char *text = config->shapes.item[i];
+    char name[256];
+    const char *slash = strrchr(text, '/');
+    (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, slash != NULL ? slash + 1 : text);
+    if (strcmp(text, "sphere") == 0) {
+        return clast_shape_sphere(name, 0.5, shape);
+    }
+    if (strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0) {
+        return read_ellipsoid(text, name, shape);
+    }
+    if (ends_in(text, ".csv") || ends_in(text, ".h5")) {
+        return read_clump(text, name, shape);
+    }
+    return read_surface(config, text, name, shape);
+}
+
+clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
+{
+    clast_status status = CLAST_OK;
+    clast_pack_source made = {0};
+    double factor = 1.0;
+    CLX_CHECK(config->shapes.n > 0, CLAST_E_CONFIG, "a packing needs a shape (shapes)");
+    if (config->unit[0] != '\0') {
+        CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
+    }
+    CLX_TRY(clast_grading_load(config->curve, (clast_grading_spread)config->spread,
+                               (clast_grading_count)config->count, &made.curve, &made.grading));
+    CLX_TRY(clx_alloc(&made.shape, config->shapes.n, sizeof *made.shape));
+    for (int32_t i = 0; i < config->shapes.n; ++i) {
+        status = read_shape(config, i, &made.shape[i]);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("shapes");
+            goto done;
+        }
+        ++made.n_shape;
+    }
+    made.input = (clast_pack_input){.grading = made.grading,
+                                    .curve = made.curve.n_class > 0 ? &source->curve : NULL,
+                                    .n_shape = made.n_shape,
+                                    .shape = made.shape};
+    *source = made;
+    made = (clast_pack_source){0};
+done:
+    clast_pack_unload(&made);
+    return status;
+}
+
+static bool is_shape_file(const char *text)
+{
+    return strcmp(text, "sphere") != 0 && strncmp(text, "ellipsoid:", 10) != 0;
+}
+
+/// The file of sizes within the option curve, or NULL.
+static const char *curve_file(const char *text)
+{
+    if (strncmp(text, "list:", 5) == 0) {
+        return text + 5;
+    }
+    return ends_in(text, ".csv") || ends_in(text, ".txt") || ends_in(text, ".tsv") ? text : NULL;
+}
+
+int32_t clast_pack_n_file(const clast_pack_config *config)
+{
+    int32_t n = curve_file(config->curve) != NULL ? 1 : 0;
+    for (int32_t i = 0; i < config->shapes.n; ++i) {
+        n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
+    }
+    return n;
+}
+
+const char *clast_pack_file(const clast_pack_config *config, int32_t i, const char **role)
+{
+    *role = "shapes";
+    for (int32_t k = 0; k < config->shapes.n; ++k) {
+        if (is_shape_file(config->shapes.item[k]) && i-- == 0) {
+            return config->shapes.item[k];
+        }
+    }
+    *role = "curve";
+    return curve_file(config->curve);
+}

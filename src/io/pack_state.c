@@ -1,0 +1,217 @@
+// Packings to state files and back. Beside what every state holds (docs/theory/state-file.md), the
+// folder /pack has the process and the simulation, array by array.
+#include "io/pack_state.h"
+
+#include "base/alloc.h"
+#include "io/checkpoint.h"
+#include "io/state.h"
+#include "pack/saved.h"
+#include <string.h>
+
+enum { N_ARRAY = 8 };
+
+typedef struct {
+    const char *name;
+    clx_h5_type type;
+    int64_t n, width;
+    void *data;
+} array;
+
+/// The arrays of a saved packing: pointers into it.
+static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
+{
+    clx_dem_saved *d = &s->dem;
+    int n = 0;
+    a[n++] = (array){"/pack/count", CLX_H5_I64, CLX_PACK_COUNTS, 1, s->count};
+    a[n++] = (array){"/pack/number", CLX_H5_F64, CLX_PACK_NUMBERS, 1, s->number};
+    a[n++] = (array){"/pack/shape", CLX_H5_I32, d->n_grain, 1, d->shape};
+    a[n++] = (array){"/pack/grain", CLX_H5_F64, d->n_grain, CLX_SAVED_GRAIN, d->grain};
+    a[n++] = (array){"/pack/anchor", CLX_H5_F64, d->n_known, CLX_SAVED_ANCHOR, d->anchor};
+    a[n++] = (array){"/pack/link_id", CLX_H5_I32, d->n_link, CLX_SAVED_ID, d->id};
+    a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_link, CLX_SAVED_LINK, d->link};
+    if (d->memory != NULL) {
+        a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_link, d->memory_width, d->memory};
+    }
+    return n;
+}
+
+static clast_status put_pack(clx_h5 *h5, clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    array a[N_ARRAY];
+    const int n = list_arrays(s, a);
+    const int32_t is_due = s->dem.is_due ? 1 : 0;
+    CLX_TRY(clx_h5_write_folder(h5, "/pack"));
+    CLX_TRY(clx_h5_write_number(h5, "/pack", "step", CLX_H5_I64, &s->dem.step));
+    CLX_TRY(clx_h5_write_number(h5, "/pack", "n_refresh", CLX_H5_I64, &s->dem.n_refresh));
+    CLX_TRY(clx_h5_write_number(h5, "/pack", "is_due", CLX_H5_I32, &is_due));
+    for (int k = 0; k < n; ++k) {
+        const int64_t shape[2] = {a[k].n, a[k].width};
+        CLX_TRY(clx_h5_write(h5, a[k].name, a[k].type, a[k].width == 1 ? 1 : 2, shape, a[k].data));
+    }
+done:
+    return status;
+}
+
+static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
+{
+    clast_status status = CLAST_OK;
+    clx_pack_saved saved = {0};
+    clast_assembly grains = {0};
+    clast_table table[2] = {{0}, {0}};
+    clast_state state = {.assembly = &grains, .n_table = 2, .table = table};
+    clx_h5 *made = NULL;
+    const clast_bed bed = clast_pack_bed(&pack->config);
+    CLX_TRY(clx_pack_save(pack, &saved));
+    CLX_TRY(clast_dem_assembly(pack->dem, &grains));
+    saved.count[CLX_PACK_COUNTS - 1] = grains.n_shape;
+    CLX_TRY(clx_alloc_text(&state.config, config));
+    CLX_TRY(clast_bed_table(&bed, &table[0]));
+    table[1] = *saved.series; // borrowed
+    CLX_TRY(clx_h5_create(&made));
+    CLX_TRY(clx_state_put(made, &state));
+    CLX_TRY(put_pack(made, &saved));
+    *h5 = made;
+    made = NULL;
+done:
+    clx_h5_close(made);
+    clx_free(state.config);
+    clast_table_free(&table[0]);
+    clast_assembly_free(&grains);
+    clx_dem_saved_free(&saved.dem);
+    return status;
+}
+
+clast_status clx_pack_state_write(const char *path, const char *config, clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clx_h5 *h5 = NULL;
+    CLX_TRY(build(config, pack, &h5));
+    CLX_TRY(clx_h5_commit(h5, path));
+done:
+    clx_h5_close(h5);
+    return status;
+}
+
+clast_status clx_pack_checkpoint_write(const char *folder, const char *config, clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clx_h5 *h5 = NULL;
+    CLX_TRY(build(config, pack, &h5));
+    CLX_TRY(clx_checkpoint_write(h5, folder, clast_dem_n_step(pack->dem)));
+done:
+    clx_h5_close(h5);
+    return status;
+}
+
+void clx_pack_checkpoint_free(clx_pack_checkpoint *found)
+{
+    clx_free(found->path);
+    clx_free(found->config);
+    *found = (clx_pack_checkpoint){0};
+}
+
+clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *found)
+{
+    clast_status status = CLAST_OK;
+    clx_pack_checkpoint made = {0};
+    clx_h5 *h5 = NULL;
+    int64_t step = 0;
+    CLX_TRY(clx_checkpoint_newest(folder, &made.path, &step, NULL));
+    CLX_TRY(clx_h5_open(made.path, &h5));
+    CLX_TRY(clx_state_take_head(h5, NULL, NULL));
+    CLX_CHECK(clx_h5_has(h5, "/pack"), CLAST_E_FORMAT, "%s is no checkpoint of a packing",
+              made.path);
+    CLX_TRY(clx_h5_read_text(h5, "/", "config", &made.config));
+    *found = made;
+    made = (clx_pack_checkpoint){0};
+done:
+    clx_h5_close(h5);
+    clx_pack_checkpoint_free(&made);
+    return status;
+}
+
+/// Room for the arrays, as the file declares them.
+static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_dem_saved *d = &s->dem;
+    int64_t shape[2];
+    CLX_TRY(clx_h5_shape(h5, "/pack/grain", CLX_H5_F64, 2, shape));
+    d->n_grain = shape[0];
+    CLX_TRY(clx_h5_shape(h5, "/pack/anchor", CLX_H5_F64, 2, shape));
+    d->n_known = shape[0];
+    CLX_TRY(clx_h5_shape(h5, "/pack/link", CLX_H5_F64, 2, shape));
+    d->n_link = shape[0];
+    CLX_TRY(clx_alloc(&d->shape, d->n_grain, sizeof *d->shape));
+    CLX_TRY(clx_alloc(&d->grain, d->n_grain * CLX_SAVED_GRAIN, sizeof *d->grain));
+    CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
+    CLX_TRY(clx_alloc(&d->id, d->n_link * CLX_SAVED_ID, sizeof *d->id));
+    CLX_TRY(clx_alloc(&d->link, d->n_link * CLX_SAVED_LINK, sizeof *d->link));
+    if (clx_h5_has(h5, "/pack/memory")) {
+        CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));
+        CLX_CHECK(shape[0] == d->n_link && shape[1] > 0 && shape[1] < 4096, CLAST_E_FORMAT,
+                  "the checkpoint's contact memories do not match its links");
+        d->memory_width = (int32_t)shape[1];
+        CLX_TRY(clx_alloc(&d->memory, shape[0] * shape[1], 1));
+    }
+done:
+    return status;
+}
+
+static clast_status take_pack(clx_h5 *h5, clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    array a[N_ARRAY];
+    int32_t is_due = 0;
+    CLX_TRY(measure(h5, s));
+    const int n = list_arrays(s, a);
+    for (int k = 0; k < n; ++k) {
+        const int64_t shape[2] = {a[k].n, a[k].width};
+        CLX_TRY(clx_h5_read(h5, a[k].name, a[k].type, a[k].width == 1 ? 1 : 2, shape, a[k].data));
+    }
+    CLX_TRY(clx_h5_read_number(h5, "/pack", "step", CLX_H5_I64, &s->dem.step));
+    CLX_TRY(clx_h5_read_number(h5, "/pack", "n_refresh", CLX_H5_I64, &s->dem.n_refresh));
+    CLX_TRY(clx_h5_read_number(h5, "/pack", "is_due", CLX_H5_I32, &is_due));
+    s->dem.is_due = is_due != 0;
+done:
+    return status;
+}
+
+static const clast_table *find_table(const clast_state *state, const char *name)
+{
+    for (int32_t i = 0; i < state->n_table; ++i) {
+        if (strcmp(state->table[i].name, name) == 0) {
+            return &state->table[i];
+        }
+    }
+    return NULL;
+}
+
+clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clx_pack_saved saved = {0};
+    clast_state state = {0};
+    clx_h5 *h5 = NULL;
+    CLX_TRY(clx_h5_open(found->path, &h5));
+    CLX_TRY(take_pack(h5, &saved));
+    clx_h5_close(h5);
+    h5 = NULL;
+    CLX_TRY(clast_state_read(found->path, &state));
+    const clast_table *series = find_table(&state, "series");
+    CLX_CHECK(series != NULL && state.assembly != NULL &&
+                  saved.count[CLX_PACK_COUNTS - 1] == state.assembly->n_shape,
+              CLAST_E_FORMAT, "%s lacks its series or shapes", found->path);
+    saved.series = series;
+    saved.shape = state.assembly->shape;
+    CLX_TRY(clx_pack_restore(pack, &saved));
+done:
+    if (status == CLAST_E_FORMAT) {
+        clx_fail_prefix("%s", found->path);
+    }
+    clx_h5_close(h5);
+    clx_dem_saved_free(&saved.dem);
+    clast_state_free(&state);
+    return status;
+}

@@ -1,0 +1,87 @@
+// The option table of a packing.
+#include "dem/fields.h"
+#include <clast/pack.h>
+
+#define FIELD(type, name) #name, offsetof(clast_pack_config, name), CLAST_FIELD_##type
+#define TEXT(name, value, help)                                                                    \
+    {                                                                                              \
+        FIELD(TEXT, name), 0, 0, 0, "-", help, value                                               \
+    }
+#define NUMBER(name, value, low, high, unit, help)                                                 \
+    {                                                                                              \
+        FIELD(F64, name), value, low, high, unit, help, NULL                                       \
+    }
+#define CHOICE(name, value, words, help)                                                           \
+    {                                                                                              \
+        FIELD(CHOICE, name), value, 0, 0, "-", help, words                                         \
+    }
+#define FLAG(name, value, help)                                                                    \
+    {                                                                                              \
+        FIELD(BOOL, name), value, 0, 1, "-", help, NULL                                            \
+    }
+
+const clast_field clast_pack_fields[] = {
+    TEXT(curve, "U1",
+         "sizes: a published case (U1 U3 U5 U7 B30 B50 B70), a sieve curve's file, list:FILE, "
+         "uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], or one size"),
+    CHOICE(spread, 0, "step|linear|means", "how sizes lie within a sieve class"),
+    CHOICE(count, 0, "mean|exact", "grains of a class by its mean size (eq. 9), or by its mass"),
+    CHOICE(size_meaning, 0, "sieve|volume", "sizes are sieve sizes (eq. 1), or volume-equivalent"),
+    {FIELD(TEXT_LIST, shapes), 0, 0, 0, "-",
+     "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed convex surface, or spheres of a "
+     "clump (CSV x,y,z,radius or state.h5); only their form counts",
+     "sphere"},
+    {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
+     ""},
+    TEXT(unit, "",
+         "length unit of surface files; may be left out, since sizes come from the curve"),
+    FLAG(hull, 0, "take the convex hull of every surface"),
+    FLAG(form_law, 0, "stretch every grain to a form drawn from normal laws of S/I and I/L"),
+    NUMBER(flatness_mean, 0.647, 1e-3, 1, "-", "mean flatness S/I of form_law"),
+    NUMBER(flatness_deviation, 0.175, 0, 10, "-", "its standard deviation"),
+    NUMBER(elongation_mean, 0.682, 1e-3, 1, "-", "mean elongation I/L of form_law"),
+    NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
+    NUMBER(density, 2650, 1e-6, 1e6, "kg/m^3", "density of the grains (rho_p)"),
+    NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)"),
+    {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
+     NULL},
+
+    CLX_DEM_FIELDS(clast_pack_config, dem.),
+
+    CHOICE(
+        generator, 0, "cubic|hcp|shelf",
+        "grains begin on a cubic lattice (published), a close-packed one (reference program), or "
+        "in rows as dense as their spheres allow"),
+    NUMBER(spacing, 0, 0, 1e6, "m",
+           "of that lattice (h_g); 0: the published one of the case, or what the grains need"),
+    NUMBER(fill_low, 0.6, 0, 1, "-", "grains begin above this share of the height"),
+    NUMBER(fill_high, 1.0, 0, 1, "-", "and below this"),
+    NUMBER(first_low, -1, -1, 1, "-", "the same of the first fill; -1: as all (reference: 0.1)"),
+    NUMBER(first_high, -1, -1, 1, "-", "and below this (reference: 0.9)"),
+    NUMBER(initial_speed, 1, 0, 1e3, "m/s", "downwards (u_init); a tenth of it sideways at random"),
+    FLAG(random_turn, 1, "grains begin turned at random; off: as stored (reference program)"),
+
+    NUMBER(shake_amplitude, 3e-4, 0, 1e3, "m", "of shaking in x (A_s); 0: none"),
+    NUMBER(shake_period, 0.025, 1e-9, 1e6, "s", "of shaking (T_s)"),
+    NUMBER(shaking_time, 1, 0, 1e6, "s", "of shaking after the last grain was made (t_s)"),
+    FLAG(shake_from_start, 1, "shake while grains are made, too"),
+    NUMBER(damping, 1e-3, 1e-300, 1, "-", "velocities keep this share a second at the end (c_d)"),
+
+    CHOICE(rule, 0, "height|speed|either", "when the bed is still"),
+    NUMBER(height_change, 1e-5, 0, 1e6, "m", "of the mean height in check_time"),
+    NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two looks at it"),
+    NUMBER(still_speed, 1e-3, 0, 1e6, "m/s", "of the fastest grain"),
+    {FIELD(I64, max_steps), 0, 0, 9e15, "-", "stop after so many time steps as it is; 0: never",
+     NULL},
+    NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
+
+    NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)"),
+    NUMBER(cut, 0.5, 0, 1, "-", "the bed ends where the porosity is this (n cut-off)"),
+    NUMBER(trim, -1, -1, 1e6, "m",
+           "left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0"),
+    NUMBER(series_time, 0.01, 1e-12, 1e9, "s", "between rows of series.csv"),
+    NUMBER(frame_time, 0, 0, 1e9, "s", "between frames for ParaView; 0: the end only"),
+    NUMBER(checkpoint_time, 120, 0, 1e9, "s", "between checkpoints, by the clock"),
+    TEXT(resume, "", "go on with the run in this folder"),
+    {0},
+};

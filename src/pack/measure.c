@@ -1,0 +1,140 @@
+// What a packing ends as: porosity, time series, sizes achieved.
+#include "base/alloc.h"
+#include "pack/pack.h"
+#include <math.h>
+#include <string.h>
+
+static const struct {
+    const char *name, *unit;
+} columns[] = {{"step", "-"},
+               {"time_s", "s"},
+               {"phase", "-"},
+               {"n_grain", "-"},
+               {"mass_kg", "kg"},
+               {"mean_height_m", "m"},
+               {"top_m", "m"},
+               {"kinetic_energy_J", "J"},
+               {"elastic_energy_J", "J"},
+               {"potential_energy_J", "J"},
+               {"max_speed_m/s", "m/s"},
+               {"n_contact", "-"},
+               {"n_wall_contact", "-"},
+               {"max_overlap_m", "m"}};
+enum { N_COLUMN = sizeof columns / sizeof columns[0] };
+
+clast_status clx_pack_series_begin(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_table_init(&p->series, "series", 0));
+    for (int c = 0; c < N_COLUMN; ++c) {
+        double *number = NULL;
+        CLX_TRY(clast_table_add_number(&p->series, columns[c].name, columns[c].unit, &number));
+    }
+done:
+    return status;
+}
+
+clast_status clx_pack_series_row(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    clast_dem_measures m;
+    const int64_t row = p->series.n_row;
+    clast_dem_measure(p->dem, &m);
+    const bool is_empty = m.n_grain == 0;
+    const double value[N_COLUMN] = {(double)m.step,
+                                    m.time,
+                                    (double)p->phase,
+                                    m.n_grain,
+                                    m.mass,
+                                    m.mean_height,
+                                    is_empty ? 0.0 : m.top,
+                                    m.kinetic_energy,
+                                    m.elastic_energy,
+                                    m.potential_energy,
+                                    m.max_speed,
+                                    (double)m.n_contact,
+                                    (double)m.n_wall_contact,
+                                    m.max_overlap};
+    CLX_TRY(clast_table_resize(&p->series, row + 1));
+    for (int c = 0; c < N_COLUMN; ++c) {
+        p->series.column[c].number[row] = value[c];
+    }
+done:
+    return status;
+}
+
+const clast_table *clast_pack_series(const clast_pack *pack)
+{
+    return &pack->series;
+}
+
+/// Bulk porosity as published; NAN while there is no bed.
+static clast_status measure_porosity(const clast_pack *p, clast_pack_result *r)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly a = {0};
+    clast_table profile = {0};
+    clast_porosity_bulk bulk = {0};
+    const clast_bed bed = clast_pack_bed(&p->config);
+    const clast_porosity_options o = clast_pack_porosity(&p->config);
+    r->porosity = r->z_low = r->z_high = (double)NAN;
+    if (clast_dem_n_grain(p->dem) == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_dem_assembly(p->dem, &a));
+    CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
+    status = clast_porosity_measure(&a, &bed, &o, &profile, &bulk);
+    if (status == CLAST_OK) {
+        r->porosity = bulk.porosity;
+        r->z_low = bulk.z_low;
+        r->z_high = bulk.z_high;
+    }
+    status = status == CLAST_E_GEOMETRY ? CLAST_OK : status; // no bed yet, or trimmed away
+done:
+    clast_table_free(&profile);
+    clast_assembly_free(&a);
+    return status;
+}
+
+clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result)
+{
+    clast_pack_result r = {.phase = pack->phase,
+                           .converged = pack->converged,
+                           .hash = clast_dem_hash(pack->dem),
+                           .n_fill = pack->n_fill,
+                           .wall_s = pack->wall_s,
+                           .step_s = pack->step_s,
+                           .grain_steps = pack->grain_steps};
+    clast_dem_measure(pack->dem, &r.dem);
+    const clast_status status = measure_porosity(pack, &r);
+    if (status == CLAST_OK) {
+        *result = r;
+    }
+    return status;
+}
+
+clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    const int32_t n = clast_dem_n_grain(p->dem);
+    double *size = NULL;
+    double *volume = NULL;
+    clast_grading_match match;
+    CLX_CHECK(p->input.curve != NULL, CLAST_E_USAGE, "sizes follow no sieve curve");
+    CLX_TRY(clx_alloc(&size, n, sizeof *size));
+    CLX_TRY(clx_alloc(&volume, n, sizeof *volume));
+    for (int32_t i = 0; i < n; ++i) {
+        clast_dem_grain g;
+        double measures[2];
+        clast_dem_read_grain(p->dem, i, &g);
+        clast_dem_shape_measures(p->dem, g.shape, measures);
+        size[i] = clast_grading_draw(p->input.grading, p->config.seed, (uint64_t)i);
+        volume[i] = g.scale * g.scale * g.scale * measures[1];
+    }
+    const clast_grading_sample sample = {.n = n, .size = size, .volume = volume};
+    CLX_TRY(clast_grading_compare(p->input.curve, p->input.grading, &sample, table, &match));
+done:
+    clx_free(size);
+    clx_free(volume);
+    return status;
+}

@@ -1,0 +1,292 @@
+// The process: generate, shake, damp, done. Each phase asks after every few steps whether it is
+// over.
+#include "pack/pack.h"
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+static const char *const names[] = {"generate", "shake", "damp", "done"};
+
+const char *clast_pack_phase_name(clast_pack_phase phase)
+{
+    return names[phase];
+}
+
+clast_bed clast_pack_bed(const clast_pack_config *config)
+{
+    const clast_dem_config *d = &config->dem;
+    const double depth = d->depth > 0.0 ? d->depth : d->width;
+    return (clast_bed){.kind = d->domain == CLAST_DEM_CYLINDER   ? CLAST_BED_CYLINDER
+                               : d->domain == CLAST_DEM_PERIODIC ? CLAST_BED_PERIODIC
+                                                                 : CLAST_BED_BOX,
+                       .radius = 0.5 * d->width,
+                       .low = {-0.5 * d->width, -0.5 * depth},
+                       .high = {0.5 * d->width, 0.5 * depth}};
+}
+
+clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
+{
+    clast_porosity_options o = clast_porosity_options_default();
+    o.method = CLAST_POROSITY_SPHERES;
+    o.layer = config->layer;
+    o.cut = config->cut;
+    o.trim = config->trim >= 0.0                        ? config->trim
+             : config->dem.domain == CLAST_DEM_PERIODIC ? 31.5e-3
+                                                        : 0.0;
+    return o;
+}
+
+/// The bed at a porosity of 0.5 must stay below the place where grains are made.
+static clast_status check_room(const clast_pack_config *c)
+{
+    clast_status status = CLAST_OK;
+    const clast_bed bed = clast_pack_bed(c);
+    CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN, CLAST_E_CONFIG,
+              "a packing needs sides: domain cylinder, periodic or box");
+    CLX_CHECK(c->dem.floor, CLAST_E_CONFIG, "a packing needs a floor");
+    CLX_CHECK(c->fill_low < c->fill_high, CLAST_E_CONFIG, "fill_low %g is not below fill_high %g",
+              c->fill_low, c->fill_high);
+    const double bed_height = c->mass / (0.5 * c->density * clast_bed_area(&bed));
+    CLX_CHECK(
+        bed_height <= c->fill_low * c->dem.height, CLAST_E_CONFIG,
+        "%g kg cannot fit: at a porosity of 0.5 the bed would be %g m high, and grains are made "
+        "above %g m (fill_low of height); take a taller or wider domain",
+        c->mass, bed_height, c->fill_low * c->dem.height);
+    CLX_CHECK(c->density > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
+              "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", c->density,
+              c->dem.fluid_density);
+done:
+    return status;
+}
+
+clast_status clast_pack_create(const clast_pack_config *config, const clast_pack_input *input,
+                               clast_pack **pack)
+{
+    clast_status status = CLAST_OK;
+    clast_pack *made = NULL;
+    CLX_TRY(check_room(config));
+    CLX_TRY(clx_alloc(&made, 1, sizeof *made));
+    made->config = *config;
+    made->input = *input;
+    made->pending_form = -1;
+    CLX_TRY(clast_dem_create(&config->dem, &made->dem));
+    CLX_TRY(clx_pack_prepare(made));
+    CLX_TRY(clx_pack_series_begin(made));
+    *pack = made;
+    made = NULL;
+done:
+    clast_pack_destroy(made);
+    return status;
+}
+
+void clast_pack_destroy(clast_pack *pack)
+{
+    if (pack == NULL) {
+        return;
+    }
+    clast_dem_destroy(pack->dem);
+    clast_table_free(&pack->series);
+    clx_free(pack->unit_size);
+    clx_free(pack->weight);
+    clx_free(pack);
+}
+
+static int64_t steps_of(const clast_pack *p, double time)
+{
+    const double n = floor(time / p->config.dem.time_step + 0.5);
+    return n < 1.0 ? 1 : (int64_t)n;
+}
+
+/// Sets what acts in the phase.
+void clx_pack_drive(clast_pack *p)
+{
+    const clast_pack_config *c = &p->config;
+    const bool shakes =
+        p->phase == CLAST_PACK_SHAKE || (p->phase == CLAST_PACK_GENERATE && c->shake_from_start);
+    const clast_dem_drive d = {.shake_amplitude = shakes ? c->shake_amplitude : 0.0,
+                               .shake_period = c->shake_period,
+                               .damping = p->phase == CLAST_PACK_DAMP ? c->damping : 1.0};
+    clast_dem_set_drive(p->dem, &d);
+}
+
+static void begin_phase(clast_pack *p, clast_pack_phase phase)
+{
+    p->phase = phase;
+    p->phase_step = clast_dem_n_step(p->dem);
+    p->last_height = clast_dem_mean_height(p->dem, NULL);
+    clx_pack_drive(p);
+}
+
+/// A new fill once the last one has left the place where grains are made.
+static clast_status generate(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    double top = -INFINITY;
+    if (p->n_fill > 0) {
+        (void)clast_dem_mean_height(p->dem, &top);
+    }
+    if (p->mass >= p->config.mass) {
+        begin_phase(p, CLAST_PACK_SHAKE);
+        return CLAST_OK;
+    }
+    const double low = clx_pack_fill_low(p);
+    if (p->n_fill == 0 || top < low) {
+        CLX_TRY(clx_pack_fill(p));
+        clx_pack_drive(p);
+    }
+    // a bed that grew into the place of generation would wait for ever
+    const double fall = (double)(clast_dem_n_step(p->dem) - p->fill_step) * p->config.dem.time_step;
+    CLX_CHECK(fall < 10.0 + 10.0 * p->config.dem.height, CLAST_E_CONVERGE,
+              "grains of fill %d still lie above %g m after %g s: the bed has grown into the place "
+              "where grains are made; take a taller or wider domain",
+              p->n_fill, low, fall);
+done:
+    return status;
+}
+
+/// One look at the bed while it calms down.
+static clast_status look(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    const clast_pack_config *c = &p->config;
+    const int64_t since = clast_dem_n_step(p->dem) - p->phase_step;
+    if (since == 0 || since % steps_of(p, c->check_time) != 0) {
+        return CLAST_OK;
+    }
+    const double height = clast_dem_mean_height(p->dem, NULL);
+    const bool is_level = fabs(height - p->last_height) < c->height_change;
+    const bool is_slow = clast_dem_max_speed(p->dem) < c->still_speed;
+    p->last_height = height;
+    p->converged = c->rule == CLAST_PACK_BY_HEIGHT  ? is_level
+                   : c->rule == CLAST_PACK_BY_SPEED ? is_slow
+                                                    : is_level || is_slow;
+    if (p->converged) {
+        begin_phase(p, CLAST_PACK_DONE);
+        return CLAST_OK;
+    }
+    CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
+              "the bed is not still after %g s of damping: its mean height moves by more than %g m "
+              "in %g s, its fastest grain at %g m/s",
+              c->max_damping_time, c->height_change, c->check_time, clast_dem_max_speed(p->dem));
+done:
+    return status;
+}
+
+/// What is due at this step, before it is taken.
+static clast_status decide(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    const int64_t step = clast_dem_n_step(p->dem);
+    if (p->phase == CLAST_PACK_GENERATE && step % steps_of(p, 1e-3) == 0) {
+        CLX_TRY(generate(p));
+    }
+    if (p->phase == CLAST_PACK_SHAKE &&
+        (p->config.shaking_time == 0.0 ||
+         step - p->phase_step >= steps_of(p, p->config.shaking_time))) {
+        begin_phase(p, CLAST_PACK_DAMP);
+    }
+    if (p->phase == CLAST_PACK_DAMP) {
+        CLX_TRY(look(p));
+    }
+    if (step % steps_of(p, p->config.series_time) == 0 &&
+        (p->series.n_row == 0 ||
+         clast_table_numbers(&p->series, "step")[p->series.n_row - 1] < (double)step)) {
+        CLX_TRY(clx_pack_series_row(p));
+    }
+done:
+    return status;
+}
+
+/// Steps until something may have to be decided.
+static int64_t quiet_steps(const clast_pack *p)
+{
+    const int64_t step = clast_dem_n_step(p->dem);
+    const int64_t series = steps_of(p, p->config.series_time);
+    const int64_t generation = steps_of(p, 1e-3);
+    const int64_t check = steps_of(p, p->config.check_time);
+    int64_t n = series - step % series;
+    if (p->phase == CLAST_PACK_GENERATE) {
+        const int64_t k = generation - step % generation;
+        n = k < n ? k : n;
+    } else if (p->phase == CLAST_PACK_SHAKE) {
+        const int64_t k = p->phase_step + steps_of(p, p->config.shaking_time) - step;
+        n = k < n ? k : n;
+    } else {
+        const int64_t k = check - (step - p->phase_step) % check;
+        n = k < n ? k : n;
+    }
+    return n > 0 ? n : 1;
+}
+
+clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
+{
+    clast_status status = CLAST_OK;
+    const double begun = clx_clock();
+    const int64_t most = pack->config.max_steps;
+    while (n_step > 0) {
+        CLX_TRY(decide(pack));
+        const int64_t step = clast_dem_n_step(pack->dem);
+        if (pack->phase == CLAST_PACK_DONE || (most > 0 && step >= most)) {
+            break;
+        }
+        int64_t n = quiet_steps(pack);
+        n = n < n_step ? n : n_step;
+        n = most > 0 && most - step < n ? most - step : n;
+        const double before = clx_clock();
+        CLX_TRY(clast_dem_step(pack->dem, n));
+        pack->step_s += clx_clock() - before;
+        pack->grain_steps += (double)n * clast_dem_n_grain(pack->dem);
+        n_step -= n;
+    }
+done:
+    pack->wall_s += clx_clock() - begun;
+    return status;
+}
+
+bool clast_pack_is_over(const clast_pack *pack)
+{
+    return pack->phase == CLAST_PACK_DONE ||
+           (pack->config.max_steps > 0 && clast_dem_n_step(pack->dem) >= pack->config.max_steps);
+}
+
+clast_pack_phase clast_pack_phase_of(const clast_pack *pack)
+{
+    return pack->phase;
+}
+
+const clast_dem *clast_pack_dem(const clast_pack *pack)
+{
+    return pack->dem;
+}
+
+double clast_pack_mass(const clast_pack *pack)
+{
+    return pack->mass;
+}
+
+int64_t clast_pack_expected_steps(const clast_pack *pack)
+{
+    const clast_pack_config *c = &pack->config;
+    const double dt = c->dem.time_step;
+    double time = (double)clast_dem_n_step(pack->dem) * dt;
+    if (pack->n_fill == 0 || pack->mass <= 0.0) {
+        return c->max_steps;
+    }
+    const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / c->density));
+    const double drop = (c->fill_high - c->fill_low) * c->dem.height;
+    const double u = c->initial_speed;
+    const double fall = (sqrt(u * u + 2.0 * g * drop) - u) / g;
+    if (pack->phase == CLAST_PACK_GENERATE) {
+        time += fmax(0.0, c->mass / (pack->mass / pack->n_fill) - pack->n_fill) * fall;
+    }
+    const double shaken = pack->phase == CLAST_PACK_SHAKE
+                              ? (double)(clast_dem_n_step(pack->dem) - pack->phase_step) * dt
+                              : 0.0;
+    time += pack->phase <= CLAST_PACK_SHAKE ? c->shaking_time - shaken : 0.0;
+    time += pack->phase <= CLAST_PACK_DAMP ? 0.2 : 0.0; // a fair guess of damping
+    const int64_t n = (int64_t)(time / dt);
+    return c->max_steps > 0 && c->max_steps < n ? c->max_steps : n;
+}

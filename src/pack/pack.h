@@ -1,0 +1,46 @@
+#pragma once
+// A packing under way.
+#include "base/status.h"
+#include <clast/pack.h>
+
+struct clast_pack {
+    clast_pack_config config; ///< borrowed texts and lists
+    clast_pack_input input;   ///< borrowed
+    clast_dem *dem;
+    double (*unit_size)[2]; ///< [n_shape] size and volume at scale 1
+    double *weight;         ///< [n_shape] running sums, last 1
+    double spacing;
+    double widest; ///< greatest diameter of a grain's sphere over its size
+    // what a checkpoint keeps beside the dem
+    clast_pack_phase phase;
+    int64_t n_made;
+    double mass;
+    int32_t n_fill;
+    int64_t fill_step;  ///< of the last fill
+    int64_t phase_step; ///< when the phase began
+    double last_height; ///< at the last look
+    bool converged;
+    double grain_steps;
+    int64_t pending_form;  ///< the last grain that got a form of its own, -1: none
+    int32_t pending_shape; ///< that form
+    clast_table series;
+    double step_s, wall_s; ///< clocks, which no result depends on
+};
+
+/// What is drawn for grain `index`, ready but for its place: size, shape, turn, velocities.
+clast_status clx_pack_draw(clast_pack *pack, int64_t index, clast_dem_grain *grain);
+
+/// Makes one fill of grains; mass and n_made follow.
+clast_status clx_pack_fill(clast_pack *pack);
+
+/// Height under which the fill lies.
+double clx_pack_fill_low(const clast_pack *pack);
+
+/// Sizes, weights and lattice from configuration and input.
+clast_status clx_pack_prepare(clast_pack *pack);
+
+/// Sets what acts in the phase.
+void clx_pack_drive(clast_pack *pack);
+
+clast_status clx_pack_series_begin(clast_pack *pack);
+clast_status clx_pack_series_row(clast_pack *pack);

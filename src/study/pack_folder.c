@@ -1,0 +1,226 @@
+// What a packing leaves in its run folder.
+#include "study/pack_folder.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "io/checkpoint.h"
+#include "io/pack_state.h"
+#include <clast/chart.h>
+#include <clast/export.h>
+#include <clast/manifest.h>
+#include <clast/porosity_chart.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name)
+{
+    const int n = snprintf(path, CLX_PACK_PATH, "%s/%s", folder, name);
+    return n > 0 && n < CLX_PACK_PATH
+               ? CLAST_OK
+               : clx_fail(CLAST_E_USAGE, "the path %.60s... is longer than %d bytes", folder,
+                          CLX_PACK_PATH);
+}
+
+static clast_status write_table(const char *folder, const char *name, const clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    CLX_TRY(clx_pack_path(path, folder, name));
+    CLX_TRY(clast_table_write_csv(table, path));
+done:
+    return status;
+}
+
+static clast_status write_profile(const char *folder, const clast_pack *pack,
+                                  const clast_pack_config *c, const clast_pack_result *r)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    clast_assembly a = {0};
+    clast_table profile = {0};
+    const clast_bed bed = clast_pack_bed(c);
+    const clast_porosity_options o = clast_pack_porosity(c);
+    clast_porosity_bulk bulk = {.porosity = r->porosity, .z_low = r->z_low, .z_high = r->z_high};
+    CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
+    CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
+    CLX_TRY(write_table(folder, "profile.csv", &profile));
+    if (isfinite(r->porosity)) {
+        CLX_TRY(clx_pack_path(path, folder, "profile.svg"));
+        CLX_TRY(clast_porosity_chart_write(&profile, &bulk, "m", path));
+    }
+done:
+    clast_table_free(&profile);
+    clast_assembly_free(&a);
+    return status;
+}
+
+static clast_status draw_energy(const char *folder, const clast_table *series)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    static const char *const name[3] = {"kinetic_energy_J", "elastic_energy_J",
+                                        "potential_energy_J"};
+    static const char *const label[3] = {"kinetic", "elastic", "potential"};
+    clast_series line[3];
+    bool is_any = false;
+    for (int k = 0; k < 3; ++k) {
+        const double *y = clast_table_numbers(series, name[k]);
+        line[k] = (clast_series){.kind = CLAST_SERIES_LINE,
+                                 .label = label[k],
+                                 .x = clast_table_numbers(series, "time_s"),
+                                 .y = y,
+                                 .n = series->n_row,
+                                 .colour = k};
+        for (int64_t i = 0; i < series->n_row; ++i) {
+            is_any = is_any || y[i] > 0.0;
+        }
+    }
+    const clast_chart chart = {.title = "Energy",
+                               .x = {.label = "time (s)"},
+                               .y = {.label = "energy (J)", .log = true},
+                               .series = line,
+                               .n_series = 3};
+    if (series->n_row < 2 || !is_any) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_pack_path(path, folder, "energy.svg"));
+    CLX_TRY(clast_chart_write(&chart, path));
+done:
+    return status;
+}
+
+/// Mass passing, wanted and achieved, over the upper sieves.
+static clast_status draw_achieved(const char *folder, const clast_table *t)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    double *sum = NULL;
+    const int64_t n = t->n_row;
+    const double *high = clast_table_numbers(t, "high_m");
+    double *size = NULL;
+    CLX_TRY(clx_alloc(&sum, 2 * n, sizeof *sum));
+    CLX_TRY(clx_alloc(&size, n, sizeof *size));
+    for (int k = 0; k < 2; ++k) {
+        const double *share = clast_table_numbers(t, k == 0 ? "wanted_mass" : "achieved_mass");
+        double passed = 0.0;
+        for (int64_t i = 0; i < n; ++i) {
+            passed += share[i];
+            sum[k * n + i] = passed;
+            size[i] = 1e3 * high[i];
+        }
+    }
+    const clast_series line[2] = {
+        {.kind = CLAST_SERIES_LINE, .label = "wanted", .x = size, .y = sum, .n = n, .dashed = true},
+        {.kind = CLAST_SERIES_POINTS,
+         .label = "achieved",
+         .x = size,
+         .y = sum + n,
+         .n = n,
+         .colour = 1}};
+    const clast_chart chart = {.title = "Sieve curve",
+                               .x = {.label = "size (mm)", .log = true},
+                               .y = {.label = "mass passing (-)"},
+                               .series = line,
+                               .n_series = 2};
+    CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
+    CLX_TRY(clast_chart_write(&chart, path));
+done:
+    clx_free(sum);
+    clx_free(size);
+    return status;
+}
+
+static clast_status write_achieved(const char *folder, const clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clast_table achieved = {0};
+    status = clast_pack_achieved(pack, &achieved);
+    if (status == CLAST_E_USAGE) {
+        return CLAST_OK; // sizes follow no sieve curve
+    }
+    if (status == CLAST_OK) {
+        CLX_TRY(write_table(folder, "achieved.csv", &achieved));
+        CLX_TRY(draw_achieved(folder, &achieved));
+    }
+done:
+    clast_table_free(&achieved);
+    return status;
+}
+
+static clast_status write_summary(const char *folder, const clast_pack_result *result)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    char *text = NULL;
+    CLX_TRY(clast_pack_result_json(result, false, &text));
+    CLX_TRY(clx_pack_path(path, folder, "summary.json"));
+    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+done:
+    clast_text_free(text);
+    return status;
+}
+
+clast_status clx_pack_write_results(const char *folder, const char *config, clast_pack *pack,
+                                    const clast_pack_config *physics,
+                                    const clast_pack_result *result)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    CLX_TRY(clx_pack_path(path, folder, "state.h5"));
+    CLX_TRY(clx_pack_state_write(path, config, pack));
+    CLX_TRY(write_table(folder, "series.csv", clast_pack_series(pack)));
+    CLX_TRY(draw_energy(folder, clast_pack_series(pack)));
+    if (result->dem.n_grain > 0) {
+        CLX_TRY(write_profile(folder, pack, physics, result));
+        CLX_TRY(write_achieved(folder, pack));
+    }
+    CLX_TRY(write_summary(folder, result));
+    CLX_TRY(clx_checkpoint_clear(folder));
+done:
+    return status;
+}
+
+clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    char name[64];
+    clast_assembly a = {0};
+    const clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1};
+    CLX_TRY(clx_pack_path(path, folder, "frames"));
+    CLX_TRY(clx_folder_make(path));
+    (void)snprintf(name, sizeof name, "frames/frame-%06lld.vtu", (long long)index);
+    CLX_TRY(clx_pack_path(path, folder, name));
+    CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
+    CLX_TRY(clast_assembly_write(&a, path, &options, NULL));
+done:
+    clast_assembly_free(&a);
+    return status;
+}
+
+clast_status clx_pack_write_collection(const char *folder, int64_t n, double frame_time)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    double *time = NULL;
+    char **file = NULL;
+    CLX_TRY(clx_alloc(&time, n, sizeof *time));
+    CLX_TRY(clx_alloc(&file, n, sizeof *file));
+    for (int64_t i = 0; i < n; ++i) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "frames/frame-%06lld.vtu", (long long)i);
+        CLX_TRY(clx_alloc_text(&file[i], name));
+        time[i] = (double)i * frame_time;
+    }
+    CLX_TRY(clx_pack_path(path, folder, "frames.pvd"));
+    CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
+done:
+    for (int64_t i = 0; file != NULL && i < n; ++i) {
+        clx_free(file[i]);
+    }
+    clx_free(file);
+    clx_free(time);
+    return status;
+}

@@ -1,0 +1,19 @@
+#pragma once
+// Files of a packing's run folder.
+#include "base/status.h"
+#include <clast/pack_run.h>
+
+/// Everything that a finished run leaves: state.h5, series.csv, profile.csv, achieved.csv,
+/// summary.json, charts; checkpoints go last.
+clast_status clx_pack_write_results(const char *folder, const char *config, clast_pack *pack,
+                                    const clast_pack_config *physics,
+                                    const clast_pack_result *result);
+
+/// Frame number `index` for ParaView.
+clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack);
+
+/// frames.pvd over the frames that are there, and the end.
+clast_status clx_pack_write_collection(const char *folder, int64_t n, double frame_time);
+
+enum { CLX_PACK_PATH = 4096 };
+clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name);

@@ -1,0 +1,61 @@
+// A packing's results as JSON.
+#include <clast/pack_run.h>
+
+#include "base/alloc.h"
+#include "base/status.h"
+#include <inttypes.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void put(json_t *object, const char *key, double value)
+{
+    (void)json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+static void put_count(json_t *object, const char *key, int64_t value)
+{
+    (void)json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char **text)
+{
+    clast_status status = CLAST_OK;
+    char hash[32];
+    char *dumped = NULL;
+    json_t *o = json_object();
+    (void)snprintf(hash, sizeof hash, "%016" PRIx64, r->hash);
+    (void)json_object_set_new(o, "state_hash", json_string(hash));
+    put_count(o, "n_grain", r->dem.n_grain);
+    put_count(o, "n_step", r->dem.step);
+    put(o, "time", r->dem.time);
+    (void)json_object_set_new(o, "phase", json_string(clast_pack_phase_name(r->phase)));
+    (void)json_object_set_new(o, "converged", json_boolean(r->converged));
+    put(o, "mass", r->dem.mass);
+    put(o, "porosity_bulk", r->porosity);
+    put(o, "z_low", r->z_low);
+    put(o, "z_high", r->z_high);
+    put(o, "coordination", r->dem.coordination);
+    put_count(o, "n_contact", r->dem.n_contact);
+    put_count(o, "n_wall_contact", r->dem.n_wall_contact);
+    put(o, "mean_height", r->dem.mean_height);
+    put(o, "max_overlap", r->dem.max_overlap);
+    put(o, "max_speed", r->dem.max_speed);
+    put(o, "kinetic_energy", r->dem.kinetic_energy);
+    put_count(o, "n_fill", r->n_fill);
+    put(o, "grain_steps", r->grain_steps);
+    put_count(o, "n_refresh", r->dem.n_refresh);
+    if (times) {
+        put(o, "wall_s", r->wall_s);
+        put(o, "ns_per_grain_step",
+            r->grain_steps > 0.0 ? 1e9 * r->step_s / r->grain_steps : (double)NAN);
+    }
+    dumped = json_dumps(o, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");
+    CLX_TRY(clx_alloc_text(text, dumped));
+done:
+    free(dumped); // Jansson's own block
+    json_decref(o);
+    return status;
+}

@@ -1,0 +1,232 @@
+// A whole run of a packing: inputs, folder, checkpoints, going on, results.
+#include <clast/pack_run.h>
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/file.h"
+#include "io/checkpoint.h"
+#include "io/pack_state.h"
+#include "study/pack_folder.h"
+#include <clast/config.h>
+#include <clast/manifest.h>
+#include <clast/pack_file.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    const clast_pack_config *config;
+    const char *folder; ///< or NULL
+    const clast_monitor *monitor;
+    clast_pack_source source;
+    clast_manifest *manifest; ///< NULL without a folder
+    char *text;               ///< configuration as JSON
+    clast_pack *pack;
+    double saved_at; ///< clock of the last checkpoint
+    double begun;
+} run;
+
+static void free_run(run *r)
+{
+    clast_pack_destroy(r->pack);
+    clast_pack_unload(&r->source);
+    clast_manifest_destroy(r->manifest);
+    clast_text_free(r->text);
+}
+
+static clast_status note_inputs(run *r)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_manifest_create("pack", 0, NULL, &r->manifest));
+    CLX_TRY(clast_manifest_config(r->manifest, clast_pack_fields, r->config));
+    clast_manifest_seed(r->manifest, r->config->seed);
+    for (int32_t i = 0; i < clast_pack_n_file(r->config); ++i) {
+        const char *role = NULL;
+        const char *path = clast_pack_file(r->config, i, &role);
+        CLX_TRY(clast_manifest_input(r->manifest, role, path));
+    }
+done:
+    return status;
+}
+
+static clast_status write_manifest(run *r, const char *outcome)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    CLX_TRY(clx_pack_path(path, r->folder, "manifest.json"));
+    CLX_TRY(clast_manifest_write(r->manifest, outcome, path));
+done:
+    return status;
+}
+
+/// What the user reads while it runs: phase, simulated microseconds, rate, time left.
+static bool talk(const run *r)
+{
+    const clast_monitor *m = r->monitor;
+    const double dt = r->config->dem.time_step;
+    if (m != NULL && m->report != NULL) {
+        char phase[32];
+        (void)snprintf(phase, sizeof phase, "%s, simulated us",
+                       clast_pack_phase_name(clast_pack_phase_of(r->pack)));
+        m->report(m->context, phase,
+                  (int64_t)(1e6 * dt * (double)clast_dem_n_step(clast_pack_dem(r->pack))),
+                  (int64_t)(1e6 * dt * (double)clast_pack_expected_steps(r->pack)));
+    }
+    return m != NULL && m->stop != NULL && m->stop(m->context);
+}
+
+static clast_status save(run *r)
+{
+    r->saved_at = clx_clock();
+    return r->folder != NULL ? clx_pack_checkpoint_write(r->folder, r->text, r->pack) : CLAST_OK;
+}
+
+/// Steps of one round: to the next frame, at most about a fifth of a second.
+static int64_t round_steps(const run *r, int64_t aim, int64_t per_frame)
+{
+    const int64_t step = clast_dem_n_step(clast_pack_dem(r->pack));
+    const int64_t left = per_frame > 0 ? per_frame - step % per_frame : aim;
+    return left < aim ? left : aim;
+}
+
+static clast_status frame(run *r, int64_t per_frame)
+{
+    const int64_t step = clast_dem_n_step(clast_pack_dem(r->pack));
+    if (r->folder == NULL || per_frame == 0 || step % per_frame != 0 ||
+        clast_dem_n_grain(clast_pack_dem(r->pack)) == 0) {
+        return CLAST_OK;
+    }
+    return clx_pack_write_frame(r->folder, step / per_frame, r->pack);
+}
+
+static clast_status go(run *r)
+{
+    clast_status status = CLAST_OK;
+    const clast_pack_config *c = r->config;
+    const int64_t per_frame =
+        c->frame_time > 0.0 ? (int64_t)fmax(1.0, floor(c->frame_time / c->dem.time_step + 0.5)) : 0;
+    int64_t aim = 100;
+    r->saved_at = clx_clock();
+    while (!clast_pack_is_over(r->pack)) {
+        const double before = clx_clock();
+        CLX_TRY(clast_pack_advance(r->pack, round_steps(r, aim, per_frame)));
+        CLX_TRY(frame(r, per_frame));
+        const double took = clx_clock() - before;
+        aim = took < 0.1 ? aim * 2 : took > 0.4 && aim > 1 ? aim / 2 : aim;
+        if (talk(r)) {
+            CLX_TRY(save(r));
+            status = CLAST_E_STOPPED;
+            goto done;
+        }
+        if (r->folder != NULL && clx_clock() - r->saved_at > c->checkpoint_time) {
+            CLX_TRY(save(r));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status finish(run *r, clast_status status, clast_pack_result *result)
+{
+    clast_pack_result made = {0};
+    const bool is_over = status == CLAST_OK;
+    if (is_over) {
+        status = clast_pack_measure(r->pack, &made);
+        made.wall_s = clx_clock() - r->begun;
+    }
+    if (r->folder != NULL && status == CLAST_OK) {
+        status = clx_pack_write_results(r->folder, r->text, r->pack, r->config, &made);
+        const double f = r->config->frame_time;
+        if (status == CLAST_OK && f > 0.0) {
+            status = clx_pack_write_collection(
+                r->folder, 1 + (int64_t)floor(made.dem.time / f * (1.0 + 1e-12)), f);
+        }
+    }
+    if (status == CLAST_E_STOPPED) {
+        status = r->folder == NULL
+                     ? clx_fail(status, "stopped; without -o there is nothing to go on from")
+                     : clx_fail(status, "stopped; go on with clast pack --resume %s", r->folder);
+    }
+    if (r->folder != NULL) {
+        const clast_status written = write_manifest(r, status == CLAST_OK          ? "done"
+                                                       : status == CLAST_E_STOPPED ? "stopped"
+                                                                                   : "failed");
+        status = status == CLAST_OK ? written : status;
+    }
+    if (status == CLAST_OK) {
+        *result = made;
+    }
+    return status;
+}
+
+/// Refuses to write over a run that has not ended.
+static clast_status check_free(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    clx_pack_checkpoint found = {0};
+    const clast_status there = clx_pack_checkpoint_find(folder, &found);
+    CLX_CHECK(there == CLAST_E_IO, CLAST_E_USAGE,
+              "%s holds a run that has not ended; go on with --resume %s, or choose another folder",
+              folder, folder);
+done:
+    clx_pack_checkpoint_free(&found);
+    return status;
+}
+
+/// Loads all that can be wrong before anything is written.
+static clast_status prepare(run *r)
+{
+    clast_status status = CLAST_OK;
+    r->begun = clx_clock();
+    CLX_TRY(clast_pack_load(r->config, &r->source));
+    CLX_TRY(clast_config_json(clast_pack_fields, r->config, &r->text));
+    CLX_TRY(clast_pack_create(r->config, &r->source.input, &r->pack));
+    if (r->folder != NULL) {
+        CLX_TRY(note_inputs(r));
+    }
+done:
+    return status;
+}
+
+clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
+                            const clast_monitor *monitor, clast_pack_result *result)
+{
+    clast_status status = CLAST_OK;
+    run r = {.config = config, .folder = folder, .monitor = monitor};
+    CLX_TRY(prepare(&r));
+    if (folder != NULL) {
+        CLX_TRY(check_free(folder));
+        CLX_TRY(clx_folder_make(folder));
+        CLX_TRY(write_manifest(&r, "running"));
+        CLX_TRY(save(&r));
+    }
+    status = finish(&r, go(&r), result);
+done:
+    free_run(&r);
+    return status;
+}
+
+clast_status clast_pack_resume(const char *folder, const clast_monitor *monitor,
+                               clast_pack_result *result)
+{
+    clast_status status = CLAST_OK;
+    clast_pack_config config = {0};
+    clx_pack_checkpoint found = {0};
+    bool has_config = false;
+    run r = {.config = &config, .folder = folder, .monitor = monitor};
+    CLX_TRY(clx_pack_checkpoint_find(folder, &found));
+    CLX_TRY(clast_fields_default(clast_pack_fields, &config));
+    has_config = true;
+    CLX_TRY(clast_config_parse(found.path, found.config, clast_pack_fields, &config));
+    CLX_TRY(prepare(&r));
+    CLX_TRY(clast_manifest_note(r.manifest, "resumed", "yes"));
+    CLX_TRY(clx_pack_checkpoint_read(&found, r.pack));
+    status = finish(&r, go(&r), result);
+done:
+    free_run(&r);
+    clx_pack_checkpoint_free(&found);
+    if (has_config) {
+        clast_fields_free(clast_pack_fields, &config);
+    }
+    return status;
+}

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""clast pack: a small bed, stopped and resumed at any moment, bad input."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import Case, ROOT, clast
+
+SMALL = ["pack", "--curve", "6 mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",
+         "--seed", "3", "--quiet", "-j", "1"]
+FILES = ["state.h5", "series.csv", "profile.csv", "summary.json", "energy.svg"]
+
+
+class Pack(Case):
+    def run_small(self, *extra):
+        return clast(*SMALL, *extra)
+
+    def test_bed_comes_to_rest(self):
+        run = self.folder / "run"
+        result = self.run_small("--json", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        out = json.loads(result.out)
+        for key in ("state_hash", "n_grain", "n_step", "time", "phase", "converged", "mass", "porosity_bulk", "coordination",
+                    "wall_s", "ns_per_grain_step"):
+            self.assertIn(key, out)
+        self.assertEqual(out["phase"], "done")
+        self.assertTrue(out["converged"])
+        self.assertGreaterEqual(out["mass"], 0.012)
+        self.assertLess(out["mass"], 0.0125)  # one grain of 0.3 g too many at most
+        self.assertGreater(out["porosity_bulk"], 0.3)
+        self.assertLess(out["porosity_bulk"], 0.7)
+        for name in FILES + ["manifest.json"]:
+            self.assertTrue((run / name).exists(), name)
+        self.assertEqual(list(run.glob("checkpoint-*")), [])
+        porosity = clast("porosity", run, "--method", "spheres", "--json")
+        self.assertEqual(porosity.code, 0, porosity.err)
+        self.assertAlmostEqual(json.loads(porosity.out)["bulk"], out["porosity_bulk"], 12)
+
+    def test_stopped_and_killed_runs_end_in_the_same_bytes(self):
+        whole = self.folder / "whole"
+        self.assertEqual(self.run_small("-o", whole, "--checkpoint-time", "0.02s").code, 0)
+        for number in (signal.SIGINT, signal.SIGKILL):
+            run = self.folder / f"cut-{int(number)}"
+            process = subprocess.Popen([os.environ["CLAST"], *SMALL, "--checkpoint-time", "0.02s", "-o", str(run)],
+                                       cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+                time.sleep(0.01)
+            process.send_signal(number)
+            process.wait()
+            if process.returncode == 0:
+                self.fail("the run ended before it could be stopped; make it longer")
+            self.assertEqual(process.returncode, 130 if number == signal.SIGINT else -9)
+            busy = self.run_small("-o", run)
+            self.assertEqual(busy.code, 2)
+            self.assertIn("--resume", busy.err)
+            resumed = clast("pack", "--resume", run, "--quiet", "-j", "1")
+            self.assertEqual(resumed.code, 0, resumed.err)
+            for name in FILES:
+                left = (whole / name).read_bytes()
+                right = (run / name).read_bytes()
+                self.assertEqual(left, right, name)
+
+    def test_damaged_checkpoint_is_passed_over(self):
+        run = self.folder / "run"
+        stopped = self.run_small("-o", run, "--max-steps", "2000", "--checkpoint-time", "0s")
+        self.assertEqual(stopped.code, 0, stopped.err)
+        (run / "checkpoint-000000000100.h5").write_bytes(b"nothing")
+        result = clast("pack", "--resume", run, "--quiet")
+        self.assertEqual(result.code, 3)
+        self.assertIn("damaged", result.err)
+
+    def test_forms_from_a_law_and_clumps(self):
+        result = clast(*SMALL, "--shapes", "ellipsoid:3,2,1", "--form-law", "--max-steps", "3000", "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertFalse(json.loads(result.out)["converged"])
+        spheres = self.folder / "clump.csv"
+        spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
+        result = clast(*SMALL, "--shapes", str(spheres), "--max-steps", "6000", "--json", "-o", self.folder / "c")
+        self.assertEqual(result.code, 0, result.err)
+
+    def test_bad_input_is_one_line(self):
+        self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "2e-05 s or less"))
+        self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
+        self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "11mm", "--mass", "1g", says=("half the period",))
+        self.assert_fails(2, *SMALL, "--shape-weight", "1", "--shape-weight", "2", says=("2 weights for 1 shapes",))
+        self.assert_fails(3, *SMALL, "--shapes", str(self.folder / "none.stl"), says=("shapes",))
+        self.assert_fails(2, *SMALL, "--domain", "open", says=("sides",))
+        self.assert_fails(3, *SMALL, "--curve", "U9", says=("U9",))
+        self.assert_fails(2, "pack", "--resume", str(self.folder), "--mass", "2kg", says=("drop mass",))
+        self.assert_fails(3, "pack", "--resume", str(self.folder), says=("no checkpoint",))
+
+
+if __name__ == "__main__":
+    unittest.main()
