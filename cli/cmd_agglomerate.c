@@ -15,7 +15,10 @@ typedef struct {
     cli_points points;
     char *monomers_column, *speed_rms_column, *temperature_column, *shear_column,
         *dissipation_column, *fixed_column, *fixed_volume_column;
+    int32_t charts;
 } config;
+
+static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
 #define COLUMN(name, help)                                                                         \
     {                                                                                              \
@@ -29,6 +32,8 @@ static const clast_field own[] = {
     COLUMN(dissipation_column, "column of dissipation rates [m^2/s^3]; cells take the mean"),
     COLUMN(fixed_column, "column of cell numbers of a mesh of yours, evolved beside"),
     COLUMN(fixed_volume_column, "column of those cells' volumes"),
+    {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-", "format of charts",
+     "svg|png|pdf"},
 };
 #undef COLUMN
 
@@ -49,7 +54,7 @@ static void join_details(void)
         "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
         "files are snapshots of the same\nparticles, --duration apart; cells are made anew when "
         "the cloud has changed.\n-o FOLDER writes history.csv, particles.csv, summary.json and "
-        "charts (moments.svg, number.svg).\n\nkernel               beta(1, 2)\n");
+        "charts (moments, number).\n\nkernel               beta(1, 2)\n");
     const clast_kernel_info *table = clast_kernel_table();
     for (int k = 0; k < CLAST_N_KERNEL && used < sizeof details; ++k) {
         used += (size_t)snprintf(details + used, sizeof details - used, "%-20s %s   [%s]\n",
@@ -206,11 +211,10 @@ static void print_words(const config *c, const clast_agglomeration *r)
     }
 }
 
-static clast_status draw(const clast_table *h, const char *folder, const char *file,
-                         const char *const column[3], const char *label)
+static clast_status draw(const clast_table *h, const char *path, const char *const column[3],
+                         const char *label)
 {
     static const char *const legend[3] = {"cells", "exact", "your mesh"};
-    char path[4096];
     clast_series series[3];
     int32_t n = 0;
     for (int k = 0; k < 3; ++k) {
@@ -227,7 +231,6 @@ static clast_status draw(const clast_table *h, const char *folder, const char *f
     }
     const clast_chart chart = {
         .x = {.label = "time (s)"}, .y = {.label = label}, .series = series, .n_series = n};
-    (void)snprintf(path, sizeof path, "%s/%s", folder, file);
     return clast_chart_write(&chart, path);
 }
 
@@ -241,7 +244,8 @@ static clast_status write_summary(json_t *out, const char *folder)
     return CLAST_OK;
 }
 
-static clast_status write_folder(const clast_agglomeration *r, json_t *out, const char *folder)
+static clast_status write_folder(const clast_agglomeration *r, json_t *out, const char *end,
+                                 const char *folder)
 {
     char path[4096];
     (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
@@ -252,14 +256,15 @@ static clast_status write_folder(const clast_agglomeration *r, json_t *out, cons
         status = clast_table_write_csv(&r->particles, path);
     }
     if (status == CLAST_OK) {
-        status = draw(&r->history, folder, "number.svg",
+        (void)snprintf(path, sizeof path, "%s/number.%s", folder, end);
+        status = draw(&r->history, path,
                       (const char *const[]){"n_particle", "exact_n_particle", "fixed_n_particle"},
                       "particles (-)");
     }
     if (status == CLAST_OK) {
-        status =
-            draw(&r->history, folder, "moments.svg", (const char *const[]){"M2", "exact_M2", NULL},
-                 "sum of squared monomer numbers (-)");
+        (void)snprintf(path, sizeof path, "%s/moments.%s", folder, end);
+        status = draw(&r->history, path, (const char *const[]){"M2", "exact_M2", NULL},
+                      "sum of squared monomer numbers (-)");
     }
     return status == CLAST_OK ? write_summary(out, folder) : status;
 }
@@ -289,7 +294,7 @@ static clast_status run(const cli_common *common, void *values)
     if (status == CLAST_OK) {
         json_t *out = summary(c, &result, now() - begun);
         if (common->output != NULL) {
-            status = write_folder(&result, out, common->output);
+            status = write_folder(&result, out, chart_end[c->charts], common->output);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(out);

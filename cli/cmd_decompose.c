@@ -15,15 +15,20 @@ typedef struct {
     clast_decompose_config decompose; // first: the two tables share offsets
     cli_points points;
     bool test_only;
+    int32_t charts;
 } config;
 
-enum { N_OWN = 1, MAX_FIELD = 40 };
+static const char *const chart_end[3] = {"svg", "png", "pdf"};
+
+enum { N_OWN = 2, MAX_FIELD = 40 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {{"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL,
-                                        0, 0, 0, "-", "run the uniformity tests alone", NULL}};
+                                        0, 0, 0, "-", "run the uniformity tests alone", NULL},
+                                       {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0,
+                                        0, 0, "-", "format of charts", "svg|png|pdf"}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
@@ -92,7 +97,7 @@ static const char *stop_text(clast_decompose_stop stop)
     return text[stop];
 }
 
-static clast_status print_json(const clast_decomposition *r, double wall)
+static json_t *summary_of(const clast_decomposition *r, double wall)
 {
     json_t *out = json_object();
     cli_json_count(out, "n", r->n);
@@ -113,7 +118,7 @@ static clast_status print_json(const clast_decomposition *r, double wall)
     cli_json_number(out, "points_per_bin", r->points_per_bin);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "wall_s", wall);
-    return cli_print_json(out);
+    return out;
 }
 
 static void print_words(const clast_decomposition *r, bool test_only)
@@ -185,33 +190,88 @@ static clast_status cell_table(const clast_decomposition *r, clast_table *table)
     return status;
 }
 
+/// A row a point: cell, label, pass.
+static clast_status label_table(const clast_decomposition *r, int64_t n_point, clast_table *table)
+{
+    static const char *const name[3] = {"cell", "label", "pass"};
+    const clast_cells *cells = &r->cells;
+    clast_status status = clast_table_init(table, "points", n_point);
+    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
+        double *column = NULL;
+        status = clast_table_add_number(table, name[k], "-", &column);
+        for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
+            const int32_t c = cells->of_point[i];
+            column[i] = k == 0 ? c : c < 0 ? 0 : k == 1 ? cells->label[c] : cells->pass[c];
+        }
+    }
+    return status;
+}
+
 static clast_status write_tables(const clast_decomposition *r, int64_t n_point, const char *folder)
 {
     char path[4096];
     clast_table cells = {0};
     clast_table points = {0};
-    double *cell = NULL;
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     clast_status status = cell_table(r, &cells);
     if (status == CLAST_OK) {
         (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
         status = clast_table_write_csv(&cells, path);
     }
     if (status == CLAST_OK) {
-        status = clast_table_init(&points, "points", n_point);
+        status = label_table(r, n_point, &points);
     }
     if (status == CLAST_OK) {
-        status = clast_table_add_number(&points, "cell", "-", &cell);
-    }
-    if (status == CLAST_OK) {
-        for (int64_t i = 0; i < n_point; ++i) {
-            cell[i] = r->cells.of_point[i];
-        }
         (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
         status = clast_table_write_csv(&points, path);
     }
+    if (status == CLAST_OK && r->search.n_row > 0) {
+        (void)snprintf(path, sizeof path, "%s/thresholds.csv", folder);
+        status = clast_table_write_csv(&r->search, path);
+    }
     clast_table_free(&cells);
     clast_table_free(&points);
+    return status;
+}
+
+static clast_status write_pictures(const clast_decomposition *r, const clast_cloud *cloud,
+                                   const config *c, const char *folder)
+{
+    char path[4096];
+    clast_domain domain;
+    clast_status status = clast_domain_parse(c->decompose.domain, &domain);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
+        status = clast_cells_write_vtu(path, r, &domain);
+    }
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
+        status = clast_points_write_vtp(path, cloud, r);
+    }
+    for (int k = 0; k < CLAST_N_DECOMPOSE_CHART && status == CLAST_OK; ++k) {
+        if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
+            (void)snprintf(path, sizeof path, "%s/%s.%s", folder,
+                           clast_decompose_chart_name((clast_decompose_chart)k),
+                           chart_end[c->charts]);
+            status = clast_decompose_chart_write((clast_decompose_chart)k, cloud, r, path);
+        }
+    }
+    return status;
+}
+
+static clast_status write_folder(const clast_decomposition *r, const clast_cloud *cloud,
+                                 const config *c, json_t *summary, const char *folder)
+{
+    char path[4096];
+    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
+    clast_status status = write_tables(r, cloud->n, folder);
+    if (status == CLAST_OK) {
+        status = write_pictures(r, cloud, c, folder);
+    }
+    (void)snprintf(path, sizeof path, "%s/summary.json", folder);
+    if (status == CLAST_OK &&
+        json_dump_file(summary, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0) {
+        status = cli_fail(CLAST_E_DISK, "cannot write %s", path);
+    }
     return status;
 }
 
@@ -244,14 +304,18 @@ static clast_status run(const cli_common *common, void *values)
     if (status == CLAST_OK) {
         status = clast_decompose(&cloud, &c->decompose, &result);
     }
-    if (status == CLAST_OK && common->output != NULL) {
-        status = write_tables(&result, cloud.n, common->output);
-    }
     if (status == CLAST_OK) {
-        if (common->json) {
-            status = print_json(&result, now() - begun);
+        json_t *summary = summary_of(&result, now() - begun);
+        if (common->output != NULL) {
+            status = write_folder(&result, &cloud, c, summary, common->output);
+        }
+        if (status == CLAST_OK && common->json) {
+            status = cli_print_json(summary);
         } else {
-            print_words(&result, c->test_only);
+            json_decref(summary);
+            if (status == CLAST_OK) {
+                print_words(&result, c->test_only);
+            }
         }
     }
     clast_table_free(&table);
@@ -274,8 +338,9 @@ const cli_command cli_decompose = {
                "--votes of them reject.\n"
                "events: sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events paper "
                "takes n^2 / V as printed.\n"
-               "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events) and "
-               "point_cells.csv.",
+               "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events), "
+               "point_cells.csv, thresholds.csv,\nsummary.json, cells.vtu and points.vtp for "
+               "ParaView, and charts: points, density, score, events.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

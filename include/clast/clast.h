@@ -14,6 +14,8 @@
 #include <clast/collide.h>
 #include <clast/config.h>
 #include <clast/decompose.h>
+#include <clast/decompose_charts.h>
+#include <clast/decompose_file.h>
 #include <clast/dem.h>
 #include <clast/domain.h>
 #include <clast/envelope.h>
@@ -23,9 +25,9 @@
 #include <clast/fill.h>
 #include <clast/form.h>
 #include <clast/form_law.h>
+#include <clast/form_set.h>
 #include <clast/grading.h>
 #include <clast/grading_file.h>
-#include <clast/form_set.h>
 #include <clast/grain.h>
 #include <clast/harmonics.h>
 #include <clast/harmonics_file.h>
@@ -46,12 +48,12 @@
 #include <clast/pack_run.h>
 #include <clast/parallel.h>
 #include <clast/pores.h>
+#include <clast/points_file.h>
 #include <clast/porosity.h>
 #include <clast/porosity_chart.h>
 #include <clast/porosity_fit.h>
 #include <clast/porosity_model.h>
 #include <clast/porosity_model_file.h>
-#include <clast/points_file.h>
 #include <clast/printable.h>
 #include <clast/reform.h>
 #include <clast/render.h>

@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 #include <clast/domain.h>
 #include <clast/field.h>
+#include <clast/table.h>
 #include <clast/uniformity.h>
 
 // D2SD: cells in which particles are uniform, and agglomeration events that do not depend on a
@@ -95,7 +96,9 @@ typedef struct clast_cells {
     uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
     double *events;        ///< [n] after the cap
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
+    bool is_box;           ///< cells are boxes low .. high, not unions of bins
     int32_t nb[3];         ///< bins an axis
+    int32_t *bin_count;    ///< [nb[0] nb[1] nb[2]] real points, or NULL
     int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube; NULL: no bins
 } clast_cells;
 
@@ -111,6 +114,7 @@ typedef struct clast_decomposition {
         events_high;       ///< with the 95 % interval of Poisson counts in given cells
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
+    clast_table search;    ///< every threshold searched: pass, lambda, score, ideal_score
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
 } clast_decomposition;
 

@@ -35,3 +35,6 @@ CLAST_API void clast_domain_sides(const clast_domain *domain, double side[3]);
 /// True when the point [dimension] is in the closed domain; u [dimension] is then its image in the
 /// unit cube.
 CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, double *u);
+
+/// The inverse map: the point x [dimension] whose image in the unit cube is u [dimension].
+CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, double *x);

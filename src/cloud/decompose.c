@@ -46,12 +46,14 @@ static void free_cells(clast_cells *cells)
     clx_free(cells->events);
     clx_free(cells->of_point);
     clx_free(cells->of_bin);
+    clx_free(cells->bin_count);
     *cells = (clast_cells){0};
 }
 
 void clast_decomposition_free(clast_decomposition *result)
 {
     free_cells(&result->cells);
+    clast_table_free(&result->search);
     *result = (clast_decomposition){0};
 }
 
@@ -59,6 +61,7 @@ static clast_status alloc_cells(clast_cells *cells, int32_t n)
 {
     clast_status status = CLAST_OK;
     cells->n = n;
+    cells->is_box = true;
     CLX_TRY(clx_alloc(&cells->low, n, sizeof *cells->low));
     CLX_TRY(clx_alloc(&cells->high, n, sizeof *cells->high));
     CLX_TRY(clx_alloc(&cells->volume, n, sizeof *cells->volume));
@@ -201,8 +204,11 @@ static clast_status bin_cells(const mapped *m, const clast_decompose_config *con
             cell[clx_bins_of(&passes.bins, m->u + i * m->domain.dimension)];
     }
     memcpy(result->cells.nb, passes.bins.nb, sizeof result->cells.nb);
+    result->cells.is_box = config->mesh == CLAST_CELLS_BOXES || config->mesh == CLAST_CELLS_BINS;
     result->cells.of_bin = cell;
     cell = NULL;
+    result->cells.bin_count = passes.bins.count;
+    passes.bins.count = NULL;
 done:
     clx_passes_free(&passes);
     clx_free(cell);
@@ -304,9 +310,9 @@ clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_con
     to_domain(&m.domain, &made.cells);
     count_events(config, &made);
     *result = made;
-    made.cells = (clast_cells){0};
+    made = (clast_decomposition){0};
 done:
-    free_cells(&made.cells);
+    clast_decomposition_free(&made);
     clx_free(m.u);
     clx_free(m.number);
     return status;

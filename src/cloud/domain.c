@@ -142,3 +142,27 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
     }
     return inside;
 }
+
+void clast_domain_unmap(const clast_domain *d, const double *u, double *x)
+{
+    if (d->kind == CLAST_DOMAIN_BOX) {
+        for (int32_t j = 0; j < d->dimension; ++j) {
+            x[j] = d->low[j] + u[j] * (d->high[j] - d->low[j]);
+        }
+    } else if (d->kind == CLAST_DOMAIN_SPHERE) {
+        const double r = d->radius * cbrt(u[0]);
+        const double z = 2.0 * u[1] - 1.0;
+        const double rho = r * sqrt(fmax(0.0, 1.0 - z * z));
+        const double angle = (2.0 * u[2] - 1.0) * CLAST_PI;
+        x[0] = rho * cos(angle);
+        x[1] = rho * sin(angle);
+        x[2] = r * z;
+    } else {
+        const double rho = d->radius * sqrt(u[0]);
+        const double angle =
+            d->kind == CLAST_DOMAIN_HALF_PIPE ? u[1] * CLAST_PI : (2.0 * u[1] - 1.0) * CLAST_PI;
+        x[0] = rho * cos(angle);
+        x[1] = rho * sin(angle);
+        x[2] = u[2] * d->length;
+    }
+}

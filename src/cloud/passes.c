@@ -18,6 +18,7 @@ typedef struct {
     clx_depth_law law;
     double side[3];
     clx_passes *passes;
+    clast_table *search;        ///< the result's
     double *u;                  ///< synthetic sample [n][d]
     int64_t n, capacity;        ///< points of it
     uint8_t *active;            ///< [n_bin]
@@ -105,9 +106,32 @@ static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan
     return clx_ghosts_expected_score(&sample, score);
 }
 
+/// A row of the table of thresholds searched.
+static clast_status note_search(work *w, int32_t number, int32_t lambda, double score, double ideal)
+{
+    static const char *const name[4] = {"pass", "lambda", "score", "ideal_score"};
+    clast_status status = CLAST_OK;
+    clast_table *table = w->search;
+    const int64_t row = table->n_row;
+    const double value[4] = {number, (double)lambda * (double)w->passes->bins.n_bin / (double)w->n,
+                             score, ideal};
+    if (table->n_column == 0) {
+        CLX_TRY(clast_table_init(table, "search", 0));
+        for (int k = 0; k < 4; ++k) {
+            CLX_TRY(clast_table_add_number(table, name[k], "-", NULL));
+        }
+    }
+    CLX_TRY(clast_table_resize(table, row + 1));
+    for (int k = 0; k < 4; ++k) {
+        table->column[k].number[row] = value[k];
+    }
+done:
+    return status;
+}
+
 /// The threshold whose expected score is nearest to the ideal one of its synthetic sample; labels
 /// go to w->best.
-static clast_status search(work *w, const clx_levels *levels, clast_pass *pass,
+static clast_status search(work *w, const clx_levels *levels, int32_t number, clast_pass *pass,
                            clx_ghost_plan *plan)
 {
     clast_status status = CLAST_OK;
@@ -120,6 +144,7 @@ static clast_status search(work *w, const clx_levels *levels, clast_pass *pass,
                                  levels->q20, w->label));
         CLX_TRY(score_of(w, w->label, &here, &score));
         const double ideal = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
+        CLX_TRY(note_search(w, number, levels->lambda[t], score, ideal));
         if (here.n_ambient > 0 && fabs(score - ideal) / ideal < nearest) {
             nearest = fabs(score - ideal) / ideal;
             pass->lambda_count = levels->lambda[t];
@@ -191,7 +216,7 @@ static clast_status one_pass(work *w, int32_t number, clast_pass *pass, bool *se
     pass->n_lambda = levels.n_lambda;
     pass->fallback = levels.fallback;
     if (levels.n_lambda > 0) {
-        CLX_TRY(search(w, &levels, pass, &plan));
+        CLX_TRY(search(w, &levels, number, pass, &plan));
     }
     if (pass->lambda_count > 0) {
         pass->lambda = (double)pass->lambda_count * (double)w->passes->bins.n_bin / (double)w->n;
@@ -256,7 +281,7 @@ clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *doma
                             clx_passes *passes)
 {
     clast_status status = CLAST_OK;
-    work w = {.config = config, .passes = passes};
+    work w = {.config = config, .passes = passes, .search = &result->search};
     clast_domain_sides(domain, w.side);
     w.law = clx_depth_law_of_box(domain->dimension, w.side);
     CLX_TRY(prepare(&w, u, n, domain->dimension));

@@ -1,7 +1,12 @@
 """CLI: decompose tests, splits and counts as its help says."""
+import base64
+import json
 import math
 import random
+import re
+import struct
 import unittest
+import zlib
 
 from clitest import ROOT, Case, clast
 
@@ -11,6 +16,30 @@ DATA = ROOT / "data/d2sd"
 def write_points(path, points):
     names = "xyz"[:len(points[0])]
     path.write_text(",".join(names) + "\n" + "\n".join(",".join(repr(c) for c in p) for p in points) + "\n")
+
+
+def vtk_array(text, name):
+    """Numbers of a zlib-packed inline DataArray, decoded by the format's own rules."""
+    kind, data = re.search(rf'<DataArray type="(\w+)" Name="{name}"[^>]*>\n(.*?)\n</DataArray>', text, re.S).groups()
+    n_block = struct.unpack("<Q", base64.b64decode(data[:12])[:8])[0]
+    width = (8 * (3 + n_block) + 2) // 3 * 4
+    head = struct.unpack(f"<{3 + n_block}Q", base64.b64decode(data[:width]))
+    body, raw = base64.b64decode(data[width:]), b""
+    for size in head[3:]:
+        raw, body = raw + zlib.decompress(body[:size]), body[size:]
+    code = {"Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}[kind]
+    return struct.unpack(f"<{len(raw) // struct.calcsize(code)}{code}", raw)
+
+
+def hexahedron_volume(p):
+    """Six tetrahedra of a VTK hexahedron's corners."""
+    sub = lambda a, b: [x - y for x, y in zip(a, b)]
+    total = 0.0
+    for a, b, c, d in ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)):
+        u, v, w = sub(p[b], p[a]), sub(p[c], p[a]), sub(p[d], p[a])
+        total += abs(u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
+                     + u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+    return total
 
 
 class Decompose(Case):
@@ -82,6 +111,45 @@ class Decompose(Case):
         self.assertFalse(r["reject"])
         volume = 0.5 * math.pi * 0.01
         self.assertAlmostEqual(r["events"], 0.5e-6 * 2000 * 1999 / volume, places=4)
+
+    def test_folder_holds_tables_pictures_and_files_for_paraview(self):
+        out = self.folder / "out"
+        r = clast("decompose", DATA / "points_s2_n500.csv", "--domain", "box:0,0,1,1", "-o", out, "--json")
+        self.assertEqual(r.code, 0, r.err)
+        names = {"cells.csv", "point_cells.csv", "thresholds.csv", "summary.json", "cells.vtu", "points.vtp",
+                 "points.svg", "density.svg", "score.svg", "events.svg"}
+        self.assertEqual({path.name for path in out.iterdir()}, names)
+        self.assertEqual(json.loads((out / "summary.json").read_text()), r.json)
+        rows = (out / "point_cells.csv").read_text().split()
+        self.assertEqual(rows[0], "cell,label,pass")
+        vtp = (out / "points.vtp").read_text()
+        self.assertEqual([list(map(float, row.split(","))) for row in rows[1:]],
+                         [list(t) for t in zip(*(vtk_array(vtp, name) for name in ("cell", "label", "pass")))])
+        again = clast("decompose", out / "points.vtp", "--columns", "x,y", "--domain", "box:0,0,1,1", "--json").json
+        self.assertEqual(again["events"], r.json["events"])
+        vtu = (out / "cells.vtu").read_text()
+        self.assertEqual(vtk_array(vtu, "count"), tuple(
+            float(row.split(",")[5]) for row in (out / "cells.csv").read_text().split()[1:]))
+        self.assertEqual(set(vtk_array(vtu, "types")), {9})
+
+    def test_cells_of_curved_domains_fill_them(self):
+        random.seed(4)
+        points = []
+        while len(points) < 3000:
+            p = [random.gauss(0.3, 0.2), random.gauss(0.0, 0.3), random.gauss(0.0, 0.3)]
+            if math.hypot(*p) < 1.0:
+                points.append(p)
+        write_points(self.folder / "ball.csv", points)
+        for domain, volume in (("sphere:1", 4 / 3 * math.pi), ("cylinder:1,2", 2 * math.pi)):
+            out = self.folder / domain.split(":")[0]
+            r = clast("decompose", self.folder / "ball.csv", "--domain", domain, "--outside", "drop", "--mesh",
+                      "components", "-o", out)
+            self.assertEqual(r.code, 0, r.err)
+            vtu = (out / "cells.vtu").read_text()
+            x = vtk_array(vtu, "Points")
+            corners = [x[i:i + 3] for i in range(0, len(x), 3)]
+            total = sum(hexahedron_volume(corners[i:i + 8]) for i in range(0, len(corners), 8))
+            self.assertAlmostEqual(total / volume, 1.0, delta=0.05)
 
     def test_any_thread_count_gives_the_same_answer(self):
         answers = []
