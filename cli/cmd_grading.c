@@ -3,6 +3,7 @@
 #include "json.h"
 
 #include <clast/grading_file.h>
+#include <clast/sizes_file.h>
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@ typedef struct {
     int32_t spread;
     int32_t count;
     int32_t sample;
+    char *compare;
     uint64_t seed;
     double mass, density, grain_volume;
 } grading_config;
@@ -25,6 +27,8 @@ static const clast_field grading_fields[] = {
      "grains per mass: each as large as its class mean (eq. 9), or so that masses come out exactly",
      "mean|exact"},
     {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-", "sizes to draw; -o FILE.csv keeps them", NULL},
+    {FIELD(compare), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "file of grain sizes to set beside the curve instead (column with its unit, diameter_m)", ""},
     {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of the draws", NULL},
     {FIELD(mass), CLAST_FIELD_F64, 0.0, 0.0, 1e12, "kg", "mass to count grains for; 0: shares only",
      NULL},
@@ -54,18 +58,50 @@ static void free_answer(answer *a)
     clast_table_free(&a->classes);
 }
 
+static clast_status begin_sizes(int64_t n, clast_table *sizes)
+{
+    clast_status status = clast_table_init(sizes, "sizes", n);
+    if (status == CLAST_OK) {
+        status = clast_table_add_number(sizes, "diameter_m", "m", NULL);
+    }
+    return status;
+}
+
 static clast_status draw_sizes(answer *a)
 {
-    double *size = NULL;
-    clast_status status = clast_table_init(&a->sizes, "sizes", a->config->sample);
-    if (status == CLAST_OK) {
-        status = clast_table_add_number(&a->sizes, "diameter_m", "m", &size);
-    }
+    const clast_status status = begin_sizes(a->config->sample, &a->sizes);
     for (int32_t i = 0; i < a->config->sample && status == CLAST_OK; ++i) {
-        size[i] = clast_grading_draw(a->grading, a->config->seed, (uint64_t)i);
+        a->sizes.column[0].number[i] = clast_grading_draw(a->grading, a->config->seed, (uint64_t)i);
     }
-    if (status == CLAST_OK && a->curve.n_class > 0 && a->config->sample > 0) {
-        const clast_grading_sample sample = {a->config->sample, size, NULL};
+    return status;
+}
+
+/// Sizes that someone measured: single ones, not bins or counts.
+static clast_status read_sizes(answer *a)
+{
+    const char *path = a->config->compare;
+    clast_sizes list = {0};
+    clast_status status = clast_sizes_read(path, "", "", &list);
+    if (status == CLAST_OK) {
+        status = begin_sizes(list.n, &a->sizes);
+    }
+    for (int64_t i = 0; i < list.n && status == CLAST_OK; ++i) {
+        a->sizes.column[0].number[i] = list.low[i];
+        if (list.low[i] < list.high[i] || list.count[i] != 1.0) {
+            status = cli_fail(CLAST_E_FORMAT,
+                              "%s: size %lld is a bin or counted; give one row for each grain",
+                              path, (long long)i + 1);
+        }
+    }
+    clast_sizes_free(&list);
+    return status;
+}
+
+static clast_status take_sizes(answer *a)
+{
+    clast_status status = a->config->compare[0] != '\0' ? read_sizes(a) : draw_sizes(a);
+    if (status == CLAST_OK && a->curve.n_class > 0 && a->sizes.n_row > 0) {
+        const clast_grading_sample sample = {a->sizes.n_row, a->sizes.column[0].number, NULL};
         status = clast_grading_compare(&a->curve, a->grading, &sample, &a->classes, &a->match);
     }
     return status;
@@ -140,7 +176,7 @@ static json_t *answer_json(const answer *a)
     sizes_json(o, "drawn_by_number", clast_grading_size, a->grading);
     cli_json_number(o, "mean_cube", clast_grading_mean_cube(a->grading));
     cli_json_number(o, "n_expected", expected_count(a));
-    cli_json_count(o, "n_sample", a->config->sample);
+    cli_json_count(o, "n_sample", a->sizes.n_row);
     if (a->curve.n_class > 0) {
         curve_json(o, &a->curve);
         classes_json(o, a);
@@ -205,25 +241,41 @@ static void answer_words(const answer *a)
                      expected_count(a));
     }
     if (a->classes.n_row > 0) {
-        (void)printf("  %d drawn: farthest from the wanted curve %.4f by mass, %.4f by number\n",
-                     a->config->sample, a->match.distance_mass, a->match.distance_number);
+        (void)printf("  %lld %s: farthest from the wanted curve %.4f by mass, %.4f by number\n",
+                     (long long)a->sizes.n_row,
+                     a->config->compare[0] != '\0' ? "grains compared" : "drawn",
+                     a->match.distance_mass, a->match.distance_number);
+        size_words("achieved, by mass", a->match.achieved_d10, a->match.achieved_d50,
+                   a->match.achieved_d90);
     }
+}
+
+static clast_status check_options(const cli_common *common, const grading_config *config)
+{
+    const bool compares = config->compare[0] != '\0';
+    if (common->output != NULL && config->sample == 0) {
+        return cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
+    }
+    if (compares && config->sample > 0) {
+        return cli_fail(CLAST_E_USAGE, "sample draws sizes and compare reads them; take one");
+    }
+    return CLAST_OK;
 }
 
 static clast_status run(const cli_common *common, void *config_bytes)
 {
     const grading_config *config = config_bytes;
     answer a = {.config = config, .text = common->argument[0]};
-    clast_status status = CLAST_OK;
-    if (common->output != NULL && config->sample == 0) {
-        status = cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
-    }
+    clast_status status = check_options(common, config);
     if (status == CLAST_OK) {
         status = clast_grading_load(a.text, (clast_grading_spread)config->spread,
                                     (clast_grading_count)config->count, &a.curve, &a.grading);
     }
     if (status == CLAST_OK) {
-        status = draw_sizes(&a);
+        status = take_sizes(&a);
+    }
+    if (status == CLAST_OK && config->compare[0] != '\0' && a.curve.n_class == 0) {
+        status = cli_fail(CLAST_E_USAGE, "'%s' is no sieve curve to compare with", a.text);
     }
     if (status == CLAST_OK && common->output != NULL) {
         status = clast_table_write_csv(&a.sizes, common->output);
@@ -244,7 +296,8 @@ const cli_command cli_grading = {
     .details =
         "CURVE is U1, U3, U5, U7, B30, B50 or B70 (Rettinger et al. 2022, table 3), the CSV file "
         "of "
-        "a sieve\ncurve, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE or one "
+        "a sieve\ncurve, uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], list:FILE "
+        "(counts),\nmasses:FILE or one "
         "size (\"11 mm\").\nA file has a column sieve, size, diameter or phi with its unit "
         "(sieve_mm) and a column retained (on\nthis sieve), or passing (% or share). Numbers "
         "follow from masses by equations 8 and 9 of the paper;\nthe curve is straight over log "

@@ -23,7 +23,8 @@ CLAST_API clast_status clast_curve_parse(const char *name, const void *bytes, si
 
 /// Sizes by one text, as in the option `curve`: a published case (U1 ... B70), "uniform:LOW,HIGH",
 /// "lognormal:MEAN,DEVIATION" or "lognormal:MEAN,DEVIATION,LOW,HIGH", one size ("11 mm"),
-/// "list:FILE" (clast_sizes_read), or the file of a sieve curve.
+/// "list:FILE" or "masses:FILE" (clast_sizes_read; its counts are numbers or masses), or the file
+/// of a sieve curve.
 ///
 /// @param curve    {0}; stays empty unless the text names a curve
 /// @param grading  made in any case

@@ -311,12 +311,12 @@ done:
     return status;
 }
 
-static clast_status load_list(const char *path, clast_grading **grading)
+static clast_status load_list(const char *path, bool by_mass, clast_grading **grading)
 {
     clast_status status = CLAST_OK;
     clast_sizes sizes = {0};
     CLX_TRY(clast_sizes_read(path, "", "", &sizes));
-    status = clast_grading_of_sizes(&sizes, false, grading);
+    status = clast_grading_of_sizes(&sizes, by_mass, grading);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", path);
     }
@@ -368,7 +368,10 @@ clast_status clast_grading_load(const char *text, clast_grading_spread spread,
         return load_law(text, text[0] == 'l', grading);
     }
     if (strncmp(text, "list:", 5) == 0) {
-        return load_list(text + 5, grading);
+        return load_list(text + 5, false, grading);
+    }
+    if (strncmp(text, "masses:", 7) == 0) {
+        return load_list(text + 7, true, grading);
     }
     if (!is_case(text) && is_one_size(text)) {
         CLX_TRY(clast_unit_parse(text, "m", &size));
@@ -378,7 +381,7 @@ clast_status clast_grading_load(const char *text, clast_grading_spread spread,
 done:
     if (status == CLAST_E_IO) {
         clx_fail_prefix("neither a published curve (U1, U3, U5, U7, B30, B50, B70), uniform:, "
-                        "lognormal:, list: nor a size, so a file");
+                        "lognormal:, list:, masses: nor a size, so a file");
     }
     return status;
 }

@@ -32,6 +32,20 @@ class Grading(Case):
         other = clast("grading", "U7", "--sample", "5000", "--seed", "4", "--json").json
         self.assertNotEqual(got["achieved_d50"], other["achieved_d50"])
 
+    def test_measured_sizes_are_set_beside_a_curve(self):
+        out = self.folder / "sizes.csv"
+        drawn = clast("grading", "U7", "--sample", "2000", "-o", out, "--json").json
+        got = clast("grading", "U7", "--compare", out, "--json").json
+        self.assertEqual(got["n_sample"], 2000)
+        self.assertAlmostEqual(got["distance_mass"], drawn["distance_mass"], places=14)
+        wrong = clast("grading", "U1", "--compare", out, "--json").json
+        self.assertGreater(wrong["distance_mass"], 0.3)
+        self.assertIn("2000 grains compared", clast("grading", "U1", "--compare", out).out)
+        self.assert_fails(2, "grading", "U1", "--compare", out, "--sample", "5", says=["take one"])
+        self.assert_fails(2, "grading", "6 mm", "--compare", out, says=["no sieve curve"])
+        out.write_text("low_mm,high_mm,count\n1,2,3\n")
+        self.assert_fails(3, "grading", "U1", "--compare", out, says=["one row for each grain"])
+
     def test_a_users_curve_is_read_and_shown(self):
         file = self.folder / "river.csv"
         file.write_text("phi,passing (%)\n-1,0\n-2,25\n-3,100\n")

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <clast/grading_file.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -504,6 +505,28 @@ static void one_text_names_any_distribution(void **state)
     assert_null(g);
 }
 
+static void lists_are_files_of_counts_or_masses(void **state)
+{
+    (void)state;
+    char path[512];
+    char text[600];
+    (void)snprintf(path, sizeof path, "%s/sizes.csv", support_scratch());
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fputs("d_mm,count\n1,3\n2,1\n", file);
+    assert_int_equal(fclose(file), 0);
+    static const char *const kind[] = {"list", "masses"};
+    const double share[] = {0.75, 24.0 / 25.0}; // 3 : 1, and 3 : 1/8
+    for (int k = 0; k < 2; ++k) {
+        clast_curve curve = {0};
+        clast_grading *g = NULL;
+        (void)snprintf(text, sizeof text, "%s:%s", kind[k], path);
+        CHECK_OK(clast_grading_load(text, 0, 0, &curve, &g));
+        CHECK_REL(clast_grading_share(g, 1.5e-3), share[k], 1e-14);
+        clast_grading_destroy(g);
+    }
+}
+
 static clast_status make_all(void *context)
 {
     static const char text[] = "sieve_mm,retained\n2,10\n4,30\n8,0\n";
@@ -571,6 +594,7 @@ int main(void)
         cmocka_unit_test(files_say_retained_or_passing),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(one_text_names_any_distribution),
+        cmocka_unit_test(lists_are_files_of_counts_or_masses),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
