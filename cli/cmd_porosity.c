@@ -119,8 +119,8 @@ typedef struct {
     clast_table coordination; ///< without columns where contacts are not known
     clast_table fabric;       ///< directions of contacts and grains
     clast_table local;        ///< without columns unless asked for, as the next
-    clast_table radial, pores;
-    double pore_porosity, pore_mean;
+    clast_table radial;
+    clast_pores pores;
     clast_porosity_bulk bulk;
     double mean_coordination; ///< NAN where contacts are not known
 } findings;
@@ -132,7 +132,7 @@ static void findings_free(findings *f)
     clast_table_free(&f->fabric);
     clast_table_free(&f->local);
     clast_table_free(&f->radial);
-    clast_table_free(&f->pores);
+    clast_pores_free(&f->pores);
 }
 
 static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *bed, double gap,
@@ -169,9 +169,10 @@ static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
     if (status == CLAST_OK && config->local) {
         status = clast_local_porosity(assembly, bed, bed->floor, f->bulk.top, &f->local);
     }
+    const double z[2] = {f->bulk.z_low, f->bulk.z_high};
     if (status == CLAST_OK && config->rings > 0) {
-        status = clast_radial_porosity(assembly, bed, options->method, f->bulk.z_low,
-                                       f->bulk.z_high, config->rings, 0, &f->radial);
+        const clast_radial_options rings = {options->method, config->rings, 0};
+        status = clast_radial_porosity(assembly, bed, z, &rings, &f->radial);
     }
     if (status == CLAST_OK && config->pores > 0) {
         const bool periodic = bed->kind == CLAST_BED_PERIODIC;
@@ -179,8 +180,7 @@ static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
                                           PORE_BINS,
                                           {periodic ? bed->high[0] - bed->low[0] : 0.0,
                                            periodic ? bed->high[1] - bed->low[1] : 0.0}};
-        status = clast_pore_sizes(assembly, bed, f->bulk.z_low, f->bulk.z_high, &pores,
-                                  &f->pore_porosity, &f->pore_mean, &f->pores);
+        status = clast_pores_measure(assembly, bed, z, &pores, &f->pores);
     }
     return status;
 }
@@ -239,9 +239,9 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
         cli_json_number(object, "local_mean", mean);
         cli_json_number(object, "local_deviation", deviation);
     }
-    if (f->pores.n_column > 0) {
-        cli_json_number(object, "pore_mean", f->pore_mean);
-        cli_json_number(object, "pore_porosity", f->pore_porosity);
+    if (f->pores.sizes.n_column > 0) {
+        cli_json_number(object, "pore_mean", f->pores.mean);
+        cli_json_number(object, "pore_porosity", f->pores.porosity);
     }
     json_t *fabric = json_object();
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
@@ -275,7 +275,7 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
         const clast_table *table;
     } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
                  {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
-                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores}};
+                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
             status = path_in(path, folder, files[k].name);
@@ -293,10 +293,10 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
         status = status == CLAST_OK ? clast_radial_chart_write(&f->radial, assembly->unit, path)
                                     : status;
     }
-    if (status == CLAST_OK && f->pores.n_column > 0) {
+    if (status == CLAST_OK && f->pores.sizes.n_column > 0) {
         status = path_in(path, folder, "pores.svg");
-        status =
-            status == CLAST_OK ? clast_pore_chart_write(&f->pores, assembly->unit, path) : status;
+        status = status == CLAST_OK ? clast_pore_chart_write(&f->pores.sizes, assembly->unit, path)
+                                    : status;
     }
     return status;
 }
@@ -325,11 +325,11 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n", mean,
                      deviation, (long long)n);
     }
-    if (f->pores.n_column > 0) {
+    if (f->pores.sizes.n_column > 0) {
         (void)printf(
             "pores               %.6g %s   mean distance to the nearest grain; porosity by "
             "points %.4f\n",
-            f->pore_mean, assembly->unit, f->pore_porosity);
+            f->pores.mean, assembly->unit, f->pores.porosity);
     }
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],

@@ -81,7 +81,9 @@ static void measure(int64_t begin, int64_t end, int32_t worker, void *context)
             continue;
         }
         double found = HUGE_VAL;
-        for (double reach = s->first; found > reach && reach < 1e6 * s->first; reach *= 2.0) {
+        double reach = s->first;
+        for (int tries = 0; tries < 20 && found > reach; ++tries) {
+            reach *= tries > 0 ? 2.0 : 1.0;
             found = nearest_within(s, x, reach, 1e-9 * s->first);
         }
         s->delta[k] = found;
@@ -136,24 +138,29 @@ done:
     return status;
 }
 
-clast_status clast_pore_sizes(const clast_assembly *assembly, const clast_bed *bed, double z_low,
-                              double z_high, const clast_pore_options *options, double *porosity,
-                              double *mean, clast_table *table)
+void clast_pores_free(clast_pores *pores)
+{
+    clast_table_free(&pores->sizes);
+    *pores = (clast_pores){0};
+}
+
+clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                 const double z[2], const clast_pore_options *options,
+                                 clast_pores *pores)
 {
     clast_status status = CLAST_OK;
-    clast_table made = {0};
+    clast_pores made = {0};
     clx_touch_set set = {0};
     search s = {.bed = bed,
                 .set = &set,
-                .z_low = z_low,
-                .z_high = z_high,
+                .z_low = z[0],
+                .z_high = z[1],
                 .period = {options->period[0], options->period[1]}};
     const int64_t n = options->n_point;
     int64_t n_pore = 0;
     int64_t n_bed = 0;
-    double sum = 0.0;
-    CLX_CHECK(assembly->n_grain > 0 && z_high > z_low, CLAST_E_USAGE,
-              "no grain to measure between %g and %g", z_low, z_high);
+    CLX_CHECK(assembly->n_grain > 0 && z[1] > z[0], CLAST_E_USAGE,
+              "no grain to measure between %g and %g", z[0], z[1]);
     CLX_CHECK(n >= 1 && n <= POINT_LIMIT && options->n_bin >= 1, CLAST_E_USAGE,
               "pores by %lld points in %d bins", (long long)n, options->n_bin);
     CLX_TRY(clx_touch_set_init(assembly, &set));
@@ -161,22 +168,17 @@ clast_status clast_pore_sizes(const clast_assembly *assembly, const clast_bed *b
     CLX_TRY(clx_alloc(&s.delta, n, sizeof *s.delta));
     clx_parallel_for(n, BLOCK, measure, &s);
     CLX_TRY(keep_pores(s.delta, n, &n_pore, &n_bed));
-    CLX_TRY(clast_table_init(&made, "pores", options->n_bin));
-    CLX_TRY(histogram(s.delta, n_pore, options->n_bin, &made));
+    CLX_TRY(clast_table_init(&made.sizes, "pores", options->n_bin));
+    CLX_TRY(histogram(s.delta, n_pore, options->n_bin, &made.sizes));
     for (int64_t k = 0; k < n_pore; ++k) {
-        sum += s.delta[k];
+        made.mean += s.delta[k] / (double)n_pore;
     }
-    if (porosity != NULL) {
-        *porosity = (double)n_pore / (double)n_bed;
-    }
-    if (mean != NULL) {
-        *mean = sum / (double)n_pore;
-    }
-    *table = made;
-    made = (clast_table){0};
+    made.porosity = (double)n_pore / (double)n_bed;
+    *pores = made;
+    made = (clast_pores){0};
 done:
     clx_free(s.delta);
     clx_touch_set_free(&set);
-    clast_table_free(&made);
+    clast_pores_free(&made);
     return status;
 }

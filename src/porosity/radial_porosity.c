@@ -82,34 +82,35 @@ done:
 }
 
 clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_bed *bed,
-                                   clast_porosity_method method, double z_low, double z_high,
-                                   int32_t n_ring, int32_t n_point, clast_table *table)
+                                   const double z[2], const clast_radial_options *options,
+                                   clast_table *table)
 {
     clast_status status = CLAST_OK;
     clast_table made = {0};
     clx_touch_set set = {0};
+    const int32_t n_ring = options->n_ring;
     CLX_CHECK(bed->kind == CLAST_BED_CYLINDER && bed->radius > 0.0, CLAST_E_USAGE,
               "a radial profile needs a cylindrical bed");
-    CLX_CHECK(assembly->n_grain > 0 && z_high > z_low, CLAST_E_USAGE,
-              "no grain to measure between %g and %g", z_low, z_high);
-    CLX_CHECK(n_ring >= 1 && n_ring <= RING_LIMIT && n_point >= 0, CLAST_E_USAGE,
+    CLX_CHECK(assembly->n_grain > 0 && z[1] > z[0], CLAST_E_USAGE,
+              "no grain to measure between %g and %g", z[0], z[1]);
+    CLX_CHECK(n_ring >= 1 && n_ring <= RING_LIMIT && options->n_point >= 0, CLAST_E_USAGE,
               "radial profile of %d rings", n_ring);
     CLX_TRY(clx_touch_set_init(assembly, &set));
     CLX_TRY(clast_table_init(&made, "radial", n_ring));
     CLX_TRY(make_columns(&made));
     const rings r = {.bed = bed,
-                     .z_low = z_low,
-                     .z_high = z_high,
+                     .z_low = z[0],
+                     .z_high = z[1],
                      .step = bed->radius / n_ring,
                      .n_ring = n_ring,
-                     .n_point = n_point > 0 ? n_point : POINTS,
+                     .n_point = options->n_point > 0 ? options->n_point : POINTS,
                      .solid = made.column[2].number,
                      .error = made.column[3].number};
-    add_grains(assembly, &set, method, &r);
+    add_grains(assembly, &set, options->method, &r);
     for (int32_t k = 0; k < n_ring; ++k) {
         const double low = k * r.step;
         const double high = (k + 1) * r.step;
-        const double volume = CLAST_PI * (high * high - low * low) * (z_high - z_low);
+        const double volume = CLAST_PI * (high * high - low * low) * (z[1] - z[0]);
         made.column[0].number[k] = low;
         made.column[1].number[k] = high;
         r.error[k] = sqrt(r.error[k]);

@@ -25,7 +25,10 @@ static void box_on_the_axis_is_solid_within(void **state)
     CHECK_OK(clast_shape_mesh("box", &box, &shape));
     add(&a, &shape, 0.0, 0.0, 1.0);
     CHECK_OK(clast_bed_parse("cylinder:2", &bed));
-    CHECK_OK(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 0.0, 2.0, 4, 20000, &radial));
+    const double z[2] = {0.0, 2.0};
+    const double none[2] = {2.0, 0.0};
+    const clast_radial_options options = {CLAST_POROSITY_EXACT, 4, 20000};
+    CHECK_OK(clast_radial_porosity(&a, &bed, z, &options, &radial));
     const double *porosity = clast_table_numbers(&radial, "porosity");
     const double *error = clast_table_numbers(&radial, "porosity_error");
     CHECK_ABS(porosity[0], 0.0, 4.0 * error[0]);
@@ -34,11 +37,9 @@ static void box_on_the_axis_is_solid_within(void **state)
     CHECK_ABS(porosity[2], 1.0 - (4.0 - CLAST_PI) / (CLAST_PI * 1.25), 4.0 * error[2]);
     CHECK_ABS(porosity[3], 1.0, 0.0);
     clast_table_free(&radial);
-    CHECK_STATUS(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 2.0, 0.0, 4, 0, &radial),
-                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_radial_porosity(&a, &bed, none, &options, &radial), CLAST_E_USAGE);
     CHECK_OK(clast_bed_parse("box:0,0,1,1", &bed));
-    CHECK_STATUS(clast_radial_porosity(&a, &bed, CLAST_POROSITY_EXACT, 0.0, 2.0, 4, 0, &radial),
-                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_radial_porosity(&a, &bed, z, &options, &radial), CLAST_E_USAGE);
     clast_assembly_free(&a);
     clast_shape_free(&shape);
     clast_mesh_free(&box);
@@ -51,17 +52,16 @@ static void lattice_has_its_pores(void **state)
     clast_shape ball = {0};
     clast_assembly a = {0};
     clast_bed bed;
-    clast_table pores = {0};
-    double porosity = 0.0;
-    double mean = 0.0;
+    clast_pores pores = {0};
+    const double slab[2] = {1.0, 4.0};
     const clast_pore_options options = {.n_point = 20000, .n_bin = 20, .period = {3.0, 3.0}};
     CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
     for (int k = 0; k < 45; ++k) {
         add(&a, &ball, k % 3 + 0.5, k / 3 % 3 + 0.5, k / 9 + 0.5);
     }
     CHECK_OK(clast_bed_parse("periodic:0,0,3,3", &bed));
-    CHECK_OK(clast_pore_sizes(&a, &bed, 1.0, 4.0, &options, &porosity, &mean, &pores));
-    CHECK_ABS(porosity, 1.0 - CLAST_PI / 6.0, 4.0 * sqrt(0.25 / 20000.0));
+    CHECK_OK(clast_pores_measure(&a, &bed, slab, &options, &pores));
+    CHECK_ABS(pores.porosity, 1.0 - CLAST_PI / 6.0, 4.0 * sqrt(0.25 / 20000.0));
     // An independent mean: midpoints of a grid of 60^3 in an eighth of the cell.
     double sum = 0.0;
     double count = 0.0;
@@ -73,11 +73,11 @@ static void lattice_has_its_pores(void **state)
         sum += d > 0.0 ? d : 0.0;
         count += d > 0.0 ? 1.0 : 0.0;
     }
-    CHECK_ABS(mean, sum / count, 4.0 * 0.07 / sqrt(0.4764 * 20000.0));
-    const double largest = clast_table_numbers(&pores, "delta_high_m")[19];
+    CHECK_ABS(pores.mean, sum / count, 4.0 * 0.07 / sqrt(0.4764 * 20000.0));
+    const double largest = clast_table_numbers(&pores.sizes, "delta_high_m")[19];
     assert_true(largest <= 0.5 * (sqrt(3.0) - 1.0) + 1e-12 && largest > 0.34);
-    CHECK_ABS(clast_table_numbers(&pores, "share_smaller")[19], 1.0, 0.0);
-    clast_table_free(&pores);
+    CHECK_ABS(clast_table_numbers(&pores.sizes, "share_smaller")[19], 1.0, 0.0);
+    clast_pores_free(&pores);
     clast_assembly_free(&a);
     clast_shape_free(&ball);
 }
@@ -90,16 +90,16 @@ typedef struct {
 static clast_status make_both(void *context)
 {
     scene *s = context;
-    clast_table pores = {0};
+    clast_pores pores = {0};
     clast_table radial = {0};
+    const double z[2] = {0.0, 1.0};
     const clast_pore_options options = {.n_point = 50, .n_bin = 5};
-    clast_status status =
-        clast_pore_sizes(&s->assembly, &s->bed, 0.0, 1.0, &options, NULL, NULL, &pores);
+    const clast_radial_options rings = {CLAST_POROSITY_SPHERES, 3, 10};
+    clast_status status = clast_pores_measure(&s->assembly, &s->bed, z, &options, &pores);
     if (status == CLAST_OK) {
-        status = clast_radial_porosity(&s->assembly, &s->bed, CLAST_POROSITY_SPHERES, 0.0, 1.0, 3,
-                                       10, &radial);
+        status = clast_radial_porosity(&s->assembly, &s->bed, z, &rings, &radial);
     }
-    clast_table_free(&pores);
+    clast_pores_free(&pores);
     clast_table_free(&radial);
     return status;
 }
