@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate docs format hooks install clean
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -20,11 +20,15 @@ docs:
 bench:
 	@tools/setup.sh build
 	@tools/bench.sh
-paper: paper-aggregate
+paper: paper-aggregate paper-predict
 paper-aggregate:
 	@tools/setup.sh build
 	@tools/build.sh release clast_cli
 	@tools/paper_aggregate.py
+paper-predict:
+	@tools/setup.sh build
+	@tools/build.sh release clast_cli
+	@tools/paper_predict.py
 format:
 	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
 hooks:
