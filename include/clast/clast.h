@@ -32,6 +32,7 @@
 #include <clast/harmonics.h>
 #include <clast/harmonics_file.h>
 #include <clast/grain_statistics.h>
+#include <clast/grains_file.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/local_porosity.h>

@@ -2,6 +2,7 @@
 #include "shape/grain.h"
 
 #include "base/alloc.h"
+#include "geom/hull.h"
 #include "geom/topology.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
@@ -155,6 +156,18 @@ static clast_status check_finite(const clast_mesh *mesh)
     return CLAST_OK;
 }
 
+static clast_status check_rank(const clast_mesh *mesh)
+{
+    static const char *const flats[] = {"are one point", "lie on one line", "lie in one plane"};
+    const int rank = clx_points_rank((const double(*)[3])mesh->vert, mesh->n_vert, 1e-13);
+    if (rank >= 0 && rank < 3) {
+        return clx_fail(CLAST_E_GEOMETRY,
+                        "all %d vertices %s: a grain without thickness has no form", mesh->n_vert,
+                        flats[rank]);
+    }
+    return CLAST_OK;
+}
+
 /// A solid's surface: every edge used equally often in both directions.
 static clast_status check_closed(const clast_mesh *mesh)
 {
@@ -258,6 +271,7 @@ clast_status clast_grain_measure(const clast_mesh *mesh, clast_grain *grain)
     clast_status status = CLAST_OK;
     clast_grain made = {0};
     CLX_TRY(check_finite(mesh));
+    CLX_TRY(check_rank(mesh));
     CLX_TRY(check_closed(mesh));
     CLX_TRY(measure_solid(mesh, &made));
     *grain = made;

@@ -1,0 +1,167 @@
+// clast shape: how large a grain is and what form it has.
+#include "command.h"
+#include "shape_words.h"
+
+#include <clast/table_file.h>
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    int32_t axes, kind, degree, level;
+    bool hull;
+    char *unit, *columns, *surfaces;
+    double spacing;
+} config;
+
+#define TEXT(name, help)                                                                           \
+    {                                                                                              \
+#name, offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""                    \
+    }
+static const clast_field fields[] = {
+    {"axes", offsetof(config, axes), CLAST_FIELD_CHOICE, CLAST_AXES_ELLIPSOID, 0, 0, "-",
+     "definition of L, I and S behind D and the form factors",
+     "ellipsoid|box|fitted|feret|principal"},
+    {"hull", offsetof(config, hull), CLAST_FIELD_BOOL, 0, 0, 1, "-",
+     "measure the convex hull (as packings use it), not the surface", NULL},
+    TEXT(unit, "unit of the files' coordinates (mm, um, ...): results are then SI; none: model "
+               "units"),
+    {"kind", offsetof(config, kind), CLAST_FIELD_CHOICE, CLAST_GRAINS_AUTO, 0, 0, "-",
+     "what the files hold; auto: by name and content", "auto|surface|series|voxels|points|table"},
+    {"degree", offsetof(config, degree), CLAST_FIELD_I32, -1, -1, CLAST_HARMONICS_MAX_DEGREE, "-",
+     "series: terms up to this degree; -1: all", NULL},
+    {"level", offsetof(config, level), CLAST_FIELD_I32, 5, 0, 8, "-",
+     "series: surface of 20 x 4^level triangles for calipers and boxes", NULL},
+    {"spacing", offsetof(config, spacing), CLAST_FIELD_F64, 0, 0, 1e300, "-",
+     "points: grid they were sampled on, in their unit, for a surface; 0: their convex hull", NULL},
+    TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names"),
+    TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder"),
+    {0}};
+
+static clast_status unit_factor(const config *c, double *factor)
+{
+    *factor = 0.0;
+    return c->unit[0] != '\0' ? clast_unit_factor(c->unit, "m", factor) : CLAST_OK;
+}
+
+/// True when every grain's lengths are in metres after clast_grains_to_metres.
+static bool all_have_unit(const clast_grains *grains, double unit_m)
+{
+    for (int64_t i = 0; i < grains->n; ++i) {
+        if (unit_m <= 0.0 && grains->record[i].unit_m <= 0.0 && grains->record[i].has_size) {
+            return false;
+        }
+    }
+    return unit_m > 0.0 || (grains->n > 0 && grains->record[0].unit_m > 0.0);
+}
+
+static clast_status write_csv(const cli_common *common, const cli_shape_result *shape)
+{
+    clast_table table = {0};
+    clast_status status = CLAST_OK;
+    if (common->output != NULL) {
+        status = clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table);
+        if (status == CLAST_OK) {
+            status = clast_table_write_csv(&table, common->output);
+        }
+    }
+    clast_table_free(&table);
+    return status;
+}
+
+/// One line for each file or label that could not be measured, and for rows left out.
+static clast_status tell_faults(const cli_common *common, const clast_grains *grains)
+{
+    clast_status worst = CLAST_OK;
+    for (int64_t i = 0; i < grains->n_note && !common->quiet; ++i) {
+        (void)fprintf(stderr, "clast %s: %s\n", common->command, grains->note[i].text);
+    }
+    for (int64_t i = 0; i + 1 < grains->n_fault; ++i) {
+        (void)fprintf(stderr, "clast %s: %s\n", common->command, grains->fault[i].text);
+    }
+    if (grains->n_fault > 0) { // the frame prints the last line
+        const clast_grain_fault *last = &grains->fault[grains->n_fault - 1];
+        worst = cli_fail(last->status, "%s", last->text);
+    }
+    return worst;
+}
+
+static clast_status run(const cli_common *common, void *config_bytes)
+{
+    const config *c = config_bytes;
+    double unit_m = 0.0;
+    cli_shape_result shape = {.axes = (clast_axes_kind)c->axes, .is_hull = c->hull};
+    const clast_grains_options options = {
+        .kind = (clast_grains_kind)c->kind,
+        .hull = c->hull,
+        .degree = c->degree,
+        .level = c->level,
+        .spacing = c->spacing,
+        .columns = c->columns[0] != '\0' ? c->columns : NULL,
+        .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
+    };
+    clast_status status = unit_factor(c, &unit_m);
+    if (status == CLAST_OK) {
+        status = clast_grains_read(common->n_argument, (const char *const *)common->argument,
+                                   &options, &shape.grains);
+    }
+    if (status == CLAST_OK && all_have_unit(&shape.grains, unit_m)) {
+        clast_grains_to_metres(&shape.grains, unit_m);
+        shape.in_metres = true;
+    }
+    if (status == CLAST_OK) {
+        status = write_csv(common, &shape);
+    }
+    if (status == CLAST_OK) {
+        if (common->json) {
+            status = cli_print_json(cli_shape_json(&shape));
+        } else if (shape.grains.n > 0) {
+            cli_shape_words(&shape);
+        }
+    }
+    if (status == CLAST_OK) {
+        status = tell_faults(common, &shape.grains);
+    }
+    clast_grains_free(&shape.grains);
+    return status;
+}
+
+#define FACTOR(id, name, symbol, label, formula, value, low, high, source)                         \
+    "\n  " symbol "  " name " = " formula "  [" source "]"
+#define AXES(id, name, what, source) "\n  " name ": " what "  [" source "]"
+
+const cli_command cli_shape = {
+    .name = "shape",
+    .arguments = "FILE [FILE...]",
+    .summary = "size and form of grains: volume, L I S, form factors, sphericity, roundness",
+    .details =
+        "Files: surfaces (STL, OBJ, PLY, OFF), coefficients of spherical harmonics (rows n m Re "
+        "Im),\nlabelled voxels (Xsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), "
+        "tables of L,I,S\nor flatness,elongation. -o FILE.csv writes everything as a table.\n"
+        "Files that cannot be measured get one line on stderr each, the others are measured; exit "
+        "code 3.\n\nL >= I >= S by definition (--axes; all are in --json and CSV):" CLAST_AXES_LIST(
+            AXES) "\n  D = sqrt((S^2+I^2)/2), the sieve size [Rettinger2022 eq. 1]\n\n"
+                  "Form factors (Table 1 of Rettinger et al. 2022; inverses are "
+                  "inverse_NAME):" CLAST_FORM_FACTOR_LIST(
+                      FACTOR) "\n  Zingg class: S/I and I/L above or below 2/3: sphere, disc, rod, "
+                              "blade  [Zingg1935]\n\n"
+                              "Shape of the surface:"
+                              "\n  sphericity = (36 pi V^2)^(1/3)/A  [Wadell1932]"
+                              "\n  convexity = V/V(convex hull); hull_volume_added = V(convex "
+                              "hull)/V - 1"
+                              "\n  roundness = surface mean of cos(normal, ray from the centroid)  "
+                              "[BullardGarboczi2013]"
+                              "\n  angularity = mean over directions of |r - r_e|/r_e, r_e of the "
+                              "mass-equivalent "
+                              "ellipsoid\n    (the radius method in 3-D)  [Masad2001]"
+                              "\n  feret_max, feret_min: longest and shortest caliper, exact"
+                              "\n  projected_mean = A(convex hull)/4  [Cauchy1841]; projected_min, "
+                              "projected_max: least "
+                              "and\n    greatest shadow of the hull\n"
+                              "Moments of inertia are at density 1. Sources: docs/theory/form.md.",
+    .fields = fields,
+    .config_size = sizeof(config),
+    .n_min = 1,
+    .n_max = INT32_MAX,
+    .run = run,
+};

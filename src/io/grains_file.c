@@ -1,0 +1,457 @@
+// Grains from files: finds out what a file holds, makes its grains' surfaces, measures them.
+//
+// Each file is one task; a task keeps its grains and faults to itself, and the results are joined
+// in the order of the files, so that they do not depend on the number of threads.
+#include "io/grains_file.h"
+
+#include "base/alloc.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "io/text.h"
+#include <clast/form_set.h>
+#include <clast/harmonics_file.h>
+#include <clast/hull.h>
+#include <clast/mesh_file.h>
+#include <clast/mesh_repair.h>
+#include <clast/points_file.h>
+#include <clast/voxels_file.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const int64_t LARGEST_FILE = INT64_C(1) << 34;
+
+const char *clast_grains_kind_name(clast_grains_kind kind)
+{
+    static const char *const names[] = {"auto", "surface", "series", "voxels", "points", "table"};
+    return (int)kind >= 0 && kind <= CLAST_GRAINS_TABLE ? names[kind] : "?";
+}
+
+static void faults_free(clast_grain_fault *fault, int64_t n)
+{
+    for (int64_t i = 0; i < n; ++i) {
+        clx_free(fault[i].text);
+    }
+    clx_free(fault);
+}
+
+void clast_grains_free(clast_grains *grains)
+{
+    for (int64_t i = 0; i < grains->n; ++i) {
+        clx_free(grains->record[i].name);
+    }
+    clx_free(grains->record);
+    faults_free(grains->fault, grains->n_fault);
+    faults_free(grains->note, grains->n_note);
+    *grains = (clast_grains){0};
+}
+
+/// Keeps a line about a file in a list of faults or notes.
+static clast_status add_line(clast_grain_fault **list, int64_t *n, int64_t *room,
+                             clast_status about, const char *path, const char *text)
+{
+    clast_status status = CLAST_OK;
+    char *copy = NULL;
+    const size_t size = strlen(path) + strlen(text) + 3;
+    const bool is_named = strncmp(text, path, strlen(path)) == 0;
+    CLX_TRY(clx_grow(list, room, *n + 1, sizeof **list));
+    CLX_TRY(clx_alloc(&copy, (int64_t)size, 1));
+    (void)snprintf(copy, size, "%s%s%s", is_named ? "" : path, is_named ? "" : ": ", text);
+    (*list)[(*n)++] = (clast_grain_fault){about, copy};
+done:
+    return status;
+}
+
+clast_status clx_grains_fault(clx_grains_task *task, clast_status about)
+{
+    if (about == CLAST_E_MEMORY || about == CLAST_E_STOPPED) {
+        return about;
+    }
+    return add_line(&task->grains.fault, &task->grains.n_fault, &task->fault_room, about,
+                    task->path, clast_error_detail());
+}
+
+clast_status clx_grains_note(clx_grains_task *task, const char *text)
+{
+    return add_line(&task->grains.note, &task->grains.n_note, &task->note_room, CLAST_OK,
+                    task->path, text);
+}
+
+clast_status clx_grains_add(clx_grains_task *task, const char *suffix, clast_grain_record **record)
+{
+    clast_status status = CLAST_OK;
+    char *name = NULL;
+    const size_t size = strlen(task->path) + strlen(suffix) + 1;
+    CLX_TRY(clx_grow(&task->grains.record, &task->record_room, task->grains.n + 1,
+                     sizeof *task->grains.record));
+    CLX_TRY(clx_alloc(&name, (int64_t)size, 1));
+    (void)snprintf(name, size, "%s%s", task->path, suffix);
+    *record = &task->grains.record[task->grains.n++];
+    **record = (clast_grain_record){.name = name, .has_surface = true, .has_size = true};
+done:
+    return status;
+}
+
+/// Writes a grain's surface into the folder, under the file's name without its extension.
+static clast_status write_surface(const clx_grains_task *task, const char *suffix,
+                                  const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh hull = {0};
+    char *path = NULL;
+    const char *slash = strrchr(task->path, '/');
+    const char *base = slash != NULL ? slash + 1 : task->path;
+    const char *dot = strrchr(base, '.');
+    const int n_base = dot != NULL && dot > base ? (int)(dot - base) : (int)strlen(base);
+    const char *folder = task->options->folder;
+    const size_t size = strlen(folder) + (size_t)n_base + strlen(suffix) + 7;
+    CLX_TRY(clx_alloc(&path, (int64_t)size, 1));
+    (void)snprintf(path, size, "%s/%.*s%s.ply", folder, n_base, base, suffix);
+    if (task->options->hull || mesh->n_tri == 0) {
+        CLX_TRY(clast_mesh_hull(mesh, &hull));
+    }
+    CLX_TRY(clast_mesh_write(path, hull.n_tri > 0 ? &hull : mesh, NULL));
+done:
+    clx_free(path);
+    clast_mesh_free(&hull);
+    return status;
+}
+
+static clast_status measure(const clx_grains_task *task, const clast_mesh *mesh, clast_grain *grain)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh welded = {0};
+    int32_t n_merged = 0;
+    if (task->options->hull || mesh->n_tri == 0) {
+        return clast_grain_measure_hull(mesh, grain);
+    }
+    status = clast_grain_measure(mesh, grain);
+    if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices repeated bit by bit
+        const clast_status weld = clast_mesh_weld(mesh, 0.0, &welded, &n_merged);
+        if (weld == CLAST_OK && n_merged > 0) {
+            status = clast_grain_measure(&welded, grain);
+        } else {
+            status = clast_grain_measure(mesh, grain); // for its message
+        }
+    }
+    clast_mesh_free(&welded);
+    return status;
+}
+
+/// Measures a surface (or the hull of points) and keeps it.
+static clast_status take_mesh(clx_grains_task *task, clast_grains_kind kind, const char *suffix,
+                              const clast_mesh *mesh, int64_t n_voxel)
+{
+    clast_status status = CLAST_OK;
+    clast_grain grain;
+    clast_grain_record *record = NULL;
+    CLX_TRY(measure(task, mesh, &grain));
+    if (task->options->folder != NULL) {
+        CLX_TRY(write_surface(task, suffix, mesh));
+    }
+    CLX_TRY(clx_grains_add(task, suffix, &record));
+    record->kind = kind;
+    record->n_voxel = n_voxel;
+    record->grain = grain;
+done:
+    return status;
+}
+
+static clast_status take_series(clx_grains_task *task)
+{
+    clast_status status = CLAST_OK;
+    const clast_grains_options *o = task->options;
+    clast_harmonics series = {0};
+    clast_mesh mesh = {0};
+    clast_grain grain;
+    clast_grain_record *record = NULL;
+    CLX_TRY(clast_harmonics_parse(task->bytes, (size_t)task->n_byte, &series));
+    if (o->hull || o->folder != NULL) {
+        CLX_TRY(clast_harmonics_mesh(&series, o->degree, o->level, &mesh));
+    }
+    if (o->hull) {
+        status = take_mesh(task, CLAST_GRAINS_SERIES, "", &mesh, 0);
+        goto done;
+    }
+    CLX_TRY(clast_harmonics_measure(&series, o->degree, o->level, &grain));
+    if (o->folder != NULL) {
+        CLX_TRY(write_surface(task, "", &mesh));
+    }
+    CLX_TRY(clx_grains_add(task, "", &record));
+    record->kind = CLAST_GRAINS_SERIES;
+    record->grain = grain;
+done:
+    clast_mesh_free(&mesh);
+    clast_harmonics_free(&series);
+    return status;
+}
+
+static clast_status take_label(clx_grains_task *task, const clast_voxels *voxels,
+                               const clast_voxel_label *label, clast_grains_kind kind,
+                               const double offset[3])
+{
+    clast_status status = CLAST_OK;
+    clast_mesh mesh = {0};
+    char suffix[24] = "";
+    if (kind == CLAST_GRAINS_VOXELS) {
+        (void)snprintf(suffix, sizeof suffix, "#%d", label->label);
+    }
+    CLX_TRY(task->options->hull ? clast_voxels_points(voxels, label, &mesh)
+                                : clast_voxels_surface(voxels, label, &mesh));
+    clast_mesh_transform(&mesh, 1.0, (double[4]){1.0, 0.0, 0.0, 0.0}, offset);
+    CLX_TRY(take_mesh(task, kind, suffix, &mesh, label->n_voxel));
+done:
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxels,
+                                clast_grains_kind kind, const double offset[3])
+{
+    clast_status status = CLAST_OK;
+    clast_voxel_label *labels = NULL;
+    int32_t n = 0;
+    CLX_TRY(clast_voxels_labels(voxels, &labels, &n));
+    CLX_CHECK(n > 0, CLAST_E_GEOMETRY, "all voxels are 0: there is no grain");
+    for (int32_t i = 0; i < n; ++i) {
+        const clast_status one = take_label(task, voxels, &labels[i], kind, offset);
+        if (one != CLAST_OK) {
+            CLX_TRY(clx_grains_fault(task, one)); // the other labels may do
+        }
+    }
+done:
+    clast_voxels_labels_free(labels);
+    return status;
+}
+
+static clast_status take_voxel_file(clx_grains_task *task)
+{
+    clast_voxels voxels = {0};
+    clast_status status = clast_voxels_parse(task->bytes, (size_t)task->n_byte, &voxels);
+    if (status == CLAST_OK) {
+        status = take_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0});
+    }
+    clast_voxels_free(&voxels);
+    return status;
+}
+
+/// Points: the hull, or with a spacing the surface of the cubes about them.
+static clast_status take_points(clx_grains_task *task, const clast_mesh *points)
+{
+    clast_status status = CLAST_OK;
+    clast_voxels voxels = {0};
+    double low[3];
+    if (task->options->spacing > 0.0 && !task->options->hull) {
+        CLX_TRY(clast_voxels_of_points(points, task->options->spacing, &voxels, low));
+        CLX_TRY(take_voxels(task, &voxels, CLAST_GRAINS_POINTS, low));
+    } else {
+        CLX_TRY(take_mesh(task, CLAST_GRAINS_POINTS, "", points, 0));
+    }
+done:
+    clast_voxels_free(&voxels);
+    return status;
+}
+
+static clast_status points_of_table(const clast_table *table, clast_mesh *points)
+{
+    static const char *const names[3] = {"x", "y", "z"};
+    clast_status status = CLAST_OK;
+    const double *x[3];
+    for (int k = 0; k < 3; ++k) {
+        x[k] = clast_table_numbers(table, names[k]);
+        if (x[k] == NULL && table->n_column == 3) {
+            x[k] = table->column[k].number; // three columns without names
+        }
+        CLX_CHECK(x[k] != NULL, CLAST_E_FORMAT,
+                  "no column of numbers is called '%s'; points need x, y and z", names[k]);
+    }
+    CLX_CHECK(table->n_row < INT32_MAX, CLAST_E_LIMIT, "%lld points are beyond 2^31",
+              (long long)table->n_row);
+    CLX_TRY(clast_mesh_alloc((int32_t)table->n_row, 0, points));
+    for (int32_t i = 0; i < points->n_vert; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            points->vert[i][k] = x[k][i];
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind)
+{
+    clast_status status = CLAST_OK;
+    clast_table table = {0};
+    clast_mesh points = {0};
+    CLX_TRY(clast_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
+    const bool has_points = clast_table_find(&table, "x") >= 0 &&
+                            clast_table_find(&table, "y") >= 0 &&
+                            clast_table_find(&table, "z") >= 0;
+    if (kind == CLAST_GRAINS_POINTS || (kind == CLAST_GRAINS_AUTO && has_points)) {
+        CLX_TRY(points_of_table(&table, &points));
+        CLX_TRY(take_points(task, &points));
+    } else {
+        CLX_TRY(clx_grains_of_table(task, &table));
+    }
+done:
+    clast_mesh_free(&points);
+    clast_table_free(&table);
+    return status;
+}
+
+static clast_status take_surface(clx_grains_task *task, clast_mesh_format format)
+{
+    clast_mesh mesh = {0};
+    clast_status status = clast_mesh_parse(task->bytes, (size_t)task->n_byte, format, &mesh, NULL);
+    if (status == CLAST_OK && mesh.n_tri == 0 && mesh.n_vert > 0) {
+        status = take_points(task, &mesh);
+    } else if (status == CLAST_OK) {
+        status = take_mesh(task, CLAST_GRAINS_SURFACE, "", &mesh, 0);
+    }
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+static bool has_extension(const char *path, const char *const *list)
+{
+    const char *dot = strrchr(path, '.');
+    for (; dot != NULL && *list != NULL; ++list) {
+        if (strcasecmp(dot + 1, *list) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// What the first line with words is: a header of voxels, four numbers, three, or another.
+static clast_grains_kind kind_of_text(const clx_grains_task *task)
+{
+    clx_text text = clx_text_begin(task->bytes, (size_t)task->n_byte, '#', false);
+    clx_word word;
+    double value;
+    int n_number = 0;
+    if (!clx_text_any_word(&text, &word)) {
+        return CLAST_GRAINS_SURFACE;
+    }
+    if (clx_word_is(word, "xsize:")) {
+        return CLAST_GRAINS_VOXELS;
+    }
+    do {
+        if (!clx_word_number(word, &value)) {
+            return CLAST_GRAINS_SURFACE;
+        }
+        ++n_number;
+    } while (clx_text_word(&text, &word));
+    if (n_number == 3) {
+        return CLAST_GRAINS_POINTS;
+    }
+    return n_number == 4 ? CLAST_GRAINS_SERIES : CLAST_GRAINS_SURFACE;
+}
+
+static clast_grains_kind kind_of(const clx_grains_task *task)
+{
+    static const char *const delimited[] = {"csv", "tsv", "vtk", "vtp", "vtu", "dump", NULL};
+    if (clast_mesh_format_of_path(task->path) != CLAST_MESH_ANY) {
+        return CLAST_GRAINS_SURFACE;
+    }
+    if (has_extension(task->path, delimited)) {
+        return CLAST_GRAINS_AUTO; // points or a table: by its columns
+    }
+    return kind_of_text(task);
+}
+
+static clast_status take_file(clx_grains_task *task)
+{
+    clast_status status = CLAST_OK;
+    clast_grains_kind kind = task->options->kind;
+    CLX_TRY(clx_file_read_all(task->path, LARGEST_FILE, &task->bytes, &task->n_byte));
+    kind = kind == CLAST_GRAINS_AUTO ? kind_of(task) : kind;
+    switch (kind) {
+    case CLAST_GRAINS_SURFACE:
+        CLX_TRY(take_surface(task, clast_mesh_format_of_path(task->path)));
+        break;
+    case CLAST_GRAINS_SERIES:
+        CLX_TRY(take_series(task));
+        break;
+    case CLAST_GRAINS_VOXELS:
+        CLX_TRY(take_voxel_file(task));
+        break;
+    default:
+        CLX_TRY(take_delimited(task, kind));
+    }
+done:
+    clx_free(task->bytes);
+    task->bytes = NULL;
+    return status;
+}
+
+static void work(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clx_grains_task *task = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        task[i].status = take_file(&task[i]);
+        if (task[i].status != CLAST_OK) {
+            task[i].status = clx_grains_fault(&task[i], task[i].status);
+        }
+    }
+}
+
+/// Moves the results of all tasks into one, in order.
+static clast_status join(clx_grains_task *task, int32_t n_task, clast_grains *grains)
+{
+    clast_status status = CLAST_OK;
+    int64_t n = 0;
+    int64_t n_fault = 0;
+    int64_t n_note = 0;
+    for (int32_t i = 0; i < n_task; ++i) {
+        CLX_CHECK(task[i].status == CLAST_OK, task[i].status, "no memory for the grains of %s",
+                  task[i].path);
+        n += task[i].grains.n;
+        n_fault += task[i].grains.n_fault;
+        n_note += task[i].grains.n_note;
+    }
+    CLX_TRY(clx_alloc(&grains->record, n, sizeof *grains->record));
+    CLX_TRY(clx_alloc(&grains->fault, n_fault, sizeof *grains->fault));
+    CLX_TRY(clx_alloc(&grains->note, n_note, sizeof *grains->note));
+    for (int32_t i = 0; i < n_task; ++i) {
+        clast_grains *from = &task[i].grains;
+        for (int64_t k = 0; k < from->n; ++k) {
+            grains->record[grains->n++] = from->record[k];
+        }
+        for (int64_t k = 0; k < from->n_fault; ++k) {
+            grains->fault[grains->n_fault++] = from->fault[k];
+        }
+        for (int64_t k = 0; k < from->n_note; ++k) {
+            grains->note[grains->n_note++] = from->note[k];
+        }
+        from->n = 0; // names and texts have moved
+        from->n_fault = 0;
+        from->n_note = 0;
+    }
+done:
+    return status;
+}
+
+clast_status clast_grains_read(int32_t n_file, const char *const *path,
+                               const clast_grains_options *options, clast_grains *grains)
+{
+    clast_status status = CLAST_OK;
+    clx_grains_task *task = NULL;
+    clast_grains made = {0};
+    CLX_TRY(clx_alloc(&task, n_file, sizeof *task));
+    for (int32_t i = 0; i < n_file; ++i) {
+        task[i].path = path[i];
+        task[i].options = options;
+    }
+    clx_parallel_for(n_file, 1, work, task);
+    CLX_TRY(join(task, n_file, &made));
+    *grains = made;
+    made = (clast_grains){0};
+done:
+    for (int32_t i = 0; i < n_file && task != NULL; ++i) {
+        clast_grains_free(&task[i].grains);
+    }
+    clx_free(task);
+    clast_grains_free(&made);
+    return status;
+}

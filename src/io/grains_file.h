@@ -1,0 +1,27 @@
+#pragma once
+// Parts of clast_grains_read: one file's task.
+#include <clast/grains_file.h>
+
+#include "base/status.h"
+
+typedef struct clx_grains_task {
+    const char *path;
+    const clast_grains_options *options;
+    char *bytes; ///< of the file while it is read
+    int64_t n_byte;
+    clast_grains grains;
+    int64_t record_room, fault_room, note_room;
+    clast_status status; ///< only of what stops everything (memory)
+} clx_grains_task;
+
+/// A new record named after the file and a suffix, with a surface and a size.
+clast_status clx_grains_add(clx_grains_task *task, const char *suffix, clast_grain_record **record);
+
+/// Keeps the thread's error text as a fault of the file; memory trouble is returned instead.
+clast_status clx_grains_fault(clx_grains_task *task, clast_status about);
+
+/// Keeps a line that is no fault.
+clast_status clx_grains_note(clx_grains_task *task, const char *text);
+
+/// The rows of a table as grains.
+clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table);

@@ -1,0 +1,172 @@
+"""CLI: clast shape measures whatever holds grains, and says one line about what it cannot."""
+import csv
+import math
+import unittest
+
+from clitest import ROOT, Case, clast, shared
+
+DATA = ROOT / "data"
+KEYS = ["file", "volume", "area", "L", "I", "S", "D", "flatness", "elongation", "equancy", "aschenbrenner_shape_factor",
+        "corey_shape_factor", "disc_rod_index", "illenberger_form_index", "illenberger_rod_index", "janke_form_factor",
+        "krumbein_intercept_sphericity", "maximum_projection_sphericity", "oblate_prolate_index",
+        "wentworth_flatness_index", "sphericity", "convexity", "moments", "centroid"]
+BOX = """OFF
+8 6 0
+0 0 0
+2 0 0
+2 3 0
+0 3 0
+0 0 6
+2 0 6
+2 3 6
+0 3 6
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+"""
+
+
+class Shape(Case):
+    def put(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def test_json_has_the_stable_keys_and_a_boxs_numbers(self):
+        result = clast("shape", self.put("box.off", BOX), "--json")
+        self.assertEqual((result.code, result.err), (0, ""))
+        grain = result.json["grains"][0]
+        for key in KEYS:
+            self.assertIn(key, grain)
+        self.assertAlmostEqual(grain["volume"], 36.0, places=12)
+        self.assertAlmostEqual(grain["L"], 12.0 * math.sqrt(5.0 / 12.0), places=12)
+        self.assertAlmostEqual(grain["D"], math.sqrt((9 + 4) / 2.0 * 5.0 / 3.0), places=12)
+        self.assertAlmostEqual(grain["flatness"], 2.0 / 3.0, places=12)
+        self.assertAlmostEqual(grain["inverse"]["equancy"], 3.0, places=12)
+        self.assertAlmostEqual(grain["moments"][0], 36.0 * 13.0 / 12.0, places=11)
+        self.assertAlmostEqual(grain["feret_max"], 7.0, places=12)
+        self.assertEqual(result.json["unit"], "model")
+
+    def test_axes_choose_the_definition(self):
+        box = self.put("box.off", BOX)
+        for axes, length in (("box", 6.0), ("fitted", 7.0), ("feret", 7.0), ("principal", 6.0)):
+            grain = clast("shape", box, "--axes", axes, "--json").json["grains"][0]
+            self.assertAlmostEqual(grain["L"], length, places=11)
+            self.assertAlmostEqual(grain["by_definition"][axes]["L"], length, places=11)
+
+    def test_unit_gives_si_and_columns_with_units(self):
+        out = self.folder / "grains.csv"
+        result = clast("shape", self.put("box.off", BOX), "--unit", "mm", "-o", out, "--json")
+        self.assertEqual(result.json["unit"], "m")
+        self.assertAlmostEqual(result.json["grains"][0]["volume"], 36e-9, places=20)
+        with open(out, encoding="utf-8") as file:
+            row = next(csv.DictReader(file))
+        self.assertAlmostEqual(float(row["volume_m3"]), 36e-9, places=20)
+        self.assertAlmostEqual(float(row["box_L_m"]), 6e-3, places=14)
+        self.assertAlmostEqual(float(row["inverse_flatness"]), 1.5, places=12)
+        self.assertEqual(row["kind"], "surface")
+
+    def test_series_have_their_published_volume(self):
+        result = clast("shape", DATA / "shapes/sh-grains/fdot57-A-anm-00001.dat", "--level", "3", "--json")
+        grain = result.json["grains"][0]
+        self.assertEqual(grain["kind"], "series")
+        self.assertAlmostEqual(grain["volume"] / 3083.215147, 1.0, places=9)
+        self.assertAlmostEqual(grain["area"] / 1193.622617, 1.0, places=4)
+
+    def test_voxels_give_a_grain_a_label(self):
+        text = ["Xsize: 24", "Ysize: 12", "Zsize: 12", "Resolution: 2"]
+        for z in range(12):
+            for y in range(12):
+                for x in range(24):
+                    inside = (x % 12 - 5.5) ** 2 + (y - 5.5) ** 2 + (z - 5.5) ** 2 < 25
+                    text.append(str((4 if x < 12 else 9) * inside))
+        result = clast("shape", self.put("two.txt", "\n".join(text)), "--json")
+        grains = result.json["grains"]
+        self.assertEqual([g["file"].split("#")[1] for g in grains], ["4", "9"])
+        self.assertEqual(grains[0]["n_voxel"], grains[1]["n_voxel"])
+        self.assertAlmostEqual(grains[1]["centroid"][0] - grains[0]["centroid"][0], 24.0, places=3)
+        hull = clast("shape", self.folder / "two.txt", "--hull", "--json").json["grains"]
+        self.assertGreater(hull[0]["sphericity"], 0.85)
+
+    def test_points_give_their_hull_or_their_cubes(self):
+        rows = ["x,y,z"] + [f"{x},{y},{z}" for x in range(9) for y in range(8) for z in range(7)]
+        points = self.put("points.csv", "\n".join(rows))
+        grain = clast("shape", points, "--json").json["grains"][0]
+        self.assertEqual(grain["kind"], "points")
+        self.assertAlmostEqual(grain["volume"], 8.0 * 7.0 * 6.0, places=9)
+        cubes = clast("shape", points, "--spacing", "1", "--json").json["grains"][0]
+        self.assertAlmostEqual(cubes["volume"] / (9 * 8 * 7), 1.0, delta=0.1)  # rounded corners
+
+    def test_table_rows_are_grains_and_bad_rows_are_told(self):
+        table = self.put("t.csv", "L,I,S\n3,2,1\n4,,1\n1,2,3\n5,inf,1\n-1,1,1\n")
+        result = clast("shape", table, "--json")
+        self.assertEqual(result.code, 0)
+        self.assertEqual(len(result.json["grains"]), 1)
+        grain = result.json["grains"][0]
+        self.assertAlmostEqual(grain["L"], 3.0, places=12)
+        self.assertIsNone(grain["volume"])
+        self.assertIn("4 of 5 rows left out", result.err)
+        self.assertIn("4 of 5 rows left out", result.json["left_out"][0]["text"])
+        ratios = clast("shape", self.put("r.csv", "FL,EL\n0.5,0.5\n"), "--json").json["grains"][0]
+        self.assertIsNone(ratios["L"])
+        self.assertAlmostEqual(ratios["equancy"], 0.25, places=12)
+
+    def test_bad_files_get_a_line_each_and_the_rest_is_measured(self):
+        lines = BOX.splitlines()
+        opened = self.put("open.off", "\n".join([lines[0], "8 5 0"] + lines[2:-1]) + "\n")
+        turned = self.put("turned.off", "\n".join(lines[:10] + ["4 " + " ".join(reversed(f.split()[1:]))
+                                                                for f in lines[10:]]) + "\n")
+        flat = self.put("flat.off", BOX.replace(" 6\n", " 0\n"))
+        result = clast("shape", opened, self.put("box.off", BOX), turned, flat, "--json")
+        self.assertEqual(result.code, 3)
+        self.assertEqual(len(result.json["grains"]), 1)
+        errors = result.err.splitlines()
+        self.assertEqual(len(errors), 3)
+        self.assertIn("open.off: 4 of", errors[0])
+        self.assertIn("--hull", errors[0])
+        self.assertIn("turned.off: volume is -36: the surface is inside out", errors[1])
+        self.assertIn("thickness", errors[2])
+        hull = clast("shape", opened, "--hull", "--json")
+        self.assertEqual(hull.code, 0)
+        self.assertAlmostEqual(hull.json["grains"][0]["volume"], 36.0, places=12)
+        self.assert_fails(3, "shape", self.folder / "none.stl", says=["none.stl"])
+        self.assert_fails(2, "shape", opened, "--unit", "parsec", says=["parsec"])
+
+    def test_surfaces_are_written(self):
+        result = clast("shape", DATA / "shapes/sh-grains/fdot57-A-anm-00001.dat", "--level", "2", "--surfaces",
+                       self.folder)
+        self.assertEqual(result.code, 0, result.err)
+        check = clast("mesh", "check", self.folder / "fdot57-A-anm-00001.ply", "--json").json
+        self.assertTrue(check["closed"])
+        self.assertEqual(check["n_triangle"], 320)
+
+    def test_threads_do_not_change_a_byte(self):
+        files = sorted(DATA.glob("scarlet/stl/27sk21*.stl")) + [self.put("box.off", BOX)]
+        one = clast("shape", *files, "--json", "-j", "1").out
+        self.assertEqual(one, clast("shape", *files, "--json", "-j", "4").out)
+
+    def test_words_name_every_factor_with_its_formula(self):
+        out = clast("shape", self.put("box.off", BOX)).out
+        for text in ("Corey shape factor", "S/sqrt(L I)", "roundness", "L, I, S box        6, 3, 2", "Zingg class"):
+            self.assertIn(text, out)
+        help_text = clast("shape", "--help").out
+        for key in KEYS[7:20]:
+            self.assertIn(key + " = ", help_text)
+
+    def test_the_rhine_scans_have_their_published_dimensions(self):
+        scan = shared("sediment/sediment_scan_0.obj")
+        if scan is None:
+            return
+        grain = clast("shape", scan, "--json").json["grains"][0]
+        for key, value in (("volume", 0.86197691), ("L", 2.400931), ("I", 1.291653), ("S", 0.575876), ("D", 1.0),
+                           ("flatness", 0.445844), ("elongation", 0.537980), ("equancy", 0.239855)):
+            self.assertAlmostEqual(grain[key], value, delta=1e-6)
+        self.assertAlmostEqual(grain["area"], 6.04025, delta=1e-5)
+        self.assertAlmostEqual(grain["sphericity"], 0.7251, delta=1e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
