@@ -43,6 +43,7 @@ struct clast_aggregate {
     double second;    ///< sum of mass times (position squared + own mean square radius)
     clast_aggregate_stop stop;
     double contact_s, envelope_s, wall_s;
+    double alone_s; ///< how long the last search on one thread took
 };
 
 /// Coating shape and scale of a particle.

@@ -16,6 +16,12 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
                      .cone = a->config->cone};
 }
 
+// A search shorter than this is not worth waking other threads for, which takes tens of
+// microseconds on an idle machine and milliseconds on a busy one. Every PROBE-th search is made on
+// one thread to see.
+static const double SHARED_FROM = 5e-4;
+enum { PROBE = 64 };
+
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
     const clast_aggregate_config *c = a->config;
@@ -28,7 +34,8 @@ static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *
                            .origin = a->origin,
                            .aim = clx_aggregate_aim(a),
                            .n_orientation = c->orientations,
-                           .start = c->start};
+                           .start = c->start,
+                           .on_one_thread = a->n_placed % PROBE == 0 || a->alone_s < SHARED_FROM};
     if (a->origin == CLAST_ORIGIN_MASS) {
         v3_scale(search->centre, 1.0 / a->mass, a->moment);
     }
@@ -42,6 +49,7 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
+    const double worked = clx_clock_thread();
     do {
         CLX_TRY(clx_search_run(search, landing));
     } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
@@ -51,6 +59,7 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
               a->n_placed + 1, a->n_particle, a->config->max_tries);
 done:
     a->contact_s += clx_clock() - begun;
+    a->alone_s = search->on_one_thread ? clx_clock_thread() - worked : a->alone_s;
     return status;
 }
 

@@ -119,6 +119,12 @@ static void scout(const clx_search *s, const clx_touch_path *path, ray *r)
     }
 }
 
+/// A scout costs about as much as a trial of the same kind of body.
+static bool is_scouted(const clx_search *s)
+{
+    return s->group->inner > 0.0 && !s->group->is_round && s->aim.n_ray > 1;
+}
+
 static void make_ray(const clx_search *s, int64_t number, ray *r)
 {
     double back[3];
@@ -128,7 +134,7 @@ static void make_ray(const clx_search *s, int64_t number, ray *r)
     v3_scale(back, -1.0, r->direction);
     clx_touch_path path = clx_touch_path_along(back);
     path.t_low = r->t_low = start_of(s, &path, r->origin);
-    if (s->group->inner > 0.0 && s->aim.n_ray > 1) {
+    if (is_scouted(s)) {
         scout(s, &path, r);
     }
 }
@@ -271,9 +277,13 @@ clast_status clx_search_run(const clx_search *search, clx_landing *best)
                 .lock = ATOMIC_FLAG_INIT};
     atomic_init(&all.bound, HUGE_VAL);
     CLX_TRY(clx_alloc(&all.rays, n_ray, sizeof *all.rays));
-    clx_parallel_for(n_ray, RAY_BLOCK, make_rays, &all);
-    qsort(all.rays, (size_t)n_ray, sizeof *all.rays, by_rank);
-    clx_parallel_for(n_ray * all.n_orientation, TRIAL_BLOCK, run_trials, &all);
+    const int64_t n_trial = n_ray * all.n_orientation;
+    const bool alone = search->on_one_thread;
+    clx_parallel_for(n_ray, is_scouted(search) && !alone ? RAY_BLOCK : n_ray, make_rays, &all);
+    if (is_scouted(search)) {
+        qsort(all.rays, (size_t)n_ray, sizeof *all.rays, by_rank);
+    }
+    clx_parallel_for(n_trial, alone ? n_trial : TRIAL_BLOCK, run_trials, &all);
     *best = all.best;
 done:
     clx_free(all.rays);

@@ -20,6 +20,7 @@ typedef struct clx_search {
     clx_aim aim;
     int32_t n_orientation; ///< on each of aim.n_ray rays
     double start;          ///< sizes beyond the ray's last hit, 0: from outside of all
+    bool on_one_thread;    ///< the search is too short to share
 } clx_search;
 
 /// Where a particle came to rest.

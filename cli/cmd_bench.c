@@ -1,0 +1,211 @@
+// clast bench: what this machine gives.
+#include "command.h"
+#include "json.h"
+#include "scene.h"
+
+#include <clast/parallel.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+typedef struct {
+    char *data;
+    int32_t repeats;
+    bool list;
+} config;
+
+static const clast_field fields[] = {
+    {"data", offsetof(config, data), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "folder of SCARLET-1.0's shapes and sizes (stl/, *.csv)", "data/scarlet"},
+    {"repeats", offsetof(config, repeats), CLAST_FIELD_I32, 3, 1, 1000, "-",
+     "times each scene runs; the least time counts", NULL},
+    {"list", offsetof(config, list), CLAST_FIELD_BOOL, 0, 0, 0, "-", "name the scenes and run none",
+     NULL},
+    {0},
+};
+
+#define SCENE(name, run, unit, reference, reference_is, is_slow, summary)                          \
+    clast_status cli_scene_##run(cli_lap *b);
+#include "scenes.def"
+#undef SCENE
+
+static const cli_scene scenes[] = {
+#define SCENE(name, run, unit, reference, reference_is, is_slow, summary)                          \
+    {name, unit, reference, reference_is, is_slow, summary, cli_scene_##run},
+#include "scenes.def"
+#undef SCENE
+};
+enum { N_SCENE = sizeof scenes / sizeof *scenes };
+
+const cli_scene *cli_scene_at(int32_t i)
+{
+    return i >= 0 && i < N_SCENE ? &scenes[i] : NULL;
+}
+
+static double seconds(clockid_t clock)
+{
+    struct timespec t;
+    (void)clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+bool cli_lap_again(cli_lap *b)
+{
+    return b->left-- > 0;
+}
+
+void cli_lap_start(cli_lap *b)
+{
+    b->wall0 = seconds(CLOCK_MONOTONIC);
+    b->cpu0 = seconds(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+void cli_lap_stop(cli_lap *b)
+{
+    b->wall = fmin(b->wall, seconds(CLOCK_MONOTONIC) - b->wall0);
+    b->cpu = fmin(b->cpu, seconds(CLOCK_PROCESS_CPUTIME_ID) - b->cpu0);
+}
+
+static const cli_scene *find(const char *name)
+{
+    for (int32_t i = 0; i < N_SCENE; ++i) {
+        if (strcmp(scenes[i].name, name) == 0) {
+            return &scenes[i];
+        }
+    }
+    return NULL;
+}
+
+static bool is_rate(const cli_scene *scene)
+{
+    const size_t n = strlen(scene->unit);
+    return n > 2 && strcmp(scene->unit + n - 2, "/s") == 0;
+}
+
+/// Most memory that the process has held so far [bytes].
+static double peak_memory(void)
+{
+    struct rusage usage;
+    (void)getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * (double)usage.ru_maxrss;
+}
+
+static double ratio_of(const cli_scene *scene, const cli_lap *b)
+{
+    return is_rate(scene) ? b->value / b->reference : b->reference / b->value;
+}
+
+static void add_json(json_t *list, const cli_scene *scene, const cli_lap *b)
+{
+    json_t *o = json_object();
+    cli_json_text(o, "name", scene->name);
+    cli_json_number(o, "value", b->value);
+    cli_json_text(o, "unit", scene->unit);
+    cli_json_number(o, "reference", b->reference);
+    cli_json_text(o, "reference_is", scene->reference_is);
+    cli_json_number(o, "ratio", ratio_of(scene, b));
+    cli_json_count(o, "threads", clast_parallel_threads());
+    cli_json_number(o, "cpu_s", b->cpu);
+    cli_json_number(o, "peak_memory", peak_memory());
+    (void)json_array_append_new(list, o);
+}
+
+static clast_status run_scene(const config *c, const cli_scene *scene, bool json, json_t *list)
+{
+    cli_lap b = {.data = c->data,
+                 .repeats = c->repeats,
+                 .left = c->repeats,
+                 .wall = HUGE_VAL,
+                 .cpu = HUGE_VAL,
+                 .reference = scene->reference};
+    const clast_status status = scene->run(&b);
+    if (status != CLAST_OK) {
+        return cli_fail(status, "scene %s: %s", scene->name, clast_error_detail());
+    }
+    if (json) {
+        add_json(list, scene, &b);
+    } else {
+        (void)printf("%-15s %10.4g %-12s %10.4g %8.3g %8.3g %8.0f  %s\n", scene->name, b.value,
+                     scene->unit, b.reference, ratio_of(scene, &b), b.cpu, 1e-6 * peak_memory(),
+                     scene->reference_is);
+        (void)fflush(stdout);
+    }
+    return CLAST_OK;
+}
+
+static void print_list(void)
+{
+    for (int32_t i = 0; i < N_SCENE; ++i) {
+        (void)printf("%-15s %-12s %s%s\n", scenes[i].name, scenes[i].unit, scenes[i].summary,
+                     scenes[i].is_slow ? " (only when named)" : "");
+    }
+}
+
+static clast_status run_all(const cli_common *common, const config *c, json_t *list)
+{
+    clast_status status = CLAST_OK;
+    if (common->n_argument == 0) {
+        for (int32_t i = 0; i < N_SCENE && status == CLAST_OK; ++i) {
+            status = scenes[i].is_slow ? CLAST_OK : run_scene(c, &scenes[i], common->json, list);
+        }
+    }
+    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
+        status = run_scene(c, find(common->argument[i]), common->json, list);
+    }
+    return status;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    const config *c = context;
+    json_t *list = json_array();
+    json_t *out = json_object();
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < common->n_argument; ++i) {
+        if (find(common->argument[i]) == NULL) {
+            status = cli_fail(CLAST_E_USAGE, "no scene is called %s; see clast bench --list",
+                              common->argument[i]);
+            goto done;
+        }
+    }
+    if (c->list) {
+        print_list();
+        goto done;
+    }
+    if (!common->json) {
+        (void)printf("%-15s %10s %-12s %10s %8s %8s %8s  reference is\n", "scene", "value", "unit",
+                     "reference", "ratio", "cpu s", "peak MB");
+    }
+    status = run_all(common, c, list);
+    if (status == CLAST_OK && common->json) {
+        (void)json_object_set(out, "scenes", list);
+        status = cli_print_json(out);
+        out = NULL;
+    } else if (status == CLAST_OK) {
+        (void)printf("%d threads; value: wall time, least of %d; ratio above 1: better than the "
+                     "reference;\npeak MB: most memory held so far\n",
+                     clast_parallel_threads(), c->repeats);
+    }
+done:
+    json_decref(list);
+    json_decref(out);
+    return status;
+}
+
+const cli_command cli_bench = {
+    .name = "bench",
+    .arguments = "[SCENE...]",
+    .summary = "what this machine gives, beside published figures and limits",
+    .details =
+        "Runs the named scenes, or all that take seconds, and prints the time (or rate) of each "
+        "beside a\nreference: the published figure, the limit that was set, or a plain twin "
+        "measured in the same run.\nAggregates and fillings need SCARLET-1.0's files, which come "
+        "with clast's source: run in its folder\nor name the place with --data.",
+    .fields = fields,
+    .config_size = sizeof(config),
+    .n_min = 0,
+    .n_max = 100,
+    .run = run,
+};

@@ -1,0 +1,64 @@
+// Scenes of points.
+#include "scene.h"
+
+#include <clast/decompose.h>
+#include <stdint.h>
+
+clast_status cli_scene_d6(cli_lap *b);
+clast_status cli_scene_d7(cli_lap *b);
+
+/// A number in [0, 1): splitmix64 [Steele2014].
+static double draw(uint64_t *state)
+{
+    uint64_t x = (*state += 0x9e3779b97f4a7c15u);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+/// Half of the points uniform in the unit cube, half in a dense block of an eighth of it.
+static clast_status make_points(int64_t n, clast_cloud *cloud)
+{
+    uint64_t state = 1;
+    const clast_status status = clast_cloud_alloc(n, 3, cloud);
+    for (int64_t i = 0; status == CLAST_OK && i < 3 * n; ++i) {
+        const double x = draw(&state);
+        cloud->x[i] = i / 3 % 2 == 0 ? x : 0.25 + 0.5 * x;
+    }
+    return status;
+}
+
+static clast_status decompose(cli_lap *b, int64_t n)
+{
+    clast_decompose_config config;
+    clast_cloud cloud = {0};
+    clast_status status = clast_fields_default(clast_decompose_fields, &config);
+    const clast_field *domain = clast_fields_find(clast_decompose_fields, "domain");
+    if (status == CLAST_OK) {
+        status = clast_field_set(domain, &config, "box:0,0,0,1,1,1", false);
+    }
+    if (status == CLAST_OK) {
+        status = make_points(n, &cloud);
+    }
+    while (status == CLAST_OK && cli_lap_again(b)) {
+        clast_decomposition result = {0};
+        cli_lap_start(b);
+        status = clast_decompose(&cloud, &config, &result);
+        cli_lap_stop(b);
+        clast_decomposition_free(&result);
+    }
+    b->value = b->wall;
+    clast_cloud_free(&cloud);
+    clast_fields_free(clast_decompose_fields, &config);
+    return status;
+}
+
+clast_status cli_scene_d6(cli_lap *b)
+{
+    return decompose(b, 1000000);
+}
+
+clast_status cli_scene_d7(cli_lap *b)
+{
+    return decompose(b, 10000000);
+}
