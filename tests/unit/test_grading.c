@@ -134,6 +134,23 @@ static void linear_spread_is_a_triangle(void **state)
     clast_grading_destroy(g);
 }
 
+/* A triangle over a class of 1e-6: its mean cube keeps all digits (sinh(x)/x = 1 + x^2/6). */
+static void narrow_classes_keep_their_digits(void **state)
+{
+    (void)state;
+    const double sieve[2] = {1e-3, 1.000001e-3};
+    const double mass[1] = {1.0};
+    clast_curve curve = {0};
+    clast_grading *g = NULL;
+    CHECK_OK(clast_curve_make(1, sieve, mass, &curve));
+    CHECK_OK(clast_grading_of_curve(&curve, CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN, &g));
+    const double x = 0.75 * log1p(1e-6); // quarter of 3 h
+    const double factor = 1.0 + x * x / 6.0;
+    CHECK_REL(clast_grading_mean_cube(g), pow(1.000001e-6, 1.5) * factor * factor, 1e-13);
+    clast_grading_destroy(g);
+    clast_curve_free(&curve);
+}
+
 static void means_are_single_sizes(void **state)
 {
     (void)state;
@@ -267,6 +284,7 @@ static void draws_follow_their_distribution(void **state)
             qsort(draw, N_DRAW, sizeof *draw, ascending);
             for (int i = 0; i < N_DRAW; ++i) {
                 const double share = clast_grading_share(g, draw[i]);
+                assert_true(i == 0 || draw[i] > draw[i - 1]); // no number is used twice
                 distance = fmax(distance,
                                 fmax(share - i / (double)N_DRAW, (i + 1) / (double)N_DRAW - share));
             }
@@ -580,6 +598,7 @@ int main(void)
         cmocka_unit_test(medians_have_closed_forms),
         cmocka_unit_test(exact_counts_keep_the_masses),
         cmocka_unit_test(linear_spread_is_a_triangle),
+        cmocka_unit_test(narrow_classes_keep_their_digits),
         cmocka_unit_test(means_are_single_sizes),
         cmocka_unit_test(laws_have_their_moments),
         cmocka_unit_test(phi_units_are_logarithms),
