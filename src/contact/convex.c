@@ -4,6 +4,7 @@
 #include "contact/ellipsoid_pair.h"
 #include "contact/facet.h"
 #include "contact/gjk.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 clx_convex clx_convex_sphere(double radius)
@@ -40,8 +41,8 @@ void clx_convex_grow(clx_convex *shape, double margin)
 static double roundness(const clx_convex *shape)
 {
     const double *s = shape->semi_axes;
-    const double least = fmin(s[0], fmin(s[1], s[2]));
-    return least > 0.0 ? least * least / fmax(s[0], fmax(s[1], s[2])) : 0.0;
+    const double least = lesser_of(s[0], lesser_of(s[1], s[2]));
+    return least > 0.0 ? least * least / greater_of(s[0], greater_of(s[1], s[2])) : 0.0;
 }
 
 /// Both witness points are known: fills the contact with the rounding of both taken into account.
@@ -254,7 +255,7 @@ static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *mem
                    clx_simplex *simplex, clx_contact *contact)
 {
     clx_gjk_pair seen;
-    const double unit = fmax(pair->a->reach, pair->b->reach);
+    const double unit = greater_of(pair->a->reach, pair->b->reach);
     double v[3], n[3], on_a[3];
     double gap = 0.0;
     see(pair, unit, &seen);
@@ -303,15 +304,12 @@ static bool add_rounding(const clx_pair *pair, double max_gap, clx_contact *cont
 static bool general(const clx_pair *pair, double max_gap, clx_contact *contact)
 {
     clx_simplex simplex = {0};
-    clx_contact found;
-    const bool is_near =
-        search(pair, max_gap + pair->a->round + pair->b->round, NULL, &simplex, &found);
-    if (is_near && add_rounding(pair, max_gap, &found)) {
-        *contact = found;
-        return true;
+    const double rounds = pair->a->round + pair->b->round;
+    if (!search(pair, max_gap + rounds, NULL, &simplex, contact)) {
+        contact->gap -= rounds;
+        return false;
     }
-    contact->gap = is_near ? found.gap : found.gap - pair->a->round - pair->b->round;
-    return false;
+    return add_rounding(pair, max_gap, contact);
 }
 
 /// Whether the memory names features that these shapes have.
@@ -367,25 +365,21 @@ static bool search_hulls(const clx_pair *pair, double max_gap, clx_contact_memor
 static bool hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
                   clx_contact *contact)
 {
-    clx_contact found;
-    if (!clx_facet_again(pair, memory, &found)) {
-        const double rounds = pair->a->round + pair->b->round;
-        if (!search_hulls(pair, max_gap + rounds, memory, &found)) {
-            contact->gap = found.gap - rounds;
-            return false;
-        }
-    }
-    if (!add_rounding(pair, max_gap, &found)) {
-        contact->gap = found.gap;
+    const double rounds = pair->a->round + pair->b->round;
+    if (!search_hulls(pair, max_gap + rounds, memory, contact)) {
+        contact->gap -= rounds;
         return false;
     }
-    *contact = found;
-    return true;
+    return add_rounding(pair, max_gap, contact);
 }
 
 bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
                       clx_contact *contact)
 {
+    if (memory != NULL && memory->kind != CLX_FACET_NONE &&
+        clx_facet_again(pair, memory, contact)) {
+        return add_rounding(pair, max_gap, contact);
+    }
     if (pair->a->kind == CLX_CONVEX_SPHERE && pair->b->kind == CLX_CONVEX_SPHERE) {
         return spheres(pair, max_gap, contact);
     }

@@ -60,7 +60,7 @@ typedef struct clx_contact_memory {
 } clx_contact_memory;
 
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound
-/// of the gap that exceeds max_gap, and the rest is untouched.
+/// of the gap that exceeds max_gap, and the rest is undefined.
 ///
 /// Error of gap: 1e-14 of the bodies' size; 1e-11 for a hull with an ellipsoid.
 ///

@@ -7,6 +7,8 @@
 // centre is passed. Where it is not, it is shifted until it is: every step gains.
 #include "contact/ellipsoid_pair.h"
 
+#include "base/machine.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 enum { MAX_STEP = 60, MAX_HALVING = 30 };
@@ -21,12 +23,13 @@ static const double LAST_STEP = 3e-5;
 /// Steps shorter than this need no new value: s + g.step / 2 is exact to their third power.
 static const double SHORT_STEP = 1e-5;
 
-static void sym_mul(const double m[6], const double x[3], double out[3])
+CLX_INLINE void sym_mul(const double m[6], const double x[3], double out[3])
 {
     v3_set(out, m[0] * x[0] + m[5] * x[1] + m[4] * x[2], m[5] * x[0] + m[1] * x[1] + m[3] * x[2],
            m[4] * x[0] + m[3] * x[1] + m[2] * x[2]);
 }
 
+CLX_FOR_EACH_MACHINE
 void clx_ellipsoid_matrix(const double r[9], const double axes[3], double m[6])
 {
     const double x = axes[0] * axes[0];
@@ -41,7 +44,7 @@ void clx_ellipsoid_matrix(const double r[9], const double axes[3], double m[6])
 }
 
 /// The support value and the tip; 0 for a point.
-static double support(const double matrix[6], const double m[3], double tip[3])
+CLX_INLINE double support(const double matrix[6], const double m[3], double tip[3])
 {
     sym_mul(matrix, m, tip);
     const double h2 = v3_dot(m, tip);
@@ -60,7 +63,8 @@ static double value(const clx_ellipsoids *p, const double m[3])
     double a[3], b[3];
     sym_mul(p->a, m, a);
     sym_mul(p->b, m, b);
-    return v3_dot(m, p->offset) - sqrt(fmax(v3_dot(m, a), 0.0)) - sqrt(fmax(v3_dot(m, b), 0.0));
+    return v3_dot(m, p->offset) - sqrt(greater_of(v3_dot(m, a), 0.0)) -
+           sqrt(greater_of(v3_dot(m, b), 0.0));
 }
 
 /// Everything at one m.
@@ -72,7 +76,7 @@ typedef struct {
 } local;
 
 /// Adds H of one ellipsoid in the frame (u, v).
-static void add_curvature(const double matrix[6], double h, const double tip[3], local *at)
+CLX_INLINE void add_curvature(const double matrix[6], double h, const double tip[3], local *at)
 {
     double mu[3], mv[3];
     if (h <= 0.0) {
@@ -87,7 +91,7 @@ static void add_curvature(const double matrix[6], double h, const double tip[3],
     at->k[2] += (v3_dot(at->tangent[1], mv) - tv * tv) / h;
 }
 
-static void expand(const clx_ellipsoids *p, const double m[3], local *at)
+CLX_INLINE void expand(const clx_ellipsoids *p, const double m[3], local *at)
 {
     double tip_a[3], tip_b[3], r[3];
     v3_frame(m, at->tangent[0], at->tangent[1]);
@@ -172,7 +176,7 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
 
 /// One short step from a remembered normal of about unit length; false if it is not short, or K not
 /// safely positive definite.
-static bool follow(const clx_ellipsoids *p, double size, double m[3], double *s)
+CLX_INLINE bool follow(const clx_ellipsoids *p, double size, double m[3], double *s)
 {
     local at;
     double start[3];
@@ -239,6 +243,7 @@ static double climb_from_everywhere(const clx_ellipsoids *p, double size, double
     return best;
 }
 
+CLX_FOR_EACH_MACHINE
 double clx_ellipsoid_gap(const clx_ellipsoids *p, double m[3])
 {
     const double size = sqrt(p->a[0] + p->a[1] + p->a[2]) + sqrt(p->b[0] + p->b[1] + p->b[2]);

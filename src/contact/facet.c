@@ -6,6 +6,7 @@
 // witness to the other) falls inside its sides. Work is in world axes about a's position.
 #include "contact/facet.h"
 
+#include "math/least.h"
 #include "math/vec3.h"
 
 enum { MAX_WALK = 24, MAX_FLOOD = 16 };
@@ -75,7 +76,7 @@ static void view_face(const body both[2], int k, int32_t f, int32_t v, view *out
     }
     double least = 0.0; // the other body must not go on towards this face
     for (int32_t i = other->core->near_first[v]; i < other->core->near_first[v + 1]; ++i) {
-        least = fmin(least, v3_dot(other->core->near[i].along, q));
+        least = lesser_of(least, v3_dot(other->core->near[i].along, q));
     }
     out->is_facet = least >= 0.0;
     v3_scale(out->m, k == 0 ? 1.0 : -1.0, n);
@@ -185,7 +186,7 @@ static int32_t first_met(const clx_hull_core *core, int32_t v, const double q0[3
     int32_t edge = -1;
     for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &core->near[i];
-        const double now = fmax(v3_dot(near->along, q0), 0.0);
+        const double now = greater_of(v3_dot(near->along, q0), 0.0);
         const double then = v3_dot(near->along, q1);
         if (then < 0.0 && near->edge >= 0 && now < first * (now - then)) {
             first = now / (now - then);

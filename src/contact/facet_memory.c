@@ -9,6 +9,8 @@
 // error.
 #include "contact/facet.h"
 
+#include "base/machine.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 /// What a unit vector loses as floats, and a point in units of its body.
@@ -17,19 +19,19 @@ static const double FLOAT_SLACK = 4e-7;
 /// A record is made anew after this turn [rad] at the latest.
 static const double MOST_TURN = 0.1;
 
-static inline void into(const double t[9], const double x[3], double out[3])
+CLX_INLINE void into(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[3] * x[1] + t[6] * x[2], t[1] * x[0] + t[4] * x[1] + t[7] * x[2],
            t[2] * x[0] + t[5] * x[1] + t[8] * x[2]);
 }
 
-static inline void outof(const double t[9], const double x[3], double out[3])
+CLX_INLINE void outof(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[1] * x[1] + t[2] * x[2], t[3] * x[0] + t[4] * x[1] + t[5] * x[2],
            t[6] * x[0] + t[7] * x[1] + t[8] * x[2]);
 }
 
-static inline double drift2(const double x[3], const float seen[3])
+CLX_INLINE double drift2(const double x[3], const float seen[3])
 {
     const double d[3] = {x[0] - (double)seen[0], x[1] - (double)seen[1], x[2] - (double)seen[2]};
     return v3_norm2(d);
@@ -53,7 +55,7 @@ typedef struct {
 } face_place;
 
 /// k: the body that has the face. data: normal, offset, vertex.
-static inline void place_face(const clx_pair *pair, int k, const double data[12], face_place *out)
+CLX_INLINE void place_face(const clx_pair *pair, int k, const double data[12], face_place *out)
 {
     const double *own = k == 0 ? pair->turn_a : pair->turn_b;
     const double *other = k == 0 ? pair->turn_b : pair->turn_a;
@@ -71,12 +73,12 @@ static inline void place_face(const clx_pair *pair, int k, const double data[12]
     out->gap = v3_dot(data, out->p) - data[3];
 }
 
-static bool face_again(const clx_pair *pair, int k, const clx_contact_memory *memory,
-                       clx_contact *contact)
+CLX_INLINE bool face_again(const clx_pair *pair, int k, const clx_contact_memory *memory,
+                           clx_contact *contact)
 {
     face_place at;
     place_face(pair, k, memory->data, &at);
-    const double margin = (double)memory->limit[0] + fmin((double)memory->sure * at.gap, 0.0);
+    const double margin = (double)memory->limit[0] + lesser_of((double)memory->sure * at.gap, 0.0);
     const double turn = (double)memory->limit[1];
     if (!(margin > 0.0 && drift2(at.p, memory->seen[0]) <= margin * margin &&
           drift2(at.q, memory->seen[1]) <= turn * turn)) {
@@ -94,12 +96,12 @@ typedef struct {
     double ma[3], mb[3];
     double point[3]; ///< on a's edge
     double gap;
-    double margin; ///< of the foot
+    double n2, e2, f2;         ///< squared lengths of e x f, e, f
+    double inside_a, inside_b; ///< n2 times the parameter on each edge, from its nearer end
 } edge_place;
 
 /// data: from and along of a's edge, of b's.
-static inline bool place_edges(const clx_pair *pair, const clx_contact_memory *memory,
-                               edge_place *at)
+CLX_INLINE bool place_edges(const clx_pair *pair, const clx_contact_memory *memory, edge_place *at)
 {
     double a[3], e[3], b[3], f[3], n[3], w[3], c[3];
     outof(pair->turn_a, memory->data, a);
@@ -109,29 +111,39 @@ static inline bool place_edges(const clx_pair *pair, const clx_contact_memory *m
     v3_add(b, b, pair->offset);
     v3_cross(n, e, f);
     v3_sub(w, b, a);
-    const double n2 = v3_norm2(n);
-    const double e2 = v3_norm2(e);
-    const double f2 = v3_norm2(f);
-    if (!(n2 > 1e-16 * e2 * f2)) {
+    at->n2 = v3_norm2(n);
+    at->e2 = v3_norm2(e);
+    at->f2 = v3_norm2(f);
+    if (!(at->n2 > 1e-16 * at->e2 * at->f2)) {
         return false;
     }
-    const double length = sqrt(n2);
-    v3_scale(at->m, (memory->n != 0 ? -1.0 : 1.0) / length, n);
+    const double inverse = 1.0 / sqrt(at->n2);
+    v3_scale(at->m, memory->n != 0 ? -inverse : inverse, n);
     at->gap = v3_dot(at->m, w);
     v3_cross(c, w, f);
-    const double s = v3_dot(c, n) / n2;
+    const double s = v3_dot(c, n);
     v3_cross(c, w, e);
-    const double t = v3_dot(c, n) / n2;
-    at->margin =
-        fmin(fmin(s, 1.0 - s) * (length / sqrt(f2)), fmin(t, 1.0 - t) * (length / sqrt(e2)));
-    v3_axpy(at->point, a, s, e);
+    const double t = v3_dot(c, n);
+    at->inside_a = lesser_of(s, at->n2 - s);
+    at->inside_b = lesser_of(t, at->n2 - t);
+    v3_axpy(at->point, a, s * (inverse * inverse), e);
     into(pair->turn_a, at->m, at->ma);
     into(pair->turn_b, at->m, at->mb);
     return true;
 }
 
-static bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
-                        clx_contact *contact)
+/// Whether the foot is farther than `wanted` from all four sides: parameter times breadth, squared
+/// and without a division.
+CLX_INLINE bool is_inside(const edge_place *at, double wanted)
+{
+    const double wanted2 = wanted * wanted * at->n2;
+    return at->inside_a > 0.0 && at->inside_b > 0.0 &&
+           at->inside_a * at->inside_a > wanted2 * at->f2 &&
+           at->inside_b * at->inside_b > wanted2 * at->e2;
+}
+
+CLX_INLINE bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
+                            clx_contact *contact)
 {
     edge_place at;
     if (!place_edges(pair, memory, &at)) {
@@ -139,7 +151,7 @@ static bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
     }
     const double turn_a = (double)memory->limit[0];
     const double turn_b = (double)memory->limit[1];
-    if (!(at.margin + fmin((double)memory->sure * at.gap, 0.0) > 0.0 &&
+    if (!(is_inside(&at, lesser_of((double)memory->sure * at.gap, 0.0)) &&
           drift2(at.ma, memory->seen[0]) <= turn_a * turn_a &&
           drift2(at.mb, memory->seen[1]) <= turn_b * turn_b)) {
         return false;
@@ -150,6 +162,7 @@ static bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
     return true;
 }
 
+CLX_FOR_EACH_MACHINE
 bool clx_facet_again(const clx_pair *pair, const clx_contact_memory *memory, clx_contact *contact)
 {
     switch (memory->kind) {
@@ -176,14 +189,14 @@ static float sure_margin(const clx_pair *pair, double s, double aside, double ma
     }
     const double under = aside * aside - (s + ball) * (ball - s);
     const double k = under > 0.0 ? (aside + sqrt(under)) / (s + ball) : 1.0;
-    return (float)(1.001 * fmax(fmax(k, 1.0), 9.0 * margin / ball));
+    return (float)(1.001 * greater_of(greater_of(k, 1.0), 9.0 * margin / ball));
 }
 
 /// Length of the part of x across unit n.
 static double across(const double n[3], const double x[3])
 {
     const double along = v3_dot(n, x);
-    return sqrt(fmax(v3_norm2(x) - along * along, 0.0));
+    return sqrt(greater_of(v3_norm2(x) - along * along, 0.0));
 }
 
 static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
@@ -201,13 +214,13 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
     place_face(pair, k, memory->data, &at);
     for (int32_t i = face->first; i < face->first + face->n; ++i) {
         const clx_core_side *side = &own->core->side[i];
-        margin = fmin(margin, own->scale * side->offset - v3_dot(side->out, at.p));
+        margin = lesser_of(margin, own->scale * side->offset - v3_dot(side->out, at.p));
     }
     for (int32_t i = other->core->near_first[v]; i < other->core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &other->core->near[i];
-        turn = fmin(turn, v3_dot(near->along, at.q) * near->inverse);
+        turn = lesser_of(turn, v3_dot(near->along, at.q) * near->inverse);
     }
-    turn = fmin(turn, MOST_TURN);
+    turn = lesser_of(turn, MOST_TURN);
     keep(at.p, memory->seen[0]);
     keep(at.q, memory->seen[1]);
     memory->sure = sure_margin(
@@ -215,14 +228,14 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
         across(memory->data, at.p) + margin + across(at.q, memory->data + 4) + turn * other->reach,
         margin);
     memory->limit[0] = (float)(margin - FLOAT_SLACK * (own->reach + fabs(margin)));
-    memory->limit[1] = (float)fmax(turn - FLOAT_SLACK, 0.0);
+    memory->limit[1] = (float)greater_of(turn - FLOAT_SLACK, 0.0);
 }
 
 /// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
 static double arc_limit(const clx_core_edge *edge, const double n[3])
 {
-    const double least = fmin(v3_dot(n, edge->out[0]), v3_dot(n, edge->out[1]));
-    return fmin(fmax(least - FLOAT_SLACK, 0.0), MOST_TURN);
+    const double least = lesser_of(v3_dot(n, edge->out[0]), v3_dot(n, edge->out[1]));
+    return lesser_of(greater_of(least - FLOAT_SLACK, 0.0), MOST_TURN);
 }
 
 static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_contact_memory *memory)

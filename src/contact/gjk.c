@@ -5,6 +5,7 @@
 // keeps it from falling, the best iterate so far is the answer.
 #include "contact/gjk.h"
 
+#include "math/least.h"
 #include "math/vec3.h"
 
 enum { MAX_STEP = 200, MAX_STALL = 4 };
@@ -284,7 +285,7 @@ clx_gjk_answer clx_gjk(clx_gjk_pair *pair, double max_gap, clx_simplex *simplex,
         double x[3] = {0.0, 0.0, 0.0};
         const double d2 = reduce(&trial, x);
         n_stall = d2 < best2 ? 0 : n_stall + 1; // the direction may still gain when d2 cannot
-        best2 = fmin(best2, d2);
+        best2 = lesser_of(best2, d2);
         if (d2 <= touching2) {
             *simplex = trial;
             *gap = 0.0;

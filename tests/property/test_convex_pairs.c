@@ -240,6 +240,77 @@ static void tied_features_equal_all_axes(void **state)
     }
 }
 
+/* Hull of 5 to 12 points of a lattice, not all in one plane. */
+static clx_hull_core *lattice_core(clx_rng *rng)
+{
+    for (;;) {
+        clx_hull_core *core = NULL;
+        clast_mesh cloud = {0};
+        CHECK_OK(clast_mesh_alloc((int32_t)(5 + clx_rng_below(rng, 8)), 0, &cloud));
+        for (int32_t i = 0; i < 3 * cloud.n_vert; ++i) {
+            cloud.vert[i / 3][i % 3] = (double)clx_rng_below(rng, 5) - 2.0;
+        }
+        const clast_status status = clx_hull_core_create(&cloud, &core);
+        clast_mesh_free(&cloud);
+        if (status == CLAST_OK) {
+            return core;
+        }
+    }
+}
+
+/* One of the turns of a cube. */
+static void quarter_turns(clx_rng *rng, double turn[9])
+{
+    double m[3][3] = {{0.0}};
+    const int first = (int)clx_rng_below(rng, 3);
+    const int second = (first + 1 + (int)clx_rng_below(rng, 2)) % 3;
+    m[0][first] = clx_rng_below(rng, 2) == 0 ? 1.0 : -1.0;
+    m[1][second] = clx_rng_below(rng, 2) == 0 ? 1.0 : -1.0;
+    v3_cross(m[2], m[0], m[1]);
+    for (int i = 0; i < 9; ++i) {
+        turn[i] = m[i / 3][i % 3];
+    }
+}
+
+/* Hulls of lattice points in lattice poses: parallel faces and edges, vertices that meet, origins
+   on facets of the difference. Cold and remembered answers against all axes. */
+static void lattice_hulls_equal_all_axes(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 60; ++i) {
+        clx_rng rng = clx_rng_at(13, CLX_STREAM_TEST, i);
+        clx_hull_core *core[2];
+        scene s;
+        clx_contact_memory memory = {0};
+        for (int k = 0; k < 2; ++k) {
+            core[k] = lattice_core(&rng);
+            quarter_turns(&rng, s.turn[k]);
+        }
+        s.a = clx_convex_hull(core[0], 1.0);
+        s.b = clx_convex_hull(core[1], 1.0);
+        join(&s);
+        for (int k = 0; k < 3; ++k) {
+            s.pair.offset[k] = (double)clx_rng_below(&rng, 9) - 4.0;
+        }
+        for (int step = 0; step < 12; ++step) {
+            clx_contact cold, warm;
+            assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &cold));
+            assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &warm));
+            const double expected = reference(&s);
+            CHECK_ABS(cold.gap, expected, 1e-13);
+            CHECK_ABS(warm.gap, expected, 1e-13);
+            check_contact(&s, &cold, 1e-12);
+            check_contact(&s, &warm, 1e-12);
+            s.pair.offset[clx_rng_below(&rng, 3)] += clx_rng_below(&rng, 2) == 0 ? 0.25 : -0.25;
+            if (step % 4 == 3) {
+                quarter_turns(&rng, s.turn[1]);
+            }
+        }
+        clx_hull_core_destroy(core[0]);
+        clx_hull_core_destroy(core[1]);
+    }
+}
+
 static clx_convex random_round(clx_rng *rng)
 {
     double axes[3];
@@ -339,6 +410,7 @@ int main(void)
         cmocka_unit_test(contacts_ignore_order_and_frame),
         cmocka_unit_test(aligned_boxes_have_their_closed_form),
         cmocka_unit_test(tied_features_equal_all_axes),
+        cmocka_unit_test(lattice_hulls_equal_all_axes),
         cmocka_unit_test(round_pairs_equal_all_directions),
         cmocka_unit_test(round_and_hull_equal_all_directions),
     };

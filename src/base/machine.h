@@ -1,0 +1,15 @@
+#pragma once
+// Copies of a hot function for several machines, chosen when the program starts.
+//
+// With -ffp-contract=off and no reordering every copy gives the same bits. Clang takes no vectors
+// by value between a clone and what it inlines, and the thread sanitizer starts after the choice is
+// made: those builds keep to the baseline. What the function calls must be CLX_INLINE to share in
+// it.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
+    !defined(__SANITIZE_THREAD__)
+#define CLX_FOR_EACH_MACHINE __attribute__((target_clones("avx2", "default")))
+#else
+#define CLX_FOR_EACH_MACHINE
+#endif
+
+#define CLX_INLINE static inline __attribute__((always_inline))
