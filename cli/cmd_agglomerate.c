@@ -43,7 +43,8 @@ static char details[MAX_DETAIL];
 
 static bool is_left_out(const char *name)
 {
-    return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0;
+    return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0 ||
+           strcmp(name, "crossfit") == 0;
 }
 
 static void join_details(void)

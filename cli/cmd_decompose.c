@@ -114,6 +114,7 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_number(out, "events", r->events);
     cli_json_number(out, "events_low", r->events_low);
     cli_json_number(out, "events_high", r->events_high);
+    cli_json_number(out, "events_cross", r->events_cross);
     cli_json_count(out, "n_capped", r->n_capped);
     cli_json_number(out, "points_per_bin", r->points_per_bin);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
@@ -151,6 +152,9 @@ static void print_words(const clast_decomposition *r, bool test_only)
     (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g], %d cells at the cap\n",
                  stop_text(r->stop), r->cells.n, r->events, r->events_low, r->events_high,
                  r->n_capped);
+    if (isfinite(r->events_cross)) {
+        (void)printf("events by cross-fitting %.6g\n", r->events_cross);
+    }
     if (r->n_pass > 0 && r->points_per_bin < 10.0) {
         (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
                      "their noise; compare "
@@ -173,17 +177,19 @@ static clast_status cell_table(const clast_decomposition *r, clast_table *table)
             column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
         }
     }
-    static const char *const name[6] = {"volume", "count", "density", "label", "pass", "events"};
-    for (int k = 0; k < 6 && status == CLAST_OK; ++k) {
+    static const char *const name[7] = {"volume", "count",  "density", "label",
+                                        "pass",   "events", "weight"};
+    for (int k = 0; k < 7 && status == CLAST_OK; ++k) {
         double *column = NULL;
         status = clast_table_add_number(table, name[k], "-", &column);
         for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
-            const double value[6] = {cells->volume[c],
+            const double value[7] = {cells->volume[c],
                                      (double)cells->count[c],
                                      (double)cells->count[c] / cells->volume[c],
                                      (double)cells->label[c],
                                      (double)cells->pass[c],
-                                     cells->events[c]};
+                                     cells->events[c],
+                                     cells->weight[c]};
             column[c] = value[k];
         }
     }

@@ -29,6 +29,7 @@
 #include <clast/grading.h>
 #include <clast/grading_file.h>
 #include <clast/grain.h>
+#include <clast/grain_statistics.h>
 #include <clast/harmonics.h>
 #include <clast/harmonics_file.h>
 #include <clast/grain_statistics.h>
@@ -48,8 +49,8 @@
 #include <clast/pack_file.h>
 #include <clast/pack_run.h>
 #include <clast/parallel.h>
-#include <clast/pores.h>
 #include <clast/points_file.h>
+#include <clast/pores.h>
 #include <clast/porosity.h>
 #include <clast/porosity_chart.h>
 #include <clast/porosity_fit.h>

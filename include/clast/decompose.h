@@ -28,14 +28,22 @@ typedef enum {
     CLAST_EVENTS_PAPER  ///< beta dt n^2 / V as printed in eq. 14
 } clast_event_law;
 
+/// Which statistic of the discrepancies votes.
+typedef enum { CLAST_STATISTIC_A, CLAST_STATISTIC_T } clast_statistic;
+
 typedef enum { CLAST_OUTSIDE_ERROR, CLAST_OUTSIDE_DROP } clast_outside;
 
 typedef struct clast_decompose_config {
     char *domain;    ///< see clast_domain_parse
     int32_t outside; ///< points outside the domain
     int32_t variant, mesh, events;
-    double level;  ///< of each test
-    int32_t votes; ///< tests that must reject
+    double level;          ///< of each test
+    int32_t votes;         ///< tests that must reject
+    char *tests;           ///< those that vote, by name
+    int32_t statistic;     ///< of the discrepancies: A or T
+    bool paper;            ///< p-values, score and events as printed, errors included
+    int32_t ghost_samples; ///< expected score by so many ghost samples; 0: semi-analytic
+    bool crossfit;         ///< events with the cells of one half and the points of the other
     int32_t max_pass;
     double beta_dt;    ///< kernel times time step [m^d]
     double tree_level; ///< of the chi-square test of a tree cell
@@ -60,12 +68,27 @@ typedef struct clast_uniformity {
     clast_vote vote[CLAST_N_TEST];
     int32_t n_reject;
     bool reject;
-    double score, ideal;
+    double score, ideal; ///< score by trapezoids over the sample with paper
 } clast_uniformity;
+
+/// How the tests vote. {0} with level and votes set: all five, standardised.
+typedef struct clast_uniformity_config {
+    double level;
+    int32_t votes;
+    uint32_t left_out; ///< bit k: test k of the list of clast_vote neither runs nor votes
+    bool liang;        ///< discrepancies vote with Liang's T instead of A
+    bool paper;        ///< p as printed: 1 - Phi(|A|), 1 - Phi(log HZ), no correction for pairs
+} clast_uniformity_config;
+
+/// Bits of left_out for a list of the tests that shall vote, "centred,pearson".
+///
+/// @return CLAST_E_CONFIG names the unknown test and the known ones
+CLAST_API clast_status clast_uniformity_choose(const char *tests, uint32_t *left_out);
 
 /// @param u  [n][d] in the unit cube    @param side  [3] for the score
 CLAST_API clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d,
-                                             const double side[3], double level, int32_t votes,
+                                             const double side[3],
+                                             const clast_uniformity_config *config,
                                              clast_uniformity *result);
 
 typedef struct clast_pass {
@@ -94,6 +117,7 @@ typedef struct clast_cells {
     double *volume;        ///< [n] m^d
     int64_t *count;        ///< [n] real points
     uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
+    double *weight;        ///< [n] sum of the points' weights: count without weights
     double *events;        ///< [n] after the cap
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
     bool is_box;           ///< cells are boxes low .. high, not unions of bins
@@ -112,6 +136,8 @@ typedef struct clast_decomposition {
     clast_cells cells;
     double events, events_low,
         events_high;       ///< with the 95 % interval of Poisson counts in given cells
+    double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
+                           ///< else NAN
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
     clast_table search;    ///< every threshold searched: pass, lambda, score, ideal_score

@@ -109,8 +109,7 @@ double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
     return sum;
 }
 
-/// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
-static double trapezoid(const clx_depth_law *law, const double *z, int64_t n)
+double clx_depth_trapezoid(const clx_depth_law *law, const double *z, int64_t n)
 {
     double sum = 0.0;
     double previous = fabs(1.0 / (double)n - clx_depth_cdf(law, z[0]));
@@ -252,7 +251,7 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
     const clx_depth_law law = clx_depth_law_of_box(d, side);
     CLX_TRY(clx_boundary_depths(&law, u, n, &z));
     made.score = clx_depth_distance(&law, z, n);
-    made.trapezoid = trapezoid(&law, z, n);
+    made.trapezoid = clx_depth_trapezoid(&law, z, n);
     made.ideal = clx_depth_ideal(&law, (double)n);
     for (int32_t j = 0; j < d; ++j) {
         for (int64_t i = 0; i < n; ++i) {

@@ -18,6 +18,9 @@ double clx_depth_of(const clx_depth_law *law, const double *u);
 /// Integral over [0, 1] of |G_n - H| for n sorted depths, exact.
 double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n);
 
+/// The published habit: trapezoids between the first and the last sample, G = k/n at the k-th.
+double clx_depth_trapezoid(const clx_depth_law *law, const double *z, int64_t n);
+
 /// Its expectation for n uniform points.
 double clx_depth_ideal(const clx_depth_law *law, double n);
 

@@ -24,6 +24,17 @@ const clast_field clast_decompose_fields[] = {
      "pairs|paper"},
     {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
     {FIELD(CLAST_FIELD_I32, votes), 2, 1, 5, "-", "tests that must reject", NULL},
+    {FIELD(CLAST_FIELD_TEXT, tests), 0, 0, 0, "-", "tests that vote",
+     "symmetric,centred,star,henze_zirkler,pearson"},
+    {FIELD(CLAST_FIELD_CHOICE, statistic), 0, 0, 0, "-",
+     "of the discrepancies: A_n as published, or Liang's stronger T", "A|T"},
+    {FIELD(CLAST_FIELD_BOOL, paper), 0, 0, 0, "-",
+     "p-values, score (trapezoids) and events (n^2 / V) as printed, errors included", NULL},
+    {FIELD(CLAST_FIELD_I32, ghost_samples), 0, 0, 65535, "-",
+     "expected scores by so many ghost samples; 0: without sampling", NULL},
+    {FIELD(CLAST_FIELD_BOOL, crossfit), 0, 0, 0, "-",
+     "count events also with the cells of one half of the points and the counts of the other",
+     NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
     {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
      "collision kernel times time step [m^d]", NULL},
@@ -43,6 +54,7 @@ static void free_cells(clast_cells *cells)
     clx_free(cells->count);
     clx_free(cells->label);
     clx_free(cells->pass);
+    clx_free(cells->weight);
     clx_free(cells->events);
     clx_free(cells->of_point);
     clx_free(cells->of_bin);
@@ -68,6 +80,7 @@ static clast_status alloc_cells(clast_cells *cells, int32_t n)
     CLX_TRY(clx_alloc(&cells->count, n, sizeof *cells->count));
     CLX_TRY(clx_alloc(&cells->label, n, sizeof *cells->label));
     CLX_TRY(clx_alloc(&cells->pass, n, sizeof *cells->pass));
+    CLX_TRY(clx_alloc(&cells->weight, n, sizeof *cells->weight));
     CLX_TRY(clx_alloc(&cells->events, n, sizeof *cells->events));
 done:
     return status;
@@ -253,29 +266,137 @@ static void to_domain(const clast_domain *domain, clast_cells *cells)
     }
 }
 
-/// Events of each cell with the cap n/2, their sum and its interval: for Poisson n, n (n - 1) has
-/// the unbiased variance 4 n (n - 1)(n - 2) + 2 n (n - 1).
-static void count_events(const clast_decompose_config *config, clast_decomposition *r)
+/// Sums of powers 1 to 4 of the weights in each cell.
+static clast_status weight_powers(const clast_cloud *cloud, const clast_cells *cells,
+                                  double (**power)[4])
 {
+    clast_status status = CLAST_OK;
+    double(*made)[4] = NULL;
+    CLX_TRY(clx_alloc(&made, cells->n, sizeof *made));
+    for (int32_t c = 0; c < cells->n && cloud->weight == NULL; ++c) {
+        for (int k = 0; k < 4; ++k) {
+            made[c][k] = (double)cells->count[c];
+        }
+    }
+    for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
+        const int32_t c = cells->of_point[i];
+        const double w = cloud->weight[i];
+        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
+                  "the weight of point %lld is %g; it must be a number > 0", (long long)i + 1, w);
+        for (int k = 0; k < 4 && c >= 0; ++k) {
+            made[c][k] += pow(w, k + 1);
+        }
+    }
+    *power = made;
+    made = NULL;
+done:
+    clx_free(made);
+    return status;
+}
+
+/// Events of each cell with the cap W/2, their sum and its interval. For Poisson points of weights
+/// w, sum over i != j of w_i w_j has the unbiased variance 4 S(2,1,1) + 2 S(2,2), sums over
+/// distinct points of w_i^2 w_j w_k and w_i^2 w_j^2; with unit weights 4 n (n-1)(n-2) + 2 n (n-1).
+static clast_status count_events(const clast_cloud *cloud, const clast_decompose_config *config,
+                                 clast_decomposition *r)
+{
+    clast_status status = CLAST_OK;
+    double(*power)[4] = NULL;
     double variance = 0.0;
+    const bool is_printed = config->paper || config->events == CLAST_EVENTS_PAPER;
+    CLX_TRY(weight_powers(cloud, &r->cells, &power));
     for (int32_t c = 0; c < r->cells.n; ++c) {
-        const double n = (double)r->cells.count[c];
+        const double *p = power[c];
         const double rate = config->beta_dt / r->cells.volume[c];
-        const double pairs = n * (n - 1.0);
-        const double wanted =
-            config->events == CLAST_EVENTS_PAPER ? rate * n * n : 0.5 * rate * pairs;
-        const bool capped = wanted > 0.5 * n;
-        r->cells.events[c] = capped ? 0.5 * n : wanted;
+        const double pairs = fmax(0.0, p[0] * p[0] - p[1]);
+        const double wanted = is_printed ? rate * p[0] * p[0] : 0.5 * rate * pairs;
+        const bool capped = wanted > 0.5 * p[0];
+        const double triples =
+            fmax(0.0, p[1] * p[0] * p[0] - 2.0 * p[2] * p[0] - p[1] * p[1] + 2.0 * p[3]);
+        const double scale = is_printed ? rate : 0.5 * rate;
+        r->cells.weight[c] = p[0];
+        r->cells.events[c] = capped ? 0.5 * p[0] : wanted;
         r->events += r->cells.events[c];
         r->n_capped += capped ? 1 : 0;
-        const double scale = config->events == CLAST_EVENTS_PAPER ? rate : 0.5 * rate;
-        variance +=
-            capped ? 0.25 * n : scale * scale * (4.0 * pairs * fmax(0.0, n - 2.0) + 2.0 * pairs);
+        variance += capped ? 0.25 * p[1]
+                           : scale * scale * (4.0 * triples + 2.0 * fmax(0.0, p[1] * p[1] - p[3]));
     }
     const double reach = 1.959963984540054 * sqrt(variance); // 97.5 % of the normal law
     r->events_low = fmax(0.0, r->events - reach);
     r->events_high = r->events + reach;
     r->bias_estimate = r->n > 0 ? (double)r->cells.n / (double)r->n : 0.0;
+done:
+    clx_free(power);
+    return status;
+}
+
+/// Every second point, from `first` on.
+static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *half)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = cloud->dimension;
+    CLX_TRY(clast_cloud_alloc((cloud->n - first + 1) / 2, d, half));
+    if (cloud->weight != NULL) {
+        CLX_TRY(clx_alloc(&half->weight, half->n, sizeof *half->weight));
+    }
+    for (int64_t i = 0; i < half->n; ++i) {
+        memcpy(half->x + i * d, cloud->x + (2 * i + first) * d, (size_t)d * sizeof *half->x);
+        if (cloud->weight != NULL) {
+            half->weight[i] = cloud->weight[2 * i + first];
+        }
+    }
+done:
+    return status;
+}
+
+/// Events with the cells of one half and the weights of both: 2 W_A W_B beta dt / V, whose mean is
+/// that of W^2 / 2 without the bias of cells that were chosen by these points.
+static clast_status cross_events(const clast_cloud *half, const clast_decompose_config *config,
+                                 const clast_domain *domain, double *events)
+{
+    clast_status status = CLAST_OK;
+    clast_decomposition a = {0};
+    double *weight = NULL;
+    double sum = 0.0;
+    CLX_TRY(clast_decompose(&half[0], config, &a));
+    CLX_TRY(clx_alloc(&weight, a.cells.n, sizeof *weight));
+    for (int64_t i = 0; i < half[1].n; ++i) {
+        const int32_t c = clast_cells_locate(&a.cells, domain, half[1].x + i * half[1].dimension);
+        if (c >= 0) {
+            weight[c] += half[1].weight != NULL ? half[1].weight[i] : 1.0;
+        }
+    }
+    for (int32_t c = 0; c < a.cells.n; ++c) {
+        const double both = a.cells.weight[c] + weight[c];
+        sum += fmin(2.0 * config->beta_dt * a.cells.weight[c] * weight[c] / a.cells.volume[c],
+                    0.5 * both);
+    }
+    *events = sum;
+done:
+    clast_decomposition_free(&a);
+    clx_free(weight);
+    return status;
+}
+
+/// Mean over the swap of the halves.
+static clast_status crossfit(const clast_cloud *cloud, const clast_decompose_config *config,
+                             const clast_domain *domain, double *events)
+{
+    clast_status status = CLAST_OK;
+    clast_cloud half[2] = {{0}, {0}};
+    double found[2] = {0};
+    clast_decompose_config plain = *config;
+    plain.crossfit = false;
+    for (int k = 0; k < 2; ++k) {
+        CLX_TRY(take_half(cloud, k, &half[k]));
+    }
+    CLX_TRY(cross_events((const clast_cloud[2]){half[0], half[1]}, &plain, domain, &found[0]));
+    CLX_TRY(cross_events((const clast_cloud[2]){half[1], half[0]}, &plain, domain, &found[1]));
+    *events = 0.5 * (found[0] + found[1]);
+done:
+    clast_cloud_free(&half[0]);
+    clast_cloud_free(&half[1]);
+    return status;
 }
 
 static clast_status make_cells(const mapped *m, const clast_decompose_config *config,
@@ -297,18 +418,23 @@ clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_con
     clast_status status = CLAST_OK;
     clast_decomposition made = {.dimension = cloud->dimension};
     mapped m = {0};
+    clast_uniformity_config vote;
     double side[3];
     CLX_TRY(map_points(cloud, config, &m));
     made.n = m.n;
     made.n_outside = cloud->n - m.n;
     clast_domain_sides(&m.domain, side);
-    CLX_TRY(clast_uniformity_test(m.u, m.n, cloud->dimension, side, config->level, config->votes,
-                                  &made.before));
+    CLX_TRY(clx_passes_vote(config, &vote));
+    CLX_TRY(clast_uniformity_test(m.u, m.n, cloud->dimension, side, &vote, &made.before));
     CLX_TRY(clx_alloc(&made.cells.of_point, cloud->n, sizeof *made.cells.of_point));
     memset(made.cells.of_point, 0xff, (size_t)cloud->n * sizeof *made.cells.of_point);
     CLX_TRY(make_cells(&m, config, &made));
     to_domain(&m.domain, &made.cells);
-    count_events(config, &made);
+    CLX_TRY(count_events(cloud, config, &made));
+    made.events_cross = (double)NAN;
+    if (config->crossfit) {
+        CLX_TRY(crossfit(cloud, config, &m.domain, &made.events_cross));
+    }
     *result = made;
     made = (clast_decomposition){0};
 done:

@@ -7,6 +7,7 @@
 #include "cloud/levels.h"
 #include "cloud/uniformity.h"
 #include "math/rng.h"
+#include "math/sort.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ enum { GRID_MOST = 20000, GRID_LEAST = 1000, GRID_WORK = 20000000 };
 
 typedef struct {
     const clast_decompose_config *config;
+    clast_uniformity_config vote;
     clx_depth_law law;
     double side[3];
     clx_passes *passes;
@@ -106,6 +108,63 @@ static clast_status score_of(work *w, const uint8_t *label, clx_ghost_plan *plan
     return clx_ghosts_expected_score(&sample, score);
 }
 
+/// Depths of one ghost sample in the bins that `label` selects, behind the kept ones in z [room].
+static int64_t draw_depths(const work *w, const uint8_t *label, double per_bin, uint64_t sample,
+                           int64_t room, double *z)
+{
+    int64_t n = 0;
+    const double whole = floor(per_bin);
+    for (int64_t b = 0; b < w->passes->bins.n_bin; ++b) {
+        double low[3];
+        double high[3];
+        double u[3];
+        if (label[b] == 0) {
+            continue;
+        }
+        clx_rng rng = clx_rng_at(w->config->seed, CLX_STREAM_GHOST, sample | (uint64_t)b);
+        clx_bins_box(&w->passes->bins, b, low, high);
+        const int64_t here = (int64_t)whole + (clx_rng_uniform(&rng) < per_bin - whole ? 1 : 0);
+        for (int64_t k = 0; k < here && n < room; ++k) {
+            for (int32_t j = 0; j < w->passes->bins.d; ++j) {
+                u[j] = low[j] + (high[j] - low[j]) * clx_rng_uniform(&rng);
+            }
+            z[n++] = clx_depth_of(&w->law, u);
+        }
+    }
+    return n;
+}
+
+/// Mean score of config->ghost_samples synthetic samples; their draws are common to thresholds.
+static clast_status sampled_score(const work *w, const uint8_t *label, const clx_ghost_plan *plan,
+                                  int32_t pass, double *score)
+{
+    clast_status status = CLAST_OK;
+    double *kept = NULL;
+    double *z = NULL;
+    double sum = 0.0;
+    int64_t n_kept = 0;
+    const int64_t room = plan->n_replaced * ((int64_t)floor(plan->per_bin) + 1);
+    CLX_TRY(clx_alloc(&kept, plan->n_kept, sizeof *kept));
+    CLX_TRY(clx_alloc(&z, plan->n_kept + room, sizeof *z));
+    for (int64_t i = 0; i < w->n; ++i) {
+        if (label[w->bin_of[i]] == 0) {
+            kept[n_kept++] = clx_depth_of(&w->law, w->u + i * w->passes->bins.d);
+        }
+    }
+    for (int32_t m = 0; m < w->config->ghost_samples; ++m) {
+        const uint64_t sample = (uint64_t)(m + 1) << 47 | (uint64_t)pass << 40;
+        memcpy(z, kept, (size_t)n_kept * sizeof *z);
+        const int64_t n = n_kept + draw_depths(w, label, plan->per_bin, sample, room, z + n_kept);
+        CLX_TRY(clx_sort_doubles(z, n));
+        sum += n > 0 ? clx_depth_distance(&w->law, z, n) : 1.0;
+    }
+    *score = sum / w->config->ghost_samples;
+done:
+    clx_free(kept);
+    clx_free(z);
+    return status;
+}
+
 /// A row of the table of thresholds searched.
 static clast_status note_search(work *w, int32_t number, int32_t lambda, double score, double ideal)
 {
@@ -143,6 +202,9 @@ static clast_status search(work *w, const clx_levels *levels, int32_t number, cl
         CLX_TRY(clx_levels_label(w->passes->bins.count, w->active, n_bin, levels->lambda[t],
                                  levels->q20, w->label));
         CLX_TRY(score_of(w, w->label, &here, &score));
+        if (w->config->ghost_samples > 0) {
+            CLX_TRY(sampled_score(w, w->label, &here, number, &score));
+        }
         const double ideal = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
         CLX_TRY(note_search(w, number, levels->lambda[t], score, ideal));
         if (here.n_ambient > 0 && fabs(score - ideal) / ideal < nearest) {
@@ -245,8 +307,7 @@ static clast_status iterate(work *w, clast_decomposition *result)
         }
         result->pass[result->n_pass++] = pass;
         if (again) {
-            CLX_TRY(clx_uniformity_decide(w->u, w->n, w->passes->bins.d, w->config->level,
-                                          w->config->votes, &reject));
+            CLX_TRY(clx_uniformity_decide(w->u, w->n, w->passes->bins.d, &w->vote, &reject));
             if (!reject) {
                 result->stop = CLAST_STOP_UNIFORM;
                 break;
@@ -276,6 +337,15 @@ done:
     return status;
 }
 
+clast_status clx_passes_vote(const clast_decompose_config *config, clast_uniformity_config *vote)
+{
+    *vote = (clast_uniformity_config){.level = config->level,
+                                      .votes = config->votes,
+                                      .liang = config->statistic == CLAST_STATISTIC_T,
+                                      .paper = config->paper};
+    return clast_uniformity_choose(config->tests, &vote->left_out);
+}
+
 clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
                             const clast_decompose_config *config, clast_decomposition *result,
                             clx_passes *passes)
@@ -284,6 +354,7 @@ clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *doma
     work w = {.config = config, .passes = passes, .search = &result->search};
     clast_domain_sides(domain, w.side);
     w.law = clx_depth_law_of_box(domain->dimension, w.side);
+    CLX_TRY(clx_passes_vote(config, &w.vote));
     CLX_TRY(prepare(&w, u, n, domain->dimension));
     result->points_per_bin = (double)n / (double)passes->bins.n_bin;
     CLX_TRY(iterate(&w, result));

@@ -15,4 +15,7 @@ typedef struct clx_passes {
 clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *domain,
                             const clast_decompose_config *config, clast_decomposition *result,
                             clx_passes *passes);
+
+/// How a configuration's tests vote.
+clast_status clx_passes_vote(const clast_decompose_config *config, clast_uniformity_config *vote);
 void clx_passes_free(clx_passes *passes);

@@ -4,81 +4,156 @@
 #include "base/alloc.h"
 #include "cloud/boundary_score.h"
 
-static void cast(clast_uniformity *r, const char *name, double statistic, double p, double level)
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { HENZE_ZIRKLER = 3, PEARSON = 4 };
+static const char *const names[CLAST_N_TEST] = {"symmetric", "centred", "star", "henze_zirkler",
+                                                "pearson"};
+
+clast_status clast_uniformity_choose(const char *tests, uint32_t *left_out)
 {
-    r->vote[r->n_test] = (clast_vote){name, statistic, p, p < level};
-    r->n_reject += p < level ? 1 : 0;
-    ++r->n_test;
+    uint32_t chosen = 0;
+    const char *at = tests;
+    while (*at != '\0') {
+        const size_t length = strcspn(at, ",");
+        int k = 0;
+        while (k < CLAST_N_TEST &&
+               (strlen(names[k]) != length || strncmp(names[k], at, length) != 0)) {
+            ++k;
+        }
+        if (k == CLAST_N_TEST) {
+            return clx_fail(CLAST_E_CONFIG,
+                            "test '%.*s' is not known; there are symmetric, centred, star, "
+                            "henze_zirkler, pearson",
+                            (int)length, at);
+        }
+        chosen |= 1U << k;
+        at += at[length] == ',' ? length + 1 : length;
+    }
+    if (chosen == 0) {
+        return clx_fail(CLAST_E_CONFIG, "no test is left to vote");
+    }
+    *left_out = ~chosen & ((1U << CLAST_N_TEST) - 1U);
+    return CLAST_OK;
 }
 
-/// The discrepancies and the correlation, which cost little beside Henze and Zirkler's test.
-static clast_status cast_cheap(const double *u, int64_t n, int32_t d, double level,
-                               clast_uniformity *r, clast_vote *pearson_vote)
+static bool votes(const clast_uniformity_config *config, int test)
+{
+    return (config->left_out >> test & 1U) == 0;
+}
+
+static void cast(clast_uniformity *r, int test, double statistic, double p,
+                 const clast_uniformity_config *config)
+{
+    if (votes(config, test)) {
+        r->vote[r->n_test] = (clast_vote){names[test], statistic, p, p < config->level};
+        r->n_reject += p < config->level ? 1 : 0;
+        ++r->n_test;
+    }
+}
+
+static clast_status cast_discrepancies(const double *u, int64_t n, int32_t d,
+                                       const clast_uniformity_config *config, clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
-    clast_discrepancy discrepancy[CLAST_N_DISCREPANCY];
-    clast_pearson pearson;
-    CLX_TRY(clast_discrepancy_test(u, n, d, CLAST_SUMS_AUTO, discrepancy));
-    CLX_TRY(clast_pearson_test(u, n, d, &pearson));
-    cast(r, "symmetric", discrepancy[0].A_standard, discrepancy[0].p, level);
-    cast(r, "centred", discrepancy[1].A_standard, discrepancy[1].p, level);
-    cast(r, "star", discrepancy[2].A_standard, discrepancy[2].p, level);
-    *pearson_vote = (clast_vote){"pearson", pearson.r[0], pearson.p_bonferroni,
-                                 d > 1 && pearson.p_bonferroni < level};
+    clast_discrepancy found[CLAST_N_DISCREPANCY];
+    if (!votes(config, 0) && !votes(config, 1) && !votes(config, 2)) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_discrepancy_test(u, n, d, CLAST_SUMS_AUTO, found));
+    for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
+        const double p = config->liang   ? found[k].p_T
+                         : config->paper ? found[k].p_paper
+                                         : found[k].p;
+        const double statistic = config->liang   ? found[k].T
+                                 : config->paper ? found[k].A
+                                                 : found[k].A_standard;
+        cast(r, k, statistic, p, config);
+    }
 done:
     return status;
 }
 
-clast_status clx_uniformity_decide(const double *u, int64_t n, int32_t d, double level,
-                                   int32_t votes, bool *reject)
+static clast_status cast_henze_zirkler(const double *u, int64_t n, int32_t d,
+                                       const clast_uniformity_config *config, clast_uniformity *r)
+{
+    clast_status status = CLAST_OK;
+    clast_henze_zirkler found;
+    if (votes(config, HENZE_ZIRKLER)) {
+        CLX_TRY(clast_henze_zirkler_test(u, n, d, CLAST_SUMS_AUTO, &found));
+        cast(r, HENZE_ZIRKLER, found.HZ, config->paper ? found.p_paper : found.p, config);
+    }
+done:
+    return status;
+}
+
+static clast_status cast_pearson(const double *u, int64_t n, int32_t d,
+                                 const clast_uniformity_config *config, clast_uniformity *r)
+{
+    clast_status status = CLAST_OK;
+    clast_pearson found;
+    if (votes(config, PEARSON) && d > 1) {
+        CLX_TRY(clast_pearson_test(u, n, d, &found));
+        double least = 1.0;
+        for (int k = 0; k < found.n_pair; ++k) {
+            least = fmin(least, found.p[k]);
+        }
+        cast(r, PEARSON, found.r[0], config->paper ? least : found.p_bonferroni, config);
+    }
+done:
+    return status;
+}
+
+clast_status clx_uniformity_decide(const double *u, int64_t n, int32_t d,
+                                   const clast_uniformity_config *config, bool *reject)
 {
     clast_status status = CLAST_OK;
     clast_uniformity made = {0};
-    clast_vote pearson = {0};
-    int32_t n_reject = 0;
     if (n >= 5) {
-        CLX_TRY(cast_cheap(u, n, d, level, &made, &pearson));
-        n_reject = made.n_reject + (pearson.reject ? 1 : 0);
-        if (n_reject == votes - 1) { // only now does the last test matter
-            clast_henze_zirkler hz;
-            CLX_TRY(clast_henze_zirkler_test(u, n, d, CLAST_SUMS_AUTO, &hz));
-            n_reject += hz.p < level ? 1 : 0;
+        CLX_TRY(cast_discrepancies(u, n, d, config, &made));
+        CLX_TRY(cast_pearson(u, n, d, config, &made));
+        if (made.n_reject == config->votes - 1) { // only now does the last test matter
+            CLX_TRY(cast_henze_zirkler(u, n, d, config, &made));
         }
     }
-    *reject = n >= 5 && n_reject >= votes;
+    *reject = n >= 5 && made.n_reject >= config->votes;
 done:
     return status;
 }
 
-// The five arguments of a sample and the two of a decision stand in the published order.
+static clast_status measure_score(const double *u, int64_t n, int32_t d, const double side[3],
+                                  bool paper, clast_uniformity *r)
+{
+    clast_status status = CLAST_OK;
+    double *depth = NULL;
+    const clx_depth_law law = clx_depth_law_of_box(d, side);
+    CLX_TRY(clx_boundary_depths(&law, u, n, &depth));
+    r->score = paper ? clx_depth_trapezoid(&law, depth, n) : clx_depth_distance(&law, depth, n);
+    r->ideal = clx_depth_ideal(&law, (double)n);
+done:
+    clx_free(depth);
+    return status;
+}
+
+// The four arguments of a sample stand in the published order.
 // NOLINTNEXTLINE(readability-function-size)
 clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const double side[3],
-                                   double level, int32_t votes, clast_uniformity *result)
+                                   const clast_uniformity_config *config, clast_uniformity *result)
 {
     clast_status status = CLAST_OK;
     clast_uniformity made = {0};
-    double *depth = NULL;
     if (n >= 1) {
-        const clx_depth_law law = clx_depth_law_of_box(d, side);
-        CLX_TRY(clx_boundary_depths(&law, u, n, &depth));
-        made.score = clx_depth_distance(&law, depth, n);
-        made.ideal = clx_depth_ideal(&law, (double)n);
-        clx_free(depth);
-        depth = NULL;
+        CLX_TRY(measure_score(u, n, d, side, config->paper, &made));
     }
     if (n >= 5) {
-        clast_henze_zirkler hz;
-        clast_vote pearson;
-        CLX_TRY(cast_cheap(u, n, d, level, &made, &pearson));
-        CLX_TRY(clast_henze_zirkler_test(u, n, d, CLAST_SUMS_AUTO, &hz));
-        cast(&made, "henze_zirkler", hz.HZ, hz.p, level);
-        if (d > 1) {
-            cast(&made, pearson.name, pearson.statistic, pearson.p, level);
-        }
-        made.reject = made.n_reject >= votes;
+        CLX_TRY(cast_discrepancies(u, n, d, config, &made));
+        CLX_TRY(cast_henze_zirkler(u, n, d, config, &made));
+        CLX_TRY(cast_pearson(u, n, d, config, &made));
+        made.reject = made.n_reject >= config->votes;
     }
     *result = made;
 done:
-    clx_free(depth);
     return status;
 }

@@ -1,0 +1,271 @@
+/* Unit: options of the decomposition: votes, ghosts by sampling, weights, intervals, cross-fitting.
+ */
+#include "support.h"
+
+#include "math/rng.h"
+#include "oracle.h"
+#include <clast/decompose.h>
+#include <stdlib.h>
+#include <string.h>
+
+static oracle_set points;
+
+static clast_decompose_config config_of(const char *domain)
+{
+    clast_decompose_config c;
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
+    CHECK_OK(
+        clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c, domain, false));
+    return c;
+}
+
+static void set(clast_decompose_config *c, const char *name, const char *value)
+{
+    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, name), c, value, false));
+}
+
+static clast_cloud cloud_of(const char *name)
+{
+    oracle_points(name, &points);
+    return (clast_cloud){.n = points.n, .dimension = points.d, .x = points.u};
+}
+
+static const char *const square = "box:0,0,1,1";
+
+static void unit_weights_change_nothing_and_double_ones_count_fourfold(void **state)
+{
+    (void)state;
+    static double weight[500];
+    clast_cloud cloud = cloud_of("s2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition plain = {0};
+    clast_decomposition weighted = {0};
+    set(&c, "beta_dt", "1e-9");
+    CHECK_OK(clast_decompose(&cloud, &c, &plain));
+    for (int pass = 1; pass <= 2; ++pass) {
+        for (int i = 0; i < 500; ++i) {
+            weight[i] = pass;
+        }
+        cloud.weight = weight;
+        CHECK_OK(clast_decompose(&cloud, &c, &weighted));
+        CHECK_REL(weighted.events, pass * pass * plain.events, 1e-13);
+        CHECK_REL(weighted.events_high, pass * pass * plain.events_high, 1e-13);
+        CHECK_REL(weighted.cells.weight[0], pass * (double)plain.cells.count[0], 0.0);
+        clast_decomposition_free(&weighted);
+    }
+    weight[7] = -1.0;
+    CHECK_STATUS(clast_decompose(&cloud, &c, &weighted), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "weight of point 8"));
+    clast_decomposition_free(&plain);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Parcels of weights 1 and 3 in one cell: sum over pairs of w_i w_j, by hand. */
+static void pairs_of_parcels_are_products_of_weights(void **state)
+{
+    (void)state;
+    double x[6] = {0.1, 0.3, 0.6, 0.2, 0.8, 0.9};
+    double w[6] = {1, 3, 1, 3, 1, 2};
+    double pairs = 0.0;
+    clast_cloud cloud = {.n = 6, .dimension = 1, .x = x, .weight = w};
+    clast_decompose_config c = config_of("box:0,2");
+    clast_decomposition r = {0};
+    set(&c, "variant", "test");
+    set(&c, "beta_dt", "0.01");
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < i; ++j) {
+            pairs += w[i] * w[j];
+        }
+    }
+    CHECK_OK(clast_decompose(&cloud, &c, &r));
+    CHECK_REL(r.events, 0.01 * pairs / 2.0, 1e-14);
+    clast_decomposition_free(&r);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Poisson clouds of 120 points on average in one cell: the interval holds the true beta dt 120^2 /
+ * 2 in 95 % of 800. Sampling error 4 x 0.77 %; a normal interval of a squared Poisson number is
+ * off by at most 1 % more. */
+static void interval_covers_as_stated(void **state)
+{
+    (void)state;
+    enum { R = 800, MEAN = 120, MOST = 400 };
+    static double x[MOST];
+    clast_decompose_config c = config_of("box:0,1");
+    int n_covered = 0;
+    set(&c, "variant", "test");
+    set(&c, "tests", "symmetric"); // the vote does not matter here
+    for (int r = 0; r < R; ++r) {
+        clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)r);
+        clast_decomposition d = {0};
+        clast_cloud cloud = {.n = clx_rng_poisson(&rng, MEAN), .dimension = 1, .x = x};
+        for (int64_t i = 0; i < cloud.n; ++i) {
+            x[i] = clx_rng_uniform(&rng);
+        }
+        CHECK_OK(clast_decompose(&cloud, &c, &d));
+        const double truth = 0.5e-6 * MEAN * MEAN;
+        n_covered += d.events_low <= truth && truth <= d.events_high ? 1 : 0;
+        clast_decomposition_free(&d);
+    }
+    CHECK_ABS((double)n_covered / R, 0.95, 0.041);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* 400 ghost samples: the score scatters by 0.4 of its mean at most, so their mean by 2 %; the
+ * semi-analytic value is stated to 1 %. */
+static void sampled_ghosts_agree_with_the_formula(void **state)
+{
+    (void)state;
+    const clast_cloud cloud = cloud_of("s2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition exact = {0};
+    clast_decomposition sampled = {0};
+    CHECK_OK(clast_decompose(&cloud, &c, &exact));
+    set(&c, "ghost_samples", "400");
+    CHECK_OK(clast_decompose(&cloud, &c, &sampled));
+    const double *a = clast_table_numbers(&exact.search, "score");
+    const double *b = clast_table_numbers(&sampled.search, "score");
+    assert_true(exact.search.n_row >= 2);
+    for (int64_t i = 0; i < 2; ++i) {
+        assert_true(a[i] != b[i]);
+        CHECK_REL(b[i], a[i], 4.0 * 0.02 + 0.01);
+    }
+    clast_decomposition_free(&exact);
+    clast_decomposition_free(&sampled);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+static void chosen_tests_and_statistics_vote(void **state)
+{
+    (void)state;
+    const clast_cloud cloud = cloud_of("s2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition r = {0};
+    set(&c, "tests", "centred,pearson");
+    set(&c, "statistic", "T");
+    set(&c, "variant", "test");
+    CHECK_OK(clast_decompose(&cloud, &c, &r));
+    assert_int_equal(r.before.n_test, 2);
+    assert_string_equal(r.before.vote[0].name, "centred");
+    CHECK_REL(r.before.vote[0].statistic, oracle_value("s2_n500", "cen.T"), 1e-11);
+    CHECK_REL(r.before.vote[0].p, oracle_value("s2_n500", "cen.p_T"), 1e-9);
+    assert_string_equal(r.before.vote[1].name, "pearson");
+    clast_decomposition_free(&r);
+    set(&c, "tests", "centered");
+    CHECK_STATUS(clast_decompose(&cloud, &c, &r), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "'centered'"));
+    set(&c, "tests", "");
+    CHECK_STATUS(clast_decompose(&cloud, &c, &r), CLAST_E_CONFIG);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+static void paper_prints_what_the_paper_printed(void **state)
+{
+    (void)state;
+    const clast_cloud cloud = cloud_of("f2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition r = {0};
+    set(&c, "paper", "true");
+    set(&c, "variant", "test");
+    CHECK_OK(clast_decompose(&cloud, &c, &r));
+    CHECK_REL(r.before.vote[0].p, oracle_value("f2_n500", "sym.p_one"), 1e-9);
+    CHECK_REL(r.before.vote[3].p, oracle_value("f2_n500", "hz.p_paper_naive"), 1e-9);
+    CHECK_REL(r.before.score, oracle_value("f2_n500", "score.db_trapz_samplepoints"), 1e-12);
+    CHECK_REL(r.events, 1e-6 * 500.0 * 500.0, 1e-14);
+    clast_decomposition_free(&r);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Uniform points cut into bins all the same (fast variant): cells chosen by their counts are biased
+ * upwards by more than 1 %, cross-fitted events are right within 4 standard errors. */
+static void crossfit_has_no_bias_on_uniform_points(void **state)
+{
+    (void)state;
+    enum { R = 40, N = 1000 };
+    static double x[2 * N];
+    double mean[2] = {0};
+    double square_sum = 0.0;
+    clast_decompose_config c = config_of(square);
+    set(&c, "variant", "fast");
+    set(&c, "tests", "pearson"); // the vote does not matter here
+    set(&c, "crossfit", "true");
+    for (int r = 0; r < R; ++r) {
+        clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, (uint64_t)r);
+        clast_decomposition d = {0};
+        const clast_cloud cloud = {.n = N, .dimension = 2, .x = x};
+        for (int i = 0; i < 2 * N; ++i) {
+            x[i] = clx_rng_uniform(&rng);
+        }
+        CHECK_OK(clast_decompose(&cloud, &c, &d));
+        const double truth = 0.5e-6 * N * N;
+        mean[0] += (d.events / truth - 1.0) / R;
+        mean[1] += (d.events_cross / truth - 1.0) / R;
+        square_sum += (d.events_cross / truth - 1.0) * (d.events_cross / truth - 1.0);
+        clast_decomposition_free(&d);
+    }
+    assert_true(mean[0] > 0.01);
+    CHECK_ABS(mean[1], 0.0, 4.0 * sqrt(square_sum) / R);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+static void the_inverse_map_leads_back(void **state)
+{
+    (void)state;
+    static const char *const text[] = {"box:-1,2,3,5,7,9", "cylinder:2,3", "half-pipe:2,3",
+                                       "sphere:2"};
+    for (int k = 0; k < 4; ++k) {
+        clast_domain domain;
+        CHECK_OK(clast_domain_parse(text[k], &domain));
+        for (int i = 0; i < 200; ++i) {
+            clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, (uint64_t)i);
+            double u[3], x[3], again[3];
+            for (int j = 0; j < 3; ++j) {
+                u[j] = clx_rng_uniform(&rng);
+            }
+            clast_domain_unmap(&domain, u, x);
+            assert_true(clast_domain_map(&domain, x, again));
+            for (int j = 0; j < 3; ++j) {
+                CHECK_ABS(again[j], u[j], 1e-14);
+            }
+        }
+    }
+}
+
+static clast_status decompose_once(void *context)
+{
+    clast_decompose_config *c = context;
+    clast_decomposition r = {0};
+    const clast_cloud cloud = {.n = 50, .dimension = 2, .x = points.u};
+    const clast_status status = clast_decompose(&cloud, c, &r);
+    clast_decomposition_free(&r);
+    return status;
+}
+
+static void every_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    clast_decompose_config c = config_of(square);
+    set(&c, "crossfit", "true");
+    set(&c, "ghost_samples", "2");
+    set(&c, "variant", "fast");
+    set(&c, "tests", "symmetric,pearson");
+    (void)cloud_of("u2_n50");
+    support_refuse_each_allocation(decompose_once, &c);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unit_weights_change_nothing_and_double_ones_count_fourfold),
+        cmocka_unit_test(pairs_of_parcels_are_products_of_weights),
+        cmocka_unit_test(interval_covers_as_stated),
+        cmocka_unit_test(sampled_ghosts_agree_with_the_formula),
+        cmocka_unit_test(chosen_tests_and_statistics_vote),
+        cmocka_unit_test(paper_prints_what_the_paper_printed),
+        cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
+        cmocka_unit_test(the_inverse_map_leads_back),
+        cmocka_unit_test(every_refused_allocation_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
