@@ -235,7 +235,7 @@ static clast_status decompose_once(void *context)
 {
     clast_decompose_config *c = context;
     clast_decomposition r = {0};
-    const clast_cloud cloud = {.n = 50, .dimension = 2, .x = points.u};
+    const clast_cloud cloud = {.n = 14, .dimension = 2, .x = points.u};
     const clast_status status = clast_decompose(&cloud, c, &r);
     clast_decomposition_free(&r);
     return status;
