@@ -1,0 +1,60 @@
+"""CLI: hostile clouds end in an answer or in one line, for decompose and agglomerate."""
+import random
+import unittest
+
+from clitest import Case, clast
+
+CUBE = "box:0,0,0,1,1,1"
+
+
+class BadClouds(Case):
+    def write(self, name, rows, header="x,y,z"):
+        path = self.folder / name
+        path.write_text(header + "\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows))
+        return path
+
+    def test_degenerate_clouds_have_answers(self):
+        random.seed(1)
+        clouds = {"none": [], "one": [[0.5, 0.5, 0.5]], "four": [[0.1 * k, 0.2, 0.3] for k in range(4)],
+                  "equal": [[0.5, 0.25, 0.75]] * 60, "faces": [[float(random.randrange(2)) for _ in range(3)] for _ in range(80)],
+                  "line": [[t, t, t] for t in (random.random() for _ in range(120))],
+                  "plane": [[random.random(), random.random(), 0.5] for _ in range(120)]}
+        for name, rows in clouds.items():
+            path = self.write(name + ".csv", rows)
+            for mesh in ("boxes", "components", "bins", "labels", "tree"):
+                r = clast("decompose", path, "--domain", CUBE, "--mesh", mesh, "--json")
+                self.assertEqual(r.code, 0, f"{name} {mesh}: {r.err}")
+                self.assertEqual(r.json["n"], len(rows))
+                self.assertGreaterEqual(r.json["events"], 0.0)
+                if len(rows) < 5:
+                    self.assertEqual((r.json["tests"], r.json["n_cell"]), ([], 1))
+            r = clast("agglomerate", path, "--domain", CUBE, "--constant", "1e9", "--n-step", "1", "--json")
+            self.assertEqual(r.code, 0, f"{name}: {r.err}")
+            self.assertEqual(r.json["moments"]["M1"][-1], len(rows))
+
+    def test_long_boxes_score_like_cubes(self):
+        random.seed(2)
+        near = [[random.random() for _ in range(3)] for _ in range(200)]
+        far = self.write("far.csv", [[1e9 * p[0], p[1], p[2]] for p in near])
+        a = clast("decompose", self.write("near.csv", near), "--domain", CUBE, "--json").json
+        b = clast("decompose", far, "--domain", "box:0,0,0,1e9,1,1", "--json").json
+        self.assertEqual([t["reject"] for t in a["tests"]], [t["reject"] for t in b["tests"]])
+        self.assertAlmostEqual(b["events"] * 1e9, a["events"], delta=1e-6 * a["events"])
+
+    def test_values_that_cannot_be_are_named(self):
+        for word in ("nan", "inf", "-inf"):
+            path = self.folder / "bad.csv"
+            path.write_text(f"x,y,z\n0.1,0.2,0.3\n0.1,{word},0.3\n")
+            for command in ("decompose", "agglomerate"):
+                self.assert_fails(3, command, path, "--domain", CUBE, says=["point 2", "not finite"])
+        path = self.write("weights.csv", [[0.5, 0.5, 0.5, -2.0]], "x,y,z,w")
+        self.assert_fails(3, "decompose", path, "--domain", CUBE, "--weight-column", "w", says=["weight of point 1", "-2"])
+        self.assert_fails(2, "agglomerate", self.write("w.csv", [[0.5, 0.5, 0.5, 2.0]], "x,y,z,w"), "--domain", CUBE,
+                          "--weight-column", "w", says=["weight 2"])
+        self.assert_fails(3, "decompose", path, "--domain", CUBE, "--columns", "x,y,w,z,x", says=["more than three"])
+        self.assert_fails(2, "decompose", path, "--domain", CUBE, "--radius-column", "x", "--diameter-column", "y",
+                          says=["not both"])
+
+
+if __name__ == "__main__":
+    unittest.main()
