@@ -1,5 +1,6 @@
 // clast shape: how large a grain is and what form it has.
 #include "command.h"
+#include "shape_statistics.h"
 #include "shape_words.h"
 
 #include <clast/table_file.h>
@@ -10,8 +11,10 @@
 typedef struct {
     int32_t axes, kind, degree, level;
     bool hull;
-    char *unit, *columns, *surfaces;
+    char *unit, *columns, *surfaces, *statistics;
     double spacing;
+    int32_t resamples;
+    uint64_t seed;
 } config;
 
 #define TEXT(name, help)                                                                           \
@@ -36,6 +39,12 @@ static const clast_field fields[] = {
      "points: grid they were sampled on, in their unit, for a surface; 0: their convex hull", NULL},
     TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names"),
     TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder"),
+    TEXT(statistics, "write statistics of the set into this folder: tables, Zingg diagram, "
+                     "histograms, correlation, principal components"),
+    {"resamples", offsetof(config, resamples), CLAST_FIELD_I32, 2000, 0, 1e6, "-",
+     "statistics: bootstrap resamples for the intervals", NULL},
+    {"seed", offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-",
+     "statistics: random numbers of the resamples", NULL},
     {0}};
 
 static clast_status unit_factor(const config *c, double *factor)
@@ -69,6 +78,45 @@ static clast_status write_csv(const cli_common *common, const cli_shape_result *
     return status;
 }
 
+/// Statistics of the set, if they are wanted.
+static clast_status add_statistics(const cli_common *common, const config *c,
+                                   const cli_shape_result *shape,
+                                   clast_grain_statistics *statistics)
+{
+    const clast_bootstrap bootstrap = {.n_resample = c->resamples, .level = 0.95, .seed = c->seed};
+    clast_table table = {0};
+    clast_status status = CLAST_OK;
+    if (c->statistics[0] != '\0' && shape->grains.n > 0) {
+        status = clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table);
+        if (status == CLAST_OK) {
+            status = cli_shape_statistics(common->command, &table, &bootstrap, c->statistics,
+                                          statistics);
+        }
+    }
+    clast_table_free(&table);
+    return status;
+}
+
+/// JSON or words about the grains and, if there are any, their statistics.
+static clast_status print(const cli_common *common, const cli_shape_result *shape,
+                          const clast_grain_statistics *statistics)
+{
+    if (common->json) {
+        json_t *out = cli_shape_json(shape);
+        if (statistics->set.n > 0) {
+            (void)json_object_set_new(out, "statistics", cli_statistics_json(statistics));
+        }
+        return cli_print_json(out);
+    }
+    if (shape->grains.n > 0) {
+        cli_shape_words(shape);
+    }
+    if (statistics->set.n > 0) {
+        cli_statistics_words(statistics);
+    }
+    return CLAST_OK;
+}
+
 /// One line for each file or label that could not be measured, and for rows left out.
 static clast_status tell_faults(const cli_common *common, const clast_grains *grains)
 {
@@ -90,6 +138,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
 {
     const config *c = config_bytes;
     double unit_m = 0.0;
+    clast_grain_statistics statistics = {0};
     cli_shape_result shape = {.axes = (clast_axes_kind)c->axes, .is_hull = c->hull};
     const clast_grains_options options = {
         .kind = (clast_grains_kind)c->kind,
@@ -113,16 +162,16 @@ static clast_status run(const cli_common *common, void *config_bytes)
         status = write_csv(common, &shape);
     }
     if (status == CLAST_OK) {
-        if (common->json) {
-            status = cli_print_json(cli_shape_json(&shape));
-        } else if (shape.grains.n > 0) {
-            cli_shape_words(&shape);
-        }
+        status = add_statistics(common, c, &shape, &statistics);
+    }
+    if (status == CLAST_OK) {
+        status = print(common, &shape, &statistics);
     }
     if (status == CLAST_OK) {
         status = tell_faults(common, &shape.grains);
     }
     clast_grains_free(&shape.grains);
+    clast_grain_statistics_free(&statistics);
     return status;
 }
 
@@ -138,6 +187,9 @@ const cli_command cli_shape = {
         "Files: surfaces (STL, OBJ, PLY, OFF), coefficients of spherical harmonics (rows n m Re "
         "Im),\nlabelled voxels (Xsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), "
         "tables of L,I,S\nor flatness,elongation. -o FILE.csv writes everything as a table.\n"
+        "--statistics FOLDER: means, deviations, quantiles with bootstrap intervals, Shapiro-Wilk, "
+        "Pearson,\nprincipal components as CSV; Zingg diagram, histograms, correlation as SVG "
+        "(docs/theory/statistics.md).\n"
         "Files that cannot be measured get one line on stderr each, the others are measured; exit "
         "code 3.\n\nL >= I >= S by definition (--axes; all are in --json and CSV):" CLAST_AXES_LIST(
             AXES) "\n  D = sqrt((S^2+I^2)/2), the sieve size [Rettinger2022 eq. 1]\n\n"

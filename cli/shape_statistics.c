@@ -12,7 +12,9 @@ clast_status cli_shape_statistics(const char *command, const clast_table *grains
                                   clast_grain_statistics *statistics)
 {
     char complaint[512];
-    clast_status status = clast_grain_statistics_of(grains, NULL, bootstrap, statistics);
+    // The ratios are there for every grain; lengths are not, for tables of ratios.
+    clast_status status =
+        clast_grain_statistics_of(grains, "flatness,elongation", bootstrap, statistics);
     if (status != CLAST_OK) {
         return status;
     }
@@ -119,13 +121,14 @@ static void cell(double value)
 void cli_statistics_words(const clast_grain_statistics *statistics)
 {
     const clast_statistics *s = &statistics->statistics;
-    (void)printf("\n%lld grains:", (long long)statistics->set.n);
+    (void)printf("\n%lld grain%s:", (long long)statistics->set.n,
+                 statistics->set.n == 1 ? "" : "s");
     for (int k = 0; k < CLAST_N_ZINGG; ++k) {
         (void)printf("%s %lld %s", k > 0 ? "," : "", (long long)statistics->zingg[k],
                      clast_zingg_name((clast_zingg)k));
     }
-    (void)printf("\n\n%-30s %9s %9s %19s %9s %9s %9s\n", "factor", "mean", "deviation",
-                 "mean: 95 %", "median", "W", "p normal");
+    (void)printf("\n\n%-30s%10s%10s%10s%10s%10s%10s%10s\n", "factor", "mean", "deviation", "from",
+                 "to (95 %)", "median", "W", "p normal");
     for (int32_t k = 0; k < s->n; ++k) {
         const clast_sample_summary *c = &s->summary[k];
         (void)printf("%-30s", s->name[k]);

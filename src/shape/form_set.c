@@ -234,15 +234,22 @@ void clast_form_set_free(clast_form_set *set)
     *set = (clast_form_set){0};
 }
 
+/// "sieve size (mm)" of lengths and of columns that say so, else the column's own name.
 static void label_size(const clast_table *table, const roles *r, clast_form_set *s)
 {
-    if (r->by_length) {
-        const char *unit = table->column[r->at[SHORT]].unit;
-        const bool has_unit = unit != NULL && unit[0] != '\0' && strcmp(unit, "-") != 0;
+    char plain[NAME_SIZE] = "";
+    const int32_t c = r->by_length ? r->at[SHORT] : r->at[SIZE];
+    if (c < 0) {
+        return;
+    }
+    const char *unit = table->column[c].unit;
+    const bool has_unit = unit != NULL && unit[0] != '\0' && strcmp(unit, "-") != 0;
+    plain_name(&table->column[c], plain);
+    if (r->by_length || strcmp(plain, "d") == 0 || strcmp(plain, "sieve_size") == 0) {
         (void)snprintf(s->size_label, sizeof s->size_label, "sieve size%s%s%s",
                        has_unit ? " (" : "", has_unit ? unit : "", has_unit ? ")" : "");
-    } else if (r->at[SIZE] >= 0) {
-        (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[r->at[SIZE]].name);
+    } else {
+        (void)snprintf(s->size_label, sizeof s->size_label, "%s", table->column[c].name);
     }
 }
 
