@@ -27,6 +27,7 @@ typedef struct wrap {
     float *next;        ///< [n_node] distances being made
     double length;
     double *part;    ///< [n[2]] cells of each layer in the wrap
+    double *border;  ///< [n[2]] of these, cells that are cut
     bool of_centres; ///< distances to E are made, not to the solid
     int32_t *stack;
     int64_t stack_room;
@@ -40,6 +41,7 @@ static void wrap_free(wrap *w)
     clx_free(w->nearest);
     clx_free(w->next);
     clx_free(w->part);
+    clx_free(w->border);
     clx_free(w->stack);
     *w = (wrap){0};
 }
@@ -76,6 +78,7 @@ static clast_status wrap_alloc(const clast_assembly *assembly, double length, in
     CLX_TRY(clx_alloc(&w->nearest, w->n_node, sizeof *w->nearest));
     CLX_TRY(clx_alloc(&w->next, w->n_node, sizeof *w->next));
     CLX_TRY(clx_alloc(&w->part, w->grid.n[2], sizeof *w->part));
+    CLX_TRY(clx_alloc(&w->border, w->grid.n[2], sizeof *w->border));
 done:
     return status;
 }
@@ -210,20 +213,25 @@ static void count_layers(int64_t begin, int64_t end, int32_t worker, void *conte
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
         double sum = 0.0;
+        int64_t cut = 0;
         for (int64_t p = k * layer; p < (k + 1) * layer; ++p) {
             const double share = 0.5 + ((double)w->next[p] - w->length) / w->grid.h;
             sum += share <= 0.0 ? 0.0 : share >= 1.0 ? 1.0 : share;
+            cut += share > 0.0 && share < 1.0;
         }
         w->part[k] = sum;
+        w->border[k] = (double)cut;
     }
 }
 
+/// Volume, and by how much the border's carried distances may move it.
 static clast_status wrap_volume(const clast_assembly *assembly, double length, int32_t n_cell,
-                                double *volume)
+                                double *volume, double *common)
 {
     clast_status status = CLAST_OK;
     wrap w = {0};
     double sum = 0.0;
+    double cut = 0.0;
     CLX_TRY(wrap_alloc(assembly, length, n_cell, &w));
     CLX_TRY(spread_from_solid(assembly, &w));
     CLX_TRY(flood_centres(&w));
@@ -231,8 +239,12 @@ static clast_status wrap_volume(const clast_assembly *assembly, double length, i
     clx_parallel_for(w.grid.n[2], LAYERS_A_BLOCK, count_layers, &w);
     for (int32_t k = 0; k < w.grid.n[2]; ++k) {
         sum += w.part[k];
+        cut += w.border[k];
     }
-    *volume = sum * w.grid.h * w.grid.h * w.grid.h;
+    const double h = w.grid.h;
+    const double surface = cut * h * h; // cut cells fill a layer of thickness h
+    *volume = sum * h * h * h;
+    *common = 0.75 * h * h / length * surface; // twice sqrt(3/4 h^2)^2 / 2 L
 done:
     wrap_free(&w);
     return status;
@@ -244,23 +256,16 @@ clast_status clx_envelope_wrap(const clast_assembly *assembly,
     clast_status status = CLAST_OK;
     double fine = 0.0;
     double coarse = 0.0;
+    double common = 0.0;
+    double other = 0.0;
     CLX_CHECK(options->length > 0.0 && isfinite(options->length), CLAST_E_USAGE,
               "wrap needs a length: the radius of the ball that may not enter");
     CLX_CHECK(options->n_cell >= 12 && options->n_cell <= MAX_CELLS, CLAST_E_USAGE,
               "wrap: %d cells along the longest side, 12 to %d", options->n_cell, MAX_CELLS);
-    CLX_TRY(wrap_volume(assembly, options->length, options->n_cell, &fine));
-    CLX_TRY(wrap_volume(assembly, options->length, options->n_cell * 2 / 3, &coarse));
-    // first order in h: the finer grid is off by twice the difference; and by no less than 1 % of a
-    // spacing over the surface, as balls rolled about pairs of balls show
-    double low[3];
-    double high[3];
-    double longest = 0.0;
-    clast_assembly_bounds(assembly, low, high);
-    for (int k = 0; k < 3; ++k) {
-        longest = fmax(longest, high[k] - low[k]);
-    }
-    const double surface = cbrt(36.0 * CLAST_PI * fine * fine);
-    const double error = hypot(2.0 * (fine - coarse), 0.01 * longest / options->n_cell * surface);
+    CLX_TRY(wrap_volume(assembly, options->length, options->n_cell, &fine, &common));
+    CLX_TRY(wrap_volume(assembly, options->length, options->n_cell * 2 / 3, &coarse, &other));
+    // first order in h: the finer grid is off by twice the difference
+    const double error = hypot(2.0 * (fine - coarse), common);
     *envelope = (clast_envelope){CLAST_ENVELOPE_WRAP, fine, error, fine - error, fine + error};
 done:
     return status;

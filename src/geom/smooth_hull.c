@@ -483,5 +483,6 @@ void clx_smooth_hull_volume(const clx_smooth_hull *hull, clx_hull_volume *volume
             part += facet->gap * facet_share(inner, facet);
         }
     }
-    *volume = (clx_hull_volume){low, low + gap, low + part, 0.2 * gap, gap <= 0.0};
+    // the bounds hold for certain, so no error is less certain than the farther of them
+    *volume = (clx_hull_volume){low, low + gap, low + part, fmax(part, gap - part), gap <= 0.0};
 }
