@@ -6,8 +6,8 @@
 /// The outcome as one JSON object; free the text with clast_text_free.
 CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text);
 
-/// Loads what the configuration names and fits; with a folder writes fit.csv, summary.json and
-/// manifest.json into it (the first two are the same bytes for equal runs).
+/// Loads what the configuration names and fits; with a folder writes fit.csv, fit.svg, summary.json
+/// and manifest.json into it (all but the last are the same bytes for equal runs).
 ///
 /// @param folder  NULL for no files; made if missing; refused when it holds a run, unless
 /// config->force

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "study/aggregate_fit_chart.h"
 #include "study/aggregate_folder.h"
 #include <clast/aggregate_file.h>
 #include <clast/manifest.h>
@@ -114,6 +115,7 @@ static clast_status write_results(const char *folder, const clast_aggregate_fit 
     char *text = NULL;
     CLX_TRY(path_in(path, folder, "fit.csv"));
     CLX_TRY(clast_table_write_csv(nodes, path));
+    CLX_TRY(clx_fit_chart_write(folder, fit, nodes));
     CLX_TRY(clast_aggregate_fit_json(fit, &text));
     CLX_TRY(path_in(path, folder, "summary.json"));
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));

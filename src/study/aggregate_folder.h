@@ -37,8 +37,8 @@ typedef struct clx_folder_results {
     const clast_monitor *monitor; ///< or NULL
 } clx_folder_results;
 
-/// history.csv, history_band.csv (several repeats), sizes.csv, structure.csv, radial.csv, summary.json,
-/// aggregate.stl, charts, picture.png, printable.stl; the checkpoints go last.
+/// history.csv, history_band.csv (several repeats), sizes.csv, structure.csv, radial.csv,
+/// summary.json, aggregate.stl, charts, picture.png, printable.stl; the checkpoints go last.
 clast_status clx_folder_write_results(const char *folder, const clx_folder_results *results);
 
 /// The pictures among them.

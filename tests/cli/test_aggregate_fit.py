@@ -25,8 +25,9 @@ class Fit(Case):
         self.assertEqual(set(out["best"]), {"cone_deg", "rays", "orientations", "replicate"})
         self.assertLess(abs(out["observables"]["size"]["pull"]), 2)
         self.assertEqual(set(out["spread"]["replicate"]), {"best", "mean", "deviation", "low", "high"})
-        self.assertEqual(sorted(p.name for p in run.iterdir()), ["fit.csv", "manifest.json", "summary.json"])
+        self.assertEqual(sorted(p.name for p in run.iterdir()), ["fit.csv", "fit.svg", "manifest.json", "summary.json"])
         self.assertEqual(json.loads((run / "summary.json").read_text()), out)
+        self.assertIn("rgb(83.5%", (run / "fit.svg").read_text())  # points of the second packing
         header, *rows = (run / "fit.csv").read_text().splitlines()
         self.assertEqual(header.split(",")[:4], ["cone_rad", "rays", "orientations", "replicate"])
         self.assertAlmostEqual(sum(float(r.split(",")[-1]) for r in rows), 1.0, places=12)
