@@ -1,7 +1,9 @@
 // Timings of the discrete element method: nanoseconds a grain-step.
 //
-//     build/release/bench/bench_dem [S1|pour ...]     CSV: scene,value,unit,reference,ratio
+//     build/release/bench/bench_dem [S1|P1|P1small|pour ...]     CSV:
+//     scene,value,unit,reference,ratio
 //
+// P1 at full size takes minutes and runs only when named.
 // CPU time of one thread, least of several rounds. References are those of spec S1: LAMMPS
 // gran/hooke/history on another machine (163 to 176 ns).
 #include "dem_scenes.h"
@@ -68,6 +70,23 @@ static void bench_s1(void)
     clast_dem_destroy(dem);
 }
 
+/// P1 with fewer grains and a shorter shake: the bed is the same, only not as deep.
+static void bench_p1(const char *name, int32_t n, double width, int64_t settle)
+{
+    clast_dem *dem = scene_p1(n, width, 152);
+    char scene[64];
+    if (dem == NULL) {
+        printf("%s\n", clast_error_detail());
+        return;
+    }
+    (void)snprintf(scene, sizeof scene, "%s pouring", name);
+    row(scene, per_grain_step(dem, settle), "ns/grain-step", 0.0);
+    describe(dem);
+    row(name, best_of(dem, 6, 500), "ns/grain-step", 250.0);
+    describe(dem);
+    clast_dem_destroy(dem);
+}
+
 static void bench_pour(void)
 {
     clast_dem *dem = scene_pour(2000, 5.6e-3, 8e-3, 0.104);
@@ -95,6 +114,12 @@ int main(int argc, char **argv)
     clast_parallel_set_threads(1);
     if (is_wanted(argc, argv, "S1")) {
         bench_s1();
+    }
+    if (is_wanted(argc, argv, "P1small")) {
+        bench_p1("P1small", 400, 0.06, 50000);
+    }
+    if (argc > 1 && is_wanted(argc, argv, "P1")) {
+        bench_p1("P1", 4000, 0.1, 155000);
     }
     if (is_wanted(argc, argv, "pour")) {
         bench_pour();

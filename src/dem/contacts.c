@@ -67,16 +67,21 @@ static inline void push_pair(const clast_dem *dem, clx_link *p, const clx_dem_to
 {
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &immovable;
-    const double ra = radius_of(dem, p->a);
+    const bool needs_radius = dem->law.kind != CLAST_DEM_LINEAR ||
+                              dem->law.cohesion != CLAST_DEM_DRY || dem->law.rolling > 0.0;
+    const double ra = needs_radius ? radius_of(dem, p->a) : 0.0;
     clx_meeting m;
     clx_push push;
     m.overlap = -t->distance;
     v3_copy(m.normal, t->normal);
     approach(a, b, t, &m);
     if (p->b >= 0) {
-        const double rb = radius_of(dem, p->b);
         m.mass = a->mass * b->mass / (a->mass + b->mass);
-        m.radius = ra * rb / (ra + rb);
+        m.radius = 0.0;
+        if (needs_radius) {
+            const double rb = radius_of(dem, p->b);
+            m.radius = ra * rb / (ra + rb);
+        }
         m.friction = dem->law.friction[0];
     } else {
         m.mass = a->mass;

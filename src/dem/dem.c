@@ -163,6 +163,7 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
                       .density = from->density};
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
     q_matrix(dem->turn[i], m->orientation);
+    m->inverse_factor = 1.0 / m->inertia_factor;
     m3_mul_t(in_body, dem->turn[i], from->spin);
     m3_mul(momentum, body->shape.inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);

@@ -31,7 +31,8 @@ typedef struct clx_grain {
 /// What only the integration reads.
 typedef struct clx_motion {
     double orientation[4];
-    double angular[3];     ///< angular momentum, world axes
+    double angular[3];     ///< angular momentum, world axes; not kept up for spheres
+    double inverse_factor; ///< 1 / inertia_factor
     double inertia_factor; ///< moments of this grain over those of its shape at unit density
     double volume;
     double density;
@@ -127,6 +128,7 @@ typedef struct clx_list {
     int64_t n_remembered; ///< links that `memory` is about: all, or none yet
     int64_t *begin;       ///< [n_item + 1] first pair of each item
     clx_anchor *anchor;   ///< [n_item]
+    double *limit;        ///< [n_item] below this travel an item is surely within its margin
     uint8_t *is_stale;    ///< [n_item] looks for its neighbours in this refresh
     int64_t item_capacity;
     int64_t *in_begin; ///< [n_grain + 1] links whose b is an item of this grain

@@ -124,9 +124,10 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
     }
     const double size2 = v3_norm2(push->tangential);
     if (size2 > limit * limit) {
+        const double inverse = -1.0 / s.tangential;
         v3_scale(push->tangential, limit / sqrt(size2), push->tangential);
         for (int k = 0; k < 3; ++k) {
-            slide[k] = -(push->tangential[k] + s.tangential_damping * along[k]) / s.tangential;
+            slide[k] = inverse * (push->tangential[k] + s.tangential_damping * along[k]);
         }
     }
 }

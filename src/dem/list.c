@@ -20,6 +20,7 @@ void clx_list_free(clx_list *list)
     clx_free(list->other_memory);
     clx_free(list->begin);
     clx_free(list->anchor);
+    clx_free(list->limit);
     clx_free(list->is_stale);
     clx_free(list->in_begin);
     clx_free(list->in_link);
@@ -39,6 +40,7 @@ clast_status clx_list_reserve(clx_list *list, int64_t n_item)
     const int64_t room = n_item + n_item / 2 + 16;
     CLX_TRY(clx_realloc(&list->begin, room + 1, sizeof *list->begin));
     CLX_TRY(clx_realloc(&list->anchor, room, sizeof *list->anchor));
+    CLX_TRY(clx_realloc(&list->limit, room, sizeof *list->limit));
     CLX_TRY(clx_realloc(&list->is_stale, room, sizeof *list->is_stale));
     CLX_TRY(clx_realloc(&list->found_begin, room + 1, sizeof *list->found_begin));
     list->item_capacity = room;
@@ -63,6 +65,7 @@ static void drop_anchor(clast_dem *dem, int32_t i)
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
     }
+    dem->list.limit[i] = dem->travel[g] + at->margin;
 }
 
 /// All items that have used half of their margin.

@@ -38,7 +38,9 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     const clx_motion *motion = &dem->motion[i];
     double momentum[3];
     v3_copy(momentum, motion->angular);
-    if (!dem->config.gyroscopic && g->kind != CLAST_SHAPE_SPHERE) {
+    if (g->kind == CLAST_SHAPE_SPHERE) {
+        v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, g->spin);
+    } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
         m3_mul_t(in_body, dem->turn[i], g->spin);

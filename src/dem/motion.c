@@ -29,10 +29,11 @@ static void turn_by(const double w[3], double dt, double q[4])
     double turned[4];
     v3_scale(v, 0.5 * dt, w);
     const double s = v3_norm2(v);
-    const double sine =
-        s < 0.01 ? 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0)) : sin(sqrt(s)) / sqrt(s);
+    const bool is_small = s < 0.01;
+    const double sine = is_small ? 1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 - s * (1.0 / 5040.0)))
+                                 : sin(sqrt(s)) / sqrt(s);
     const double cosine =
-        s < 0.01 ? 1.0 - 0.5 * s * (1.0 - s / 12.0 * (1.0 - s / 30.0)) : cos(sqrt(s));
+        is_small ? 1.0 + s * (-0.5 + s * (1.0 / 24.0 - s * (1.0 / 720.0))) : cos(sqrt(s));
     const double step[4] = {cosine, sine * v[0], sine * v[1], sine * v[2]};
     q_mul(turned, step, q);
     const double n = 0.5 * (3.0 - (turned[0] * turned[0] + turned[1] * turned[1] +
@@ -50,16 +51,14 @@ static void spin_of(clx_dem_body *body, const clx_motion *m, double turn[3][3], 
     m3_mul_t(in_body, turn, m->angular);
     m3_mul(w, body->inverse_inertia, in_body);
     m3_mul(spin, turn, w);
-    v3_scale(spin, 1.0 / m->inertia_factor, spin);
+    v3_scale(spin, m->inverse_factor, spin);
 }
 
 static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], double factor,
                        double dt)
 {
-    const double inertia = 0.4 * g->mass * g->radius * g->radius;
-    v3_axpy(g->spin, g->spin, dt / inertia, torque);
+    v3_axpy(g->spin, g->spin, 2.5 * dt / (g->mass * g->radius * g->radius), torque);
     v3_scale(g->spin, factor, g->spin);
-    v3_scale(m->angular, inertia, g->spin);
     turn_by(g->spin, dt, m->orientation);
 }
 
@@ -152,12 +151,12 @@ static void place_items(clast_dem *dem, int64_t g)
 }
 
 /// How far an item's surface may be from where its neighbours were looked for.
-static inline bool is_beyond(const clast_dem *dem, int32_t i, double share)
+static inline double moved(const clast_dem *dem, int32_t i)
 {
     const clx_anchor *at = &dem->list.anchor[i];
-    const double moved2 = v3_distance2(clx_item_position(dem, i), at->position);
+    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position));
     if (clx_item_is_round(dem, i)) {
-        return !(moved2 <= share * share * at->margin * at->margin);
+        return shifted;
     }
     const double *q = dem->motion[clx_item_grain(dem, i)].orientation;
     double s = 0.0;
@@ -165,12 +164,24 @@ static inline bool is_beyond(const clast_dem *dem, int32_t i, double share)
         s += (q[k] - at->orientation[k]) * (q[k] - at->orientation[k]);
     }
     // the angle is 4 asin(|dq| / 2) <= 2.1 |dq| up to 60 degrees
-    return !(sqrt(moved2) + 2.1 * sqrt(s) * clx_item_radius(dem, i) <= share * at->margin);
+    return shifted + 2.1 * sqrt(s) * clx_item_radius(dem, i);
 }
 
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share)
 {
-    return is_beyond(dem, i, share);
+    return !(moved(dem, i) <= share * dem->list.anchor[i].margin);
+}
+
+/// Whether an item has used up its margin. Its path tells that it has not, most of the time; when
+/// it does not, what is left of the margin is the path that it may go before it is asked again.
+static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
+{
+    if (travel < dem->list.limit[i]) {
+        return false;
+    }
+    const double left = dem->list.anchor[i].margin - moved(dem, i);
+    dem->list.limit[i] = travel + left;
+    return !(left >= 0.0);
 }
 
 static void move_block(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -197,7 +208,7 @@ static void move_block(int64_t begin, int64_t end, int32_t worker, void *context
         }
         const int32_t last = dem->item != NULL ? dem->item_begin[i + 1] : (int32_t)i + 1;
         for (int32_t k = dem->item != NULL ? dem->item_begin[i] : (int32_t)i; k < last; ++k) {
-            is_due = is_due || is_beyond(dem, k, 1.0);
+            is_due = is_beyond(dem, k, dem->travel[i]) || is_due;
         }
     }
     const int64_t block = begin / BLOCK;

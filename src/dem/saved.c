@@ -174,6 +174,9 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
         CLX_CHECK(isfinite(dem->list.anchor[i].margin) && isfinite(dem->list.anchor[i].position[0]),
                   CLAST_E_FORMAT, "anchor %lld of the checkpoint is not finite", (long long)i);
     }
+    for (int64_t i = 0; i < s->n_known; ++i) {
+        dem->list.limit[i] = -INFINITY; // asked at the first step
+    }
     dem->list.n_known = (int32_t)s->n_known;
     dem->list.is_due = s->is_due;
     dem->list.n_refresh = s->n_refresh;

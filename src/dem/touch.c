@@ -15,7 +15,9 @@ void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_me
                      .turn_a = dem->turn[a][0],
                      .turn_b = dem->turn[b][0]};
     clx_link_offset(dem, link, pair.offset);
-    const double far = FAR * fmin(clx_item_radius(dem, link->a), clx_item_radius(dem, link->b));
+    const double ra = clx_item_radius(dem, link->a);
+    const double rb = clx_item_radius(dem, link->b);
+    const double far = FAR * (ra < rb ? ra : rb);
     if (clx_pair_contact(&pair, far, memory, &contact)) {
         clx_touch_take(&contact, pair.offset, t);
     } else {
