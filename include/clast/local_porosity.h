@@ -13,7 +13,8 @@
 /// Columns grain, cell_m3, volume_m3, porosity, n_face, border (1: the cell reaches floor, top or a
 /// wall). Rows are the grains inside, in order.
 ///
-/// @param z_low, z_high  the cells lie between
+/// @param z_low   the cells lie between this height
+/// @param z_high  and this [m]
 /// @param table  must be empty; written only on success
 /// @return CLAST_E_USAGE when no grain lies inside, CLAST_E_LIMIT for a cell of more than 200 faces
 /// @note O(n) for even beds; the same bytes for any thread count

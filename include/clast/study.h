@@ -26,7 +26,7 @@ extern CLAST_API const clast_field clast_study_fields[];
 /// The runs as a table: number column `run` (from 1), a text column for each varied key, number
 /// column `seed`. Rows of a CSV come first, each combined with the `vary` design, then seeds.
 ///
-/// @param table  must be empty; written only on success
+/// @param plan  must be empty; written only on success
 /// @return CLAST_E_CONFIG for a malformed or repeated key, lists of unequal length in a zip design,
 ///         CLAST_E_LIMIT beyond 1,000,000 runs; errors of the CSV reader
 CLAST_API clast_status clast_study_plan(const clast_study_config *config, clast_table *plan);

@@ -243,17 +243,18 @@ done:
 static bool set_cubes(const clast_mesh *points, const double from[3], double spacing,
                       const int32_t n[3], int32_t *label, int32_t *twice)
 {
+    CLAST_ASSERT(label != NULL);
     for (int32_t v = 0; v < points->n_vert; ++v) {
         int64_t at[3];
         for (int k = 0; k < 3; ++k) {
             at[k] = (int64_t)((points->vert[v][k] - from[k]) / spacing + 0.5);
         }
-        int32_t *own = &label[(at[2] * n[1] + at[1]) * n[0] + at[0]];
-        if (*own != 0) {
+        const int64_t own = (at[2] * n[1] + at[1]) * n[0] + at[0];
+        if (label[own] != 0) {
             *twice = v;
             return false;
         }
-        *own = 1;
+        label[own] = 1;
     }
     return true;
 }
