@@ -70,10 +70,25 @@ double clx_shadow_area(const clx_hull_body *body, const double direction[3]);
 /// Casts the shadow.
 void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow);
 
-/// Greatest and least shadow over all directions: greatest and least over the faces' normals (at
-/// most 512 of them) and the given axes, each then improved to a local optimum.
-void clx_shadow_extremes(const clx_hull_body *body, double axis[3][3], double *least,
-                         double *greatest);
+/// The hull seen along the normals of its faces (at most 2048 of them, evenly taken).
+typedef struct clx_face_view {
+    int32_t face;
+    double width;  ///< of the hull along the face's normal
+    double shadow; ///< area
+} clx_face_view;
+
+typedef struct clx_face_views {
+    int32_t n;
+    clx_face_view *view; ///< [n] by rising width times shadow, the least volume of a box along it
+} clx_face_views;
+
+clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *views);
+void clx_face_views_free(clx_face_views *views);
+
+/// Greatest and least shadow over all directions: greatest and least over the views and the given
+/// axes, each then improved to a local optimum.
+void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
+                         double *least, double *greatest);
 
 /// A box: edge lengths in falling order and their unit directions.
 typedef struct clx_box {
@@ -81,10 +96,11 @@ typedef struct clx_box {
     double axis[3][3];
 } clx_box;
 
-/// The box of least volume found: every face of the hull (at most 2048 of them) is tried as a side
-/// with the exact least rectangle around the shadow, the best few and the given frame are then
-/// turned about each of their axes in turn until none gains.      [ORourke1985; Chang2011]
-clast_status clx_hull_body_least_box(const clx_hull_body *body, double frame[3][3], clx_box *box);
+/// The box of least volume found: every view of a face is tried as a side with the exact least
+/// rectangle around the shadow, the best few and the given frame are then turned about each of
+/// their axes in turn until none gains.      [ORourke1985; Chang2011]
+clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_views *views,
+                                     double frame[3][3], clx_box *box);
 
 /// The fitted box: longest caliper, longest caliper at right angles to it, width across both. Where
 /// several calipers are equally long (regular bodies), the box of least volume.

@@ -12,7 +12,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 
-enum { MOST_FACES = 2048, KEPT = 6, MOST_TURNS = 60 };
+enum { KEPT = 6, MOST_TURNS = 60 };
 
 static const double GAIN = 1e-13;
 
@@ -150,29 +150,27 @@ static void sort_edges(clx_box *box)
     }
 }
 
-/// Tries every face as a side.
-static void boxes_on_faces(const clx_hull_body *body, clx_shadow *shadow, clx_box kept[KEPT],
-                           int *n_kept)
+/// Tries every face as a side, the most promising first; width times shadow bounds the volume from
+/// below, so the rest need no look once that exceeds the last box kept.
+static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *views,
+                           clx_shadow *shadow, clx_box kept[KEPT], int *n_kept)
 {
-    const int32_t stride = body->n_face > MOST_FACES ? body->n_face / MOST_FACES + 1 : 1;
-    for (int32_t f = 0; f < body->n_face; f += stride) {
-        const double *n = body->normal[f];
-        if (v3_norm2(n) < 0.5) {
-            continue; // a sliver without a normal
-        }
-        const double width = clx_hull_body_width(body, n);
+    for (int32_t i = 0; i < views->n; ++i) {
+        const clx_face_view *view = &views->view[i];
         const double limit = *n_kept < KEPT ? (double)INFINITY : box_volume(&kept[KEPT - 1]);
-        if (width * clx_shadow_area(body, n) < limit) {
-            clx_box box;
-            box_along(body, n, width, shadow, &box);
-            if (box_volume(&box) < limit) {
-                keep(kept, n_kept, &box);
-            }
+        clx_box box;
+        if (view->width * view->shadow >= limit) {
+            break;
+        }
+        box_along(body, body->normal[view->face], view->width, shadow, &box);
+        if (box_volume(&box) < limit) {
+            keep(kept, n_kept, &box);
         }
     }
 }
 
-clast_status clx_hull_body_least_box(const clx_hull_body *body, double frame[3][3], clx_box *box)
+clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_views *views,
+                                     double frame[3][3], clx_box *box)
 {
     clast_status status = CLAST_OK;
     clx_shadow shadow = {0};
@@ -182,7 +180,7 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, double frame[3][
     CLX_TRY(clx_shadow_alloc(body, &shadow));
     box_in_frame(body, frame, &best);
     turn_down(body, &shadow, &best);
-    boxes_on_faces(body, &shadow, kept, &n_kept);
+    boxes_on_faces(body, views, &shadow, kept, &n_kept);
     for (int k = 0; k < n_kept; ++k) {
         turn_down(body, &shadow, &kept[k]);
         if (box_volume(&kept[k]) < box_volume(&best)) {

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SHADOWS = 512 };
+enum { MOST_VIEWS = 2048 };
 
 static const double UPRIGHT = 1e-14; ///< cosine below which a face counts as turned down
 
@@ -188,18 +188,53 @@ static double descend(const clx_hull_body *body, const double start[3])
     return best;
 }
 
-void clx_shadow_extremes(const clx_hull_body *body, double axis[3][3], double *least,
-                         double *greatest)
+static int compare_views(const void *a, const void *b)
 {
-    const int32_t stride = body->n_face > MOST_SHADOWS ? body->n_face / MOST_SHADOWS + 1 : 1;
+    const clx_face_view *p = a;
+    const clx_face_view *q = b;
+    const double x = p->width * p->shadow;
+    const double y = q->width * q->shadow;
+    if (x != y) {
+        return x < y ? -1 : 1;
+    }
+    return p->face < q->face ? -1 : 1;
+}
+
+clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *views)
+{
+    clast_status status = CLAST_OK;
+    const int32_t stride = body->n_face > MOST_VIEWS ? body->n_face / MOST_VIEWS + 1 : 1;
+    CLX_TRY(clx_alloc(&views->view, body->n_face / stride + 1, sizeof *views->view));
+    views->n = 0;
+    for (int32_t f = 0; f < body->n_face; f += stride) {
+        const double *n = body->normal[f];
+        if (v3_norm2(n) > 0.5) { // else a sliver without a normal
+            views->view[views->n++] =
+                (clx_face_view){f, clx_hull_body_width(body, n), clx_shadow_area(body, n)};
+        }
+    }
+    qsort(views->view, (size_t)views->n, sizeof *views->view, compare_views);
+done:
+    return status;
+}
+
+void clx_face_views_free(clx_face_views *views)
+{
+    clx_free(views->view);
+    *views = (clx_face_views){0};
+}
+
+void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
+                         double *least, double *greatest)
+{
     const double *low = axis[0];
     const double *high = axis[0];
     *least = INFINITY;
     *greatest = 0.0;
-    for (int32_t i = -3; i < body->n_face; i += i < 0 ? 1 : stride) {
-        const double *n = i < 0 ? axis[i + 3] : body->normal[i];
-        const double area = clx_shadow_area(body, n);
-        if (area < *least && v3_norm2(n) > 0.5) {
+    for (int32_t i = -3; i < views->n; ++i) {
+        const double *n = i < 0 ? axis[i + 3] : body->normal[views->view[i].face];
+        const double area = i < 0 ? clx_shadow_area(body, n) : views->view[i].shadow;
+        if (area < *least) {
             *least = area;
             low = n;
         }

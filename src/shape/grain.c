@@ -96,6 +96,7 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     clx_hull_body body = {0};
+    clx_face_views views = {0};
     clx_box box;
     double(*frame)[3] = grain->axes[CLAST_AXES_ELLIPSOID].direction;
     clast_axes *feret_axes = &grain->axes[CLAST_AXES_FERET];
@@ -107,20 +108,22 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
     *feret_axes = grain->axes[CLAST_AXES_FITTED];
     feret_axes->lis[2] = feret.shortest;
     v3_copy(feret_axes->direction[2], feret.shortest_axis);
-    CLX_TRY(clx_hull_body_least_box(&body, frame, &box));
+    CLX_TRY(clx_face_views_make(&body, &views));
+    CLX_TRY(clx_hull_body_least_box(&body, &views, frame, &box));
     take_box(&box, &grain->axes[CLAST_AXES_BOX]);
     for (int k = 0; k < 3; ++k) {
         v3_copy(principal->direction[k], frame[k]);
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
     sort_widths(principal);
-    clx_shadow_extremes(&body, frame, &grain->projected_least, &grain->projected_greatest);
+    clx_shadow_extremes(&body, &views, frame, &grain->projected_least, &grain->projected_greatest);
     grain->longest = feret.longest;
     grain->shortest = feret.shortest;
     grain->hull_volume = body.volume;
     grain->hull_area = body.surface;
     grain->projected_mean = 0.25 * body.surface;
 done:
+    clx_face_views_free(&views);
     clx_hull_body_free(&body);
     return status;
 }

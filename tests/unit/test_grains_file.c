@@ -1,0 +1,114 @@
+/* Unit: grains from files of all kinds, joined in order whatever the threads. */
+#include "support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *put(const char *name, const char *text)
+{
+    static char path[4][4200];
+    static int next;
+    char *own = path[next++ % 4];
+    (void)snprintf(own, sizeof path[0], "%s/%s", support_scratch(), name);
+    FILE *file = fopen(own, "w");
+    assert_non_null(file);
+    (void)fputs(text, file);
+    (void)fclose(file);
+    return own;
+}
+
+static clast_grains_options plain(void)
+{
+    return (clast_grains_options){.degree = -1, .level = 1};
+}
+
+static const char *const TABLE = "L (mm),I (mm),S (mm)\n3,2,1\n4,,1\n";
+static const char *const SERIES = "0 0 9 0\n1 0 0.1 0\n1 1 0 0\n";
+static const char *const POINTS = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+
+static void files_keep_their_order_and_bad_ones_are_faults(void **state)
+{
+    (void)state;
+    const char *path[4] = {put("a.dat", SERIES), "no/such/file.stl", put("t.csv", TABLE),
+                           put("p.xyz", POINTS)};
+    const clast_grains_options options = plain();
+    clast_grains grains = {0};
+    CHECK_OK(clast_grains_read(4, path, &options, &grains));
+    assert_int_equal(grains.n, 3);
+    assert_int_equal(grains.record[0].kind, CLAST_GRAINS_SERIES);
+    assert_int_equal(grains.record[1].kind, CLAST_GRAINS_TABLE);
+    assert_int_equal(grains.record[2].kind, CLAST_GRAINS_POINTS);
+    CHECK_REL(grains.record[2].grain.volume, 1.0 / 6.0, 1e-14);
+    assert_int_equal(grains.n_fault, 1);
+    assert_non_null(strstr(grains.fault[0].text, "no/such/file.stl"));
+    assert_int_equal(grains.n_note, 1);
+    assert_non_null(strstr(grains.note[0].text, "left out"));
+    clast_grains_free(&grains);
+}
+
+static void a_tables_own_unit_counts_before_the_given_one(void **state)
+{
+    (void)state;
+    const char *path[2] = {put("t.csv", TABLE), put("a.dat", SERIES)};
+    const clast_grains_options options = plain();
+    clast_grains grains = {0};
+    CHECK_OK(clast_grains_read(2, path, &options, &grains));
+    const double volume = grains.record[1].grain.volume;
+    clast_grains_to_metres(&grains, 1e-6);
+    CHECK_REL(grains.record[0].grain.axes[CLAST_AXES_ELLIPSOID].lis[0], 3e-3, 1e-12);
+    CHECK_REL(grains.record[1].grain.volume, 1e-18 * volume, 1e-12);
+    clast_grains_free(&grains);
+}
+
+static void the_table_has_nan_for_what_is_not_known(void **state)
+{
+    (void)state;
+    const char *path[2] = {put("t.csv", TABLE), put("a.dat", SERIES)};
+    const clast_grains_options options = plain();
+    clast_grains grains = {0};
+    clast_table table = {0};
+    CHECK_OK(clast_grains_read(2, path, &options, &grains));
+    CHECK_OK(clast_grains_table(&grains, CLAST_AXES_FITTED, false, &table));
+    assert_int_equal(table.n_row, 2);
+    assert_true(isnan(clast_table_numbers(&table, "volume")[0]));
+    assert_true(clast_table_numbers(&table, "volume")[1] > 0.0);
+    CHECK_REL(clast_table_numbers(&table, "flatness")[0], 0.5, 1e-12);
+    CHECK_REL(clast_table_numbers(&table, "inverse_equancy")[0], 3.0, 1e-12);
+    assert_true(clast_table_numbers(&table, "L")[1] == clast_table_numbers(&table, "fitted_L")[1]);
+    clast_table_free(&table);
+    clast_grains_free(&grains);
+}
+
+static clast_status read_all(void *context)
+{
+    const clast_grains_options options = plain();
+    clast_grains grains = {0};
+    clast_table table = {0};
+    clast_status status = clast_grains_read(1, context, &options, &grains);
+    if (status == CLAST_OK) {
+        status = clast_grains_table(&grains, CLAST_AXES_BOX, true, &table);
+    }
+    clast_table_free(&table);
+    clast_grains_free(&grains);
+    return status;
+}
+
+static void reading_survives_refused_memory(void **state)
+{
+    (void)state;
+    const char *table[1] = {put("t.csv", TABLE)};
+    const char *points[1] = {put("p.xyz", POINTS)};
+    support_refuse_each_allocation(read_all, table);
+    support_refuse_each_allocation(read_all, points);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_keep_their_order_and_bad_ones_are_faults),
+        cmocka_unit_test(a_tables_own_unit_counts_before_the_given_one),
+        cmocka_unit_test(the_table_has_nan_for_what_is_not_known),
+        cmocka_unit_test(reading_survives_refused_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
