@@ -193,15 +193,30 @@ done:
     return status;
 }
 
-clast_status clast_state_read_spheres(const char *path, const char *name, clast_spheres *spheres)
+/// Takes one part of a kind out of an open state file.
+typedef clast_status (*part_taker)(clx_h5 *h5, const char *folder, void *out);
+
+static clast_status take_spheres(clx_h5 *h5, const char *folder, void *out)
+{
+    return clx_state_take_spheres(h5, folder, out);
+}
+
+static clast_status take_table(clx_h5 *h5, const char *folder, void *out)
+{
+    return clx_state_take_table(h5, folder, out);
+}
+
+/// Reads the named part of a kind, or the only one.
+static clast_status read_part(const char *path, const char *kind, const char *name, part_taker take,
+                              void *out)
 {
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     char folder[CLX_H5_NAME_LIMIT];
     CLX_TRY(clx_h5_open(path, &h5));
-    status = find_part(h5, "/spheres", name, folder);
+    status = find_part(h5, kind, name, folder);
     if (status == CLAST_OK) {
-        status = clx_state_take_spheres(h5, folder, spheres);
+        status = take(h5, folder, out);
     }
     if (status != CLAST_OK) {
         name_file(path);
@@ -211,20 +226,12 @@ done:
     return status;
 }
 
+clast_status clast_state_read_spheres(const char *path, const char *name, clast_spheres *spheres)
+{
+    return read_part(path, "/spheres", name, take_spheres, spheres);
+}
+
 clast_status clast_state_read_table(const char *path, const char *name, clast_table *table)
 {
-    clast_status status = CLAST_OK;
-    clx_h5 *h5 = NULL;
-    char folder[CLX_H5_NAME_LIMIT];
-    CLX_TRY(clx_h5_open(path, &h5));
-    status = find_part(h5, "/table", name, folder);
-    if (status == CLAST_OK) {
-        status = clx_state_take_table(h5, folder, table);
-    }
-    if (status != CLAST_OK) {
-        name_file(path);
-    }
-done:
-    clx_h5_close(h5);
-    return status;
+    return read_part(path, "/table", name, take_table, table);
 }

@@ -162,8 +162,9 @@ clast_status clx_text_number(clx_text *t, const char *what, double *value)
     if (!clx_word_number(word, value)) {
         return clx_fail(CLAST_E_FORMAT, "line %" PRId64 ": %s '%s' is not a finite number%s",
                         t->line, what, clx_word_show(word, shown),
-                        memchr(word.text, ',', (size_t)word.n) != NULL ? "; write a decimal point"
-                                                                       : "");
+                        word.n > 0 && memchr(word.text, ',', (size_t)word.n) != NULL
+                            ? "; write a decimal point"
+                            : "");
     }
     return CLAST_OK;
 }

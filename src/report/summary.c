@@ -39,6 +39,14 @@ static void put_value(clx_file *file, const char *key, const json_t *value)
     }
 }
 
+/// A number's cell of a table.
+static void put_cell(clx_file *file, const char *key, const json_t *value)
+{
+    (void)clx_file_print(file, "<td class=\"n\">");
+    put_value(file, key, value);
+    (void)clx_file_print(file, "</td>");
+}
+
 static bool is_scalar(const json_t *value)
 {
     return !json_is_object(value) && !json_is_array(value);
@@ -149,9 +157,7 @@ static void put_by_name(clx_file *file, const clx_run *run)
         json_object_foreach(run->summary, key, value)
         {
             if (holds_numbers(value)) {
-                (void)clx_file_print(file, "<td class=\"n\">");
-                put_value(file, key, json_object_get(value, name));
-                (void)clx_file_print(file, "</td>");
+                put_cell(file, key, json_object_get(value, name));
             }
         }
         (void)clx_file_print(file, "</tr>\n");
@@ -172,9 +178,7 @@ static void put_interval_row(clx_file *file, const char *key, const char *name,
     }
     (void)clx_file_print(file, "</td>");
     for (int k = 0; k < 4; ++k) {
-        (void)clx_file_print(file, "<td class=\"n\">");
-        put_value(file, key, json_object_get(interval, parts[k]));
-        (void)clx_file_print(file, "</td>");
+        put_cell(file, key, json_object_get(interval, parts[k]));
     }
     (void)clx_file_print(file, "</tr>\n");
 }
@@ -232,13 +236,6 @@ static void put_item_head(clx_file *file, const json_t *item)
         }
     }
     (void)clx_file_print(file, "</tr>\n");
-}
-
-static void put_cell(clx_file *file, const char *key, const json_t *value)
-{
-    (void)clx_file_print(file, "<td class=\"n\">");
-    put_value(file, key, value);
-    (void)clx_file_print(file, "</td>");
 }
 
 /// A row with the first item's columns, whatever else this item has.

@@ -81,8 +81,9 @@ static void surfaces_come_back(void **state)
 
 static char *text_of(const char *path)
 {
-    char *text = NULL;
+    static char *text; /* static: gcc 12 takes what is returned for the local's address */
     int64_t n = 0;
+    text = NULL;
     CHECK_OK(clx_file_read_all(path, 1 << 26, &text, &n));
     return text;
 }
