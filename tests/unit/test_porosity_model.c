@@ -235,6 +235,41 @@ static void sampling_error_is_the_first_derivative(void **state)
     clast_porosity_model_free(&m);
 }
 
+/* Eq. 23 written out, for the next test. */
+static double eq_23(const double v[4])
+{
+    const double eq = v[0] * v[1];
+    const double s_eq = sqrt((v[1] * v[1] + v[3] * v[3]) * (v[0] * v[0] + v[2] * v[2]) - eq * eq);
+    return 0.032 / eq - 0.003 / s_eq + 0.011 / v[1] + 0.287;
+}
+
+/* A mixture's error: means vary by s / sqrt(n), deviations by s / sqrt(2 (n - 1)); the slopes here
+ * are central differences of eq. 23 (1e-6 relative for steps of 1e-4). */
+static void sampling_error_of_a_mixture_counts_its_deviations(void **state)
+{
+    (void)state;
+    const double v[4] = {0.647, 0.682, 0.175, 0.139};
+    const double error[4] = {0.175 / sqrt(20.0), 0.139 / sqrt(20.0), 0.175 / sqrt(38.0),
+                             0.139 / sqrt(38.0)};
+    double sum = 0.0;
+    clast_form_inputs in = {0};
+    clast_prediction p = {0};
+    clast_porosity_model m = {0};
+    for (int k = 0; k < 4; ++k) {
+        double low[4] = {v[0], v[1], v[2], v[3]};
+        double high[4] = {v[0], v[1], v[2], v[3]};
+        low[k] -= 1e-4;
+        high[k] += 1e-4;
+        const double slope = (eq_23(high) - eq_23(low)) / 2e-4;
+        sum += slope * slope * error[k] * error[k];
+    }
+    CHECK_OK(clast_form_inputs_from_moments(v, v + 2, 20, &in));
+    CHECK_OK(clast_porosity_model_published(3, &m));
+    CHECK_OK(clast_porosity_predict_moments(&m, &in, &p));
+    CHECK_REL(p.sampling_error, sqrt(sum), 1e-5);
+    clast_porosity_model_free(&m);
+}
+
 /* The bootstrap knows the same error, from 400 grains, to its own 1000 resamples (2.2 %, one
  * deviation) and the sample's: 12 %. */
 static void bootstrap_agrees_with_the_derivatives(void **state)
@@ -415,6 +450,7 @@ int main(void)
         cmocka_unit_test(equal_grains_have_no_mixture),
         cmocka_unit_test(impossible_porosities_are_refused),
         cmocka_unit_test(sampling_error_is_the_first_derivative),
+        cmocka_unit_test(sampling_error_of_a_mixture_counts_its_deviations),
         cmocka_unit_test(bootstrap_agrees_with_the_derivatives),
         cmocka_unit_test(model_files_come_back_bit_for_bit),
         cmocka_unit_test(damaged_model_files_are_refused),
