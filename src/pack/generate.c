@@ -261,6 +261,13 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
             return true;
         }
     }
+    // a wide grain may fit between walls where the lattice has no point: on the axis
+    v3_set(x, 0.0, 0.0, f->low + room);
+    if (f->n == 0 && is_inside(p, x, radius) && x[2] + radius <= f->high) {
+        f->next = 0;
+        f->n_wide = 1;
+        return true;
+    }
     return false;
 }
 

@@ -172,6 +172,30 @@ static void restored_packing_ends_the_same(void **state)
     }
 }
 
+/* The lattice of this spacing has no point where a 31 mm grain would clear the wall; the axis has.
+ */
+static void wide_grain_finds_the_axis(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *pack = NULL;
+    begin(&b);
+    clast_grading_destroy(b.grading);
+    b.grading = NULL;
+    CHECK_OK(clast_grading_uniform(31e-3, 31e-3, &b.grading));
+    b.input.grading = b.grading;
+    b.config.dem.width = 0.06;
+    b.config.spacing = 0.022;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    CHECK_OK(clast_pack_advance(pack, 1));
+    assert_int_equal(clast_dem_n_grain(clast_pack_dem(pack)), 1);
+    clast_dem_grain g;
+    clast_dem_read_grain(clast_pack_dem(pack), 0, &g);
+    CHECK_ABS(g.position[0], 0.0, 1e-6);
+    clast_pack_destroy(pack);
+    end(&b);
+}
+
 static void what_cannot_work_is_refused(void **state)
 {
     (void)state;
@@ -201,6 +225,7 @@ int main(void)
         cmocka_unit_test(fill_is_clear_and_where_it_belongs),
         cmocka_unit_test(phases_follow_one_another),
         cmocka_unit_test(restored_packing_ends_the_same),
+        cmocka_unit_test(wide_grain_finds_the_axis),
         cmocka_unit_test(what_cannot_work_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
