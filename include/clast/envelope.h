@@ -8,7 +8,8 @@
     X(SPHERE_RAYS, "sphere_rays", "convex hull of the outermost ray hits on the spheres")          \
     X(WRAP, "wrap", "what a ball of the stated radius cannot reach from outside")                  \
     X(ENCLOSING_SPHERE, "enclosing_sphere", "smallest sphere about the true surfaces")             \
-    X(GYRATION_SPHERE, "gyration_sphere", "uniform sphere of equal radius of gyration")
+    X(GYRATION_SPHERE, "gyration_sphere", "uniform sphere of equal radius of gyration")            \
+    X(ALPHA, "alpha", "alpha shape of surface points for the stated radius, hollows filled")
 
 #define CLAST_ENVELOPE_ENUM(kind, name, text) CLAST_ENVELOPE_##kind,
 typedef enum { CLAST_ENVELOPE_LIST(CLAST_ENVELOPE_ENUM) CLAST_N_ENVELOPE } clast_envelope_kind;
@@ -26,7 +27,7 @@ typedef struct clast_envelope_options {
     double tolerance; ///< widest relative gap between the bounds of a hull of smooth bodies
     int32_t n_ray;    ///< rays of sphere_rays
     uint64_t seed;    ///< of their directions
-    double length;    ///< radius of the ball of `wrap` [m]; 0: none stated, `wrap` is refused
+    double length;    ///< radius of the ball of `wrap` and `alpha` [m]; 0: none, they are refused
     int32_t n_cell;   ///< cells of its grid along the longest side, 12 to 320
 } clast_envelope_options;
 
@@ -52,6 +53,9 @@ CLAST_API clast_status clast_envelope_parse(const char *name, clast_envelope_kin
 ///               of the nearest one; error from two halves of the rays
 /// wrap          space that no ball of radius `length` can cover that comes from outside without
 ///               overlapping a grain; on a grid, error from two spacings
+/// alpha         what such a ball cannot reach that passes between points of the surfaces a quarter
+/// of
+///               `length` apart; error from two spacings
 /// enclosing_sphere  to 1e-12
 /// gyration_sphere   4/3 pi (5/3)^(3/2) Rg^3, grains weighted by their mass
 ///                                                                  [docs/theory/envelope.md]

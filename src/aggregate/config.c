@@ -101,13 +101,13 @@ const clast_field clast_aggregate_fields[] = {
 
     TEXTS(envelope, "surface_hull",
           "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, "
-          "enclosing_sphere, gyration_sphere"),
+          "alpha, enclosing_sphere, gyration_sphere"),
     COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
     {FIELD(BOOL, solid_union), 1, 0, 1, "-",
      "measure the volume of the union too, which takes sampling where grains overlap", NULL},
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(envelope_length, 0, 0, 1e6, "m",
-           "radius of the ball of the wrap envelope, which needs it"),
+           "radius of the ball of the wrap and alpha envelopes, which need it"),
 
     NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never"),
     NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),

@@ -1,6 +1,7 @@
 // Envelopes of an assembly by name: hulls, spheres, published rays.
 #include <clast/envelope.h>
 
+#include "assembly/alpha.h"
 #include "assembly/hull_part.h"
 #include "assembly/sphere_rays.h"
 #include "assembly/wrap.h"
@@ -137,6 +138,9 @@ clast_status clast_assembly_envelope(const clast_assembly *assembly, clast_envel
         break;
     case CLAST_ENVELOPE_WRAP:
         CLX_TRY(clx_envelope_wrap(assembly, options, envelope));
+        break;
+    case CLAST_ENVELOPE_ALPHA:
+        CLX_TRY(clx_envelope_alpha(assembly, options, envelope));
         break;
     case CLAST_ENVELOPE_ENCLOSING_SPHERE:
         CLX_TRY(clast_assembly_enclosing_sphere(assembly, centre, &radius));

@@ -323,6 +323,59 @@ static void wrap_counts_closed_hollows(void **state)
     clast_assembly_free(&a);
 }
 
+/* Two unit balls and a ball of radius R that touches both, at the heights -+ R / (1 + R) and at rho
+ * / (1
+ * + R) from the axis: between the two circles the alpha shape is a cylinder. */
+static void alpha_closes_the_neck_by_a_cylinder(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_envelope_options options = clast_envelope_options_default();
+    clast_envelope e = {0};
+    two_spheres(1.0, &a);
+    CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_ALPHA, &options, &e), CLAST_E_USAGE);
+    for (int k = 0; k < 3; ++k) {
+        const double ball = 0.35 * (k + 1);
+        const double top = ball / (1.0 + ball);
+        const double radius = sqrt((1.0 + ball) * (1.0 + ball) - 1.0) / (1.0 + ball);
+        const double cap = CLAST_PI * top * top * (1.0 - top / 3.0);
+        const double wanted =
+            2.0 * (4.0 / 3.0 * CLAST_PI - cap) + 2.0 * top * CLAST_PI * radius * radius;
+        options.length = ball;
+        CHECK_OK(clast_assembly_envelope(&a, CLAST_ENVELOPE_ALPHA, &options, &e));
+        CHECK_ABS(e.volume, wanted, e.error);
+        assert_true(e.error < 0.25 * e.volume);
+    }
+    clast_assembly_free(&a);
+}
+
+/* Boxes have their corners among the points: a heap of two far boxes is itself, for a great ball
+ * its hull; a hollow is filled. */
+static void alpha_of_boxes_is_exact(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_mesh box = {0};
+    clast_shape shape = {0};
+    clast_envelope_options options = clast_envelope_options_default();
+    clast_envelope e = {0};
+    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &box));
+    CHECK_OK(clast_shape_mesh("box", &box, &shape));
+    CHECK_OK(clast_assembly_add_shape(&a, &shape, NULL));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){0, 0, 0}, no_turn, 1.0, 1.0));
+    CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){3, 0, 0}, no_turn, 1.0, 1.0));
+    options.length = 0.4; /* smaller than the boxes: their inside is not reached */
+    CHECK_OK(clast_assembly_envelope(&a, CLAST_ENVELOPE_ALPHA, &options, &e));
+    CHECK_ABS(e.volume, 2.0, e.error + 1e-9);
+    assert_true(e.error < 0.2);
+    options.length = 50.0;
+    CHECK_OK(clast_assembly_envelope(&a, CLAST_ENVELOPE_ALPHA, &options, &e));
+    CHECK_ABS(e.volume, 4.0, e.error + 1e-9);
+    clast_shape_free(&shape);
+    clast_mesh_free(&box);
+    clast_assembly_free(&a);
+}
+
 /* A loose heap of n ellipsoids: directions and turns at random, distances that grow. */
 static void heap_of(int n, clast_shape_kind kind, clast_assembly *a)
 {
@@ -426,6 +479,8 @@ int main(void)
         cmocka_unit_test(wrap_rolls_a_ball_about_the_grains),
         cmocka_unit_test(wrap_of_three_balls_is_what_samples_say),
         cmocka_unit_test(wrap_counts_closed_hollows),
+        cmocka_unit_test(alpha_closes_the_neck_by_a_cylinder),
+        cmocka_unit_test(alpha_of_boxes_is_exact),
         cmocka_unit_test(tracker_agrees_with_the_assembly),
         cmocka_unit_test(envelopes_survive_refused_memory),
     };

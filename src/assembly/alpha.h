@@ -1,0 +1,7 @@
+#pragma once
+// The alpha envelope: what a ball that passes between surface points cannot reach.
+#include <clast/envelope.h>
+
+/// `alpha` of clast_assembly_envelope.
+clast_status clx_envelope_alpha(const clast_assembly *assembly,
+                                const clast_envelope_options *options, clast_envelope *envelope);
