@@ -7,8 +7,9 @@
 // triangles whose distances agree to float rounding may be confused (`error` says how far that, and
 // slivers, can be wrong), so clast_fill checks each accepted sphere by clast_bvh_closest.
 //
-// Measured on a scan of 33,000 triangles: 115 branches mispredicted a query before, when children
-// were sorted and triangles chosen one at a time, 40 now; 1.7 us, now 0.8 us.
+// Measured on a scan of 33,000 triangles: 16 branches mispredicted a query (callgrind's model), 115
+// when children were sorted and triangles chosen one at a time; about 1.4 us on a busy machine,
+// most of it waiting for memory.
 //                                                            [Ericson2005 sec. 5.1.5, Wald2008]
 #include "shape/fill_field.h"
 
