@@ -84,20 +84,20 @@ static void try_edges(feret_walk *w, const double about[3], int32_t a0, int32_t 
 }
 
 /// Neighbour of the opposite vertex v that takes over first while the normal turns from n towards
-/// m, and the angle at which it does; -1 when none does before `end`.
+/// m, and the tangent of the angle at which it does; -1 when none does before the tangent `end`.
 static int32_t next_opposite(const clx_hull_body *body, int32_t v, const double n[3],
-                             const double m[3], double end, double *angle)
+                             const double m[3], double end, double *tangent)
 {
     int32_t best = -1;
-    *angle = end;
+    *tangent = end;
     for (int32_t i = body->begin[v]; i < body->begin[v + 1]; ++i) {
         double d[3];
         v3_sub(d, body->vert[body->neighbour[i]], body->vert[v]);
         const double along = v3_dot(d, m);
         if (along < 0.0) { // progress is strict, so the walk ends
-            const double at = atan2(fmax(v3_dot(d, n), 0.0), -along);
-            if (at < *angle) {
-                *angle = at;
+            const double at = fmax(v3_dot(d, n), 0.0) / -along;
+            if (at < *tangent) {
+                *tangent = at;
                 best = body->neighbour[i];
             }
         }
@@ -112,25 +112,25 @@ static void walk_edge(feret_walk *w, const clx_hull_body_edge *edge, int32_t opp
     const double *n = body->normal[edge->face[0]];
     const double *end_normal = body->normal[edge->face[1]];
     double m[3];
-    double angle = 0.0;
+    double tangent = 0.0;
     v3_axpy(m, end_normal, -v3_dot(end_normal, n), n);
-    const double end = atan2(v3_norm(m), v3_dot(end_normal, n));
+    const double cosine = v3_dot(end_normal, n); // an arc of a right angle and more has no end here
+    const double end = cosine > 0.0 ? v3_norm(m) / cosine : (double)INFINITY;
     try_pair(w, edge->vert[0], opposite);
     try_pair(w, edge->vert[1], opposite);
     if (!v3_unit(m, m)) {
         return;
     }
     int32_t from = opposite;
-    int32_t to = next_opposite(body, from, n, m, end, &angle);
+    int32_t to = next_opposite(body, from, n, m, end, &tangent);
     while (to >= 0) {
         double about[3];
-        v3_scale(about, cos(angle), n);
-        v3_axpy(about, about, sin(angle), m);
+        v3_axpy(about, n, tangent, m);
         try_edges(w, about, edge->vert[0], edge->vert[1], from, to);
         try_pair(w, edge->vert[0], to);
         try_pair(w, edge->vert[1], to);
         from = to;
-        to = next_opposite(body, from, n, m, end, &angle);
+        to = next_opposite(body, from, n, m, end, &tangent);
     }
 }
 
