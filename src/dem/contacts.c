@@ -172,7 +172,8 @@ static void gather_block(int64_t begin, int64_t end, int32_t worker, void *conte
     }
 }
 
-/// Grains below which two threads took longer than one (bench_dem, 2 cores).
+/// Grains below which one thread works alone. A guess, not measured: a step of 1500 grains takes
+/// about as long as ten wake-ups of a thread.
 enum { FEW = 1500 };
 
 bool clx_dem_is_serial(const clast_dem *dem)
