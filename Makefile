@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict docs format hooks install clean
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd golden docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -20,7 +20,7 @@ docs:
 bench:
 	@tools/setup.sh build
 	@tools/bench.sh
-paper: paper-aggregate paper-predict
+paper: paper-aggregate paper-predict paper-shape paper-d2sd
 paper-aggregate:
 	@tools/setup.sh build
 	@tools/build.sh release clast_cli
@@ -29,6 +29,17 @@ paper-predict:
 	@tools/setup.sh build
 	@tools/build.sh release clast_cli
 	@tools/paper_predict.py
+paper-shape:
+	@tools/setup.sh build
+	@tools/build.sh release clast_cli
+	@tools/paper_shape.py
+paper-d2sd:
+	@tools/setup.sh build
+	@tools/build.sh release
+	@tools/paper_d2sd.py
+golden: dev
+	@CLAST_RENEW_GOLDEN=1 build/dev/tests/golden_test_golden
+	@git diff --stat tests/golden
 format:
 	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
 hooks:

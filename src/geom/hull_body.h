@@ -58,6 +58,7 @@ typedef struct clx_shadow {
     int32_t n;          ///< corners
     double (*point)[2]; ///< [n], room [2 n_edge]
     int32_t *next;      ///< [n_vert] scratch
+    unsigned char *up;  ///< [n_face] scratch: the face is turned to the light
     double (*spare)[2]; ///< [2 n_edge] scratch
 } clx_shadow;
 

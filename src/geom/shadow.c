@@ -22,6 +22,7 @@ clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow)
     CLX_TRY(clx_alloc(&shadow->point, 2 * (int64_t)body->n_edge, sizeof *shadow->point));
     CLX_TRY(clx_alloc(&shadow->spare, 2 * (int64_t)body->n_edge, sizeof *shadow->spare));
     CLX_TRY(clx_alloc(&shadow->next, body->n_vert, sizeof *shadow->next));
+    CLX_TRY(clx_alloc(&shadow->up, body->n_face, sizeof *shadow->up));
 done:
     return status;
 }
@@ -30,6 +31,7 @@ void clx_shadow_free(clx_shadow *shadow)
 {
     clx_free(shadow->point);
     clx_free(shadow->next);
+    clx_free(shadow->up);
     clx_free(shadow->spare);
     *shadow = (clx_shadow){0};
 }
@@ -95,41 +97,51 @@ static void emit_point(const clx_hull_body *body, int32_t vertex, clx_shadow *sh
     point[1] = v3_dot(body->vert[vertex], shadow->v);
 }
 
-void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
+/// The outline's corners in no order: edges that part faces turned up from those turned down, each
+/// starting at one corner. Returns their number; *first is one of them.
+static int32_t find_outline(const clx_hull_body *body, const double direction[3],
+                            clx_shadow *shadow, int32_t *first)
 {
     int32_t n = 0;
-    int32_t first = 0;
-    v3_frame(direction, shadow->u, shadow->v);
-    shadow->n = 0;
-    // The outline's edges part faces turned up from those turned down; each starts at one corner.
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        shadow->up[f] = v3_dot(body->normal[f], direction) > UPRIGHT;
+    }
     for (int32_t e = 0; e < body->n_edge; ++e) {
         const clx_hull_body_edge *edge = &body->edge[e];
-        const bool up0 = v3_dot(body->normal[edge->face[0]], direction) > UPRIGHT;
-        const bool up1 = v3_dot(body->normal[edge->face[1]], direction) > UPRIGHT;
-        if (up0 != up1) {
-            first = edge->vert[up0 ? 0 : 1];
-            shadow->next[first] = edge->vert[up0 ? 1 : 0];
-            emit_point(body, first, shadow);
+        const bool up0 = shadow->up[edge->face[0]];
+        if (up0 != shadow->up[edge->face[1]]) {
+            *first = edge->vert[up0 ? 0 : 1];
+            shadow->next[*first] = edge->vert[up0 ? 1 : 0];
             ++n;
         }
     }
-    // One closed walk over all of them gives their order; where rounding tears the outline of
-    // upright faces in pieces, the points are wrapped anew.
-    double(*loose)[2] = shadow->point;
-    shadow->point = shadow->spare;
+    return n;
+}
+
+void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
+{
+    int32_t first = 0;
+    v3_frame(direction, shadow->u, shadow->v);
+    const int32_t n = find_outline(body, direction, shadow, &first);
+    // One closed walk over all of them gives their order.
     shadow->n = 0;
     int32_t at = first;
     do {
         emit_point(body, at, shadow);
         at = shadow->next[at];
     } while (at != first && shadow->n < n);
-    shadow->spare = loose;
     if (at == first && shadow->n == n) {
         return;
     }
-    shadow->spare = shadow->point;
-    shadow->point = loose;
-    shadow->n = n;
+    // Where rounding tears the outline of upright faces in pieces, the points are wrapped anew.
+    shadow->n = 0;
+    for (int32_t e = 0; e < body->n_edge; ++e) {
+        const clx_hull_body_edge *edge = &body->edge[e];
+        const bool up0 = shadow->up[edge->face[0]];
+        if (up0 != shadow->up[edge->face[1]]) {
+            emit_point(body, edge->vert[up0 ? 0 : 1], shadow);
+        }
+    }
     wrap_points(shadow);
 }
 
