@@ -320,5 +320,6 @@ const cli_command cli_agglomerate = {
     .config_size = sizeof(config),
     .n_min = 1,
     .n_max = 100000,
+    .writes_folder = true,
     .run = run,
 };

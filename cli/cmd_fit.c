@@ -276,5 +276,6 @@ const cli_command cli_fit = {
     .config_size = sizeof(config),
     .n_min = 1,
     .n_max = 1,
+    .writes_folder = true,
     .run = run,
 };

@@ -108,5 +108,6 @@ const cli_command cli_pack = {
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),
     .takes_config = true,
+    .writes_folder = true,
     .run = run,
 };

@@ -322,8 +322,14 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         double mean = NAN;
         double deviation = NAN;
         const int64_t n = local_moments(&f->local, &mean, &deviation);
-        (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n", mean,
-                     deviation, (long long)n);
+        if (n > 1) {
+            (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n",
+                         mean, deviation, (long long)n);
+        } else {
+            (void)printf(
+                "local porosity      every grain's cell but %lld reaches a wall: no mean\n",
+                (long long)n);
+        }
     }
     if (f->pores.sizes.n_column > 0) {
         (void)printf(

@@ -332,5 +332,6 @@ const cli_command cli_predict = {
     .config_size = sizeof(config),
     .n_min = 0,
     .n_max = 1,
+    .writes_folder = true,
     .run = run,
 };

@@ -152,6 +152,7 @@ static const char details[] =
     "  fix: [repeats=1]\n"
     "  vary: [cone = 1 deg | 20 deg | 90 deg, rays = 1 | 10 | 100]\n"
     "  seeds: 3\n"
+    "(values that hold commas go on lines of their own: - shapes = ellipsoid:3,2,1 | sphere)\n"
     "Runs are processes of one thread, -j of them at once. The same call goes on where it was\n"
     "stopped: whole runs stay, cut-off runs resume from their checkpoint. --shard K/N takes every\n"
     "N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared disk.\n"

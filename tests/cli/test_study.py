@@ -36,6 +36,15 @@ class Study(Case):
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual((self.folder / "other/results.csv").read_bytes(), first)
 
+    def test_runs_with_folders_keep_them(self):
+        plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=10g, max_steps=20]\n"
+                         "vary:\n  - shapes = sphere | ellipsoid:3,2,1\n")
+        done = clast("study", plan, "-o", self.folder / "out")
+        self.assertEqual(done.code, 0, done.err)
+        for run in ("000001", "000002"):
+            self.assertTrue((self.folder / "out/runs" / run / "out/state.h5").exists())
+        self.assertEqual([row["shapes"] for row in self.rows()], ["sphere", "ellipsoid:3,2,1"])
+
     def test_bad_plans_say_so_before_any_run(self):
         plan = self.plan(f"run: fill\nargument: [{SURFACE}]\n")
         out = ["-o", self.folder / "out"]
