@@ -30,8 +30,8 @@ typedef struct cli_command {
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 
-/// Parses what follows the command's n_skip words in argv ("clast mesh check") and runs the command:
-/// returns the exit code; the error's one line goes to stderr.
+/// Parses what follows the command's n_skip words in argv ("clast mesh check") and runs the
+/// command: returns the exit code; the error's one line goes to stderr.
 int cli_run(const cli_command *command, int n_skip, int argc, char **argv);
 
 /// A command's own refusal: keeps one line (printf style) for the frame to print, returns `status`.

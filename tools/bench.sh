@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every benchmark program of the release build: tools/bench.sh [NAME...]; figures are ratios within one run.
 # The table goes to bench/results/<processor>.csv and to stdout.
-set -eu
+set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/build.sh release > build-bench.log 2>&1 || { tail -30 build-bench.log; exit 1; }
 rm -f build-bench.log

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What `make test` and CI run: set-up, format, spelling, layers, tidy, all tests under sanitizers, exported symbols, short
 # fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy fuzz docs") shorten it by hand.
-set -eu
+set -euo pipefail
 cd "$(dirname "$0")/.."
 began=$SECONDS
 say() { printf '\n== %s (%d s)\n' "$1" "$((SECONDS - began))"; }
@@ -9,15 +9,14 @@ skip() { case " ${SKIP:-} " in *" $1 "*) echo "skipped by SKIP: $1"; return 0 ;;
 
 say "set-up"; tools/setup.sh test
 say "format"
-bad=$(git ls-files '*.c' '*.h' | xargs clang-format-14 --dry-run -Werror 2>&1 | grep -o '^[^:]*: error' | sort -u | head -20 || true)
-[ -z "$bad" ] || { echo "not formatted (run make format): $bad"; exit 1; }
+tools/check_format.sh
 say "spelling"
 git ls-files '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs codespell --ignore-words=tools/spelling.txt
 say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 tools/build.sh dev > build-dev.log 2>&1 || { grep -E 'error|warning' build-dev.log | head -40; exit 1; }
 rm -f build-dev.log
-ctest --test-dir build/dev -j"$(nproc)" --output-on-failure --no-tests=error | grep -v '^ *Start '
+ctest --test-dir build/dev -j"$(nproc)" --output-on-failure --no-tests=error | tee build/ctest.log | grep -v '^ *Start '
 say "clang-tidy"; skip tidy || tools/check_tidy.sh
 say "release build and exported symbols"
 tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
@@ -27,4 +26,4 @@ say "bundle of the 3-D view"; tools/check_web.sh
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
 say "documents"; skip docs || tools/docs.sh
 say "done"
-ctest --test-dir build/dev -N | awk '/^Total Tests/ {print $3 " passed, 0 failed"}'
+awk '/tests passed, .* tests failed out of/ {print $NF - $4 " passed, " $4 " failed"}' build/ctest.log

@@ -30,10 +30,9 @@
 #include <clast/grading_file.h>
 #include <clast/grain.h>
 #include <clast/grain_statistics.h>
+#include <clast/grains_file.h>
 #include <clast/harmonics.h>
 #include <clast/harmonics_file.h>
-#include <clast/grain_statistics.h>
-#include <clast/grains_file.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
 #include <clast/local_porosity.h>
