@@ -1,48 +1,17 @@
 // clast pack: pour, shake and calm a bed of grains by the discrete element method.
 #include "command.h"
+#include "resume.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/// An option that --resume would overrule, or NULL.
-static const char *changed_option(const clast_pack_config *config)
-{
-    clast_pack_config fresh;
-    const char *changed = NULL;
-    if (clast_fields_default(clast_pack_fields, &fresh) != CLAST_OK) {
-        return NULL;
-    }
-    for (const clast_field *f = clast_pack_fields; f->name != NULL && changed == NULL; ++f) {
-        char a[512] = "";
-        char b[512] = "";
-        const int32_t n = clast_field_count(f, config);
-        if (strcmp(f->name, "resume") == 0) {
-            continue;
-        }
-        changed = n != clast_field_count(f, &fresh) ? f->name : NULL;
-        for (int32_t i = 0; i < n && changed == NULL; ++i) {
-            (void)clast_field_format(f, config, i, a, sizeof a);
-            (void)clast_field_format(f, &fresh, i, b, sizeof b);
-            changed = strcmp(a, b) != 0 ? f->name : NULL;
-        }
-    }
-    clast_fields_free(clast_pack_fields, &fresh);
-    return changed;
-}
-
 static clast_status resume(const cli_common *common, const clast_pack_config *config,
                            const clast_monitor *monitor, clast_pack_result *result)
 {
-    const char *changed = changed_option(config);
-    if (changed != NULL) {
-        return cli_fail(CLAST_E_USAGE, "--resume takes every option from %s; drop %s",
-                        config->resume, changed);
-    }
-    if (common->output != NULL) {
-        return cli_fail(CLAST_E_USAGE, "--resume writes into %s; drop -o", config->resume);
-    }
-    return clast_pack_resume(config->resume, monitor, result);
+    const clast_status status =
+        cli_resume_check(common, config->resume, clast_pack_fields, config, sizeof *config);
+    return status != CLAST_OK ? status : clast_pack_resume(config->resume, monitor, result);
 }
 
 static void print_text(const clast_pack_result *r)

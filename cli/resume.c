@@ -1,0 +1,45 @@
+// What may not stand beside --resume.
+#include "resume.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// The field's values differ; lists of unequal length do.
+static bool differs(const clast_field *field, const void *a, const void *b)
+{
+    const int32_t n = clast_field_count(field, a);
+    bool is_other = n != clast_field_count(field, b);
+    for (int32_t i = 0; i < n && !is_other; ++i) {
+        char text[2][512] = {"", ""};
+        (void)clast_field_format(field, a, i, text[0], sizeof text[0]);
+        (void)clast_field_format(field, b, i, text[1], sizeof text[1]);
+        is_other = strcmp(text[0], text[1]) != 0;
+    }
+    return is_other;
+}
+
+clast_status cli_resume_check(const cli_common *common, const char *folder,
+                              const clast_field *fields, const void *config, size_t size)
+{
+    const char *changed = NULL;
+    void *fresh = calloc(1, size);
+    if (fresh == NULL) {
+        return CLAST_E_MEMORY;
+    }
+    clast_status status = clast_fields_default(fields, fresh);
+    if (status == CLAST_OK) {
+        for (const clast_field *f = fields; f->name != NULL && changed == NULL; ++f) {
+            const bool is_other = strcmp(f->name, "resume") != 0 && differs(f, config, fresh);
+            changed = is_other ? f->name : NULL;
+        }
+        clast_fields_free(fields, fresh);
+    }
+    free(fresh);
+    if (status == CLAST_OK && changed != NULL) {
+        status = cli_fail(CLAST_E_USAGE, "--resume takes every option from %s; drop %s", folder,
+                          changed);
+    } else if (status == CLAST_OK && common->output != NULL) {
+        status = cli_fail(CLAST_E_USAGE, "--resume writes into %s; drop -o", folder);
+    }
+    return status;
+}
