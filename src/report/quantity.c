@@ -24,6 +24,7 @@ static const clx_quantity known[] = {
     {"envelope", "Envelope volume", "m^3", false},
     {"envelope_error", "Bound on the envelope's error", "m^3", false},
     {"radius_of_gyration", "Radius of gyration", "m", true},
+    {"settling_velocity", "Settling velocity in air", "m/s", false},
     {"max_overlap", "Greatest overlap", "m", false},
     {"max_overlap_relative", "Greatest overlap by grain size", "", false},
     {"n_lost", "Particles left at a step limit", "", false},
