@@ -11,13 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[400];
-    (void)snprintf(path, sizeof path, "%s/%s", support_scratch(), name);
-    return path;
-}
-
 /// Coordinates of all sizes and signs, triangles of any vertices.
 static void random_mesh(uint64_t k, clast_mesh *mesh)
 {
@@ -46,7 +39,7 @@ static void same_doubles_come_back(void **state)
     static const char *const names[] = {"a.ply", "a.obj", "a.off"};
     (void)state;
     for (uint64_t k = 0; k < 60; ++k) {
-        const char *path = scratch(names[k % 3]);
+        const char *path = support_scratch_file(names[k % 3]);
         clast_mesh mesh = {0};
         clast_mesh back = {0};
         clast_mesh_read_report r;
@@ -74,8 +67,8 @@ static void stl_gives_back_the_nearest_singles_and_the_same_triangles(void **sta
     clast_mesh back = {0};
     CHECK_OK(clast_mesh_ellipsoid(axes, 3, &mesh));
     clast_mesh_transform(&mesh, 1.7, turn, place);
-    CHECK_OK(clast_mesh_write(scratch("a.stl"), &mesh, NULL));
-    CHECK_OK(clast_mesh_read(scratch("a.stl"), &back, NULL));
+    CHECK_OK(clast_mesh_write(support_scratch_file("a.stl"), &mesh, NULL));
+    CHECK_OK(clast_mesh_read(support_scratch_file("a.stl"), &back, NULL));
     assert_int_equal(back.n_vert, mesh.n_vert);
     assert_int_equal(back.n_tri, mesh.n_tri);
     for (int32_t t = 0; t < mesh.n_tri; ++t) {
@@ -101,10 +94,10 @@ static void equal_meshes_give_equal_files(void **state)
         int64_t n = 0;
         int64_t m = 0;
         const clast_mesh_write_options options = {.unit = "mm", .name = "a <b> & \"c\""};
-        CHECK_OK(clast_mesh_write(scratch(names[i]), &mesh, &options));
-        CHECK_OK(clx_file_read_all(scratch(names[i]), 1 << 20, &first, &n));
-        CHECK_OK(clast_mesh_write(scratch(names[i]), &mesh, &options));
-        CHECK_OK(clx_file_read_all(scratch(names[i]), 1 << 20, &second, &m));
+        CHECK_OK(clast_mesh_write(support_scratch_file(names[i]), &mesh, &options));
+        CHECK_OK(clx_file_read_all(support_scratch_file(names[i]), 1 << 20, &first, &n));
+        CHECK_OK(clast_mesh_write(support_scratch_file(names[i]), &mesh, &options));
+        CHECK_OK(clx_file_read_all(support_scratch_file(names[i]), 1 << 20, &second, &m));
         assert_true(n == m && memcmp(first, second, (size_t)n) == 0);
         clx_free(first);
         clx_free(second);
@@ -226,8 +219,8 @@ static clast_status write_file(void *context)
     clast_mesh mesh = {0};
     clast_status status = clast_mesh_box(1.0, 1.0, 1.0, &mesh);
     if (status == CLAST_OK) {
-        status =
-            clast_mesh_write(scratch(context), &mesh, &(clast_mesh_write_options){.unit = "m"});
+        status = clast_mesh_write(support_scratch_file(context), &mesh,
+                                  &(clast_mesh_write_options){.unit = "m"});
     }
     clast_mesh_free(&mesh);
     return status;
@@ -265,7 +258,7 @@ static void full_disk_leaves_what_was_there(void **state)
         int64_t n = 0;
         (void)snprintf(name, sizeof name, "%s", written[i]);
         CHECK_OK(write_file(name));
-        CHECK_OK(clx_file_read_all(scratch(name), 1 << 20, &before, &n));
+        CHECK_OK(clx_file_read_all(support_scratch_file(name), 1 << 20, &before, &n));
         const int n_file = count_files(support_scratch());
         int64_t struck = 0;
         for (int64_t k = 1; struck <= 0; ++k) {
@@ -275,7 +268,7 @@ static void full_disk_leaves_what_was_there(void **state)
             const clast_status status = write_file(name);
             struck = clx_file_refuse(0, 0);
             assert_int_equal(status, struck <= 0 ? CLAST_E_DISK : CLAST_OK);
-            CHECK_OK(clx_file_read_all(scratch(name), 1 << 20, &after, &m));
+            CHECK_OK(clx_file_read_all(support_scratch_file(name), 1 << 20, &after, &m));
             assert_true(n == m && memcmp(before, after, (size_t)n) == 0);
             assert_int_equal(count_files(support_scratch()), n_file);
             clx_free(after);
@@ -291,20 +284,20 @@ static void what_cannot_be_written_is_refused(void **state)
     clast_mesh mesh = {0};
     CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
     const int n_file = count_files(support_scratch());
-    CHECK_STATUS(clast_mesh_write(scratch("x.step"), &mesh, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_mesh_write(scratch("x.3mf"), &mesh, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(
-        clast_mesh_write(scratch("x.stl"), &mesh, &(clast_mesh_write_options){.unit = "ell"}),
-        CLAST_E_USAGE);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.step"), &mesh, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.3mf"), &mesh, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.stl"), &mesh,
+                                  &(clast_mesh_write_options){.unit = "ell"}),
+                 CLAST_E_USAGE);
     mesh.vert[3][1] = 1e39;
-    CHECK_STATUS(clast_mesh_write(scratch("x.stl"), &mesh, NULL), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.stl"), &mesh, NULL), CLAST_E_GEOMETRY);
     mesh.vert[3][1] = (double)NAN;
-    CHECK_STATUS(clast_mesh_write(scratch("x.ply"), &mesh, NULL), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.ply"), &mesh, NULL), CLAST_E_GEOMETRY);
     mesh.vert[3][1] = 0.0;
     mesh.tri[0][0] = mesh.tri[0][1];
-    CHECK_STATUS(
-        clast_mesh_write(scratch("x.3mf"), &mesh, &(clast_mesh_write_options){.unit = "m"}),
-        CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.3mf"), &mesh,
+                                  &(clast_mesh_write_options){.unit = "m"}),
+                 CLAST_E_GEOMETRY);
     assert_int_equal(count_files(support_scratch()), n_file);
     clast_mesh_free(&mesh);
 }

@@ -9,25 +9,16 @@ enum { SPHERE = N_BODY_KIND, ELLIPSOID, N_KIND };
 
 static clx_touch_tree *trees[N_BODY_KIND];
 
-static int make_trees(void **state)
+static int set_up(void **state)
 {
-    clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, 1);
     (void)state;
-    for (int kind = 0; kind < N_BODY_KIND; ++kind) {
-        trees[kind] = make_tree((body_kind)kind, 1, &rng);
-        if (trees[kind] == NULL) {
-            return -1;
-        }
-    }
-    return 0;
+    return make_trees(trees, 1);
 }
 
-static int destroy_trees(void **state)
+static int tear_down(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < N_BODY_KIND; ++kind) {
-        clx_touch_tree_destroy(trees[kind]);
-    }
+    destroy_trees(trees);
     return 0;
 }
 
@@ -207,5 +198,5 @@ int main(void)
         cmocka_unit_test(bodies_inside_others_meet_them),
         cmocka_unit_test(scenes_list_every_contact),
     };
-    return cmocka_run_group_tests(tests, make_trees, destroy_trees);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

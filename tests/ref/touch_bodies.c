@@ -100,3 +100,22 @@ void place_at_random(clx_touch_body *body, double spread, double scale, clx_rng 
     clx_rng_orientation(rng, turn);
     clx_touch_body_place(body, place, turn, scale);
 }
+
+int make_trees(clx_touch_tree *tree[N_BODY_KIND], uint64_t draw)
+{
+    clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, draw);
+    for (int kind = 0; kind < N_BODY_KIND; ++kind) {
+        tree[kind] = make_tree((body_kind)kind, 1, &rng);
+        if (tree[kind] == NULL) {
+            return -1;
+        }
+    }
+    return 0;
+}
+
+void destroy_trees(clx_touch_tree *tree[N_BODY_KIND])
+{
+    for (int kind = 0; kind < N_BODY_KIND; ++kind) {
+        clx_touch_tree_destroy(tree[kind]);
+    }
+}

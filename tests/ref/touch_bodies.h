@@ -18,3 +18,7 @@ clx_touch_tree *make_tree(body_kind kind, int level, clx_rng *rng);
 
 /// Random pose within a cube of half-width `spread`.
 void place_at_random(clx_touch_body *body, double spread, double scale, clx_rng *rng);
+
+/// A tree of each kind at level 1, drawn from the number `draw`; 0, or -1 on failure.
+int make_trees(clx_touch_tree *tree[N_BODY_KIND], uint64_t draw);
+void destroy_trees(clx_touch_tree *tree[N_BODY_KIND]);

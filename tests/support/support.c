@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,4 +98,28 @@ const char *support_scratch(void)
         }
     }
     return folder;
+}
+
+const char *support_scratch_file(const char *name)
+{
+    return path_of(support_scratch(), name);
+}
+
+void support_refuse_each_allocation_at(clast_status (*make)(void *context), const char *name)
+{
+    char path[512]; // the static text may be used up meanwhile
+    (void)snprintf(path, sizeof path, "%s", support_scratch_file(name));
+    support_refuse_each_allocation(make, path);
+}
+
+void support_check_same_files(const char *a, const char *b)
+{
+    char *text[2] = {NULL, NULL};
+    int64_t n[2] = {0, 0};
+    CHECK_OK(clx_file_read_all(a, 1 << 30, &text[0], &n[0]));
+    CHECK_OK(clx_file_read_all(b, 1 << 30, &text[1], &n[1]));
+    assert_int_equal(n[0], n[1]);
+    assert_memory_equal(text[0], text[1], (size_t)n[0]);
+    clx_free(text[0]);
+    clx_free(text[1]);
 }

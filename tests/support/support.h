@@ -43,6 +43,15 @@ const char *support_shared(const char *name);
 /// it succeeds. Needs CLAST_ALLOC_INJECT (otherwise the call returns at once).
 void support_refuse_each_allocation(clast_status (*make)(void *context), void *context);
 
+/// The same with the path of a scratch file as context.
+void support_refuse_each_allocation_at(clast_status (*make)(void *context), const char *name);
+
+/// Fails unless two files hold the same bytes.
+void support_check_same_files(const char *a, const char *b);
+
 /// A fresh folder for this test's files, removed by nobody: under the build's working folder
 /// ($TMPDIR or /tmp).
 const char *support_scratch(void);
+
+/// Path of a file in it. The text is static and lives until the fourth next call.
+const char *support_scratch_file(const char *name);

@@ -10,13 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[512];
-    (void)snprintf(path, sizeof path, "%s/%s", support_scratch(), name);
-    return path;
-}
-
 static clast_status parse(const char *text, clast_table *table, clast_csv_report *report)
 {
     return clast_table_parse_csv("t.csv", text, strlen(text), NULL, table, report);
@@ -112,7 +105,8 @@ static void wrong_texts_are_refused_with_their_line(void **state)
     }
     clast_table t = {0};
     CHECK_STATUS(clast_table_parse_csv("t", "a\0b", 3, NULL, &t, NULL), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_table_read_csv(scratch("absent.csv"), NULL, &t, NULL), CLAST_E_IO);
+    CHECK_STATUS(clast_table_read_csv(support_scratch_file("absent.csv"), NULL, &t, NULL),
+                 CLAST_E_IO);
 }
 
 static void report_counts_what_was_left_out(void **state)
@@ -208,8 +202,8 @@ static void written_tables_come_back_bit_for_bit(void **state)
     clast_table t = {0};
     clast_table back = {0};
     CHECK_OK(make_table(&t));
-    CHECK_OK(clast_table_write_csv(&t, scratch("all.csv")));
-    CHECK_OK(clast_table_read_csv(scratch("all.csv"), NULL, &back, NULL));
+    CHECK_OK(clast_table_write_csv(&t, support_scratch_file("all.csv")));
+    CHECK_OK(clast_table_read_csv(support_scratch_file("all.csv"), NULL, &back, NULL));
     check_same(&t, &back);
     assert_string_equal(back.column[0].unit, "m");
     clast_table_free(&t);
@@ -231,8 +225,8 @@ static void random_numbers_come_back_bit_for_bit(void **state)
         const uint64_t bits = (uint64_t)clx_rng_u32(&rng) << 32 | clx_rng_u32(&rng);
         memcpy(&x[i], &bits, sizeof bits);
     }
-    CHECK_OK(clast_table_write_csv(&t, scratch("random.csv")));
-    CHECK_OK(clast_table_read_csv(scratch("random.csv"), NULL, &back, NULL));
+    CHECK_OK(clast_table_write_csv(&t, support_scratch_file("random.csv")));
+    CHECK_OK(clast_table_read_csv(support_scratch_file("random.csv"), NULL, &back, NULL));
     check_same(&t, &back);
     clast_table_free(&t);
     clast_table_free(&back);
@@ -245,8 +239,8 @@ static void json_is_what_jansson_reads(void **state)
     json_error_t error;
     CHECK_OK(make_table(&t));
     CHECK_OK(clast_table_set_text(&t, 1, 3, "\x01 \xff \xed\xa0\x80 \xc3\xa9"));
-    CHECK_OK(clast_table_write_json(&t, scratch("all.json")));
-    json_t *root = json_load_file(scratch("all.json"), 0, &error);
+    CHECK_OK(clast_table_write_json(&t, support_scratch_file("all.json")));
+    json_t *root = json_load_file(support_scratch_file("all.json"), 0, &error);
     assert_non_null(root);
     const json_t *columns = json_object_get(root, "columns");
     assert_int_equal(json_integer_value(json_object_get(root, "n_row")), 4);
@@ -269,9 +263,9 @@ static clast_status write_and_read(void *context)
     clast_table t = {0};
     clast_table back = {0};
     CLX_TRY(make_table(&t));
-    CLX_TRY(clast_table_write_csv(&t, scratch("memory.csv")));
-    CLX_TRY(clast_table_write_json(&t, scratch("memory.json")));
-    CLX_TRY(clast_table_read_csv(scratch("memory.csv"), NULL, &back, NULL));
+    CLX_TRY(clast_table_write_csv(&t, support_scratch_file("memory.csv")));
+    CLX_TRY(clast_table_write_json(&t, support_scratch_file("memory.json")));
+    CLX_TRY(clast_table_read_csv(support_scratch_file("memory.csv"), NULL, &back, NULL));
 done:
     clast_table_free(&t);
     clast_table_free(&back);
@@ -291,7 +285,7 @@ static void full_disk_is_reported(void **state)
     CHECK_OK(make_table(&t));
     CHECK_STATUS(clast_table_write_csv(&t, "/dev/full"), CLAST_E_DISK);
     CHECK_STATUS(clast_table_write_json(&t, "/dev/full"), CLAST_E_DISK);
-    CHECK_STATUS(clast_table_write_csv(&t, scratch("absent/t.csv")), CLAST_E_DISK);
+    CHECK_STATUS(clast_table_write_csv(&t, support_scratch_file("absent/t.csv")), CLAST_E_DISK);
     clast_table_free(&t);
 }
 

@@ -14,15 +14,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", support_scratch(), name);
-    return path[next];
-}
-
 enum { N = 6, LEVEL = 1, N_TRI = 3 * 80 + 2 * 12 + 2 * 80 };
 
 /* Three ellipsoids, two boxes and a clump of two balls. */
@@ -59,12 +50,12 @@ static void surfaces_come_back(void **state)
     for (int f = 0; f < 4; ++f) {
         clast_mesh back = {0};
         clast_export_report report;
-        CHECK_OK(clast_assembly_write(&a, scratch(files[f]), &options, &report));
+        CHECK_OK(clast_assembly_write(&a, support_scratch_file(files[f]), &options, &report));
         assert_int_equal(report.n_triangle, N_TRI);
         if (f == 3) {
             continue; /* 3MF is not read */
         }
-        CHECK_OK(clast_mesh_read(scratch(files[f]), &back, NULL));
+        CHECK_OK(clast_mesh_read(support_scratch_file(files[f]), &back, NULL));
         assert_int_equal(back.n_tri, N_TRI);
         for (int32_t t = 0; t < N_TRI; ++t) {
             for (int k = 0; k < 3; ++k) {
@@ -102,8 +93,8 @@ static void obj_has_a_group_a_grain(void **state)
     (void)state;
     clast_assembly a = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_OK(clast_assembly_write(&a, scratch("g.obj"), NULL, NULL));
-    char *text = text_of(scratch("g.obj"));
+    CHECK_OK(clast_assembly_write(&a, support_scratch_file("g.obj"), NULL, NULL));
+    char *text = text_of(support_scratch_file("g.obj"));
     assert_int_equal(count(text, "\ng grain_"), N);
     assert_non_null(strstr(text, "\ng grain_100 shape_egg___the___first_\n"));
     assert_non_null(strstr(text, "\ng grain_105 shape_box\n"));
@@ -125,8 +116,8 @@ static void ply_faces_tell_grain_and_colour(void **state)
         int64_t n = 0;
         uint8_t first[N][3];
         int32_t n_of[N] = {0};
-        CHECK_OK(clast_assembly_write(&a, scratch("c.ply"), &options, NULL));
-        CHECK_OK(clx_file_read_all(scratch("c.ply"), 1 << 26, &bytes, &n));
+        CHECK_OK(clast_assembly_write(&a, support_scratch_file("c.ply"), &options, NULL));
+        CHECK_OK(clx_file_read_all(support_scratch_file("c.ply"), 1 << 26, &bytes, &n));
         const char *faces = bytes + n - (ptrdiff_t)N_TRI * FACE;
         for (int t = 0; t < N_TRI; ++t) {
             int32_t grain = -1;
@@ -152,8 +143,8 @@ static void csv_has_a_row_a_grain(void **state)
     clast_assembly a = {0};
     clast_table t = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_OK(clast_assembly_write(&a, scratch("a.csv"), NULL, NULL));
-    CHECK_OK(clast_table_read_csv(scratch("a.csv"), NULL, &t, NULL));
+    CHECK_OK(clast_assembly_write(&a, support_scratch_file("a.csv"), NULL, NULL));
+    CHECK_OK(clast_table_read_csv(support_scratch_file("a.csv"), NULL, &t, NULL));
     assert_int_equal(t.n_row, N);
     assert_string_equal(t.column[clast_table_find(&t, "shape")].text[0], "egg, \"the\" <first>");
     for (int i = 0; i < N; ++i) {
@@ -184,8 +175,8 @@ static void dump_has_the_grains_moments(void **state)
     (void)state;
     clast_assembly a = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_OK(clast_assembly_write(&a, scratch("a.dump"), NULL, NULL));
-    char *text = text_of(scratch("a.dump"));
+    CHECK_OK(clast_assembly_write(&a, support_scratch_file("a.dump"), NULL, NULL));
+    char *text = text_of(support_scratch_file("a.dump"));
     const char *line = strstr(text, "radius density\n");
     assert_non_null(line);
     assert_non_null(strstr(text, "NUMBER OF ATOMS\n6\n"));
@@ -240,7 +231,8 @@ static void equal_assemblies_give_equal_bytes(void **state)
         int64_t n[2];
         for (int i = 0; i < 2; ++i) {
             char path[600];
-            (void)snprintf(path, sizeof path, "%s.%s", scratch(i == 0 ? "one" : "two"), ends[f]);
+            (void)snprintf(path, sizeof path, "%s.%s", support_scratch_file(i == 0 ? "one" : "two"),
+                           ends[f]);
             CHECK_OK(clast_assembly_write(&a, path, NULL, NULL));
             CHECK_OK(clx_file_read_all(path, 1 << 26, &bytes[i], &n[i]));
         }
@@ -258,14 +250,18 @@ static void wrong_wishes_are_refused(void **state)
     const clast_export_options points = {.points = true};
     clast_assembly a = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_STATUS(clast_assembly_write(&a, scratch("a.xyz"), NULL, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_assembly_write(&a, scratch("p.stl"), &points, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("a.xyz"), NULL, NULL),
+                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("p.stl"), &points, NULL),
+                 CLAST_E_USAGE);
     memcpy(a.unit, "model", 6);
-    CHECK_STATUS(clast_assembly_write(&a, scratch("m.3mf"), NULL, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("m.3mf"), NULL, NULL),
+                 CLAST_E_USAGE);
     CHECK_STATUS(clast_assembly_write(&a, "/dev/full/a.stl", NULL, NULL), CLAST_E_DISK);
     a.position[0][0] = 1e39;
-    CHECK_STATUS(clast_assembly_write(&a, scratch("far.stl"), NULL, NULL), CLAST_E_GEOMETRY);
-    assert_int_not_equal(access(scratch("far.stl"), F_OK), 0);
+    CHECK_STATUS(clast_assembly_write(&a, support_scratch_file("far.stl"), NULL, NULL),
+                 CLAST_E_GEOMETRY);
+    assert_int_not_equal(access(support_scratch_file("far.stl"), F_OK), 0);
     clast_assembly_free(&a);
 }
 
@@ -276,7 +272,7 @@ static void nothing_is_exported_as_nothing(void **state)
     clast_assembly none = {0};
     for (size_t f = 0; f < sizeof ends / sizeof ends[0]; ++f) {
         char path[600];
-        (void)snprintf(path, sizeof path, "%s.%s", scratch("none"), ends[f]);
+        (void)snprintf(path, sizeof path, "%s.%s", support_scratch_file("none"), ends[f]);
         CHECK_OK(clast_assembly_write(&none, path, NULL, NULL));
     }
 }
@@ -300,9 +296,7 @@ static clast_status write_all(void *context)
 static void exports_survive_refused_memory(void **state)
 {
     (void)state;
-    char path[512];
-    (void)snprintf(path, sizeof path, "%s", scratch("memory"));
-    support_refuse_each_allocation(write_all, path);
+    support_refuse_each_allocation_at(write_all, "memory");
 }
 
 /* The k-th disk operation of all eight exports is refused, for every k. */
@@ -311,17 +305,17 @@ static void full_disk_leaves_no_part_of_a_file(void **state)
     (void)state;
 #ifdef CLAST_ALLOC_INJECT
     char path[512];
-    CHECK_OK(clx_folder_make(scratch("full")));
+    CHECK_OK(clx_folder_make(support_scratch_file("full")));
     clast_status status = CLAST_E_DISK;
-    (void)snprintf(path, sizeof path, "%s", scratch("full/f"));
+    (void)snprintf(path, sizeof path, "%s", support_scratch_file("full/f"));
     for (int k = 1; status != CLAST_OK; k += 5) {
         (void)clx_file_refuse(k, ENOSPC);
         status = write_all(path);
         (void)clx_file_refuse(0, 0);
         assert_true(status == CLAST_OK || status == CLAST_E_DISK);
         char temporary[600];
-        (void)snprintf(temporary, sizeof temporary, "%s/.clast-%ld-0.tmp", scratch("full"),
-                       (long)getpid());
+        (void)snprintf(temporary, sizeof temporary, "%s/.clast-%ld-0.tmp",
+                       support_scratch_file("full"), (long)getpid());
         assert_int_not_equal(access(temporary, F_OK), 0);
         assert_true(k < 200);
     }
@@ -333,8 +327,8 @@ static void collection_names_its_files(void **state)
     (void)state;
     static const double time[2] = {0.0, 0.1};
     static const char *const names[2] = {"a.vtu", "b&\"c<.vtu"};
-    CHECK_OK(clast_pvd_write(scratch("all.pvd"), 2, time, names));
-    char *text = text_of(scratch("all.pvd"));
+    CHECK_OK(clast_pvd_write(support_scratch_file("all.pvd"), 2, time, names));
+    char *text = text_of(support_scratch_file("all.pvd"));
     assert_non_null(strstr(text, "<DataSet timestep=\"0.1\" part=\"0\" "
                                  "file=\"b&amp;&quot;c&lt;.vtu\"/>"));
     assert_int_equal(count(text, "<DataSet"), 2);

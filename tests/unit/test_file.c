@@ -10,15 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", support_scratch(), name);
-    return path[next];
-}
-
 /* Entries of a folder besides . and .. */
 static int n_entry(const char *folder)
 {
@@ -57,8 +48,8 @@ done:
 static void committed_file_is_there_and_replaces(void **state)
 {
     (void)state;
-    const char *folder = scratch("commit");
-    const char *path = scratch("commit/a.txt");
+    const char *folder = support_scratch_file("commit");
+    const char *path = support_scratch_file("commit/a.txt");
     struct stat info;
     CHECK_OK(clx_folder_make(folder));
     CHECK_OK(write_text(path, "first\n"));
@@ -75,11 +66,11 @@ static void committed_file_is_there_and_replaces(void **state)
 static void abandoned_file_leaves_nothing(void **state)
 {
     (void)state;
-    const char *folder = scratch("abandon");
+    const char *folder = support_scratch_file("abandon");
     clx_file file = {0};
     clx_file_abandon(&file);
     CHECK_OK(clx_folder_make(folder));
-    CHECK_OK(clx_file_begin(scratch("abandon/a.txt"), &file));
+    CHECK_OK(clx_file_begin(support_scratch_file("abandon/a.txt"), &file));
     CHECK_OK(clx_file_write(&file, "half", 4));
     assert_int_equal(n_entry(folder), 1);
     clx_file_abandon(&file);
@@ -91,16 +82,16 @@ static void unwritable_places_are_named(void **state)
 {
     (void)state;
     clx_file file = {0};
-    CHECK_STATUS(clx_file_begin(scratch("absent/a.txt"), &file), CLAST_E_DISK);
+    CHECK_STATUS(clx_file_begin(support_scratch_file("absent/a.txt"), &file), CLAST_E_DISK);
     assert_non_null(strstr(clast_error_detail(), "there is no folder"));
     CHECK_STATUS(clx_file_begin(support_scratch(), &file), CLAST_E_DISK);
     assert_non_null(strstr(clast_error_detail(), "it is a folder"));
     CHECK_STATUS(clx_file_begin("", &file), CLAST_E_DISK);
     CHECK_STATUS(clx_file_begin("/proc/clast.txt", &file), CLAST_E_DISK);
-    CHECK_OK(write_text(scratch("plain"), "x"));
-    CHECK_STATUS(clx_file_begin(scratch("plain/a.txt"), &file), CLAST_E_DISK);
-    CHECK_STATUS(clx_folder_make(scratch("plain")), CLAST_E_DISK);
-    CHECK_STATUS(clx_folder_make(scratch("plain/below")), CLAST_E_DISK);
+    CHECK_OK(write_text(support_scratch_file("plain"), "x"));
+    CHECK_STATUS(clx_file_begin(support_scratch_file("plain/a.txt"), &file), CLAST_E_DISK);
+    CHECK_STATUS(clx_folder_make(support_scratch_file("plain")), CLAST_E_DISK);
+    CHECK_STATUS(clx_folder_make(support_scratch_file("plain/below")), CLAST_E_DISK);
     assert_null(file.path);
 }
 
@@ -117,11 +108,11 @@ static void link_is_followed_not_replaced(void **state)
 {
     (void)state;
     struct stat info;
-    const char *link = scratch("link");
-    CHECK_OK(write_text(scratch("linked"), "old"));
+    const char *link = support_scratch_file("link");
+    CHECK_OK(write_text(support_scratch_file("linked"), "old"));
     assert_int_equal(symlink("linked", link), 0);
     CHECK_OK(write_text(link, "new"));
-    check_content(scratch("linked"), "new");
+    check_content(support_scratch_file("linked"), "new");
     assert_int_equal(lstat(link, &info), 0);
     assert_true(S_ISLNK(info.st_mode));
 }
@@ -154,8 +145,8 @@ static void every_refused_operation_keeps_the_old_file(void **state)
 {
     (void)state;
 #ifdef CLAST_ALLOC_INJECT
-    const char *folder = scratch("refuse");
-    const char *path = scratch("refuse/a.txt");
+    const char *folder = support_scratch_file("refuse");
+    const char *path = support_scratch_file("refuse/a.txt");
     CHECK_OK(clx_folder_make(folder));
     int k = 1;
     for (;; ++k) {
@@ -197,9 +188,7 @@ static clast_status write_and_read(void *context)
 static void files_survive_refused_memory(void **state)
 {
     (void)state;
-    char path[512];
-    (void)snprintf(path, sizeof path, "%s", scratch("memory.txt"));
-    support_refuse_each_allocation(write_and_read, path);
+    support_refuse_each_allocation_at(write_and_read, "memory.txt");
 }
 
 static void reading_is_bounded(void **state)
@@ -207,22 +196,22 @@ static void reading_is_bounded(void **state)
     (void)state;
     char *bytes = NULL;
     int64_t n = 0;
-    const char *path = scratch("bounded");
+    const char *path = support_scratch_file("bounded");
     CHECK_OK(write_text(path, "12345"));
     CHECK_OK(clx_file_read_all(path, 5, &bytes, &n));
     clx_free(bytes);
     CHECK_STATUS(clx_file_read_all(path, 4, &bytes, &n), CLAST_E_LIMIT);
     CHECK_STATUS(clx_file_read_all("/dev/zero", 100000, &bytes, &n), CLAST_E_LIMIT);
-    CHECK_STATUS(clx_file_read_all(scratch("absent"), 4, &bytes, &n), CLAST_E_IO);
+    CHECK_STATUS(clx_file_read_all(support_scratch_file("absent"), 4, &bytes, &n), CLAST_E_IO);
     CHECK_STATUS(clx_file_read_all(support_scratch(), 4, &bytes, &n), CLAST_E_IO);
 }
 
 static void folders_are_made_with_their_parents(void **state)
 {
     (void)state;
-    CHECK_OK(clx_folder_make(scratch("f1/f2/f3/")));
-    CHECK_OK(clx_folder_make(scratch("f1/f2/f3")));
-    assert_int_equal(n_entry(scratch("f1/f2")), 1);
+    CHECK_OK(clx_folder_make(support_scratch_file("f1/f2/f3/")));
+    CHECK_OK(clx_folder_make(support_scratch_file("f1/f2/f3")));
+    assert_int_equal(n_entry(support_scratch_file("f1/f2")), 1);
     CHECK_STATUS(clx_folder_make(""), CLAST_E_DISK);
     CHECK_STATUS(clx_folder_make("/proc/clast"), CLAST_E_DISK);
 }

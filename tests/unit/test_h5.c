@@ -13,15 +13,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", support_scratch(), name);
-    return path[next];
-}
-
 enum { N = 5000 };
 
 static double number_at(int64_t i)
@@ -140,27 +131,18 @@ static void everything_comes_back(void **state)
 {
     (void)state;
     bool correct = false;
-    CHECK_OK(write_one(scratch("all.h5")));
-    CHECK_OK(read_one(scratch("all.h5"), &correct));
+    CHECK_OK(write_one(support_scratch_file("all.h5")));
+    CHECK_OK(read_one(support_scratch_file("all.h5"), &correct));
     assert_true(correct);
 }
 
 static void equal_content_gives_equal_bytes(void **state)
 {
     (void)state;
-    char *a = NULL;
-    char *b = NULL;
-    int64_t n_a = 0;
-    int64_t n_b = 0;
-    CHECK_OK(write_one(scratch("a.h5")));
+    CHECK_OK(write_one(support_scratch_file("a.h5")));
     (void)sleep(1); /* object times have a resolution of one second */
-    CHECK_OK(write_one(scratch("b.h5")));
-    CHECK_OK(clx_file_read_all(scratch("a.h5"), 1 << 30, &a, &n_a));
-    CHECK_OK(clx_file_read_all(scratch("b.h5"), 1 << 30, &b, &n_b));
-    assert_int_equal(n_a, n_b);
-    assert_memory_equal(a, b, (size_t)n_a);
-    clx_free(a);
-    clx_free(b);
+    CHECK_OK(write_one(support_scratch_file("b.h5")));
+    support_check_same_files(support_scratch_file("a.h5"), support_scratch_file("b.h5"));
 }
 
 static void members_are_listed_in_order(void **state)
@@ -169,8 +151,8 @@ static void members_are_listed_in_order(void **state)
     clx_h5 *h5 = NULL;
     int64_t n = 0;
     char name[CLX_H5_NAME_LIMIT];
-    CHECK_OK(write_one(scratch("list.h5")));
-    CHECK_OK(clx_h5_open(scratch("list.h5"), &h5));
+    CHECK_OK(write_one(support_scratch_file("list.h5")));
+    CHECK_OK(clx_h5_open(support_scratch_file("list.h5"), &h5));
     CHECK_OK(clx_h5_count(h5, "/engine", &n));
     assert_int_equal(n, 5);
     CHECK_OK(clx_h5_member(h5, "/engine", 0, name));
@@ -192,8 +174,8 @@ static void wrong_questions_are_refused(void **state)
     int64_t shape[4];
     double d[12];
     char *text = NULL;
-    CHECK_OK(write_one(scratch("ask.h5")));
-    CHECK_OK(clx_h5_open(scratch("ask.h5"), &h5));
+    CHECK_OK(write_one(support_scratch_file("ask.h5")));
+    CHECK_OK(clx_h5_open(support_scratch_file("ask.h5"), &h5));
     CHECK_STATUS(clx_h5_shape(h5, "/no", CLX_H5_F64, 1, shape), CLAST_E_FORMAT);
     CHECK_STATUS(clx_h5_shape(h5, "/engine", CLX_H5_F64, 1, shape), CLAST_E_FORMAT);
     CHECK_STATUS(clx_h5_shape(h5, "/odd", CLX_H5_I64, 1, shape), CLAST_E_FORMAT);
@@ -211,10 +193,10 @@ static void wrong_questions_are_refused(void **state)
     CHECK_STATUS(clx_h5_write_text(h5, "/absent", "x", ""), CLAST_E_USAGE);
     clx_h5_close(h5);
     clx_h5_close(NULL);
-    CHECK_STATUS(clx_h5_open(scratch("absent.h5"), &h5), CLAST_E_IO);
+    CHECK_STATUS(clx_h5_open(support_scratch_file("absent.h5"), &h5), CLAST_E_IO);
     CHECK_STATUS(clx_h5_open("CMakeLists.txt", &h5), CLAST_E_FORMAT);
     CHECK_STATUS(clx_h5_open(support_scratch(), &h5), CLAST_E_FORMAT);
-    CHECK_STATUS(clx_h5_open_foreign(scratch("absent.h5"), &h5), CLAST_E_IO);
+    CHECK_STATUS(clx_h5_open_foreign(support_scratch_file("absent.h5"), &h5), CLAST_E_IO);
     CHECK_STATUS(clx_h5_open_foreign("CMakeLists.txt", &h5), CLAST_E_FORMAT);
 }
 
@@ -273,7 +255,7 @@ static void truncation_and_flipped_bytes_are_refused(void **state)
     char *bytes = NULL;
     int64_t n = 0;
     bool correct = false;
-    (void)snprintf(path, sizeof path, "%s", scratch("damaged.h5"));
+    (void)snprintf(path, sizeof path, "%s", support_scratch_file("damaged.h5"));
     CHECK_OK(write_small(path));
     CHECK_OK(read_small(path, &correct));
     assert_true(correct);
@@ -294,7 +276,7 @@ static void truncation_and_flipped_bytes_are_refused(void **state)
 static void hostile_arrays_are_refused(void **state)
 {
     (void)state;
-    const char *path = scratch("hostile.h5");
+    const char *path = support_scratch_file("hostile.h5");
     const hsize_t huge[1] = {(hsize_t)1 << 31};
     const hsize_t chunk[1] = {1024};
     clx_h5 *h5 = NULL;
@@ -314,7 +296,7 @@ static void hostile_arrays_are_refused(void **state)
     (void)H5Pclose(create);
     (void)H5Sclose(space);
     (void)H5Fclose(file);
-    CHECK_OK(write_one(scratch("all.h5")));
+    CHECK_OK(write_one(support_scratch_file("all.h5")));
     CHECK_STATUS(clx_h5_open(path, &h5), CLAST_E_FORMAT);
     CHECK_OK(clx_h5_open_foreign(path, &h5));
     CHECK_STATUS(clx_h5_shape(h5, "/unstored", CLX_H5_F64, 1, shape), CLAST_E_FORMAT);
@@ -341,9 +323,7 @@ static clast_status write_and_read_small(void *context)
 static void arrays_survive_refused_memory(void **state)
 {
     (void)state;
-    char path[512];
-    (void)snprintf(path, sizeof path, "%s", scratch("memory.h5"));
-    support_refuse_each_allocation(write_and_read_small, path);
+    support_refuse_each_allocation_at(write_and_read_small, "memory.h5");
 }
 
 static int64_t newest(const char *folder, int32_t *n_damaged)
@@ -384,21 +364,21 @@ static void two_newest_checkpoints_are_kept(void **state)
 {
     (void)state;
     char folder[512];
-    (void)snprintf(folder, sizeof folder, "%s", scratch("run/checkpoints"));
+    (void)snprintf(folder, sizeof folder, "%s", support_scratch_file("run/checkpoints"));
     int32_t n_damaged = 0;
     for (int64_t step = 0; step < 5; ++step) {
         CHECK_OK(write_checkpoint(folder, 10 * step));
         assert_int_equal(newest(folder, NULL), 10 * step);
         assert_int_equal(n_file(folder), step == 0 ? 1 : 2);
     }
-    put_file(scratch("run/checkpoints/checkpoint-000000000040.h5"), "cut short", 9);
-    put_file(scratch("run/checkpoints/checkpoint-50.h5"), "not ours", 8);
+    put_file(support_scratch_file("run/checkpoints/checkpoint-000000000040.h5"), "cut short", 9);
+    put_file(support_scratch_file("run/checkpoints/checkpoint-50.h5"), "not ours", 8);
     assert_int_equal(newest(folder, &n_damaged), 30);
     assert_int_equal(n_damaged, 1);
     CHECK_OK(clx_checkpoint_clear(folder));
     assert_int_equal(n_file(folder), 1);
     assert_int_equal(newest(folder, NULL), -1);
-    assert_int_equal(newest(scratch("run/absent"), NULL), -1);
+    assert_int_equal(newest(support_scratch_file("run/absent"), NULL), -1);
 }
 
 static void full_disk_keeps_the_last_checkpoint(void **state)
@@ -406,7 +386,7 @@ static void full_disk_keeps_the_last_checkpoint(void **state)
     (void)state;
 #ifdef CLAST_ALLOC_INJECT
     char folder[512];
-    (void)snprintf(folder, sizeof folder, "%s", scratch("full"));
+    (void)snprintf(folder, sizeof folder, "%s", support_scratch_file("full"));
     CHECK_OK(write_checkpoint(folder, 1));
     CHECK_OK(write_checkpoint(folder, 2));
     clast_status status = CLAST_E_DISK;

@@ -9,15 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", support_scratch(), name);
-    return path[next];
-}
-
 static void check_digest(const char *text, int repeats, const char *expected)
 {
     char hex[65];
@@ -127,8 +118,9 @@ static void manifest_holds_what_was_given(void **state)
     json_error_t error;
     char hex[65];
     int64_t n = 0;
-    CHECK_OK(make((void *)scratch("manifest.json")));
-    json_t *m = json_load_file(scratch("manifest.json"), JSON_DECODE_INT_AS_REAL, &error);
+    CHECK_OK(make((void *)support_scratch_file("manifest.json")));
+    json_t *m =
+        json_load_file(support_scratch_file("manifest.json"), JSON_DECODE_INT_AS_REAL, &error);
     if (m == NULL) {
         fail_msg("%s at line %d", error.text, error.line);
     }
@@ -161,8 +153,8 @@ static void seed_keeps_all_digits(void **state)
     (void)state;
     char *text = NULL;
     int64_t n = 0;
-    CHECK_OK(make((void *)scratch("manifest.json")));
-    CHECK_OK(clx_file_read_all(scratch("manifest.json"), 1 << 20, &text, &n));
+    CHECK_OK(make((void *)support_scratch_file("manifest.json")));
+    CHECK_OK(clx_file_read_all(support_scratch_file("manifest.json"), 1 << 20, &text, &n));
     assert_non_null(strstr(text, "\"seed\": 18446744073709551615"));
     clx_free(text);
 }
@@ -172,7 +164,7 @@ static void wrong_uses_are_refused(void **state)
     (void)state;
     clast_manifest *m = NULL;
     CHECK_OK(clast_manifest_create("x", 0, NULL, &m));
-    CHECK_STATUS(clast_manifest_input(m, "core", scratch("absent")), CLAST_E_IO);
+    CHECK_STATUS(clast_manifest_input(m, "core", support_scratch_file("absent")), CLAST_E_IO);
     CHECK_STATUS(clast_manifest_input(m, "core", support_scratch()), CLAST_E_IO);
     CHECK_OK(clast_manifest_note(m, "a", "b"));
     CHECK_STATUS(clast_manifest_note(m, "a", "b"), CLAST_E_USAGE);
@@ -184,7 +176,7 @@ static void wrong_uses_are_refused(void **state)
 static void manifest_survives_refused_memory(void **state)
 {
     (void)state;
-    support_refuse_each_allocation(make, (void *)scratch("memory.json"));
+    support_refuse_each_allocation(make, (void *)support_scratch_file("memory.json"));
 }
 
 int main(void)

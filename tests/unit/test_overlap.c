@@ -18,6 +18,17 @@ static void with_shape(clast_assembly *a, clast_shape *shape)
     clast_shape_free(shape);
 }
 
+/// A unit cube of 12 triangles.
+static void with_cube(clast_assembly *a)
+{
+    clast_mesh mesh = {0};
+    clast_shape shape = {0};
+    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
+    CHECK_OK(clast_shape_mesh("cube", &mesh, &shape));
+    with_shape(a, &shape);
+    clast_mesh_free(&mesh);
+}
+
 static clast_union union_of(const clast_assembly *a)
 {
     clast_union_options options = clast_union_options_default();
@@ -75,11 +86,8 @@ static void overlapping_boxes_and_a_ball(void **state)
 {
     (void)state;
     clast_assembly a = {0};
-    clast_mesh mesh = {0};
     clast_shape shape = {0};
-    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
-    CHECK_OK(clast_shape_mesh("cube", &mesh, &shape));
-    with_shape(&a, &shape);
+    with_cube(&a);
     CHECK_OK(clast_shape_sphere("ball", 0.5, &shape));
     with_shape(&a, &shape);
     add(&a, 0, 0.0, 0.0, 0.0, 1.0);
@@ -91,7 +99,6 @@ static void overlapping_boxes_and_a_ball(void **state)
     CHECK_ABS(u.volume, 1.7 + 1.0 + CLAST_PI / 12.0, 4.0 * u.error + 1e-12);
     assert_true(u.error > 0.0 && u.error < 4e-4 * u.volume);
     CHECK_REL(u.max_overlap, 0.5, 2e-3);
-    clast_mesh_free(&mesh);
     clast_assembly_free(&a);
 }
 
@@ -99,17 +106,12 @@ static void buried_grain_adds_nothing(void **state)
 {
     (void)state;
     clast_assembly a = {0};
-    clast_mesh mesh = {0};
-    clast_shape shape = {0};
-    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
-    CHECK_OK(clast_shape_mesh("cube", &mesh, &shape));
-    with_shape(&a, &shape);
+    with_cube(&a);
     add(&a, 0, 0.0, 0.0, 0.0, 1.0);
     add(&a, 0, 0.1, 0.05, 0.0, 0.3);
     const clast_union u = union_of(&a);
     assert_int_equal(u.n_overlap, 1);
     CHECK_ABS(u.volume, 1.0, 4.0 * u.error + 1e-12);
-    clast_mesh_free(&mesh);
     clast_assembly_free(&a);
 }
 
@@ -190,15 +192,10 @@ static void union_survives_refused_memory(void **state)
 {
     (void)state;
     clast_assembly a = {0};
-    clast_mesh mesh = {0};
-    clast_shape shape = {0};
-    CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
-    CHECK_OK(clast_shape_mesh("cube", &mesh, &shape));
-    with_shape(&a, &shape);
+    with_cube(&a);
     add(&a, 0, 0.0, 0.0, 0.0, 1.0);
     add(&a, 0, 0.5, 0.05, 0.0, 1.0);
     support_refuse_each_allocation(measure, &a);
-    clast_mesh_free(&mesh);
     clast_assembly_free(&a);
 }
 

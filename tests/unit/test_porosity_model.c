@@ -310,20 +310,13 @@ static void bootstrap_agrees_with_the_derivatives(void **state)
     clast_table_free(&t);
 }
 
-static const char *scratch(const char *name)
-{
-    static char path[512];
-    (void)snprintf(path, sizeof path, "%s/%s", support_scratch(), name);
-    return path;
-}
-
 static void model_files_come_back_bit_for_bit(void **state)
 {
     (void)state;
     static const char *const note[1][2] = {{"table", "beds.csv"}};
     clast_porosity_model m = {0};
     clast_porosity_model back = {0};
-    const char *path = scratch("model.json");
+    const char *path = support_scratch_file("model.json");
     CHECK_OK(clast_porosity_model_published(4, &m));
     CHECK_OK(clast_porosity_model_write(&m, note, 1, path));
     CHECK_OK(clast_porosity_model_read(path, &back));

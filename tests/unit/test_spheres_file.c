@@ -5,13 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[600];
-    (void)snprintf(path, sizeof path, "%s/%s", support_scratch(), name);
-    return path;
-}
-
 static void put(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
@@ -27,7 +20,7 @@ static void csv_gives_back_the_same_doubles(void **state)
     double radius[2] = {0.7, 1e-12};
     const clast_spheres s = {2, centre, radius};
     clast_spheres back = {0};
-    const char *path = scratch("round.csv");
+    const char *path = support_scratch_file("round.csv");
     CHECK_OK(clast_spheres_write(path, "any", &s, NULL));
     CHECK_OK(clast_spheres_read(path, NULL, &back));
     assert_int_equal(back.n, 2);
@@ -43,7 +36,7 @@ static void columns_are_found_by_name_or_place(void **state)
                                         "1 2 3 4\n", "a,b,c,d\n1,2,3,4\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         clast_spheres s = {0};
-        const char *path = scratch("columns.csv");
+        const char *path = support_scratch_file("columns.csv");
         put(path, texts[i]);
         CHECK_OK(clast_spheres_read(path, NULL, &s));
         for (int k = 0; k < 3; ++k) {
@@ -62,7 +55,7 @@ static void bad_rows_and_columns_are_refused(void **state)
                                         "x,y,z,radius\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         clast_spheres s = {0};
-        const char *path = scratch("bad.csv");
+        const char *path = support_scratch_file("bad.csv");
         put(path, texts[i]);
         CHECK_STATUS(clast_spheres_read(path, NULL, &s), CLAST_E_FORMAT);
         assert_non_null(strstr(clast_error_detail(), "bad.csv"));
@@ -79,7 +72,7 @@ static void state_file_gains_and_replaces_sets(void **state)
     const clast_spheres one = {1, centre, radius};
     clast_spheres back = {0};
     char path[600];
-    (void)snprintf(path, sizeof path, "%s", scratch("sets.h5"));
+    (void)snprintf(path, sizeof path, "%s", support_scratch_file("sets.h5"));
     CHECK_OK(clast_spheres_write(path, "a", &two, NULL));
     CHECK_OK(clast_spheres_write(path, "b", &one, NULL));
     CHECK_OK(clast_spheres_read(path, "a", &back));
@@ -92,8 +85,9 @@ static void state_file_gains_and_replaces_sets(void **state)
     CHECK_STATUS(clast_spheres_write(path, "c", &one, "um"), CLAST_E_USAGE);
     put(path, "no state file");
     CHECK_STATUS(clast_spheres_write(path, "a", &one, NULL), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_spheres_write(scratch("a.xyz"), "a", &one, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_spheres_read(scratch("a.csv"), "a", &back), CLAST_E_USAGE);
+    CHECK_STATUS(clast_spheres_write(support_scratch_file("a.xyz"), "a", &one, NULL),
+                 CLAST_E_USAGE);
+    CHECK_STATUS(clast_spheres_read(support_scratch_file("a.csv"), "a", &back), CLAST_E_USAGE);
 }
 
 int main(void)

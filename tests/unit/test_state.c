@@ -11,15 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char *scratch(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", support_scratch(), name);
-    return path[next];
-}
-
 static clast_status add_shapes(clast_assembly *a)
 {
     clast_status status = CLAST_OK;
@@ -121,14 +112,14 @@ static void assembly_comes_back_bit_for_bit(void **state)
     clast_assembly a = {0};
     clast_assembly b = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_OK(clast_state_write_assembly(scratch("a.h5"), &a, NULL));
-    CHECK_OK(clast_state_read_assembly(scratch("a.h5"), &b));
+    CHECK_OK(clast_state_write_assembly(support_scratch_file("a.h5"), &a, NULL));
+    CHECK_OK(clast_state_read_assembly(support_scratch_file("a.h5"), &b));
     check_same_assembly(&a, &b);
     CHECK_OK(clast_assembly_add_grain(&b, 0, a.position[0], a.orientation[0], 1.0, 1.0));
     clast_assembly_free(&b);
     clast_assembly_free(&a);
-    CHECK_OK(clast_state_write_assembly(scratch("none.h5"), &a, NULL));
-    CHECK_OK(clast_state_read_assembly(scratch("none.h5"), &b));
+    CHECK_OK(clast_state_write_assembly(support_scratch_file("none.h5"), &a, NULL));
+    CHECK_OK(clast_state_read_assembly(support_scratch_file("none.h5"), &b));
     assert_int_equal(b.n_grain + b.n_shape, 0);
     clast_assembly_free(&b);
 }
@@ -191,8 +182,8 @@ static void whole_state_comes_back(void **state)
     (void)state;
     clast_state s = {0};
     clast_assembly a = {0};
-    CHECK_OK(write_all(scratch("all.h5")));
-    CHECK_OK(clast_state_read(scratch("all.h5"), &s));
+    CHECK_OK(write_all(support_scratch_file("all.h5")));
+    CHECK_OK(clast_state_read(support_scratch_file("all.h5"), &s));
     CHECK_OK(make_assembly(&a));
     check_same_assembly(&a, s.assembly);
     assert_string_equal(s.config, "{\"seed\": 1}");
@@ -224,26 +215,28 @@ static void parts_are_read_by_name(void **state)
     clast_spheres s = {0};
     clast_table t = {0};
     clast_assembly a = {0};
-    CHECK_OK(write_all(scratch("all.h5")));
-    CHECK_OK(clast_state_read_spheres(scratch("all.h5"), "core 50", &s));
+    CHECK_OK(write_all(support_scratch_file("all.h5")));
+    CHECK_OK(clast_state_read_spheres(support_scratch_file("all.h5"), "core 50", &s));
     assert_int_equal(s.n, 50);
     clast_spheres_free(&s);
-    CHECK_OK(clast_state_read_table(scratch("all.h5"), "history", &t));
+    CHECK_OK(clast_state_read_table(support_scratch_file("all.h5"), "history", &t));
     assert_int_equal(t.n_column, 3);
     clast_table_free(&t);
-    CHECK_STATUS(clast_state_read_spheres(scratch("all.h5"), "none", &s), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_state_read_spheres(support_scratch_file("all.h5"), "none", &s),
+                 CLAST_E_FORMAT);
     assert_non_null(strstr(clast_error_detail(), "all.h5: it has no spheres called none; it has "
                                                  "core 300, core 50"));
-    CHECK_STATUS(clast_state_read_spheres(scratch("all.h5"), NULL, &s), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_state_read_spheres(support_scratch_file("all.h5"), NULL, &s),
+                 CLAST_E_FORMAT);
     CHECK_OK(clast_spheres_alloc(1, &s));
     s.radius[0] = 1.0;
-    CHECK_OK(clast_state_write_spheres(scratch("one.h5"), "only", &s, "mm"));
+    CHECK_OK(clast_state_write_spheres(support_scratch_file("one.h5"), "only", &s, "mm"));
     clast_spheres_free(&s);
-    CHECK_OK(clast_state_read_spheres(scratch("one.h5"), NULL, &s));
+    CHECK_OK(clast_state_read_spheres(support_scratch_file("one.h5"), NULL, &s));
     assert_int_equal(s.n, 1);
     clast_spheres_free(&s);
-    CHECK_STATUS(clast_state_read_assembly(scratch("one.h5"), &a), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_state_read_assembly(scratch("absent.h5"), &a), CLAST_E_IO);
+    CHECK_STATUS(clast_state_read_assembly(support_scratch_file("one.h5"), &a), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_state_read_assembly(support_scratch_file("absent.h5"), &a), CLAST_E_IO);
 }
 
 static void names_that_cannot_be_are_refused(void **state)
@@ -254,32 +247,24 @@ static void names_that_cannot_be_are_refused(void **state)
     s.radius[0] = 1.0;
     static const char *const wrong[] = {"", "a/b", "."};
     for (size_t i = 0; i < 3; ++i) {
-        CHECK_STATUS(clast_state_write_spheres(scratch("w.h5"), wrong[i], &s, "m"), CLAST_E_USAGE);
+        CHECK_STATUS(clast_state_write_spheres(support_scratch_file("w.h5"), wrong[i], &s, "m"),
+                     CLAST_E_USAGE);
     }
     char name[] = "twice";
     clast_named_spheres named[2] = {{name, s}, {name, s}};
     const clast_state twice = {.n_spheres = 2, .spheres = named};
-    CHECK_STATUS(clast_state_write(&twice, scratch("w.h5")), CLAST_E_USAGE);
-    assert_int_not_equal(access(scratch("w.h5"), F_OK), 0);
+    CHECK_STATUS(clast_state_write(&twice, support_scratch_file("w.h5")), CLAST_E_USAGE);
+    assert_int_not_equal(access(support_scratch_file("w.h5"), F_OK), 0);
     clast_spheres_free(&s);
 }
 
 static void equal_states_give_equal_bytes(void **state)
 {
     (void)state;
-    char *a = NULL;
-    char *b = NULL;
-    int64_t n_a = 0;
-    int64_t n_b = 0;
-    CHECK_OK(write_all(scratch("first.h5")));
+    CHECK_OK(write_all(support_scratch_file("first.h5")));
     (void)sleep(1);
-    CHECK_OK(write_all(scratch("second.h5")));
-    CHECK_OK(clx_file_read_all(scratch("first.h5"), 1 << 30, &a, &n_a));
-    CHECK_OK(clx_file_read_all(scratch("second.h5"), 1 << 30, &b, &n_b));
-    assert_int_equal(n_a, n_b);
-    assert_memory_equal(a, b, (size_t)n_a);
-    clx_free(a);
-    clx_free(b);
+    CHECK_OK(write_all(support_scratch_file("second.h5")));
+    support_check_same_files(support_scratch_file("first.h5"), support_scratch_file("second.h5"));
 }
 
 /* A file that is whole but says what cannot be: each lie is found. */
@@ -333,8 +318,8 @@ static void inconsistent_assemblies_are_refused(void **state)
         default:
             break;
         }
-        CHECK_OK(clast_state_write_assembly(scratch("lie.h5"), &a, NULL));
-        CHECK_STATUS(clast_state_read_assembly(scratch("lie.h5"), &back),
+        CHECK_OK(clast_state_write_assembly(support_scratch_file("lie.h5"), &a, NULL));
+        CHECK_STATUS(clast_state_read_assembly(support_scratch_file("lie.h5"), &back),
                      lie == 0 ? CLAST_OK : CLAST_E_FORMAT);
         assert_true(lie == 0 || (back.shape == NULL && back.position == NULL));
         clast_assembly_free(&back);
@@ -349,13 +334,13 @@ static void other_files_are_refused(void **state)
     clast_assembly a = {0};
     const int32_t schema = 99;
     CHECK_OK(clx_h5_create(&h5));
-    CHECK_OK(clx_h5_commit(h5, scratch("bare.h5")));
+    CHECK_OK(clx_h5_commit(h5, support_scratch_file("bare.h5")));
     CHECK_OK(clx_h5_write_text(h5, "/", "format", "clast state"));
     CHECK_OK(clx_h5_write_number(h5, "/", "schema", CLX_H5_I32, &schema));
-    CHECK_OK(clx_h5_commit(h5, scratch("later.h5")));
+    CHECK_OK(clx_h5_commit(h5, support_scratch_file("later.h5")));
     clx_h5_close(h5);
-    CHECK_STATUS(clast_state_read_assembly(scratch("bare.h5"), &a), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_state_read_assembly(scratch("later.h5"), &a), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_state_read_assembly(support_scratch_file("bare.h5"), &a), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_state_read_assembly(support_scratch_file("later.h5"), &a), CLAST_E_FORMAT);
     assert_non_null(strstr(clast_error_detail(), "schema 99"));
 }
 
@@ -379,9 +364,9 @@ static void inconsistent_tables_are_refused(void **state)
         CHECK_OK(clx_h5_write(h5, "/table/t/000000_begin", CLX_H5_I64, 1, (int64_t[]){3}, begin));
         CHECK_OK(clx_h5_write_text(h5, "/table/t/000000", "name", "word"));
         CHECK_OK(clx_h5_write_text(h5, "/table/t/000000", "unit", ""));
-        CHECK_OK(clx_h5_commit(h5, scratch("table.h5")));
+        CHECK_OK(clx_h5_commit(h5, support_scratch_file("table.h5")));
         clx_h5_close(h5);
-        CHECK_STATUS(clast_state_read_table(scratch("table.h5"), "t", &t),
+        CHECK_STATUS(clast_state_read_table(support_scratch_file("table.h5"), "t", &t),
                      lie == 0 ? CLAST_OK : CLAST_E_FORMAT);
         clast_table_free(&t);
     }
@@ -423,9 +408,7 @@ static clast_status write_and_read(void *context)
 static void states_survive_refused_memory(void **state)
 {
     (void)state;
-    char path[512];
-    (void)snprintf(path, sizeof path, "%s", scratch("memory.h5"));
-    support_refuse_each_allocation(write_and_read, path);
+    support_refuse_each_allocation_at(write_and_read, "memory.h5");
 }
 
 static void full_disk_keeps_the_old_state(void **state)
@@ -434,13 +417,13 @@ static void full_disk_keeps_the_old_state(void **state)
 #ifdef CLAST_ALLOC_INJECT
     clast_assembly none = {0};
     clast_assembly back = {0};
-    CHECK_OK(clast_state_write_assembly(scratch("full.h5"), &none, NULL));
+    CHECK_OK(clast_state_write_assembly(support_scratch_file("full.h5"), &none, NULL));
     for (int k = 1; k <= 4; ++k) {
         (void)clx_file_refuse(k, ENOSPC);
-        const clast_status status = write_all(scratch("full.h5"));
+        const clast_status status = write_all(support_scratch_file("full.h5"));
         (void)clx_file_refuse(0, 0);
         assert_int_equal(status, CLAST_E_DISK);
-        CHECK_OK(clast_state_read_assembly(scratch("full.h5"), &back));
+        CHECK_OK(clast_state_read_assembly(support_scratch_file("full.h5"), &back));
         assert_int_equal(back.n_grain, 0);
         clast_assembly_free(&back);
     }
