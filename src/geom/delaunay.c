@@ -3,9 +3,8 @@
 
 #include "base/alloc.h"
 #include "geom/hull.h"
+#include "geom/qhull_call.h"
 #include "math/vec3.h"
-#include <libqhull_r/qhull_ra.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,10 +66,17 @@ static int compare_faces(const void *a, const void *b)
     return (p->tet > q->tet) - (p->tet < q->tet);
 }
 
+typedef struct {
+    const double (*point)[3];
+    clx_delaunay *made;
+} job;
+
 /// Copies qhull's lower facets: the Delaunay tetrahedra.
-static clast_status collect(qhT *qh, const double (*point)[3], clx_delaunay *c)
+static clast_status collect(qhT *qh, void *context)
 {
     clast_status status = CLAST_OK;
+    const job *j = context;
+    clx_delaunay *c = j->made;
     facetT *facet;
     vertexT *vertex;
     vertexT **vertexp;
@@ -91,7 +97,7 @@ static clast_status collect(qhT *qh, const double (*point)[3], clx_delaunay *c)
         }
         qsort(t->corner, 4, sizeof t->corner[0], compare_ints);
         for (k = 0; k < 4; ++k) {
-            v3_copy(p[k], point[t->corner[k]]);
+            v3_copy(p[k], j->point[t->corner[k]]);
         }
         t->radius = circumradius(p);
     }
@@ -103,38 +109,14 @@ done:
 static clast_status triangulate(int32_t n, const double (*at)[3], clx_delaunay *c)
 {
     clast_status status = CLAST_OK;
-    qhT *qh = NULL;
-    char *text = NULL;
-    size_t text_size = 0;
-    FILE *report = NULL;
     double *point = NULL;
     CLX_TRY(clx_alloc(&point, 3 * (int64_t)n, sizeof *point));
     for (int32_t i = 0; i < n; ++i) {
         v3_sub(point + 3 * (ptrdiff_t)i, at[i], at[0]);
     }
-    CLX_TRY(clx_alloc(&qh, 1, sizeof *qh));
-    report = open_memstream(&text, &text_size); // memory, not a file: what qhull would print
-    CLX_CHECK(report != NULL, CLAST_E_MEMORY, "no memory for qhull's messages");
-    char options[] = "qhull d Qbb Qt Qz Pp";
-    const int code = qh_new_qhull(qh, 3, n, point, False, options, NULL, report);
-    (void)fflush(report);
-    if (code == 0) {
-        status = collect(qh, at, c);
-    } else {
-        status = clx_fail(code == qh_ERRmem ? CLAST_E_MEMORY : CLAST_E_GEOMETRY,
-                          "Delaunay tetrahedra of %d points: qhull says %.*s", n,
-                          (int)strcspn(text != NULL ? text : "", "\n"), text != NULL ? text : "");
-    }
+    CLX_TRY(clx_qhull("Delaunay triangulation", "d Qbb Qt Qz Pp", n, point, collect,
+                      &(job){.point = at, .made = c}));
 done:
-    if (report != NULL) {
-        int long_blocks = 0;
-        int long_bytes = 0;
-        qh_freeqhull(qh, !qh_ALL);
-        qh_memfreeshort(qh, &long_blocks, &long_bytes);
-        (void)fclose(report);
-    }
-    free(text); // by open_memstream, not ours
-    clx_free(qh);
     clx_free(point);
     return status;
 }

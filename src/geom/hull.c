@@ -9,11 +9,9 @@
 #include "geom/hull.h"
 
 #include "base/alloc.h"
+#include "geom/qhull_call.h"
 #include "math/vec3.h"
-#include <libqhull_r/qhull_ra.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double RANK_TOLERANCE = 1e-13; // of the extent; doubles near 1 are spaced by 2e-16
 
@@ -180,13 +178,20 @@ done:
     return status;
 }
 
-static clast_status emit(qhT *qh, const double (*point)[3], int64_t n, clast_mesh *hull)
+typedef struct {
+    const double (*point)[3];
+    int64_t n;
+    clast_mesh *hull;
+} job;
+
+static clast_status emit(qhT *qh, void *context)
 {
     clast_status status = CLAST_OK;
+    const job *j = context;
     clast_mesh made = {.n_tri = qh->num_facets};
     CLX_TRY(clx_alloc(&made.tri, made.n_tri, sizeof *made.tri));
     collect_triangles(qh, made.tri);
-    CLX_TRY(compact(point, n, &made));
+    CLX_TRY(compact(j->point, j->n, &made));
     if (clast_mesh_volume(&made) < 0.0) {
         for (int32_t t = 0; t < made.n_tri; ++t) {
             const int32_t swap = made.tri[t][1];
@@ -194,60 +199,25 @@ static clast_status emit(qhT *qh, const double (*point)[3], int64_t n, clast_mes
             made.tri[t][2] = swap;
         }
     }
-    *hull = made;
+    *j->hull = made;
     made = (clast_mesh){0};
 done:
     clast_mesh_free(&made);
     return status;
 }
 
-/// First line of qhull's report without its code ("QH6154 qhull precision error: ...").
-static clast_status explain(int code, const char *text, int64_t n)
-{
-    const char *start = text != NULL ? text : "";
-    while (*start == '\n') {
-        ++start;
-    }
-    if (code == qh_ERRmem) {
-        return clx_fail(CLAST_E_MEMORY, "no memory for the convex hull of %lld points",
-                        (long long)n);
-    }
-    return clx_fail(CLAST_E_GEOMETRY, "convex hull of %lld points: qhull says %.*s", (long long)n,
-                    (int)strcspn(start, "\n"), start);
-}
-
 clast_status clx_hull_points(const double (*point)[3], int64_t n, clast_mesh *hull)
 {
     clast_status status = CLAST_OK;
-    qhT *qh = NULL;
     double *scaled = NULL;
-    char *text = NULL;
-    size_t text_size = 0;
-    FILE *report = NULL;
-    bool started = false;
     CLX_TRY(check_points(point, n));
     CLX_CHECK(n <= INT32_MAX / 4, CLAST_E_LIMIT, "convex hull of %lld points is beyond 2^29",
               (long long)n);
-    CLX_TRY(clx_alloc(&qh, 1, sizeof *qh));
     CLX_TRY(scaled_points(point, n, &scaled));
-    report = open_memstream(&text, &text_size); // memory, not a file: what qhull would print
-    CLX_CHECK(report != NULL, CLAST_E_MEMORY, "no memory for qhull's messages");
-    started = true;
-    char options[] = "qhull Qt Pp"; // triangles only; no advice about narrow hulls
-    const int code = qh_new_qhull(qh, 3, (int)n, scaled, False, options, NULL, report);
-    (void)fflush(report);
-    status = code == 0 ? emit(qh, point, n, hull) : explain(code, text, n);
+    CLX_TRY(clx_qhull("convex hull", "Qt Pp", (int)n, scaled, emit, // triangles; no advice
+                      &(job){.point = point, .n = n, .hull = hull}));
 done:
-    if (started) {
-        int long_blocks = 0;
-        int long_bytes = 0;
-        qh_freeqhull(qh, !qh_ALL);
-        qh_memfreeshort(qh, &long_blocks, &long_bytes);
-        (void)fclose(report);
-    }
-    free(text); // by open_memstream, not ours
     clx_free(scaled);
-    clx_free(qh);
     return status;
 }
 
