@@ -34,6 +34,9 @@ CLAST_API clast_status clast_state_write(const clast_state *state, const char *p
 /// inconsistent (indices, lengths, quaternions, signs are all checked)
 CLAST_API clast_status clast_state_read(const char *path, clast_state *state);
 
+/// The state's table of this name, or NULL. Lives as long as the state.
+CLAST_API const clast_table *clast_state_table(const clast_state *state, const char *name);
+
 /// Frees what clast_state_read made, the assembly too; may be called twice.
 CLAST_API void clast_state_free(clast_state *state);
 

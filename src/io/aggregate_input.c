@@ -3,6 +3,8 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include "base/path.h"
+#include "io/shape_word.h"
 #include <clast/fill.h>
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
@@ -15,31 +17,6 @@
 
 static const double NOWHERE[3] = {0.0, 0.0, 0.0};
 static const double UNTURNED[4] = {1.0, 0.0, 0.0, 0.0};
-
-/// "ellipsoid:a,b,c" with full axes.
-static clast_status read_ellipsoid(const char *text, clast_shape *shape)
-{
-    double axes[3];
-    if (clx_numbers_parse(text + strlen("ellipsoid:"), 3, axes) != CLAST_OK ||
-        fmin(axes[0], fmin(axes[1], axes[2])) <= 0.0) {
-        return clx_fail(CLAST_E_CONFIG, "'%s': write ellipsoid:a,b,c with three axes above 0",
-                        text);
-    }
-    for (int k = 0; k < 3; ++k) {
-        axes[k] *= 0.5;
-    }
-    return clast_shape_ellipsoid(text, axes, shape);
-}
-
-/// File name without folders and extension.
-static void stem(const char *path, char *name, size_t size)
-{
-    const char *slash = strrchr(path, '/');
-    const char *base = slash != NULL ? slash + 1 : path;
-    const char *dot = strrchr(base, '.');
-    const int n = dot != NULL && dot != base ? (int)(dot - base) : (int)strlen(base);
-    (void)snprintf(name, size, "%.*s", n, base);
-}
 
 /// Whether the surface bounds a solid; says what is wrong and what to run.
 static clast_status check_surface(const char *path, const clast_mesh *mesh)
@@ -85,7 +62,7 @@ static clast_status read_surface(const clast_aggregate_config *config, const cha
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     char name[200];
-    stem(path, name, sizeof name);
+    (void)snprintf(name, sizeof name, "%.*s", clx_path_stem_length(path), clx_path_name(path));
     CLX_TRY(clast_mesh_read(path, &mesh, NULL));
     CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
     if (!config->accept_faults) {
@@ -155,14 +132,9 @@ done:
     return status;
 }
 
-static bool is_ellipsoid(const char *text)
-{
-    return strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0;
-}
-
 static bool is_file(const char *text)
 {
-    return text[0] != '\0' && strcmp(text, "sphere") != 0 && !is_ellipsoid(text);
+    return text[0] != '\0' && strcmp(text, "sphere") != 0 && !clx_is_ellipsoid_word(text);
 }
 
 static clast_status read_shape(const clast_aggregate_config *config, const char *text,
@@ -171,8 +143,8 @@ static clast_status read_shape(const clast_aggregate_config *config, const char 
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(text, 0.5, shape);
     }
-    return is_ellipsoid(text) ? read_ellipsoid(text, shape)
-                              : read_surface(config, text, factor, shape);
+    return clx_is_ellipsoid_word(text) ? clx_ellipsoid_word(text, text, shape)
+                                       : read_surface(config, text, factor, shape);
 }
 
 static clast_status load_shape(const clast_aggregate_config *config, const char *text,
@@ -199,13 +171,6 @@ done:
     return status;
 }
 
-static bool ends_in(const char *text, const char *end)
-{
-    const size_t n = strlen(text);
-    const size_t m = strlen(end);
-    return n >= m && strcmp(text + n - m, end) == 0;
-}
-
 /// An earlier run's aggregate, with the densities that it has.
 static clast_status load_state(const char *path, const char *spheres, clast_assembly *assembly)
 {
@@ -222,7 +187,7 @@ static clast_status load_named(const char *role, const clast_aggregate_config *c
                                const char *text, const char *spheres, double density,
                                clast_assembly *assembly)
 {
-    const clast_status status = ends_in(text, ".h5")
+    const clast_status status = clx_path_is(text, "h5")
                                     ? load_state(text, spheres, assembly)
                                     : load_shape(config, text, spheres, density, assembly);
     if (status != CLAST_OK) {

@@ -2,6 +2,7 @@
 #include "io/export.h"
 
 #include "base/number.h"
+#include "base/path.h"
 #include <clast/mesh_file.h>
 #include <clast/table_file.h>
 #include <string.h>
@@ -15,21 +16,10 @@ const char *clast_export_format_name(clast_export_format format)
     return (unsigned)format < N_FORMAT ? names[format] : "unknown";
 }
 
-static bool same_word(const char *a, const char *b)
-{
-    for (; *a != '\0' && *b != '\0'; ++a, ++b) {
-        if ((*a >= 'A' && *a <= 'Z' ? *a + 32 : *a) != *b) {
-            return false;
-        }
-    }
-    return *a == *b;
-}
-
 clast_export_format clast_export_format_of_path(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    for (int f = 1; dot != NULL && f < N_FORMAT; ++f) {
-        if (same_word(dot + 1, names[f])) {
+    for (int f = 1; f < N_FORMAT; ++f) {
+        if (clx_path_is(path, names[f])) {
             return (clast_export_format)f;
         }
     }

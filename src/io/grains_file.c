@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/path.h"
 #include "io/text.h"
 #include <clast/form_set.h>
 #include <clast/harmonics_file.h>
@@ -99,10 +100,8 @@ static clast_status write_surface(const clx_grains_task *task, const char *suffi
     clast_status status = CLAST_OK;
     clast_mesh hull = {0};
     char *path = NULL;
-    const char *slash = strrchr(task->path, '/');
-    const char *base = slash != NULL ? slash + 1 : task->path;
-    const char *dot = strrchr(base, '.');
-    const int n_base = dot != NULL && dot > base ? (int)(dot - base) : (int)strlen(base);
+    const char *base = clx_path_name(task->path);
+    const int n_base = clx_path_stem_length(task->path);
     const char *folder = task->options->folder;
     const size_t size = strlen(folder) + (size_t)n_base + strlen(suffix) + 7;
     CLX_TRY(clx_alloc(&path, (int64_t)size, 1));
@@ -313,9 +312,8 @@ static clast_status take_surface(clx_grains_task *task, clast_mesh_format format
 
 static bool has_extension(const char *path, const char *const *list)
 {
-    const char *dot = strrchr(path, '.');
-    for (; dot != NULL && *list != NULL; ++list) {
-        if (strcasecmp(dot + 1, *list) == 0) {
+    for (; *list != NULL; ++list) {
+        if (clx_path_is(path, *list)) {
             return true;
         }
     }

@@ -1,10 +1,10 @@
 // Surfaces from files and to files: which format, and the way there and back.
 #include <clast/mesh_file.h>
 
-#include <clast/field.h>
-
 #include "base/alloc.h"
+#include "base/path.h"
 #include "io/mesh_io.h"
+#include <clast/field.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -34,10 +34,8 @@ const char *clast_mesh_format_name(clast_mesh_format format)
 
 clast_mesh_format clast_mesh_format_of_path(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash != NULL ? slash : path, '.');
-    for (int i = 0; i < N_NAME && dot != NULL; ++i) {
-        if (strcasecmp(dot + 1, names[i].name) == 0) {
+    for (int i = 0; i < N_NAME; ++i) {
+        if (clx_path_is(path, names[i].name)) {
             return names[i].format;
         }
     }

@@ -3,6 +3,8 @@
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
+#include "base/path.h"
+#include "io/shape_word.h"
 #include <clast/grading_file.h>
 #include <clast/hull.h>
 #include <clast/mesh_file.h>
@@ -21,28 +23,6 @@ void clast_pack_unload(clast_pack_source *source)
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
-}
-
-static bool ends_in(const char *text, const char *end)
-{
-    const size_t n = strlen(text);
-    const size_t m = strlen(end);
-    return n >= m && strcmp(text + n - m, end) == 0;
-}
-
-/// "ellipsoid:a,b,c" with full axes, any unit.
-static clast_status read_ellipsoid(const char *text, const char *name, clast_shape *shape)
-{
-    double axes[3];
-    if (clx_numbers_parse(text + strlen("ellipsoid:"), 3, axes) != CLAST_OK ||
-        fmin(axes[0], fmin(axes[1], axes[2])) <= 0.0) {
-        return clx_fail(CLAST_E_CONFIG, "'%s': write ellipsoid:a,b,c with three axes above 0",
-                        text);
-    }
-    for (int k = 0; k < 3; ++k) {
-        axes[k] *= 0.5;
-    }
-    return clast_shape_ellipsoid(name, axes, shape);
 }
 
 static clast_status read_surface(const clast_pack_config *config, const char *path,
@@ -78,15 +58,14 @@ static clast_status read_shape(const clast_pack_config *config, int32_t i, clast
 {
     const char *text = config->shapes.item[i];
     char name[256];
-    const char *slash = strrchr(text, '/');
-    (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, slash != NULL ? slash + 1 : text);
+    (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, clx_path_name(text));
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(name, 0.5, shape);
     }
-    if (strncmp(text, "ellipsoid:", strlen("ellipsoid:")) == 0) {
-        return read_ellipsoid(text, name, shape);
+    if (clx_is_ellipsoid_word(text)) {
+        return clx_ellipsoid_word(text, name, shape);
     }
-    if (ends_in(text, ".csv") || ends_in(text, ".h5")) {
+    if (clx_path_is(text, "csv") || clx_path_is(text, "h5")) {
         return read_clump(text, name, shape);
     }
     return read_surface(config, text, name, shape);
@@ -134,7 +113,8 @@ static const char *curve_file(const char *text)
     if (strncmp(text, "list:", 5) == 0) {
         return text + 5;
     }
-    return ends_in(text, ".csv") || ends_in(text, ".txt") || ends_in(text, ".tsv") ? text : NULL;
+    return clx_path_is(text, "csv") || clx_path_is(text, "txt") || clx_path_is(text, "tsv") ? text
+                                                                                            : NULL;
 }
 
 int32_t clast_pack_n_file(const clast_pack_config *config)

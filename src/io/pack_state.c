@@ -178,16 +178,6 @@ done:
     return status;
 }
 
-static const clast_table *find_table(const clast_state *state, const char *name)
-{
-    for (int32_t i = 0; i < state->n_table; ++i) {
-        if (strcmp(state->table[i].name, name) == 0) {
-            return &state->table[i];
-        }
-    }
-    return NULL;
-}
-
 clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -199,7 +189,7 @@ clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pa
     clx_h5_close(h5);
     h5 = NULL;
     CLX_TRY(clast_state_read(found->path, &state));
-    const clast_table *series = find_table(&state, "series");
+    const clast_table *series = clast_state_table(&state, "series");
     CLX_CHECK(series != NULL && state.assembly != NULL &&
                   saved.count[CLX_PACK_COUNTS - 1] == state.assembly->n_shape,
               CLAST_E_FORMAT, "%s lacks its series or shapes", found->path);

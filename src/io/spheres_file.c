@@ -2,6 +2,7 @@
 #include <clast/spheres_file.h>
 
 #include "base/alloc.h"
+#include "base/path.h"
 #include "base/status.h"
 #include "math/vec3.h"
 #include <clast/state.h>
@@ -12,8 +13,7 @@
 
 static bool is_state(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    return dot != NULL && (strcasecmp(dot, ".h5") == 0 || strcasecmp(dot, ".hdf5") == 0);
+    return clx_path_is(path, "h5") || clx_path_is(path, "hdf5");
 }
 
 /// True for "x", "x_um", "x (um)", "x [um]" when the wanted name is "x".
@@ -166,11 +166,10 @@ done:
 clast_status clast_spheres_write(const char *path, const char *name, const clast_spheres *spheres,
                                  const char *unit)
 {
-    const char *dot = strrchr(path, '.');
     if (is_state(path)) {
         return write_state(path, name, spheres, unit != NULL ? unit : "model");
     }
-    if (dot == NULL || strcasecmp(dot, ".csv") != 0) {
+    if (!clx_path_is(path, "csv")) {
         return clx_fail(CLAST_E_USAGE, "%s: spheres are written to .csv or .h5", path);
     }
     return write_csv(path, spheres);

@@ -25,6 +25,16 @@ void clast_state_free(clast_state *state)
     *state = (clast_state){0};
 }
 
+const clast_table *clast_state_table(const clast_state *state, const char *name)
+{
+    for (int32_t i = 0; i < state->n_table; ++i) {
+        if (strcmp(state->table[i].name, name) == 0) {
+            return &state->table[i];
+        }
+    }
+    return NULL;
+}
+
 /// Puts the file's name before an error that does not begin with it.
 static void name_file(const char *path)
 {

@@ -2,6 +2,7 @@
 #include "plot/canvas.h"
 
 #include "base/alloc.h"
+#include "base/path.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <string.h>
@@ -24,12 +25,11 @@ static cairo_status_t append(void *context, const unsigned char *data, unsigned 
 
 clast_status clx_canvas_format_of(const char *path, clx_canvas_format *format)
 {
-    const char *dot = strrchr(path, '.');
-    if (dot != NULL && strcmp(dot, ".svg") == 0) {
+    if (clx_path_is(path, "svg")) {
         *format = CLX_CANVAS_SVG;
-    } else if (dot != NULL && strcmp(dot, ".pdf") == 0) {
+    } else if (clx_path_is(path, "pdf")) {
         *format = CLX_CANVAS_PDF;
-    } else if (dot != NULL && strcmp(dot, ".png") == 0) {
+    } else if (clx_path_is(path, "png")) {
         *format = CLX_CANVAS_PNG;
     } else {
         return clx_fail(CLAST_E_USAGE, "%s: charts are written as .svg, .pdf or .png", path);

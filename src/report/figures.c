@@ -2,6 +2,7 @@
 #include "report/figures.h"
 
 #include "base/alloc.h"
+#include "base/path.h"
 #include "report/page.h"
 #include "report/quantity.h"
 #include <clast/aggregate_charts.h>
@@ -151,8 +152,7 @@ static bool is_drawn(const clx_run *run, const char *picture)
 
 static bool is_picture(const clx_run *run, const char *name)
 {
-    return (clx_has_extension(name, "png") || clx_has_extension(name, "svg")) &&
-           !is_drawn(run, name);
+    return (clx_path_is(name, "png") || clx_path_is(name, "svg")) && !is_drawn(run, name);
 }
 
 /// As a data URI: an <img> never runs a script, not even that of an SVG.
@@ -170,7 +170,7 @@ static clast_status put_picture(clx_file *file, const clx_run *run, const char *
         (void)clx_file_print(file, "<img alt=\"");
         clx_page_text(file, name);
         (void)clx_file_print(file, "\" src=\"data:image/%s;base64,",
-                             clx_has_extension(name, "png") ? "png" : "svg+xml");
+                             clx_path_is(name, "png") ? "png" : "svg+xml");
         clx_page_base64(file, bytes, (size_t)n);
         (void)clx_file_print(file, "\">");
     } else {

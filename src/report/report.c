@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "report/figures.h"
 #include "report/page.h"
 #include "report/provenance.h"
@@ -40,7 +41,7 @@ static int32_t count_states(const clx_run *run)
     int32_t n = 0;
     for (int32_t i = 0; i < run->files.n; ++i) {
         const char *name = run->files.name[i];
-        n += strncmp(name, "state", 5) == 0 && clx_has_extension(name, "h5") ? 1 : 0;
+        n += strncmp(name, "state", 5) == 0 && clx_path_is(name, "h5") ? 1 : 0;
     }
     return n;
 }

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include <clast/table_file.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,12 +23,6 @@ void clx_run_free(clx_run *run)
     clx_free(run->table);
     clx_free(run->path);
     *run = (clx_run){0};
-}
-
-bool clx_has_extension(const char *name, const char *extension)
-{
-    const char *dot = strrchr(name, '.');
-    return dot != NULL && dot != name && strcasecmp(dot + 1, extension) == 0;
 }
 
 bool clx_run_has(const clx_run *run, const char *file)
@@ -105,7 +100,7 @@ static clast_status read_tables(clx_run *run)
     char path[PATH_SIZE];
     for (int32_t i = 0; i < run->files.n && run->n_table < MAX_TABLE; ++i) {
         const char *file = run->files.name[i];
-        if (!clx_has_extension(file, "csv")) {
+        if (!clx_path_is(file, "csv")) {
             continue;
         }
         CLX_TRY(clx_run_path(run, file, path, sizeof path));

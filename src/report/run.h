@@ -31,6 +31,3 @@ bool clx_run_has(const clx_run *run, const char *file);
 
 /// FOLDER/file into path [size]; CLAST_E_IO if too long.
 clast_status clx_run_path(const clx_run *run, const char *file, char *path, size_t size);
-
-/// True for "name.EXTENSION", any case.
-bool clx_has_extension(const char *name, const char *extension);

@@ -131,6 +131,30 @@ static double radius_of(const clast_mesh *mesh)
     return sqrt(r2);
 }
 
+static void take_mass(const clast_mass *mass, clast_shape *made)
+{
+    made->volume = mass->volume;
+    v3_copy(made->source_origin, mass->centroid);
+    for (int i = 0; i < 3; ++i) {
+        v3_copy(made->inertia[i], mass->inertia[i]);
+    }
+}
+
+/// Hands the made shape over, or frees it and puts its name before the error.
+static clast_status finish(clast_status status, const char *name, clast_shape *made,
+                           clast_shape *shape)
+{
+    if (status == CLAST_OK) {
+        *shape = *made;
+        return CLAST_OK;
+    }
+    clast_shape_free(made);
+    if (name != NULL && name[0] != '\0') {
+        clx_fail_prefix("%s", name);
+    }
+    return status;
+}
+
 clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
@@ -145,21 +169,11 @@ clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh, clast_sh
     for (int32_t i = 0; i < made.mesh.n_vert; ++i) {
         v3_sub(made.mesh.vert[i], made.mesh.vert[i], mass.centroid);
     }
-    made.volume = mass.volume;
     CLX_TRY(clast_mesh_length(&made.mesh, &made.length));
     made.bounding_radius = radius_of(&made.mesh);
-    v3_copy(made.source_origin, mass.centroid);
-    for (int i = 0; i < 3; ++i) {
-        v3_copy(made.inertia[i], mass.inertia[i]);
-    }
-    *shape = made;
-    made = (clast_shape){0};
+    take_mass(&mass, &made);
 done:
-    clast_shape_free(&made);
-    if (status != CLAST_OK && name != NULL && name[0] != '\0') {
-        clx_fail_prefix("%s", name);
-    }
-    return status;
+    return finish(status, name, &made, shape);
 }
 
 clast_status clast_shape_clump(const char *name, const clast_spheres *spheres, clast_shape *shape)
@@ -176,20 +190,10 @@ clast_status clast_shape_clump(const char *name, const clast_spheres *spheres, c
         v3_sub(centre, centre, mass.centroid);
         made.bounding_radius = fmax(made.bounding_radius, v3_norm(centre) + spheres->radius[i]);
     }
-    made.volume = mass.volume;
     made.length = clx_spheres_length(spheres);
-    v3_copy(made.source_origin, mass.centroid);
-    for (int i = 0; i < 3; ++i) {
-        v3_copy(made.inertia[i], mass.inertia[i]);
-    }
-    *shape = made;
-    made = (clast_shape){0};
+    take_mass(&mass, &made);
 done:
-    clast_shape_free(&made);
-    if (status != CLAST_OK && name != NULL && name[0] != '\0') {
-        clx_fail_prefix("%s", name);
-    }
-    return status;
+    return finish(status, name, &made, shape);
 }
 
 static clast_status spheres_surface(const clast_spheres *spheres, int level, clast_mesh *mesh)

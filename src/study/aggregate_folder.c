@@ -118,20 +118,10 @@ done:
     return status;
 }
 
-static const clast_table *find_table(const clast_state *state, const char *name)
-{
-    for (int32_t i = 0; i < state->n_table; ++i) {
-        if (strcmp(state->table[i].name, name) == 0) {
-            return &state->table[i];
-        }
-    }
-    return NULL;
-}
-
 clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *saved)
 {
     clast_status status = CLAST_OK;
-    const clast_table *history = find_table(state, "history");
+    const clast_table *history = clast_state_table(state, "history");
     const double *repeat = history != NULL ? clast_table_numbers(history, "repeat") : NULL;
     CLX_CHECK(state->assembly != NULL && state->config != NULL && history != NULL, CLAST_E_FORMAT,
               "the state is not one of clast aggregate");
@@ -139,7 +129,7 @@ clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *s
         .repeat = repeat != NULL && history->n_row > 0 ? (int32_t)repeat[0] : 0,
         .placed = state->assembly,
         .history = history,
-        .members = find_table(state, "members")};
+        .members = clast_state_table(state, "members")};
 done:
     return status;
 }

@@ -1,0 +1,15 @@
+#pragma once
+// The parts of a file's path, as text.
+#include <stdbool.h>
+
+/// The part behind the last slash.
+const char *clx_path_name(const char *path);
+
+/// What follows the name's last dot; "" without one, and for a name such as ".profile".
+const char *clx_path_extension(const char *path);
+
+/// Whether the extension is this one, upper or lower case.
+bool clx_path_is(const char *path, const char *extension);
+
+/// Length of the name without dot and extension.
+int clx_path_stem_length(const char *path);
