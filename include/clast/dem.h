@@ -104,6 +104,12 @@ typedef struct clast_dem clast_dem;
 CLAST_API clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem);
 CLAST_API void clast_dem_destroy(clast_dem *dem); ///< NULL is allowed
 
+/// Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any
+/// obstacle. Once, before the first grain. Planes and sides of the domain stay as configured.
+///
+/// @return CLAST_E_GEOMETRY if no triangle has an area
+CLAST_API clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh);
+
 /// Adds a copy of a shape; its number goes to *id.
 ///
 /// @return CLAST_E_GEOMETRY for a shape without volume, or a mesh that is open or not convex

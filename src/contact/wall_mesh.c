@@ -112,6 +112,35 @@ bool clx_triangle_owns(const clx_wall_triangle *t, const clx_placed *body,
     return true;
 }
 
+bool clx_triangle_face_contact(const clx_wall_triangle *t, const clx_placed *body,
+                               clx_contact *contact)
+{
+    double d[3];
+    double plane[4];
+    v3_sub(d, body->position, t->centroid);
+    v3_scale(plane, v3_dot(d, t->normal) < 0.0 ? -1.0 : 1.0, t->normal);
+    plane[3] = v3_dot(plane, t->centroid);
+    clx_plane_contact(body, plane, NULL, contact);
+    if (contact->gap >= 0.0) {
+        return false;
+    }
+    v3_add(d, contact->point, body->position);
+    for (int k = 0; k < 3; ++k) {
+        double from[3];
+        v3_sub(from, d, t->corner[k]);
+        if (v3_dot(from, t->out[k]) > ON_SIDE * t->reach - contact->gap) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool clx_triangle_push(const clx_wall_triangle *t, const clx_placed *body, clx_contact *contact)
+{
+    return clx_triangle_owns(t, body, contact) ||
+           (contact->gap < 0.0 && clx_triangle_face_contact(t, body, contact));
+}
+
 /// Squared distance of a point from a node's box.
 static double box_distance2(const clx_tree_node *node, const double x[3])
 {
@@ -193,7 +222,7 @@ int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body
         clx_wall_contact one = {.tri = n_near <= MOST_NEAR ? tri[i] : i};
         const clx_wall_triangle *t = &wall->tri[one.tri];
         if (clx_triangle_contact(t, body, max_gap, NULL, &one.contact) &&
-            clx_triangle_owns(t, body, &one.contact)) {
+            clx_triangle_push(t, body, &one.contact)) {
             n = insert(contact, n, cap, &one);
         }
     }

@@ -47,6 +47,18 @@ bool clx_triangle_contact(const clx_wall_triangle *triangle, const clx_placed *b
 bool clx_triangle_owns(const clx_wall_triangle *triangle, const clx_placed *body,
                        const clx_contact *contact);
 
+/// Push along the triangle's own normal, away from the side of the body's position: where the
+/// body's deepest point lies over the triangle. For a body whose least move off a triangle is
+/// sideways though it stands on the surface: a corner that meets the wall within its own overlap of
+/// an edge.
+bool clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_placed *body,
+                               clx_contact *contact);
+
+/// The push of a triangle that overlaps a body: `contact` as clx_triangle_contact gave it if that
+/// belongs to the triangle, else its face's. False if another triangle has it.
+bool clx_triangle_push(const clx_wall_triangle *triangle, const clx_placed *body,
+                       clx_contact *contact);
+
 /// All contacts of a body with the wall whose gap is at most max_gap, deepest first: one for each
 /// direction of push (25 degrees), at most `cap`. Returns how many.
 int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body, double max_gap,

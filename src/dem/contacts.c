@@ -7,94 +7,10 @@
 #include "dem/dem.h"
 
 #include "base/parallel.h"
-#include "dem/touch.h"
+#include "dem/container.h"
+#include "dem/push.h"
 
 enum { BLOCK = 128 };
-
-/// Velocity of b's surface relative to a's at the contact point, and spins.
-static inline void approach(const clx_grain *a, const clx_grain *b, const clx_dem_touch *t,
-                            clx_meeting *m)
-{
-    double u[3];
-    double w[3];
-    v3_cross(u, a->spin, t->arm_a);
-    v3_add(u, u, a->velocity);
-    v3_cross(w, b->spin, t->arm_b);
-    v3_add(w, w, b->velocity);
-    v3_sub(m->velocity, w, u);
-    v3_sub(m->roll, b->spin, a->spin);
-    m->twirl = 0.5 * (v3_dot(a->spin, t->normal) + v3_dot(b->spin, t->normal));
-}
-
-static inline void add_push(const clx_dem_touch *t, const clx_push *push, bool normal_torque,
-                            clx_load *on_a, clx_load *on_b)
-{
-    double force[3];
-    double turning[3];
-    double torque[3];
-    v3_axpy(force, push->tangential, push->normal, t->normal);
-    v3_add(on_b->force, on_b->force, force);
-    v3_sub(on_a->force, on_a->force, force);
-    v3_copy(turning, normal_torque ? force : push->tangential);
-    v3_cross(torque, t->arm_b, turning);
-    v3_add(torque, torque, push->rolling); // one sum a contact: the gathered one has the same bytes
-    v3_add(on_b->torque, on_b->torque, torque);
-    v3_cross(torque, t->arm_a, turning);
-    v3_add(torque, torque, push->rolling);
-    v3_sub(on_a->torque, on_a->torque, torque);
-}
-
-static const clx_grain immovable = {.kind = CLAST_SHAPE_SPHERE};
-
-/// Reduced moment of inertia, of spheres of equal volume: only a bound of the rolling torque.
-static double reduced_inertia(const clx_grain *a, const clx_grain *b)
-{
-    const double ia = 0.4 * a->mass * a->round_radius * a->round_radius;
-    const double ib = 0.4 * b->mass * b->round_radius * b->round_radius;
-    return b->mass > 0.0 ? ia * ib / (ia + ib) : ia;
-}
-
-static inline double radius_of(const clast_dem *dem, int32_t item)
-{
-    return dem->item != NULL && dem->item[item].part >= 0
-               ? dem->item[item].radius
-               : dem->grain[clx_item_grain(dem, item)].round_radius;
-}
-
-/// A pair that touches.
-static inline void push_pair(const clast_dem *dem, clx_link *p, const clx_dem_touch *t,
-                             clx_load *on_a, clx_load *on_b)
-{
-    const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
-    const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &immovable;
-    const bool needs_radius = dem->law.kind != CLAST_DEM_LINEAR ||
-                              dem->law.cohesion != CLAST_DEM_DRY || dem->law.rolling > 0.0;
-    const double ra = needs_radius ? radius_of(dem, p->a) : 0.0;
-    clx_meeting m;
-    clx_push push;
-    m.overlap = -t->distance;
-    v3_copy(m.normal, t->normal);
-    approach(a, b, t, &m);
-    if (p->b >= 0) {
-        m.mass = a->mass * b->mass / (a->mass + b->mass);
-        m.radius = 0.0;
-        if (needs_radius) {
-            const double rb = radius_of(dem, p->b);
-            m.radius = ra * rb / (ra + rb);
-        }
-        m.friction = dem->law.friction[0];
-    } else {
-        m.mass = a->mass;
-        m.radius = ra;
-        m.friction = dem->law.friction[1];
-    }
-    clx_law_force(&dem->law, &m, dem->config.time_step, p->slide, &push);
-    v3_set(push.rolling, 0.0, 0.0, 0.0);
-    if (dem->law.rolling > 0.0) {
-        clx_law_roll(&dem->law, &m, reduced_inertia(a, b), dem->config.time_step, &push);
-    }
-    add_push(t, &push, dem->config.normal_torque, on_a, on_b);
-}
 
 /// A pair of the list: asleep, apart, or in touch. True when it loaded its grains.
 static inline bool meet(const clast_dem *dem, clx_link *p, clx_load *on_a, clx_load *on_b)
@@ -113,15 +29,30 @@ static inline bool meet(const clast_dem *dem, clx_link *p, clx_load *on_a, clx_l
         return false;
     }
     p->flags = CLX_LINK_TOUCHES;
-    push_pair(dem, p, &t, on_a, on_b);
+    clx_push_pair(dem, &dem->law, p, &t, on_a, on_b);
     return true;
+}
+
+/// Contacts of an item with the container, which stand first in its list; the first link after.
+static inline int64_t meet_container(clast_dem *dem, int32_t i, clx_load *own)
+{
+    if (dem->container == NULL) {
+        return dem->list.begin[i];
+    }
+    clx_load wall = {0};
+    clx_container_touch touch[CLX_CONTAINER_TOUCHES];
+    const int32_t n = clx_container_meet(dem, i, touch);
+    for (int32_t k = 0; k < n; ++k) {
+        clx_push_pair(dem, &dem->law, &dem->list.link[touch[k].link], &touch[k].touch, own, &wall);
+    }
+    return clx_container_end(dem, i);
 }
 
 static void meet_serial(clast_dem *dem)
 {
     for (int32_t i = 0; i < dem->n_item; ++i) {
         clx_load own = {0};
-        for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
+        for (int64_t k = meet_container(dem, i, &own); k < dem->list.begin[i + 1]; ++k) {
             clx_link *p = &dem->list.link[k];
             clx_load wall = {0};
             clx_load *on_b = p->b >= 0 ? &dem->load[clx_item_grain(dem, p->b)] : &wall;
@@ -139,7 +70,7 @@ static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         clx_load own = {0};
-        for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
+        for (int64_t k = meet_container(dem, (int32_t)i, &own); k < dem->list.begin[i + 1]; ++k) {
             clx_load on_b = {0};
             if (meet(dem, &dem->list.link[k], &own, &on_b)) {
                 dem->hit[k] = on_b;

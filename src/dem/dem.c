@@ -32,6 +32,7 @@ void clast_dem_destroy(clast_dem *dem)
         clx_hull_core_destroy(dem->body[i].core);
     }
     clx_list_free(&dem->list);
+    clx_wall_mesh_destroy(dem->container);
     clx_free(dem->body);
     clx_free(dem->grain);
     clx_free(dem->motion);

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/status.h"
 #include "contact/convex.h"
+#include "contact/wall_mesh.h"
 #include "dem/law.h"
 #include "math/vec3.h"
 #include <clast/dem.h>
@@ -131,6 +132,8 @@ typedef struct clx_list {
     double *limit;        ///< [n_item] below this travel an item is surely within its margin
     uint8_t *is_stale;    ///< [n_item] looks for its neighbours in this refresh
     int64_t item_capacity;
+    int32_t *near; ///< triangles of the container about one item
+    int64_t near_capacity;
     int64_t *in_begin; ///< [n_grain + 1] links whose b is an item of this grain
     int64_t *in_link;  ///< [n_link] their numbers, rising; only with several threads
     int64_t in_capacity;
@@ -151,7 +154,8 @@ struct clast_dem {
     int64_t step;
     int32_t n_wall;
     clx_wall wall[CLX_MAX_WALL];
-    double period[2]; ///< widths of a periodic domain, else 0
+    double period[2];         ///< widths of a periodic domain, else 0
+    clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
     bool has_items;     ///< some shape is a clump: items are not grains

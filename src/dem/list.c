@@ -8,6 +8,7 @@
 #include "dem/list.h"
 
 #include "base/alloc.h"
+#include "dem/container.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +23,7 @@ void clx_list_free(clx_list *list)
     clx_free(list->anchor);
     clx_free(list->limit);
     clx_free(list->is_stale);
+    clx_free(list->near);
     clx_free(list->in_begin);
     clx_free(list->in_link);
     clx_dem_grid_free(&list->grid);
@@ -100,6 +102,9 @@ static clast_status find_walls(clast_dem *dem, int32_t i)
         if (d < clx_item_radius(dem, i) + at->margin) {
             CLX_TRY(add_found(&dem->list, (clx_found){.a = i, .b = -1 - w}));
         }
+    }
+    if (dem->container != NULL) {
+        CLX_TRY(clx_container_find(dem, i));
     }
 done:
     return status;

@@ -111,9 +111,10 @@ static clast_status take_link(const clast_dem *dem, const clx_dem_saved *s, int6
     clast_status status = CLAST_OK;
     const int32_t *id = &s->id[k * CLX_SAVED_ID];
     const double *in = &s->link[k * CLX_SAVED_LINK];
+    const int32_t n_wall = dem->n_wall + (dem->container != NULL ? dem->container->n_tri : 0);
     const bool is_next = k == 0 || id[0] > id[-CLX_SAVED_ID] ||
                          (id[0] == id[-CLX_SAVED_ID] && id[1] > id[1 - CLX_SAVED_ID]);
-    CLX_CHECK(id[0] >= 0 && id[0] < dem->n_item && id[1] < dem->n_item && id[1] >= -dem->n_wall &&
+    CLX_CHECK(id[0] >= 0 && id[0] < dem->n_item && id[1] < dem->n_item && id[1] >= -n_wall &&
                   (id[1] < 0 || id[1] > id[0]) && is_next,
               CLAST_E_FORMAT, "link %lld of the checkpoint joins %d and %d", (long long)k, id[0],
               id[1]);

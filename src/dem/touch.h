@@ -78,6 +78,10 @@ void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_me
 void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
                            clx_dem_touch *t);
 
+/// An item at a triangle of the container, as if that stood alone.
+void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
+                               clx_contact_memory *memory, clx_dem_touch *t);
+
 /// @param memory  of the link; NULL when all items are spheres
 static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link,
                                       clx_contact_memory *memory, clx_dem_touch *t)
@@ -90,6 +94,8 @@ static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link
         } else {
             clx_touch_convex(dem, link, memory, t);
         }
+    } else if (link->b < -dem->n_wall) {
+        clx_container_touch_again(dem, link, memory, t);
     } else if (is_round) {
         clx_touch_wall(dem, link, t);
     } else {

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 clast_dem_config scene_physics(void)
 {
@@ -160,4 +161,100 @@ clast_dem *scene_p1(int32_t n, double width, int32_t n_vert)
     }
     clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 1.0});
     return dem;
+}
+
+clast_dem_config scene_space(void)
+{
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_OPEN;
+    c.floor = false;
+    c.gravity = 0.0;
+    return c;
+}
+
+/// Corners on the axes.
+static clast_status octahedron(double r, clast_mesh *mesh)
+{
+    static const int32_t tri[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                      {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    const clast_status status = clast_mesh_alloc(6, 8, mesh);
+    for (int i = 0; status == CLAST_OK && i < 6; ++i) {
+        mesh->vert[i][i / 2] = i % 2 == 0 ? r : -r;
+    }
+    if (status == CLAST_OK) {
+        memcpy(mesh->tri, tri, sizeof tri);
+    }
+    return status;
+}
+
+static clast_status dumb_bell(clast_shape *shape)
+{
+    clast_spheres balls = {0};
+    clast_status status = clast_spheres_alloc(2, &balls);
+    if (status == CLAST_OK) {
+        balls.centre[0][0] = 2e-3;
+        balls.centre[1][0] = -2e-3;
+        balls.radius[0] = balls.radius[1] = 2e-3;
+        status = clast_shape_clump("clump", &balls, shape);
+    }
+    clast_spheres_free(&balls);
+    return status;
+}
+
+clast_status scene_body(scene_body_kind kind, clast_shape *shape)
+{
+    const double axes[3] = {4e-3, 3e-3, 2e-3};
+    clast_mesh mesh = {0};
+    clast_status status = CLAST_OK;
+    switch (kind) {
+    case SCENE_BALL:
+        return clast_shape_sphere("ball", 4e-3, shape);
+    case SCENE_EGG:
+        return clast_shape_ellipsoid("egg", axes, shape);
+    case SCENE_OCTAHEDRON:
+        status = octahedron(4e-3, &mesh);
+        status = status == CLAST_OK ? clast_shape_mesh("octahedron", &mesh, shape) : status;
+        break;
+    case SCENE_CUBE:
+        status = clast_mesh_box(8e-3, 8e-3, 8e-3, &mesh);
+        status = status == CLAST_OK ? clast_shape_mesh("cube", &mesh, shape) : status;
+        break;
+    default:
+        return dumb_bell(shape);
+    }
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+clast_dem *scene_bodies(const clast_dem_config *config, const clast_shape *shape, int32_t n,
+                        const clast_dem_grain *grain)
+{
+    clast_dem *dem = NULL;
+    int32_t id = 0;
+    clast_status status = clast_dem_create(config, &dem);
+    status = status == CLAST_OK ? clast_dem_add_shape(dem, shape, &id) : status;
+    status = status == CLAST_OK ? clast_dem_add_grains(dem, n, grain) : status;
+    if (status != CLAST_OK) {
+        clast_dem_destroy(dem);
+        return NULL;
+    }
+    return dem;
+}
+
+double scene_collide(clast_dem *dem, double dt)
+{
+    int64_t touching = 0;
+    for (int64_t k = 0; k < 1000000; ++k) {
+        clast_dem_measures m;
+        if (clast_dem_step(dem, 1) != CLAST_OK) {
+            return (double)NAN;
+        }
+        clast_dem_measure(dem, &m);
+        if (m.n_contact + m.n_wall_contact > 0) {
+            ++touching;
+        } else if (touching > 0) {
+            break;
+        }
+    }
+    return (double)touching * dt;
 }

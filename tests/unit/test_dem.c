@@ -28,33 +28,6 @@ static clast_dem_grain at(double x, double y, double z)
                              .orientation = {1.0, 0.0, 0.0, 0.0}};
 }
 
-/// Empty space without weight.
-static clast_dem_config space(void)
-{
-    clast_dem_config c = scene_physics();
-    c.domain = CLAST_DEM_OPEN;
-    c.floor = false;
-    c.gravity = 0.0;
-    return c;
-}
-
-/// Steps until two grains that meet head on have parted; their duration of touch.
-static double collide(clast_dem *dem, double dt)
-{
-    int64_t touching = 0;
-    for (int64_t k = 0; k < 1000000; ++k) {
-        clast_dem_measures m;
-        CHECK_OK(clast_dem_step(dem, 1));
-        clast_dem_measure(dem, &m);
-        if (m.n_contact + m.n_wall_contact > 0) {
-            ++touching;
-        } else if (touching > 0) {
-            break;
-        }
-    }
-    return (double)touching * dt;
-}
-
 /* Eq. 11 is built so that a collision lasts T_c and keeps e_n of the speed. The scheme is of first
  * order: an error of |ln e| dt / T_c, up to a factor of two, is its own. */
 static void collision_has_its_restitution_and_duration(void **state)
@@ -62,7 +35,7 @@ static void collision_has_its_restitution_and_duration(void **state)
     (void)state;
     const double wanted[] = {0.1, 0.5, 0.9};
     for (int k = 0; k < 3; ++k) {
-        clast_dem_config c = space();
+        clast_dem_config c = scene_space();
         c.restitution = wanted[k];
         c.time_step = c.collision_time / 2000.0;
         clast_dem *dem = make(&c);
@@ -71,7 +44,7 @@ static void collision_has_its_restitution_and_duration(void **state)
         pair[0].velocity[0] = 0.2;
         pair[1].velocity[0] = -0.1;
         CHECK_OK(clast_dem_add_grains(dem, 2, pair));
-        const double lasted = collide(dem, c.time_step);
+        const double lasted = scene_collide(dem, c.time_step);
         clast_dem_read_grain(dem, 0, &pair[0]);
         clast_dem_read_grain(dem, 1, &pair[1]);
         CHECK_REL((pair[1].velocity[0] - pair[0].velocity[0]) / 0.3, wanted[k],
@@ -86,7 +59,7 @@ static void hertz_restitution_is_independent_of_speed(void **state)
 {
     (void)state;
     for (int decade = -2; decade <= 0; ++decade) {
-        clast_dem_config c = space();
+        clast_dem_config c = scene_space();
         c.law = CLAST_DEM_HERTZ;
         c.restitution = 0.5;
         c.young = 1e8;
@@ -95,7 +68,7 @@ static void hertz_restitution_is_independent_of_speed(void **state)
         clast_dem_grain pair[2] = {at(-1.00001 * RADIUS, 0.0, 0.0), at(1.00001 * RADIUS, 0.0, 0.0)};
         pair[0].velocity[0] = pow(10.0, decade);
         CHECK_OK(clast_dem_add_grains(dem, 2, pair));
-        (void)collide(dem, c.time_step);
+        (void)scene_collide(dem, c.time_step);
         clast_dem_read_grain(dem, 0, &pair[0]);
         clast_dem_read_grain(dem, 1, &pair[1]);
         CHECK_REL((pair[1].velocity[0] - pair[0].velocity[0]) / pow(10.0, decade), 0.5, 2e-3);
@@ -111,7 +84,7 @@ static void walls_bounce_with_their_restitution(void **state)
     const clast_dem_domain domain[4] = {CLAST_DEM_OPEN, CLAST_DEM_OPEN, CLAST_DEM_BOX,
                                         CLAST_DEM_CYLINDER};
     for (int k = 0; k < 4; ++k) {
-        clast_dem_config c = space();
+        clast_dem_config c = scene_space();
         c.domain = domain[k];
         c.floor = true;
         c.lid = true;
@@ -127,7 +100,7 @@ static void walls_bounce_with_their_restitution(void **state)
         const double speed =
             sqrt(way[k][0] * way[k][0] + way[k][1] * way[k][1] + way[k][2] * way[k][2]);
         CHECK_OK(clast_dem_add_grains(dem, 1, &grain));
-        CHECK_REL(collide(dem, c.time_step), c.collision_time, 2e-3);
+        CHECK_REL(scene_collide(dem, c.time_step), c.collision_time, 2e-3);
         clast_dem_read_grain(dem, 0, &grain);
         double back = 0.0;
         for (int i = 0; i < 3; ++i) {
@@ -187,7 +160,7 @@ static void sliding_sphere_begins_to_roll(void **state)
 static void collision_keeps_momentum(void **state)
 {
     (void)state;
-    clast_dem_config c = space();
+    clast_dem_config c = scene_space();
     clast_dem *dem = make(&c);
     clast_dem_grain g[3] = {at(0.0, 0.0, 0.0), at(2.1 * RADIUS, 0.7 * RADIUS, 0.0),
                             at(-0.5 * RADIUS, 2.2 * RADIUS, 0.3 * RADIUS)};
@@ -234,7 +207,7 @@ static void clipped_dashpot_never_pulls(void **state)
 {
     (void)state;
     for (int clip = 0; clip < 2; ++clip) {
-        clast_dem_config c = space();
+        clast_dem_config c = scene_space();
         c.clip = clip == 1;
         clast_dem *dem = make(&c);
         clast_dem_grain pair[2] = {at(-1.0001 * RADIUS, 0.0, 0.0), at(1.0001 * RADIUS, 0.0, 0.0)};
@@ -258,7 +231,7 @@ static void clipped_dashpot_never_pulls(void **state)
 static void attraction_sets_the_overlap(void **state)
 {
     (void)state;
-    clast_dem_config c = space();
+    clast_dem_config c = scene_space();
     c.cohesion = CLAST_DEM_DMT;
     c.surface_energy = 0.05;
     clast_dem *dem = make(&c);
@@ -298,7 +271,7 @@ static void rolling_friction_slows_a_rolling_sphere(void **state)
 static void drag_ends_at_terminal_velocity(void **state)
 {
     (void)state;
-    clast_dem_config c = space();
+    clast_dem_config c = scene_space();
     c.gravity = 9.81;
     c.fluid_viscosity = 1e-3;
     clast_dem *dem = make(&c);
@@ -317,7 +290,7 @@ static void drag_ends_at_terminal_velocity(void **state)
 static void drive_shakes_and_damps(void **state)
 {
     (void)state;
-    clast_dem_config c = space();
+    clast_dem_config c = scene_space();
     clast_dem *dem = make(&c);
     clast_dem_grain ball = at(0.0, 0.0, 0.0);
     ball.velocity[1] = 0.3;
@@ -374,7 +347,7 @@ static void bad_input_is_refused(void **state)
 static void explosion_names_its_cause(void **state)
 {
     (void)state;
-    clast_dem_config c = space();
+    clast_dem_config c = scene_space();
     c.restitution = 1.0;
     clast_dem *dem = make(&c);
     clast_dem_grain pair[2] = {at(0.0, 0.0, 0.0), at(0.02 * RADIUS, 0.0, 0.0)};

@@ -8,100 +8,28 @@
 
 static const double DENSITY = 2650.0;
 
-static clast_dem_config space(void)
-{
-    clast_dem_config c = scene_physics();
-    c.domain = CLAST_DEM_OPEN;
-    c.floor = false;
-    c.gravity = 0.0;
-    return c;
-}
-
-typedef enum { BALL, EGG, OCTAHEDRON, CUBE, CLUMP, N_KIND } kind;
-
-/// Corners on the axes.
-static void octahedron(double r, clast_mesh *mesh)
-{
-    static const int32_t tri[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                      {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-    CHECK_OK(clast_mesh_alloc(6, 8, mesh));
-    for (int i = 0; i < 6; ++i) {
-        mesh->vert[i][i / 2] = i % 2 == 0 ? r : -r;
-    }
-    memcpy(mesh->tri, tri, sizeof tri);
-}
-
-/// A shape that reaches 4 mm along x, with its extreme point on the axis.
-static void make_shape(kind k, clast_shape *shape)
-{
-    clast_mesh mesh = {0};
-    clast_spheres balls = {0};
-    const double axes[3] = {4e-3, 3e-3, 2e-3};
-    switch (k) {
-    case BALL:
-        CHECK_OK(clast_shape_sphere("ball", 4e-3, shape));
-        break;
-    case EGG:
-        CHECK_OK(clast_shape_ellipsoid("egg", axes, shape));
-        break;
-    case OCTAHEDRON:
-        octahedron(4e-3, &mesh);
-        CHECK_OK(clast_shape_mesh("octahedron", &mesh, shape));
-        break;
-    case CUBE:
-        CHECK_OK(clast_mesh_box(8e-3, 8e-3, 8e-3, &mesh));
-        CHECK_OK(clast_shape_mesh("cube", &mesh, shape));
-        break;
-    default:
-        CHECK_OK(clast_spheres_alloc(2, &balls));
-        balls.centre[0][0] = 2e-3;
-        balls.centre[1][0] = -2e-3;
-        balls.radius[0] = balls.radius[1] = 2e-3;
-        CHECK_OK(clast_shape_clump("clump", &balls, shape));
-        break;
-    }
-    clast_mesh_free(&mesh);
-    clast_spheres_free(&balls);
-}
-
-static double collide(clast_dem *dem, double dt)
-{
-    int64_t touching = 0;
-    for (int64_t k = 0; k < 1000000; ++k) {
-        clast_dem_measures m;
-        CHECK_OK(clast_dem_step(dem, 1));
-        clast_dem_measure(dem, &m);
-        if (m.n_contact + m.n_wall_contact > 0) {
-            ++touching;
-        } else if (touching > 0) {
-            break;
-        }
-    }
-    return (double)touching * dt;
-}
-
 /* Head on along x, through both centres: e_n and T_c, whatever the kinds. A cube meets the corner
  * of another body only (face on face has no point of its own); corner on corner parts sideways. */
 static void every_pair_kind_has_its_restitution_and_duration(void **state)
 {
     (void)state;
-    for (int a = 0; a < N_KIND; ++a) {
-        for (int b = a; b < N_KIND; ++b) {
-            if (a == b && (a == CUBE || a == OCTAHEDRON)) {
+    for (int a = 0; a < N_SCENE_BODY; ++a) {
+        for (int b = a; b < N_SCENE_BODY; ++b) {
+            if (a == b && (a == SCENE_CUBE || a == SCENE_OCTAHEDRON)) {
                 continue;
             }
-            clast_dem_config c = space();
+            clast_dem_config c = scene_space();
             c.restitution = 0.3;
             c.time_step = c.collision_time / 1000.0;
             clast_dem *dem = NULL;
             clast_shape shape[2] = {{0}, {0}};
             int32_t id[2];
             CHECK_OK(clast_dem_create(&c, &dem));
-            make_shape((kind)a, &shape[0]);
+            CHECK_OK(scene_body((scene_body_kind)a, &shape[0]));
             CHECK_OK(clast_dem_add_shape(dem, &shape[0], &id[0]));
             id[1] = id[0];
             if (a != b) {
-                make_shape((kind)b, &shape[1]);
+                CHECK_OK(scene_body((scene_body_kind)b, &shape[1]));
                 CHECK_OK(clast_dem_add_shape(dem, &shape[1], &id[1]));
             }
             clast_dem_grain g[2] = {
@@ -111,7 +39,7 @@ static void every_pair_kind_has_its_restitution_and_duration(void **state)
             g[1].position[0] = 4.0001e-3;
             g[0].velocity[0] = 0.05;
             CHECK_OK(clast_dem_add_grains(dem, 2, g));
-            CHECK_REL(collide(dem, c.time_step), c.collision_time, 4e-3);
+            CHECK_REL(scene_collide(dem, c.time_step), c.collision_time, 4e-3);
             clast_dem_read_grain(dem, 0, &g[0]);
             clast_dem_read_grain(dem, 1, &g[1]);
             CHECK_REL((g[1].velocity[0] - g[0].velocity[0]) / 0.05, 0.3, 2.0 * 1.2 / 1000.0 + 1e-3);
@@ -125,12 +53,12 @@ static void every_pair_kind_has_its_restitution_and_duration(void **state)
 static void every_kind_bounces_off_walls(void **state)
 {
     (void)state;
-    for (int k = 0; k < N_KIND; ++k) {
+    for (int k = 0; k < N_SCENE_BODY; ++k) {
         for (int wall = 0; wall < 2; ++wall) {
-            if (k == CUBE) {
+            if (k == SCENE_CUBE) {
                 continue;
             }
-            clast_dem_config c = space();
+            clast_dem_config c = scene_space();
             c.domain = wall == 0 ? CLAST_DEM_BOX : CLAST_DEM_CYLINDER;
             c.width = 0.04;
             c.restitution = 0.3;
@@ -139,13 +67,13 @@ static void every_kind_bounces_off_walls(void **state)
             clast_shape shape = {0};
             int32_t id = 0;
             CHECK_OK(clast_dem_create(&c, &dem));
-            make_shape((kind)k, &shape);
+            CHECK_OK(scene_body((scene_body_kind)k, &shape));
             CHECK_OK(clast_dem_add_shape(dem, &shape, &id));
             clast_dem_grain g = {.scale = 1.0, .density = DENSITY, .orientation = {1.0}};
             g.position[0] = 0.02 - 4.0001e-3;
             g.velocity[0] = 0.05;
             CHECK_OK(clast_dem_add_grains(dem, 1, &g));
-            CHECK_REL(collide(dem, c.time_step), c.collision_time, 4e-3);
+            CHECK_REL(scene_collide(dem, c.time_step), c.collision_time, 4e-3);
             clast_dem_read_grain(dem, 0, &g);
             CHECK_REL(-g.velocity[0] / 0.05, 0.3, 2.0 * 1.2 / 1000.0 + 1e-3);
             clast_dem_destroy(dem);
@@ -160,7 +88,7 @@ static void free_body_keeps_momentum_and_energy(void **state)
     (void)state;
     const double axes[3] = {4e-3, 3e-3, 2e-3};
     for (int plain = 0; plain < 2; ++plain) {
-        clast_dem_config c = space();
+        clast_dem_config c = scene_space();
         c.gyroscopic = plain == 0;
         clast_dem *dem = NULL;
         clast_shape shape = {0};
@@ -213,7 +141,7 @@ static void free_body_keeps_momentum_and_energy(void **state)
 static void bodies_rest_on_the_floor(void **state)
 {
     (void)state;
-    const kind kinds[] = {EGG, CUBE, CLUMP};
+    const scene_body_kind kinds[] = {SCENE_EGG, SCENE_CUBE, SCENE_CLUMP};
     const double half[] = {2e-3, 4e-3, 2e-3};
     const double ln = log(0.1);
     const double rest = 9.81 * (1.0 - 1000.0 / DENSITY) * 4e-8 / (CLAST_PI * CLAST_PI + ln * ln);
@@ -224,7 +152,7 @@ static void bodies_rest_on_the_floor(void **state)
         clast_shape shape = {0};
         int32_t id = 0;
         CHECK_OK(clast_dem_create(&c, &dem));
-        make_shape(kinds[k], &shape);
+        CHECK_OK(scene_body(kinds[k], &shape));
         CHECK_OK(clast_dem_add_shape(dem, &shape, &id));
         clast_dem_grain g = {.scale = 1.0, .density = DENSITY, .orientation = {1.0}};
         g.position[2] = half[k] * 1.001;
@@ -242,7 +170,7 @@ static void bodies_rest_on_the_floor(void **state)
 static void unusable_shapes_are_refused(void **state)
 {
     (void)state;
-    const clast_dem_config c = space();
+    const clast_dem_config c = scene_space();
     clast_dem *dem = NULL;
     clast_mesh box = {0};
     clast_mesh open = {0};

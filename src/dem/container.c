@@ -1,0 +1,190 @@
+// Grains in a container of triangles.
+#include "dem/container.h"
+
+#include "base/alloc.h"
+#include "dem/list.h"
+
+/// Pushes whose normals are closer than this cosine are one (25 degrees, as in
+/// contact/wall_mesh.c).
+static const double SAME_PUSH = 0.9;
+
+clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(dem->container == NULL && dem->n_grain == 0, CLAST_E_USAGE,
+              "a container is given once, before the first grain");
+    CLX_TRY(clx_wall_mesh_create(mesh, &dem->container));
+    CLX_CHECK(dem->container->n_tri < INT32_MAX - dem->n_wall - 1, CLAST_E_LIMIT,
+              "a container of %d triangles", dem->container->n_tri);
+done:
+    return status;
+}
+
+int64_t clx_container_end(const clast_dem *dem, int32_t i)
+{
+    int64_t k = dem->list.begin[i];
+    while (k < dem->list.begin[i + 1] && clx_link_is_container(dem, &dem->list.link[k])) {
+        ++k;
+    }
+    return k;
+}
+
+static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
+{
+    clx_placed body = {.turn = dem->turn[clx_item_grain(dem, i)][0]};
+    if (dem->convex != NULL) {
+        body.shape = &dem->convex[i];
+    } else {
+        *ball = clx_convex_sphere(clx_item_radius(dem, i));
+        body.shape = ball;
+    }
+    v3_copy(body.position, clx_item_position(dem, i));
+    return body;
+}
+
+static void take(const clx_contact *c, clx_dem_touch *t)
+{
+    static const double nowhere[3] = {0.0, 0.0, 0.0};
+    clx_touch_take(c, nowhere, t);
+    v3_set(t->arm_b, 0.0, 0.0, 0.0);
+}
+
+void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
+                               clx_contact_memory *memory, clx_dem_touch *touch)
+{
+    clx_convex ball;
+    clx_contact contact;
+    const clx_placed body = place(dem, link->a, &ball);
+    const clx_wall_triangle *t = clx_link_triangle(dem, link);
+    if (clx_triangle_contact(t, &body, 0.0, memory, &contact)) {
+        (void)clx_triangle_push(t, &body, &contact);
+        take(&contact, touch);
+    } else {
+        touch->distance = contact.gap;
+    }
+}
+
+/// Pushes of one item while they are sorted out.
+typedef struct {
+    clx_contact contact[CLX_CONTAINER_TOUCHES]; ///< deepest first
+    int64_t link[CLX_CONTAINER_TOUCHES];
+    int32_t n;
+    double normal[CLX_CONTAINER_TOUCHES][3]; ///< of links that touched before
+    double slide[CLX_CONTAINER_TOUCHES][3];
+    int64_t old[CLX_CONTAINER_TOUCHES];
+    int32_t n_old;
+} pushes;
+
+/// Puts a contact in its place; none stays that pushes like a deeper one.
+static void insert(pushes *p, const clx_contact *c, int64_t link)
+{
+    int32_t at = 0;
+    while (at < p->n && p->contact[at].gap <= c->gap) {
+        if (v3_dot(p->contact[at].normal, c->normal) > SAME_PUSH) {
+            return;
+        }
+        ++at;
+    }
+    int32_t kept = at;
+    for (int32_t i = at; i < p->n; ++i) {
+        if (v3_dot(p->contact[i].normal, c->normal) <= SAME_PUSH) {
+            p->contact[kept] = p->contact[i];
+            p->link[kept++] = p->link[i];
+        }
+    }
+    if (at >= CLX_CONTAINER_TOUCHES) {
+        return;
+    }
+    p->n = kept < CLX_CONTAINER_TOUCHES ? kept + 1 : CLX_CONTAINER_TOUCHES;
+    for (int32_t i = p->n - 1; i > at; --i) {
+        p->contact[i] = p->contact[i - 1];
+        p->link[i] = p->link[i - 1];
+    }
+    p->contact[at] = *c;
+    p->link[at] = link;
+}
+
+/// Friction of a link that touched a step ago, for whoever pushes that way now.
+static void remember(pushes *p, clx_link *link, const clx_contact *c, bool is_near, int64_t k)
+{
+    if ((link->flags & CLX_LINK_TOUCHES) != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
+        v3_copy(p->normal[p->n_old], c->normal);
+        v3_copy(p->slide[p->n_old], link->slide);
+        p->old[p->n_old++] = k;
+    }
+    link->flags = 0;
+    v3_set(link->slide, 0.0, 0.0, 0.0);
+}
+
+static void inherit(const pushes *p, const clx_contact *c, int64_t k, double slide[3])
+{
+    double best = SAME_PUSH;
+    for (int32_t i = 0; i < p->n_old; ++i) {
+        if (p->old[i] == k) {
+            v3_copy(slide, p->slide[i]);
+            return;
+        }
+    }
+    for (int32_t i = 0; i < p->n_old; ++i) {
+        const double alike = v3_dot(p->normal[i], c->normal);
+        if (alike > best) {
+            best = alike;
+            v3_copy(slide, p->slide[i]);
+        }
+    }
+}
+
+int32_t clx_container_meet(clast_dem *dem, int32_t i,
+                           clx_container_touch touch[CLX_CONTAINER_TOUCHES])
+{
+    pushes p = {.n = 0};
+    clx_convex ball;
+    const clx_placed body = place(dem, i, &ball);
+    const double travel = dem->travel[clx_item_grain(dem, i)];
+    const double near = 0.1 * clx_item_radius(dem, i);
+    for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
+        clx_link *link = &dem->list.link[k];
+        clx_contact c;
+        if (!clx_link_is_container(dem, link)) {
+            break;
+        }
+        if (travel < link->wake) {
+            continue;
+        }
+        const clx_wall_triangle *t = clx_link_triangle(dem, link);
+        const bool is_near = clx_triangle_contact(t, &body, near, clx_link_memory(dem, link), &c);
+        remember(&p, link, &c, is_near, k);
+        link->wake = travel + fmax(c.gap, 0.0);
+        if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
+            insert(&p, &c, k);
+        }
+    }
+    for (int32_t m = 0; m < p.n; ++m) {
+        clx_link *link = &dem->list.link[p.link[m]];
+        link->flags = CLX_LINK_TOUCHES;
+        inherit(&p, &p.contact[m], p.link[m], link->slide);
+        touch[m] = (clx_container_touch){.link = p.link[m]};
+        take(&p.contact[m], &touch[m].touch);
+        if (dem->item != NULL) {
+            clx_touch_lever(dem, link, &touch[m].touch);
+        }
+    }
+    return p.n;
+}
+
+clast_status clx_container_find(clast_dem *dem, int32_t i)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    const double *x = l->anchor[i].position;
+    const int32_t n = clx_wall_mesh_near(dem->container, x, reach, 0, NULL);
+    CLX_TRY(clx_grow(&l->near, &l->near_capacity, n, sizeof *l->near));
+    (void)clx_wall_mesh_near(dem->container, x, reach, n, l->near);
+    CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
+    for (int32_t k = 0; k < n; ++k) {
+        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->near[k]};
+    }
+done:
+    return status;
+}
