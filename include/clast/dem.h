@@ -52,6 +52,7 @@ typedef struct clast_dem_config {
     double width, depth;     ///< along x and y; depth 0: as width [m]
     double height;           ///< of the lid, and of generation [m]
     bool floor, lid;         ///< planes z = 0 and z = height
+    double rounding;         ///< radius that edges of hulls get, their volume kept [m]
     double skin;             ///< half the skin of neighbour lists over a grain's radius
 } clast_dem_config;
 

@@ -34,9 +34,11 @@ typedef struct clast_pack_config {
     int32_t size_meaning; ///< 0: sieve size of eq. 1; 1: volume-equivalent diameter
     clast_text_list shapes;
     clast_f64_list shape_weight;
-    char *unit;    ///< of surface files; only ratios count, so it may be empty
-    bool hull;     ///< take convex hulls of surfaces
-    bool form_law; ///< stretch every grain to a form drawn from a law
+    char *unit;      ///< of surface files; only ratios count, so it may be empty
+    bool hull;       ///< take convex hulls of surfaces
+    int32_t faces;   ///< above 0: take hulls of at most so many triangles
+    bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
+    bool form_law;   ///< stretch every grain to a form drawn from a law
     double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
     double density; ///< [kg/m3]
     double mass;    ///< wanted [kg]
@@ -112,6 +114,8 @@ typedef struct clast_pack_result {
     double grain_steps;    ///< sum over steps of the grains that were there
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
+    double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
+    double elongation[2];  ///< I/L, the same
 } clast_pack_result;
 
 CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);

@@ -61,6 +61,7 @@ clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32
     if (shape->kind == CLAST_SHAPE_MESH) {
         CLX_TRY(check_convex(shape));
         CLX_TRY(clx_hull_core_create(&made.shape.mesh, &made.core));
+        clx_rounding_prepare(&made);
     }
     CLX_TRY(clx_realloc(&dem->body, dem->n_body + 1, sizeof *dem->body));
     if (!made.is_round && !is_clump && dem->all_round) {
@@ -94,6 +95,13 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
     const clx_dem_body *body = &dem->body[g->shape];
     if (clx_item_is_round(dem, i)) {
         return clx_convex_sphere(clx_item_radius(dem, i));
+    }
+    const double rounding = dem->config.rounding;
+    if (body->core != NULL && rounding > 0.0) {
+        const double factor = clx_rounding_factor(body, rounding / g->scale);
+        clx_convex hull = clx_convex_hull(body->core, factor * g->scale);
+        clx_convex_grow(&hull, rounding);
+        return hull;
     }
     if (body->core != NULL) {
         return clx_convex_hull(body->core, g->scale);

@@ -100,8 +100,15 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     CLX_CHECK(fabs(n - 1.0) < 2e-9, CLAST_E_USAGE, "grain %lld: its quaternion has length %.12g",
               (long long)number, sqrt(n));
     const clast_shape *shape = &dem->body[g->shape].shape;
+    const clx_hull_core *core = dem->body[g->shape].core;
     const double radius = g->scale * shape->bounding_radius;
     CLX_TRY(check_fit(dem, g, radius, number));
+    CLX_CHECK(core == NULL || dem->config.rounding == 0.0 ||
+                  dem->config.rounding < 0.5 * g->scale * core->inner,
+              CLAST_E_GEOMETRY,
+              "grain %lld: edges rounded to %g m (rounding) leave little of a grain with a ball of "
+              "%g m inside; take less than half of it",
+              (long long)number, dem->config.rounding, core != NULL ? g->scale * core->inner : 0.0);
     const double volume = g->scale * g->scale * g->scale * shape->volume;
     CLX_TRY(clx_dem_check_step(&dem->law, dem->config.time_step, g->density * volume,
                                cbrt(3.0 * volume / (4.0 * CLAST_PI))));

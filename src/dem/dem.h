@@ -88,7 +88,8 @@ typedef struct clx_dem_body {
     clast_shape shape;
     double inverse_inertia[3][3]; ///< of the inertia at unit density and scale 1
     clx_hull_core *core;          ///< of a mesh, else NULL
-    bool is_round;                ///< sphere: its turn does not matter
+    double steiner[2]; ///< of a mesh: area, and its mean curvature integrated over the surface
+    bool is_round;     ///< sphere: its turn does not matter
 } clx_dem_body;
 
 enum { CLX_MAX_LEVEL = 24 };
@@ -213,6 +214,13 @@ clast_status clx_dem_check(const clast_dem_config *config);
 
 /// Refuses a time step that does not resolve the contact of a grain like this.
 clast_status clx_dem_check_step(const clx_law *law, double time_step, double mass, double radius);
+
+/// Area and integrated mean curvature of a body's core.
+void clx_rounding_prepare(clx_dem_body *body);
+
+/// Factor on the lengths of a body that keeps its volume when it then grows by `margin`, both at
+/// scale 1. The margin is less than the ball inside.
+double clx_rounding_factor(const clx_dem_body *body, double margin);
 
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);

@@ -92,6 +92,13 @@
          "Pa s",                                                                                   \
          "viscosity for drag in fluid at rest; 0: no drag, as published",                          \
          NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, rounding, F64),                                                      \
+         0,                                                                                        \
+         0,                                                                                        \
+         1e6,                                                                                      \
+         "m",                                                                                      \
+         "radius that edges of surfaces get; the surface shrinks so that its volume stays",        \
+         NULL},                                                                                    \
     {                                                                                              \
         CLX_DEM_AT(TYPE, IN, skin, F64), 0.1, 1e-3, 10.0, "-",                                     \
             "margin of neighbour lists over a grain's radius: speed only", NULL                    \

@@ -8,6 +8,7 @@
 #include <clast/grading_file.h>
 #include <clast/hull.h>
 #include <clast/mesh_file.h>
+#include <clast/reform.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <math.h>
@@ -33,10 +34,12 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
     clast_mesh hull = {0};
     CLX_TRY(clast_mesh_read(path, &mesh, NULL));
     CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
-    if (config->hull) {
+    if (config->faces > 0) {
+        CLX_TRY(clast_reform_hull(&mesh, config->faces, &hull));
+    } else if (config->hull) {
         CLX_TRY(clast_mesh_hull(&mesh, &hull));
     }
-    CLX_TRY(clast_shape_mesh(name, config->hull ? &hull : &mesh, shape));
+    CLX_TRY(clast_shape_mesh(name, hull.n_tri > 0 ? &hull : &mesh, shape));
 done:
     clast_mesh_free(&mesh);
     clast_mesh_free(&hull);
@@ -54,11 +57,24 @@ done:
     return status;
 }
 
-static clast_status read_shape(const clast_pack_config *config, int32_t i, clast_shape *shape)
+/// The mass-equivalent ellipsoid instead of a surface or clump.
+static clast_status make_ellipsoid(clast_shape *shape)
 {
-    const char *text = config->shapes.item[i];
-    char name[256];
-    (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, clx_path_name(text));
+    clast_shape made = {0};
+    if (shape->kind != CLAST_SHAPE_MESH && shape->kind != CLAST_SHAPE_CLUMP) {
+        return CLAST_OK;
+    }
+    const clast_status status = clast_shape_ellipsoid(shape->name, shape->semi_axes, &made);
+    if (status == CLAST_OK) {
+        clast_shape_free(shape);
+        *shape = made;
+    }
+    return status;
+}
+
+static clast_status read_shape(const clast_pack_config *config, const char *text, const char *name,
+                               clast_shape *shape)
+{
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(name, 0.5, shape);
     }
@@ -69,6 +85,24 @@ static clast_status read_shape(const clast_pack_config *config, int32_t i, clast
         return read_clump(text, name, shape);
     }
     return read_surface(config, text, name, shape);
+}
+
+static clast_status take_shape(const clast_pack_config *config, int32_t i, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    clast_shape made = {0};
+    char name[256];
+    const char *text = config->shapes.item[i];
+    (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, clx_path_name(text));
+    CLX_TRY(read_shape(config, text, name, &made));
+    if (config->ellipsoids) {
+        CLX_TRY(make_ellipsoid(&made));
+    }
+    *shape = made;
+    made = (clast_shape){0};
+done:
+    clast_shape_free(&made);
+    return status;
 }
 
 clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
@@ -84,7 +118,7 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
                                (clast_grading_count)config->count, &made.curve, &made.grading));
     CLX_TRY(clx_alloc(&made.shape, config->shapes.n, sizeof *made.shape));
     for (int32_t i = 0; i < config->shapes.n; ++i) {
-        status = read_shape(config, i, &made.shape[i]);
+        status = take_shape(config, i, &made.shape[i]);
         if (status != CLAST_OK) {
             clx_fail_prefix("shapes");
             goto done;

@@ -170,6 +170,40 @@ done:
     return status;
 }
 
+/// Greatest reach from its centre that the domain's sides leave a grain.
+static double reach_limit(const clast_dem_config *d)
+{
+    const double depth = d->depth > 0.0 ? d->depth : d->width;
+    return d->domain == CLAST_DEM_PERIODIC   ? 0.25 * fmin(d->width, depth) / (1.0 + d->skin)
+           : d->domain == CLAST_DEM_CYLINDER ? 0.5 * d->width
+           : d->domain == CLAST_DEM_BOX      ? 0.5 * fmin(d->width, depth)
+                                             : (double)INFINITY;
+}
+
+clast_status clx_pack_check_draws(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    const clast_dem_config *d = &p->config.dem;
+    const double limit = reach_limit(d);
+    double mass = 0.0;
+    for (int64_t i = 0; mass < p->config.mass && !p->config.form_law; ++i) {
+        clast_dem_grain g;
+        double measures[2];
+        CLX_TRY(clx_pack_draw(p, i, &g));
+        clast_dem_shape_measures(p->dem, g.shape, measures);
+        const double reach = g.scale * measures[0];
+        CLX_CHECK(reach <= limit, CLAST_E_GEOMETRY,
+                  "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "
+                  "domain, or another seed if few grains are as large",
+                  (long long)i, 2.0 * reach,
+                  d->domain == CLAST_DEM_PERIODIC ? "half the period" : "the width",
+                  fmin(d->width, d->depth > 0.0 ? d->depth : d->width));
+        mass += g.density * measures[1] * g.scale * g.scale * g.scale;
+    }
+done:
+    return status;
+}
+
 double clx_pack_fill_low(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;

@@ -68,8 +68,35 @@ const clast_table *clast_pack_series(const clast_pack *pack)
     return &pack->series;
 }
 
-/// Bulk porosity as published; NAN while there is no bed.
-static clast_status measure_porosity(const clast_pack *p, clast_pack_result *r)
+/// Mean and standard deviation over n values.
+static void spread_of(const double sum[2], int32_t n, double mean_deviation[2])
+{
+    const double mean = sum[0] / n;
+    const double square = sum[1] - n * mean * mean;
+    mean_deviation[0] = mean;
+    mean_deviation[1] = n > 1 ? sqrt(fmax(0.0, square) / (n - 1)) : 0.0;
+}
+
+/// Flatness and elongation of the grains, every grain alike.
+static void measure_forms(const clast_assembly *a, clast_pack_result *r)
+{
+    double flat[2] = {0.0, 0.0};
+    double slim[2] = {0.0, 0.0};
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const double *s = a->shape[a->shape_id[i]].semi_axes;
+        const double fl = s[2] / s[1];
+        const double el = s[1] / s[0];
+        flat[0] += fl;
+        flat[1] += fl * fl;
+        slim[0] += el;
+        slim[1] += el * el;
+    }
+    spread_of(flat, a->n_grain, r->flatness);
+    spread_of(slim, a->n_grain, r->elongation);
+}
+
+/// Bulk porosity as published, and the forms; NAN while there is no bed.
+static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
 {
     clast_status status = CLAST_OK;
     clast_assembly a = {0};
@@ -78,10 +105,14 @@ static clast_status measure_porosity(const clast_pack *p, clast_pack_result *r)
     const clast_bed bed = clast_pack_bed(&p->config);
     const clast_porosity_options o = clast_pack_porosity(&p->config);
     r->porosity = r->z_low = r->z_high = (double)NAN;
+    for (int k = 0; k < 2; ++k) {
+        r->flatness[k] = r->elongation[k] = (double)NAN;
+    }
     if (clast_dem_n_grain(p->dem) == 0) {
         return CLAST_OK;
     }
     CLX_TRY(clast_dem_assembly(p->dem, &a));
+    measure_forms(&a, r);
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     status = clast_porosity_measure(&a, &bed, &o, &profile, &bulk);
     if (status == CLAST_OK) {
@@ -106,7 +137,7 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .step_s = pack->step_s,
                            .grain_steps = pack->grain_steps};
     clast_dem_measure(pack->dem, &r.dem);
-    const clast_status status = measure_porosity(pack, &r);
+    const clast_status status = measure_bed(pack, &r);
     if (status == CLAST_OK) {
         *result = r;
     }

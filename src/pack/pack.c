@@ -74,6 +74,7 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     made->pending_form = -1;
     CLX_TRY(clast_dem_create(&config->dem, &made->dem));
     CLX_TRY(clx_pack_prepare(made));
+    CLX_TRY(clx_pack_check_draws(made));
     CLX_TRY(clx_pack_series_begin(made));
     *pack = made;
     made = NULL;

@@ -30,6 +30,10 @@ struct clast_pack {
 /// What is drawn for grain `index`, ready but for its place: size, shape, turn, velocities.
 clast_status clx_pack_draw(clast_pack *pack, int64_t index, clast_dem_grain *grain);
 
+/// Refuses a seed that draws a grain too large for the domain, before hours are spent on others.
+/// Forms drawn from a law are checked when they are made.
+clast_status clx_pack_check_draws(clast_pack *pack);
+
 /// Makes one fill of grains; mass and n_made follow.
 clast_status clx_pack_fill(clast_pack *pack);
 

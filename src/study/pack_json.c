@@ -36,6 +36,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "porosity_bulk", r->porosity);
     put(o, "z_low", r->z_low);
     put(o, "z_high", r->z_high);
+    put(o, "flatness_mean", r->flatness[0]);
+    put(o, "flatness_deviation", r->flatness[1]);
+    put(o, "elongation_mean", r->elongation[0]);
+    put(o, "elongation_deviation", r->elongation[1]);
     put(o, "coordination", r->dem.coordination);
     put_count(o, "n_contact", r->dem.n_contact);
     put_count(o, "n_wall_contact", r->dem.n_wall_contact);

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """clast pack: a small bed, stopped and resumed at any moment, bad input."""
+import csv
 import json
+import math
 import os
 import signal
 import subprocess
@@ -80,6 +82,35 @@ class Pack(Case):
         spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
         result = clast(*SMALL, "--shapes", str(spheres), "--max-steps", "6000", "--json", "-o", self.folder / "c")
         self.assertEqual(result.code, 0, result.err)
+
+    def one_grain(self, *extra):
+        """One grain of 6 mm, made and not yet fallen."""
+        result = clast(*SMALL, "--mass", "1mg", "--shapes", "data/standin63/grain20.ply", "--max-steps", "1", "--json", *extra)
+        self.assertEqual(result.code, 0, result.err)
+        out = json.loads(result.out)
+        self.assertEqual(out["n_grain"], 1)
+        return out
+
+    def test_surfaces_simplified_or_as_ellipsoids_keep_their_form(self):
+        with open(ROOT / "data/standin63/grains.csv", newline="", encoding="utf-8") as file:
+            row = next(r for r in csv.DictReader(file) if r["file"] == "grain20.ply")
+        length, width, height, volume = (float(row[k]) for k in ("L", "I", "S", "volume"))
+        surface, egg, coarse = self.one_grain(), self.one_grain("--ellipsoids"), self.one_grain("--faces", "50")
+        self.assertAlmostEqual(surface["mass"], 2650 * volume * 0.006**3, 12)
+        self.assertAlmostEqual(egg["mass"], 2650 * math.pi / 6 * length * width * height * 0.006**3, 12)
+        self.assertNotEqual(coarse["state_hash"], surface["state_hash"])
+        self.assertAlmostEqual(coarse["flatness_mean"], surface["flatness_mean"], delta=0.02)
+        for out in (surface, egg):
+            self.assertAlmostEqual(out["flatness_mean"], float(row["flatness"]), 9)
+            self.assertAlmostEqual(out["elongation_mean"], float(row["elongation"]), 9)
+            self.assertEqual(out["flatness_deviation"], 0)
+
+    def test_a_seed_with_a_grain_too_large_is_refused_before_the_first_step(self):
+        # two sizes by number: the large ones come late, but are told at once
+        curve = self.folder / "two.csv"
+        curve.write_text("size_mm\n" + "4\n" * 400 + "30\n")
+        self.assert_fails(3, "pack", "--curve", f"list:{curve}", "--mass", "0.2kg", "--domain", "periodic", "--width", "50mm",
+                          "--height", "0.5m", "--quiet", says=("reaches 0.03 m across", "half the period", "seed"))
 
     def test_bad_input_is_one_line(self):
         self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "2e-05 s or less"))

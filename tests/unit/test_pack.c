@@ -211,6 +211,10 @@ static void what_cannot_work_is_refused(void **state)
     b.config.density = 2650.0;
     b.config.dem.width = 5e-3; /* narrower than a grain */
     b.config.mass = 1e-4;
+    CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_GEOMETRY);
+    assert_non_null(strstr(clast_error_detail(), "more than the width"));
+    b.config.dem.width = 0.05;
+    b.config.fill_high = 0.61; /* 1 mm high */
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     CHECK_STATUS(clast_pack_advance(pack, 10), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "no grain fits"));
