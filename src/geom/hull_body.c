@@ -16,6 +16,8 @@ void clx_hull_body_free(clx_hull_body *body)
 {
     clx_free(body->vert);
     clx_free(body->face);
+    clx_free(body->across);
+    clx_free(body->face_at);
     clx_free(body->normal);
     clx_free(body->area);
     clx_free(body->edge);
@@ -32,6 +34,8 @@ static clast_status reserve(const clx_hull_inc *hull, clx_hull_body *body)
     body->n_edge = hull->n_facet / 2 * 3; // closed: each face has three halves of edges
     CLX_TRY(clx_alloc(&body->vert, body->n_vert, sizeof *body->vert));
     CLX_TRY(clx_alloc(&body->face, body->n_face, sizeof *body->face));
+    CLX_TRY(clx_alloc(&body->across, body->n_face, sizeof *body->across));
+    CLX_TRY(clx_alloc(&body->face_at, body->n_vert, sizeof *body->face_at));
     CLX_TRY(clx_alloc(&body->normal, body->n_face, sizeof *body->normal));
     CLX_TRY(clx_alloc(&body->area, body->n_face, sizeof *body->area));
     CLX_TRY(clx_alloc(&body->edge, body->n_edge, sizeof *body->edge));
@@ -115,6 +119,8 @@ static void copy_faces(const clx_hull_inc *hull, const int32_t *vert_number,
             const int32_t from = vert_number[facet->vert[k]];
             const int32_t to = vert_number[facet->vert[(k + 1) % 3]];
             body->face[f][k] = from;
+            body->across[f][k] = face_number[facet->adj[k]];
+            body->face_at[from] = f;
             if (from < to) {
                 body->edge[n_edge++] =
                     (clx_hull_body_edge){{from, to}, {f, face_number[facet->adj[k]]}};
@@ -256,10 +262,10 @@ double clx_hull_body_width(const clx_hull_body *body, const double direction[3])
 {
     double low = INFINITY;
     double high = -INFINITY;
-    for (int32_t v = 0; v < body->n_vert; ++v) {
+    for (int32_t v = 0; v < body->n_vert; ++v) { // comparisons: fmin is a call
         const double reach = v3_dot(body->vert[v], direction);
-        low = fmin(low, reach);
-        high = fmax(high, reach);
+        low = reach < low ? reach : low;
+        high = reach > high ? reach : high;
     }
     return high - low;
 }

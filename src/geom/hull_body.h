@@ -14,6 +14,8 @@ typedef struct clx_hull_body {
     int32_t n_vert, n_face, n_edge;
     double (*vert)[3];        ///< [n_vert]
     int32_t (*face)[3];       ///< [n_face] counter-clockwise from outside
+    int32_t (*across)[3];     ///< [n_face] faces across the edges that begin at each corner
+    int32_t *face_at;         ///< [n_vert] one of the faces at a vertex
     double (*normal)[3];      ///< [n_face] outward, unit; zero where a sliver has none
     double *area;             ///< [n_face]
     clx_hull_body_edge *edge; ///< [n_edge]
@@ -36,6 +38,14 @@ int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[
 /// Caliper width along a unit direction, over all vertices.
 double clx_hull_body_width(const clx_hull_body *body, const double direction[3]);
 
+enum { CLX_DIRECTIONS = 4 };
+
+/// Widths along four unit directions, and areas of the four shadows: the same bits as one by one.
+void clx_hull_body_widths(const clx_hull_body *body, const double direction[CLX_DIRECTIONS][3],
+                          double width[CLX_DIRECTIONS]);
+void clx_shadow_areas(const clx_hull_body *body, const double direction[CLX_DIRECTIONS][3],
+                      double area[CLX_DIRECTIONS]);
+
 enum { CLX_FERET_TIES = 16 };
 
 /// Greatest and least distance of two parallel planes that touch the hull, exactly.
@@ -55,6 +65,7 @@ clx_feret clx_hull_body_feret(const clx_hull_body *body);
 /// with axes u, v.
 typedef struct clx_shadow {
     double u[3], v[3];
+    int32_t start;      ///< a vertex of the last outline: where the next search begins
     int32_t n;          ///< corners
     double (*point)[2]; ///< [n], room [2 n_edge]
     int32_t *next;      ///< [n_vert] scratch
@@ -70,6 +81,12 @@ double clx_shadow_area(const clx_hull_body *body, const double direction[3]);
 
 /// Casts the shadow.
 void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow);
+
+/// Least rectangle around an outline: unit direction of one side and the edges along and across it.
+/// One side lies on an edge of the outline longer than `tolerance`. False without such an edge, and
+/// when the rectangle is clearly larger than `limit`.
+bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, double side[2],
+                          double edge[2]);
 
 /// The hull seen along the normals of its faces (at most 2048 of them, evenly taken).
 typedef struct clx_face_view {

@@ -16,78 +16,21 @@ enum { KEPT = 6, MOST_TURNS = 60 };
 
 static const double GAIN = 1e-13;
 
-/// Corner farthest along d: walks on from `start`, over plateaus of rounding too. *reach tells how
-/// far.
-static int32_t far_corner(const clx_shadow *s, int32_t start, const double d[2], double tolerance,
-                          double *reach)
-{
-    int32_t best = start;
-    *reach = s->point[start][0] * d[0] + s->point[start][1] * d[1];
-    for (int32_t step = 1, at = start; step < s->n; ++step) {
-        at = at + 1 < s->n ? at + 1 : 0;
-        const double r = s->point[at][0] * d[0] + s->point[at][1] * d[1];
-        if (r > *reach) {
-            *reach = r;
-            best = at;
-        } else if (r < *reach - tolerance) {
-            break;
-        }
-    }
-    return best;
-}
-
-/// Least rectangle around an outline, one side along one of its edges: the direction of that side
-/// and both edges, by rotating calipers.                       [FreemanShapira1975; Toussaint1983]
-static double least_rectangle(const clx_shadow *s, double tolerance, double side[2], double edge[2])
-{
-    double best = INFINITY;
-    bool is_first = true;
-    int32_t corner[4] = {0, 0, 0, 0}; // farthest along d, left of d, against d, right of d
-    for (int32_t e = 0; e < s->n; ++e) {
-        const double *p = s->point[e];
-        const double *q = s->point[e + 1 < s->n ? e + 1 : 0];
-        double d[2] = {q[0] - p[0], q[1] - p[1]};
-        double reach[4];
-        const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
-        if (!(length > tolerance)) {
-            continue;
-        }
-        d[0] /= length;
-        d[1] /= length;
-        for (int k = 0; k < 4; ++k) {
-            corner[k] =
-                far_corner(s, corner[k], d, is_first ? (double)INFINITY : tolerance, &reach[k]);
-            const double turned[2] = {-d[1], d[0]};
-            d[0] = turned[0];
-            d[1] = turned[1];
-        }
-        is_first = false; // from here on each corner is a few steps behind
-        const double along = reach[0] + reach[2];
-        const double across = reach[1] + reach[3];
-        if (along * across < best) {
-            best = along * across;
-            side[0] = d[0];
-            side[1] = d[1];
-            edge[0] = along;
-            edge[1] = across;
-        }
-    }
-    return best;
-}
-
 static double box_volume(const clx_box *box)
 {
     return box->edge[0] * box->edge[1] * box->edge[2];
 }
 
-/// The least box with one axis along the unit vector n.
-static void box_along(const clx_hull_body *body, const double n[3], double width,
+/// The least box with one axis along the unit vector n, if it is not clearly larger than `limit`.
+static bool box_along(const clx_hull_body *body, const double n[3], double width, double limit,
                       clx_shadow *shadow, clx_box *box)
 {
-    double side[2] = {1.0, 0.0};
-    double edge[2] = {INFINITY, INFINITY};
+    double side[2];
+    double edge[2];
     clx_shadow_cast(body, n, shadow);
-    (void)least_rectangle(shadow, 1e-12 * width, side, edge);
+    if (!clx_shadow_rectangle(shadow, 1e-12 * width, limit / width, side, edge)) {
+        return false;
+    }
     v3_copy(box->axis[0], n);
     for (int k = 0; k < 3; ++k) {
         box->axis[1][k] = side[0] * shadow->u[k] + side[1] * shadow->v[k];
@@ -96,6 +39,7 @@ static void box_along(const clx_hull_body *body, const double n[3], double width
     box->edge[0] = width;
     box->edge[1] = edge[0];
     box->edge[2] = edge[1];
+    return true;
 }
 
 static void box_in_frame(const clx_hull_body *body, double frame[3][3], clx_box *box)
@@ -113,8 +57,9 @@ static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *bo
     int idle = 0;
     for (int turn = 0; turn < MOST_TURNS && idle < 3; ++turn) {
         clx_box next;
-        box_along(body, box->axis[axis], box->edge[axis], shadow, &next);
-        if (box_volume(&next) < box_volume(box) * (1.0 - GAIN)) {
+        const double limit = box_volume(box) * (1.0 - GAIN);
+        if (box_along(body, box->axis[axis], box->edge[axis], limit, shadow, &next) &&
+            box_volume(&next) < limit) {
             *box = next;
             idle = 1; // the axis just used is now axis 0
             axis = 1;
@@ -162,8 +107,8 @@ static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *view
         if (view->width * view->shadow >= limit) {
             break;
         }
-        box_along(body, body->normal[view->face], view->width, shadow, &box);
-        if (box_volume(&box) < limit) {
+        if (box_along(body, body->normal[view->face], view->width, limit, shadow, &box) &&
+            box_volume(&box) < limit) {
             keep(kept, n_kept, &box);
         }
     }
@@ -204,8 +149,8 @@ static double outline_width(const clx_shadow *s, const double d[2])
     double high = -INFINITY;
     for (int32_t i = 0; i < s->n; ++i) {
         const double r = s->point[i][0] * d[0] + s->point[i][1] * d[1];
-        low = fmin(low, r);
-        high = fmax(high, r);
+        low = r < low ? r : low;
+        high = r > high ? r : high;
     }
     return high - low;
 }

@@ -15,6 +15,7 @@
 enum { MOST_VIEWS = 2048 };
 
 static const double UPRIGHT = 1e-14; ///< cosine below which a face counts as turned down
+static const double DOUBTFUL = 1e-9; ///< cosine below which the walk along an outline gives up
 
 clast_status clx_shadow_alloc(const clx_hull_body *body, clx_shadow *shadow)
 {
@@ -118,10 +119,69 @@ static int32_t find_outline(const clx_hull_body *body, const double direction[3]
     return n;
 }
 
+/// How a face is turned to the light: -1 away, 1 to it, 0 too upright for rounding to tell.
+static int turned(const clx_hull_body *body, int32_t f, const double direction[3])
+{
+    const double side = v3_dot(body->normal[f], direction);
+    return fabs(side) < DOUBTFUL ? 0 : side > 0.0 ? 1 : -1;
+}
+
+static int corner_of(const clx_hull_body *body, int32_t f, int32_t vertex)
+{
+    const int32_t *corner = body->face[f];
+    return corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2;
+}
+
+/// Turns around a vertex, counter-clockwise from face *f on, to the edge out of it that has a face
+/// in the light at its left and one in the dark at its right. False when a face is doubtful, or
+/// when there is no such edge: the vertex is not on the outline.
+static bool next_rim(const clx_hull_body *body, const double direction[3], int32_t vertex,
+                     int32_t *f, int *k)
+{
+    int32_t at = *f;
+    int here = turned(body, at, direction);
+    for (int32_t step = 0; here != 0 && step <= body->n_face; ++step) {
+        const int corner = corner_of(body, at, vertex);
+        const int32_t right = body->across[at][corner];
+        const int there = turned(body, right, direction);
+        if (here > 0 && there < 0) {
+            *f = at;
+            *k = corner;
+            return true;
+        }
+        at = right;
+        here = there;
+    }
+    return false;
+}
+
+/// The outline by a walk along it, from a vertex that is farthest to one side: each step turns
+/// around one vertex, so only faces at the rim are looked at. False where rounding could decide.
+static bool walk_outline(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
+{
+    const int32_t first = clx_hull_body_support(body, shadow->u, shadow->start);
+    int32_t f = body->face_at[first];
+    int32_t at = first;
+    int k = 0;
+    shadow->start = first;
+    shadow->n = 0;
+    do {
+        if (shadow->n >= body->n_vert || !next_rim(body, direction, at, &f, &k)) {
+            return false;
+        }
+        emit_point(body, at, shadow);
+        at = body->face[f][(k + 1) % 3];
+    } while (at != first);
+    return shadow->n >= 3;
+}
+
 void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
 {
     int32_t first = 0;
     v3_frame(direction, shadow->u, shadow->v);
+    if (walk_outline(body, direction, shadow)) {
+        return;
+    }
     const int32_t n = find_outline(body, direction, shadow, &first);
     // One closed walk over all of them gives their order.
     shadow->n = 0;
@@ -176,24 +236,28 @@ static double descend(const clx_hull_body *body, const double start[3])
         double u[3];
         double v[3];
         double next[3];
+        double trial[2 * CLX_DIRECTIONS][3];
+        double area[2 * CLX_DIRECTIONS];
         bool better = false;
+        v3_copy(next, n);
         v3_frame(n, u, v);
         for (int k = 0; k < 8; ++k) {
             const double turn = 0.25 * CLAST_PI * k;
-            double trial[3];
-            v3_axpy(trial, n, tan(angle) * cos(turn), u);
-            v3_axpy(trial, trial, tan(angle) * sin(turn), v);
-            (void)v3_unit(trial, trial);
-            const double area = clx_shadow_area(body, trial);
-            if (area < best) {
-                best = area;
+            v3_axpy(trial[k], n, tan(angle) * cos(turn), u);
+            v3_axpy(trial[k], trial[k], tan(angle) * sin(turn), v);
+            (void)v3_unit(trial[k], trial[k]);
+        }
+        clx_shadow_areas(body, (const double(*)[3])trial, area);
+        clx_shadow_areas(body, (const double(*)[3])(trial + CLX_DIRECTIONS), area + CLX_DIRECTIONS);
+        for (int k = 0; k < 8; ++k) {
+            if (area[k] < best) {
+                best = area[k];
                 better = true;
-                v3_copy(next, trial);
+                v3_copy(next, trial[k]);
             }
         }
-        if (better) {
-            v3_copy(n, next);
-        } else {
+        v3_copy(n, next);
+        if (!better) {
             angle *= 0.5;
         }
     }
@@ -212,6 +276,26 @@ static int compare_views(const void *a, const void *b)
     return p->face < q->face ? -1 : 1;
 }
 
+/// Widths and shadows along the faces' normals, several at a time.
+static void measure_views(const clx_hull_body *body, clx_face_views *views)
+{
+    for (int32_t i = 0; i < views->n; i += CLX_DIRECTIONS) {
+        double normal[CLX_DIRECTIONS][3];
+        double width[CLX_DIRECTIONS];
+        double shadow[CLX_DIRECTIONS];
+        for (int k = 0; k < CLX_DIRECTIONS; ++k) { // the last one again where there are no more
+            const int32_t at = i + k < views->n ? i + k : views->n - 1;
+            v3_copy(normal[k], body->normal[views->view[at].face]);
+        }
+        clx_hull_body_widths(body, (const double(*)[3])normal, width);
+        clx_shadow_areas(body, (const double(*)[3])normal, shadow);
+        for (int k = 0; k < CLX_DIRECTIONS && i + k < views->n; ++k) {
+            views->view[i + k].width = width[k];
+            views->view[i + k].shadow = shadow[k];
+        }
+    }
+}
+
 clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *views)
 {
     clast_status status = CLAST_OK;
@@ -219,12 +303,11 @@ clast_status clx_face_views_make(const clx_hull_body *body, clx_face_views *view
     CLX_TRY(clx_alloc(&views->view, body->n_face / stride + 1, sizeof *views->view));
     views->n = 0;
     for (int32_t f = 0; f < body->n_face; f += stride) {
-        const double *n = body->normal[f];
-        if (v3_norm2(n) > 0.5) { // else a sliver without a normal
-            views->view[views->n++] =
-                (clx_face_view){f, clx_hull_body_width(body, n), clx_shadow_area(body, n)};
+        if (v3_norm2(body->normal[f]) > 0.5) { // else a sliver without a normal
+            views->view[views->n++].face = f;
         }
     }
+    measure_views(body, views);
     qsort(views->view, (size_t)views->n, sizeof *views->view, compare_views);
 done:
     return status;

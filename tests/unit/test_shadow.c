@@ -1,0 +1,164 @@
+/* Unit: outlines and least rectangles of a hull's shadows against brute force. */
+#include "support.h"
+
+#include "geom/hull_body.h"
+#include "math/rng.h"
+#include "math/vec3.h"
+
+/* Points on an ellipsoid with axes 3 : 2 : 1 (hull: all of them), or the corners of a box. */
+static void make_points(uint64_t seed, int32_t n, clast_mesh *points)
+{
+    const double axes[3] = {3.0, 2.0, 1.0};
+    CHECK_OK(clast_mesh_alloc(n, 0, points));
+    for (int32_t i = 0; i < n; ++i) {
+        clx_rng rng = clx_rng_at(seed, CLX_STREAM_TEST, (uint64_t)i);
+        clx_rng_direction(&rng, points->vert[i]);
+        for (int k = 0; k < 3; ++k) {
+            points->vert[i][k] *= axes[k];
+        }
+    }
+}
+
+/* Area of the shadow's outline by the shoelace formula: positive when it turns left. */
+static double outline_area(const clx_shadow *s)
+{
+    double twice = 0.0;
+    for (int32_t i = 0; i < s->n; ++i) {
+        const double *p = s->point[i];
+        const double *q = s->point[(i + 1) % s->n];
+        twice += p[0] * q[1] - p[1] * q[0];
+    }
+    return 0.5 * twice;
+}
+
+static double width(const clx_shadow *s, const double d[2])
+{
+    double low = (double)INFINITY;
+    double high = -(double)INFINITY;
+    for (int32_t i = 0; i < s->n; ++i) {
+        const double r = s->point[i][0] * d[0] + s->point[i][1] * d[1];
+        low = fmin(low, r);
+        high = fmax(high, r);
+    }
+    return high - low;
+}
+
+/* Every edge of the outline as a side. */
+static double brute_rectangle(const clx_shadow *s)
+{
+    double best = (double)INFINITY;
+    for (int32_t i = 0; i < s->n; ++i) {
+        const double *p = s->point[i];
+        const double *q = s->point[(i + 1) % s->n];
+        const double length = hypot(q[0] - p[0], q[1] - p[1]);
+        if (length > 1e-12) {
+            const double d[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length};
+            const double across[2] = {-d[1], d[0]};
+            best = fmin(best, width(s, d) * width(s, across));
+        }
+    }
+    return best;
+}
+
+static void check_shadow(const clx_hull_body *body, const double direction[3], clx_shadow *s)
+{
+    double side[2];
+    double edge[2];
+    clx_shadow_cast(body, direction, s);
+    CHECK_REL(outline_area(s), clx_shadow_area(body, direction), 1e-12);
+    assert_true(clx_shadow_rectangle(s, 1e-12, (double)INFINITY, side, edge));
+    CHECK_REL(edge[0] * edge[1], brute_rectangle(s), 1e-12);
+    CHECK_REL(edge[0], width(s, side), 1e-14);
+    CHECK_ABS(hypot(side[0], side[1]), 1.0, 1e-14);
+    /* A limit below the area: no rectangle; just above: the same one. */
+    const double area = edge[0] * edge[1];
+    assert_false(clx_shadow_rectangle(s, 1e-12, 0.999 * area, side, edge));
+    assert_true(clx_shadow_rectangle(s, 1e-12, 1.001 * area, side, edge));
+}
+
+static void check_body(const clast_mesh *points)
+{
+    clx_hull_body body = {0};
+    clx_shadow shadow = {0};
+    CHECK_OK(clx_hull_body_make(points, &body));
+    CHECK_OK(clx_shadow_alloc(&body, &shadow));
+    for (int32_t i = 0; i < 200; ++i) {
+        double direction[3];
+        clx_rng rng = clx_rng_at(77, CLX_STREAM_TEST, (uint64_t)i);
+        clx_rng_direction(&rng, direction);
+        check_shadow(&body, direction, &shadow);
+    }
+    for (int32_t f = 0; f < body.n_face; ++f) {
+        check_shadow(&body, body.normal[f], &shadow);
+    }
+    clx_shadow_free(&shadow);
+    clx_hull_body_free(&body);
+}
+
+static void shadows_equal_brute_force(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 8; ++seed) {
+        clast_mesh points = {0};
+        make_points(seed, 4 + (int32_t)(seed * seed * 3), &points);
+        check_body(&points);
+        clast_mesh_free(&points);
+    }
+}
+
+/* Faces upright to rounding, coplanar triangles, corners on one line. */
+static void shadows_of_regular_bodies_equal_brute_force(void **state)
+{
+    (void)state;
+    clast_mesh mesh = {0};
+    double q[4];
+    for (uint64_t turn = 0; turn < 4; ++turn) {
+        CHECK_OK(clast_mesh_box(1.0, 2.0, 3.0, &mesh));
+        clx_rng rng = clx_rng_at(turn, CLX_STREAM_TEST, 0);
+        clx_rng_orientation(&rng, q);
+        if (turn > 0) {
+            clast_mesh_transform(&mesh, 1.0, q, (double[3]){0});
+        }
+        check_body(&mesh);
+        clast_mesh_free(&mesh);
+        const double axes[3] = {1.0, 1.0, 1.0};
+        CHECK_OK(clast_mesh_ellipsoid(axes, 3, &mesh));
+        check_body(&mesh);
+        clast_mesh_free(&mesh);
+    }
+}
+
+/* Four directions at once give the bits of each alone. */
+static void directions_at_once_equal_one_by_one(void **state)
+{
+    (void)state;
+    clast_mesh points = {0};
+    clx_hull_body body = {0};
+    double direction[CLX_DIRECTIONS][3];
+    double widths[CLX_DIRECTIONS];
+    double areas[CLX_DIRECTIONS];
+    make_points(5, 150, &points);
+    CHECK_OK(clx_hull_body_make(&points, &body));
+    for (int i = 0; i < CLX_DIRECTIONS; ++i) {
+        clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, (uint64_t)i);
+        clx_rng_direction(&rng, direction[i]);
+    }
+    clx_hull_body_widths(&body, (const double(*)[3])direction, widths);
+    clx_shadow_areas(&body, (const double(*)[3])direction, areas);
+    for (int i = 0; i < CLX_DIRECTIONS; ++i) {
+        assert_true(widths[i] == clx_hull_body_width(&body, direction[i]));
+        assert_true(areas[i] == clx_shadow_area(&body, direction[i]));
+    }
+    clx_hull_body_free(&body);
+    clast_mesh_free(&points);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shadows_equal_brute_force),
+        cmocka_unit_test(shadows_of_regular_bodies_equal_brute_force),
+        cmocka_unit_test(directions_at_once_equal_one_by_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
