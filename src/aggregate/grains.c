@@ -39,7 +39,7 @@ static clast_status enter_march(clast_aggregate *a, int32_t grain)
     return clx_march_add(&a->march, shape, centroid, all->orientation[grain], all->scale[grain]);
 }
 
-clast_status clx_aggregate_account(clast_aggregate *a, int32_t grain)
+static clast_status account(clast_aggregate *a, int32_t grain)
 {
     clast_status status = CLAST_OK;
     const clast_assembly *all = &a->assembly;
@@ -54,11 +54,6 @@ clast_status clx_aggregate_account(clast_aggregate *a, int32_t grain)
     if (a->march.n_shape > 0) {
         CLX_TRY(enter_march(a, grain));
     }
-    if (a->tracker != NULL) {
-        const double begun = clx_clock();
-        CLX_TRY(clx_envelope_tracker_add(a->tracker, all, grain));
-        a->envelope_s += clx_clock() - begun;
-    }
     a->volume += volume;
     a->mass += mass;
     a->second += mass * (v3_norm2(all->position[grain]) + own);
@@ -67,17 +62,19 @@ done:
     return status;
 }
 
-static clast_status add_part(clast_aggregate *a, const clx_kit_part *placed)
+clast_status clx_aggregate_track(clast_aggregate *a, int32_t first)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clast_assembly_add_grain(&a->assembly, a->shape_id[placed->shape], placed->position,
-                                     placed->orientation, placed->scale, placed->density));
-    CLX_TRY(clx_aggregate_account(a, a->assembly.n_grain - 1));
+    const double begun = clx_clock();
+    for (int32_t i = first; i < a->assembly.n_grain && a->tracker != NULL; ++i) {
+        CLX_TRY(clx_envelope_tracker_add(a->tracker, &a->assembly, i));
+    }
 done:
+    a->envelope_s += clx_clock() - begun;
     return status;
 }
 
-clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
+clast_status clx_aggregate_lay_group(clast_aggregate *a, int32_t group, const double centre[3],
                                      const double orientation[4], double scale)
 {
     clast_status status = CLAST_OK;
@@ -86,7 +83,8 @@ clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const do
     for (int32_t i = 0; i < g->n_part; ++i) {
         clx_kit_part placed;
         clx_kit_pose(g, i, centre, orientation, scale, &placed);
-        CLX_TRY(add_part(a, &placed));
+        CLX_TRY(clast_assembly_add_grain(&a->assembly, a->shape_id[placed.shape], placed.position,
+                                         placed.orientation, placed.scale, placed.density));
     }
     for (int32_t i = 0; i < g->n_contact; ++i) {
         double point[3];
@@ -95,6 +93,28 @@ clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const do
         CLX_TRY(clast_assembly_add_contact(&a->assembly, first + g->contact[i][0],
                                            first + g->contact[i][1], point));
     }
+done:
+    return status;
+}
+
+clast_status clx_aggregate_account_all(clast_aggregate *a, int32_t first)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = first; i < a->assembly.n_grain; ++i) {
+        CLX_TRY(account(a, i));
+    }
+done:
+    return status;
+}
+
+clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
+                                     const double orientation[4], double scale)
+{
+    clast_status status = CLAST_OK;
+    const int32_t first = a->assembly.n_grain;
+    CLX_TRY(clx_aggregate_lay_group(a, group, centre, orientation, scale));
+    CLX_TRY(clx_aggregate_account_all(a, first));
+    CLX_TRY(clx_aggregate_track(a, first));
 done:
     return status;
 }

@@ -50,9 +50,17 @@ struct clast_aggregate {
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle);
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape);
 
-/// Adds the grains of a placed group: assembly, scene, sums.
+/// Adds the grains of a placed group: all three of the next.
 clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
                                      const double orientation[4], double scale);
+
+/// Grains and contacts of a placed group join the assembly.
+clast_status clx_aggregate_lay_group(clast_aggregate *a, int32_t group, const double centre[3],
+                                     const double orientation[4], double scale);
+/// Grains of the assembly from `first` on enter the scene and the sums.
+clast_status clx_aggregate_account_all(clast_aggregate *a, int32_t first);
+/// Grains of the assembly from `first` on are taken into the envelopes.
+clast_status clx_aggregate_track(clast_aggregate *a, int32_t first);
 
 /// Kit, sizes, scene, columns; no grain yet.
 clast_status clx_aggregate_begin(const clast_aggregate_config *config,
@@ -64,9 +72,6 @@ clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a);
 
 /// AUTO origin resolved, once the core's n_core grains lie.
 clast_status clx_aggregate_resolve_origin(clast_aggregate *a);
-
-/// Scene, sums and envelopes of a grain that is in the assembly already.
-clast_status clx_aggregate_account(clast_aggregate *a, int32_t grain);
 
 /// A grain of the assembly as contact sees it.
 clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain);

@@ -3,11 +3,15 @@
 
 #include "aggregate/form.h"
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "contact/touch_inside.h"
 #include "contact/touch_tree.h"
 #include "geom/bvh.h"
 #include "math/vec3.h"
+#include <stdio.h>
 #include <string.h>
+
+enum { DETAIL = 512 };
 
 void clx_kit_free(clx_kit *kit)
 {
@@ -190,19 +194,67 @@ done:
     return status;
 }
 
-/// Shapes and group of one assembly; an absent one leaves the group empty.
+/// One assembly's shapes come after those before it; all are made ready side by side.
+typedef struct {
+    int32_t contact;
+    clx_kit *kit;
+    const clast_shape **shape; ///< [kit->n_shape] to be made ready
+    clast_status *status;      ///< [kit->n_shape]
+    char (*detail)[DETAIL];    ///< [kit->n_shape] the workers' messages
+} shape_job;
+
+static void make_shapes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const shape_job *job = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        job->status[i] = make_shape(job->contact, job->shape[i], &job->kit->shape[i]);
+        if (job->status[i] != CLAST_OK) {
+            (void)snprintf(job->detail[i], DETAIL, "%s", clast_error_detail());
+        }
+    }
+}
+
+static clast_status add_shapes(const clast_aggregate_config *config,
+                               const clast_aggregate_input *input, clx_kit *kit)
+{
+    clast_status status = CLAST_OK;
+    shape_job job = {.contact = config->contact, .kit = kit};
+    const int32_t n_core = input->core != NULL ? input->core->n_shape : 0; // none in cluster mode
+    int32_t n_all = n_core;
+    for (int32_t k = 0; k < input->n_coat; ++k) {
+        n_all += input->coat[k].n_shape;
+    }
+    CLX_TRY(clx_alloc(&kit->shape, n_all, sizeof *kit->shape));
+    kit->n_shape = n_all;
+    CLX_TRY(clx_alloc(&job.shape, kit->n_shape, sizeof(clast_shape *)));
+    CLX_TRY(clx_alloc(&job.status, kit->n_shape, sizeof *job.status));
+    CLX_TRY(clx_alloc(&job.detail, kit->n_shape, sizeof *job.detail));
+    for (int32_t g = 0, n = 0; g <= input->n_coat; ++g) {
+        const clast_assembly *from = g == 0 ? input->core : &input->coat[g - 1];
+        for (int32_t i = 0; from != NULL && i < from->n_shape; ++i) {
+            kit->shape[n].group = g;
+            job.shape[n++] = &from->shape[i];
+        }
+    }
+    clx_parallel_for(kit->n_shape, 1, make_shapes, &job);
+    for (int32_t i = 0; i < kit->n_shape; ++i) {
+        CLX_CHECK(job.status[i] == CLAST_OK, job.status[i], "%s", job.detail[i]);
+    }
+done:
+    clx_free(job.shape);
+    clx_free(job.status);
+    clx_free(job.detail);
+    return status;
+}
+
+/// Group of one assembly; an absent one leaves the group empty.
 static clast_status add_group(const clast_aggregate_config *config, const clast_assembly *assembly,
-                              clx_kit *kit)
+                              int32_t first_shape, clx_kit *kit)
 {
     clast_status status = CLAST_OK;
     const int32_t meaning = kit->n_group == 0 ? config->core_meaning : config->size_meaning;
-    const int32_t first_shape = kit->n_shape;
     clx_kit_group *group = &kit->group[kit->n_group++];
-    for (int32_t i = 0; assembly != NULL && i < assembly->n_shape; ++i) {
-        clx_kit_shape *shape = &kit->shape[kit->n_shape++];
-        shape->group = kit->n_group - 1;
-        CLX_TRY(make_shape(config->contact, &assembly->shape[i], shape));
-    }
     if (assembly != NULL) {
         CLX_TRY(make_group(kit, assembly, first_shape, group));
         measure_inner(kit, group);
@@ -217,15 +269,13 @@ clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggr
 {
     clast_status status = CLAST_OK;
     clx_kit made = {0};
-    int64_t n_shape = input->core != NULL ? input->core->n_shape : 0;
-    for (int32_t k = 0; k < input->n_coat; ++k) {
-        n_shape += input->coat[k].n_shape;
-    }
-    CLX_TRY(clx_alloc(&made.shape, n_shape, sizeof *made.shape));
+    int32_t first = input->core != NULL ? input->core->n_shape : 0;
+    CLX_TRY(add_shapes(config, input, &made));
     CLX_TRY(clx_alloc(&made.group, 1 + input->n_coat, sizeof *made.group));
-    CLX_TRY(add_group(config, input->core, &made)); // none in cluster mode
+    CLX_TRY(add_group(config, input->core, 0, &made));
     for (int32_t k = 0; k < input->n_coat; ++k) {
-        CLX_TRY(add_group(config, &input->coat[k], &made));
+        CLX_TRY(add_group(config, &input->coat[k], first, &made));
+        first += input->coat[k].n_shape;
     }
     *kit = made;
     made = (clx_kit){0};

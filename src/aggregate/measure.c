@@ -1,6 +1,7 @@
 // Envelopes of a growing aggregate: one tracker, a set of columns, and the numbers at the end.
 #include "aggregate/grow.h"
 
+#include "assembly/union.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -182,7 +183,11 @@ static clast_status measure_solid(const clast_aggregate *a, const clast_assembly
     options.tolerance = SOLID_TOLERANCE;
     options.n_sample = SOLID_SAMPLES;
     options.find_depth = false; // the rows know how far each particle must step back
-    CLX_TRY(clast_assembly_union(grains, &options, &solid));
+    if (a->config->contact == CLAST_CONTACT_EXACT && a->config->mode == CLAST_AGGREGATE_CORE) {
+        CLX_TRY(clx_union_of_scene(grains, a->scene, &options, &solid));
+    } else {
+        CLX_TRY(clast_assembly_union(grains, &options, &solid));
+    }
     result->solid_union = solid.volume;
     result->solid_union_error = solid.error;
 done:
@@ -204,9 +209,9 @@ done:
     return status;
 }
 
-enum { AT_END = 3, DETAIL = 512 };
+enum { AT_END = 2, DETAIL = 512 };
 
-/// The three measures at the end that do not need each other.
+/// The measures at the end that run on one thread each and do not need each other.
 typedef struct {
     const clast_aggregate *a;
     const clast_assembly *grains;
@@ -218,10 +223,7 @@ typedef struct {
 
 static clast_status measure_one(end_measures *m, int64_t which)
 {
-    if (which == 0) {
-        return measure_solid(m->a, m->grains, m->result);
-    }
-    return which == 1 ? clast_assembly_extent(m->grains, &m->extent)
+    return which == 0 ? clast_assembly_extent(m->grains, &m->extent)
                       : measure(m->a, m->grains, END_TOLERANCE, m->result->envelope);
 }
 
@@ -237,7 +239,8 @@ static void measure_some(int64_t begin, int64_t end, int32_t worker, void *conte
     }
 }
 
-/// Side by side when each runs on one thread anyway; other envelopes than hulls use all threads.
+/// The union shares its pairs among all threads; hulls run side by side, each on one; other
+/// envelopes use all threads in their turn.
 static clast_status measure_all(end_measures *m)
 {
     clast_status status = CLAST_OK;
@@ -246,6 +249,7 @@ static clast_status measure_all(end_measures *m)
         all_hulls = all_hulls && (m->a->kind[k] == CLAST_ENVELOPE_SURFACE_HULL ||
                                   m->a->kind[k] == CLAST_ENVELOPE_SPHERE_HULL);
     }
+    CLX_TRY(measure_solid(m->a, m->grains, m->result));
     clx_parallel_for(AT_END, all_hulls ? 1 : AT_END, measure_some, m);
     for (int i = 0; i < AT_END; ++i) {
         CLX_CHECK(m->status[i] == CLAST_OK, m->status[i], "%s", m->detail[i]);

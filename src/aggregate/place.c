@@ -3,8 +3,10 @@
 
 #include "aggregate/trial.h"
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "math/vec3.h"
 #include <math.h>
+#include <stdio.h>
 
 clx_aim clx_aggregate_aim(const clast_aggregate *a)
 {
@@ -20,7 +22,7 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
 // microseconds on an idle machine and milliseconds on a busy one. Every PROBE-th search is made on
 // one thread to see.
 static const double SHARED_FROM = 5e-4;
-enum { PROBE = 64 };
+enum { PROBE = 256 };
 
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
@@ -63,6 +65,34 @@ done:
     return status;
 }
 
+/// What follows a landing on two threads: the proof that nothing overlaps, which looks at the scene
+/// without the new grains, and their share of the envelopes.
+typedef struct {
+    clast_aggregate *a;
+    const clx_search *search;
+    const clx_landing *landing;
+    int32_t first; ///< new grain
+    double overlap;
+    clast_status status;
+    char detail[512]; ///< the worker's message
+} arrival;
+
+static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    arrival *all = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        if (i == 0) {
+            all->overlap = clx_search_overlap(all->search, all->landing);
+            continue;
+        }
+        all->status = clx_aggregate_track(all->a, all->first);
+        if (all->status != CLAST_OK) {
+            (void)snprintf(all->detail, sizeof all->detail, "%s", clast_error_detail());
+        }
+    }
+}
+
 static clast_status place_by_touch(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
@@ -73,9 +103,12 @@ static clast_status place_by_touch(clast_aggregate *a)
     const int32_t first = a->assembly.n_grain;
     prepare_search(a, shape, &search);
     CLX_TRY(throw_particle(a, &search, &landing));
-    const double overlap = clx_search_overlap(&search, &landing);
     CLX_TRY(
-        clx_aggregate_add_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
+        clx_aggregate_lay_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
+    arrival all = {.a = a, .search = &search, .landing = &landing, .first = first};
+    clx_parallel_for(2, search.on_one_thread ? 2 : 1, arrive, &all);
+    CLX_CHECK(all.status == CLAST_OK, all.status, "%s", all.detail);
+    CLX_TRY(clx_aggregate_account_all(a, first));
     CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touch.body, first + landing.part,
                                        landing.touch.point));
     ++a->n_placed;
@@ -85,7 +118,7 @@ static clast_status place_by_touch(clast_aggregate *a)
     row[CLX_HISTORY_DISTANCE] = landing.distance;
     row[CLX_HISTORY_RAYS] = (double)search.aim.n_ray * (search.aim.attempt + 1);
     row[CLX_HISTORY_TOUCHED] = landing.touch.body;
-    row[CLX_HISTORY_OVERLAP] = overlap;
+    row[CLX_HISTORY_OVERLAP] = all.overlap;
 done:
     return status;
 }

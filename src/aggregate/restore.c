@@ -27,8 +27,9 @@ static clast_status copy_grains(clast_aggregate *a, const clast_assembly *placed
         CLX_TRY(clast_assembly_add_grain(&a->assembly, placed->shape_id[i], placed->position[i],
                                          placed->orientation[i], placed->scale[i],
                                          placed->density[i]));
-        CLX_TRY(clx_aggregate_account(a, i));
     }
+    CLX_TRY(clx_aggregate_account_all(a, 0));
+    CLX_TRY(clx_aggregate_track(a, 0));
     for (int32_t i = 0; i < placed->n_contact; ++i) {
         CLX_TRY(clast_assembly_add_contact(&a->assembly, placed->contact[i][0],
                                            placed->contact[i][1], placed->contact_point[i]));

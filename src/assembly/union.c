@@ -10,6 +10,7 @@
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
+#include "assembly/union.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
@@ -190,23 +191,49 @@ static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, do
     return 0.5 * (low + high);
 }
 
-/// Keeps the pairs that overlap, and their depths.
-static void find_overlaps(const clast_assembly *assembly, const clx_touch_set *set,
-                          const clast_union_options *options, clx_pairs *pairs, clast_union *out)
+/// Pairs as workers see them.
+typedef struct {
+    const clast_assembly *assembly;
+    const clx_touch_set *set;
+    const clx_pairs *pairs;
+    bool wanted;   ///< the depths themselves
+    double *depth; ///< [pairs->n]
+} depth_job;
+
+static double smaller_radius(const clast_assembly *a, const int32_t pair[2])
 {
+    return fmin(grain_radius(a, pair[0]), grain_radius(a, pair[1]));
+}
+
+static void find_depths(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const depth_job *job = context;
+    (void)worker;
+    for (int64_t p = begin; p < end; ++p) {
+        const int32_t *pair = job->pairs->pair[p];
+        job->depth[p] = overlap_depth(clx_touch_scene_body(job->set->scene, pair[0]),
+                                      clx_touch_scene_body(job->set->scene, pair[1]),
+                                      touching * smaller_radius(job->assembly, pair), job->wanted);
+    }
+}
+
+/// Keeps the pairs that overlap, and their depths.
+static clast_status find_overlaps(const group *g, const clast_union_options *options,
+                                  clx_pairs *pairs, clast_union *out)
+{
+    clast_status status = CLAST_OK;
+    enum { PAIR_BLOCK = 16 };
+    depth_job job = {g->assembly, g->set, pairs, options->find_depth, NULL};
     int32_t n = 0;
+    CLX_TRY(clx_alloc(&job.depth, pairs->n, sizeof *job.depth));
+    clx_parallel_for(pairs->n, PAIR_BLOCK, find_depths, &job);
     for (int32_t p = 0; p < pairs->n; ++p) {
-        const int32_t i = pairs->pair[p][0];
-        const int32_t j = pairs->pair[p][1];
-        const double radius = fmin(grain_radius(assembly, i), grain_radius(assembly, j));
-        const double depth =
-            overlap_depth(clx_touch_scene_body(set->scene, i), clx_touch_scene_body(set->scene, j),
-                          touching * radius, options->find_depth);
-        if (depth > touching * radius) {
-            out->max_overlap = fmax(out->max_overlap, depth);
-            out->max_overlap_share = fmax(out->max_overlap_share, depth / radius);
-            pairs->pair[n][0] = i;
-            pairs->pair[n++][1] = j;
+        const double radius = smaller_radius(g->assembly, pairs->pair[p]);
+        if (job.depth[p] > touching * radius) {
+            out->max_overlap = fmax(out->max_overlap, job.depth[p]);
+            out->max_overlap_share = fmax(out->max_overlap_share, job.depth[p] / radius);
+            pairs->pair[n][0] = pairs->pair[p][0];
+            pairs->pair[n++][1] = pairs->pair[p][1];
         }
     }
     if (n > 0 && !options->find_depth) {
@@ -215,6 +242,9 @@ static void find_overlaps(const clast_assembly *assembly, const clx_touch_set *s
     }
     pairs->n = n;
     out->n_overlap = n;
+done:
+    clx_free(job.depth);
+    return status;
 }
 
 /// Lists each overlapping grain with its partners.
@@ -281,20 +311,17 @@ done:
     return status;
 }
 
-clast_status clast_assembly_union(const clast_assembly *assembly,
-                                  const clast_union_options *options, clast_union *out)
+static clast_status union_of(const clast_assembly *assembly, const clx_touch_set *set,
+                             const clast_union_options *options, clast_union *out)
 {
     clast_status status = CLAST_OK;
-    clx_touch_set set = {0};
     clx_pairs pairs = {0};
-    group g = {.assembly = assembly, .set = &set, .seed = options->seed};
+    group g = {.assembly = assembly, .set = set, .seed = options->seed};
     clast_union made = {.is_exact = true};
-    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
-    CLX_TRY(clx_touch_set_init(assembly, &set));
-    CLX_TRY(clx_touch_set_near(&set, &pairs));
+    CLX_TRY(clx_touch_set_near(set, &pairs));
     made.sum = clast_assembly_volume(assembly);
     made.volume = made.sum;
-    find_overlaps(assembly, &set, options, &pairs, &made);
+    CLX_TRY(find_overlaps(&g, options, &pairs, &made));
     if (pairs.n > 0) {
         CLX_TRY(make_group(&pairs, &g));
         CLX_TRY(add_group(&g, options, &made));
@@ -303,6 +330,26 @@ clast_status clast_assembly_union(const clast_assembly *assembly,
 done:
     group_free(&g);
     clx_pairs_free(&pairs);
+    return status;
+}
+
+clast_status clx_union_of_scene(const clast_assembly *assembly, clx_touch_scene *scene,
+                                const clast_union_options *options, clast_union *out)
+{
+    const clx_touch_set borrowed = {.scene = scene};
+    CLAST_ASSERT(clx_touch_scene_count(scene) == assembly->n_grain);
+    return union_of(assembly, &borrowed, options, out);
+}
+
+clast_status clast_assembly_union(const clast_assembly *assembly,
+                                  const clast_union_options *options, clast_union *out)
+{
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    CLX_TRY(union_of(assembly, &set, options, out));
+done:
     clx_touch_set_free(&set);
     return status;
 }

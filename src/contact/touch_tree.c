@@ -43,14 +43,22 @@ static double radius_at(const point_set *set, int32_t i)
 static int32_t farthest(const point_set *set, const double centre[3], double *distance)
 {
     int32_t best = 0;
-    *distance = -1.0;
+    double most = -1.0;
+    if (set->radius == NULL) {
+        for (int32_t i = 0; i < set->n; ++i) {
+            const double d2 = v3_distance2(centre, at(set, i));
+            best = d2 > most ? i : best;
+            most = d2 > most ? d2 : most;
+        }
+        *distance = sqrt(most);
+        return best;
+    }
     for (int32_t i = 0; i < set->n; ++i) {
         const double d = v3_distance(centre, at(set, i)) + radius_at(set, i);
-        if (d > *distance) {
-            *distance = d;
-            best = i;
-        }
+        best = d > most ? i : best;
+        most = d > most ? d : most;
     }
+    *distance = most;
     return best;
 }
 
@@ -58,12 +66,11 @@ static int32_t farthest(const point_set *set, const double centre[3], double *di
 static void shrink_ball(const point_set *set, const double axis[3], bound *node)
 {
     double centre[3];
-    double distance = 0.0;
     v3_copy(centre, node->centre);
-    (void)farthest(set, centre, &node->radius);
+    int32_t far = farthest(set, centre, &node->radius);
+    double distance = node->radius;
     for (int step = 1; step <= BALL_STEPS; ++step) {
         double towards[3];
-        const int32_t far = farthest(set, centre, &distance);
         v3_sub(towards, at(set, far), centre);
         v3_axpy(towards, towards, -v3_dot(towards, axis), axis);
         const double length = v3_norm(towards);
@@ -71,7 +78,7 @@ static void shrink_ball(const point_set *set, const double axis[3], bound *node)
             break;
         }
         v3_axpy(centre, centre, distance / (length * (1.0 + step)), towards);
-        (void)farthest(set, centre, &distance);
+        far = farthest(set, centre, &distance);
         if (distance < node->radius) {
             node->radius = distance;
             v3_copy(node->centre, centre);

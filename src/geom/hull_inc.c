@@ -25,6 +25,7 @@ void clx_hull_inc_free(clx_hull_inc *hull)
     clx_free(hull->pending_tag);
     clx_free(hull->next);
     clx_free(hull->candidate);
+    clx_free(hull->plane);
     clx_free(hull->work);
     clx_free(hull->visible);
     clx_free(hull->horizon);
@@ -233,13 +234,14 @@ static clast_status push_work(clx_hull_inc *hull, int32_t f)
 
 /// Hands a point to the first of these facets that it sees; a point that sees none is inside.
 static clast_status assign(clx_hull_inc *hull, int32_t i, const double point[3], int32_t n,
-                           const int32_t *facets)
+                           const int32_t *facets, bool *is_assigned)
 {
     for (int32_t j = 0; j < n; ++j) {
         clx_hull_facet *facet = &hull->facet[facets[j]];
         if (clx_hull_inc_sees(hull, facet, point)) {
             hull->next[i] = facet->outside;
             facet->outside = i;
+            *is_assigned = true;
             return hull->next[i] < 0 ? push_work(hull, facets[j]) : CLAST_OK;
         }
     }
@@ -296,7 +298,8 @@ static clast_status insert_farthest(clx_hull_inc *hull, int32_t f, const double 
     for (int32_t p = list; p >= 0;) {
         const int32_t after = hull->next[p];
         if (p != best) {
-            CLX_TRY(assign(hull, p, point[p], hull->n_horizon, hull->fresh));
+            bool is_assigned = false;
+            CLX_TRY(assign(hull, p, point[p], hull->n_horizon, hull->fresh, &is_assigned));
         }
         p = after;
     }
@@ -350,6 +353,43 @@ done:
     return status;
 }
 
+/// Candidates' planes side by side, moved outward from nothing a point could be doubted to see:
+/// n.(p - low) - offset > -2 doubt for every point that clx_hull_inc_sees would say yes to.
+static clast_status set_planes(clx_hull_inc *hull, int32_t n)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&hull->plane, &hull->plane_room, (int64_t)n / 4 + 1, sizeof *hull->plane));
+    for (int32_t i = 0; i < n; ++i) {
+        const clx_hull_facet *facet = &hull->facet[hull->candidate[i]];
+        double to[3];
+        v3_sub(to, hull->vert[facet->vert[0]].point, hull->low);
+        const double doubt = facet->tolerance * hull->reach;
+        clx_lanes_set(hull->plane, i, facet->normal, 2.0 * doubt - v3_dot(facet->normal, to));
+    }
+done:
+    return status;
+}
+
+/// assign() among the candidates: four planes at a time tell which facets are worth a look.
+static clast_status assign_candidate(clx_hull_inc *hull, int32_t i, const double point[3],
+                                     int32_t n_candidate)
+{
+    const int32_t n_group = (n_candidate + 3) / 4;
+    double to[3];
+    clast_status status = CLAST_OK;
+    bool is_assigned = false;
+    v3_sub(to, point, hull->low);
+    for (int32_t group = 0; !is_assigned && status == CLAST_OK; ++group) {
+        group = clx_lanes_next(hull->plane, group, n_group, to, 0.0);
+        if (group == n_group) {
+            break;
+        }
+        const int32_t n = n_candidate - 4 * group;
+        status = assign(hull, i, point, n < 4 ? n : 4, &hull->candidate[4 * group], &is_assigned);
+    }
+    return status;
+}
+
 /// Indices of a batch that failed must not be met by the next one.
 static void clear_lists(clx_hull_inc *hull)
 {
@@ -375,9 +415,10 @@ static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*p
     }
     CLX_TRY(find_candidates(hull, low, high, &n_candidate));
     CLX_TRY(clx_grow(&hull->next, &hull->next_room, n, sizeof *hull->next));
+    CLX_TRY(set_planes(hull, n_candidate));
     hull->n_work = 0;
     for (int32_t i = 0; i < n && n_candidate > 0; ++i) {
-        CLX_TRY(assign(hull, i, point[i], n_candidate, hull->candidate));
+        CLX_TRY(assign_candidate(hull, i, point[i], n_candidate));
     }
     CLX_TRY(insert_listed(hull, point, tag));
 done:
@@ -566,6 +607,62 @@ done:
     if (status != CLAST_OK) {
         clear_lists(hull);
     }
+    return status;
+}
+
+/// New numbers of the slots in use, in their order; -1 for free ones. Returns how many there are.
+static int32_t number_facets(const clx_hull_inc *hull, int32_t *number)
+{
+    int32_t n = 0;
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        number[f] = hull->facet[f].vert[0] >= 0 ? n++ : -1;
+    }
+    return n;
+}
+
+static int32_t number_vertices(const clx_hull_inc *hull, int32_t *number)
+{
+    int32_t n = 0;
+    for (int32_t v = 0; v < hull->vert_end; ++v) {
+        number[v] = hull->vert[v].degree > 0 ? n++ : -1;
+    }
+    return n;
+}
+
+clast_status clx_hull_inc_compact(clx_hull_inc *hull)
+{
+    clast_status status = CLAST_OK;
+    int32_t *facet = NULL;
+    int32_t *vert = NULL;
+    if (hull->n_free_facet == 0 && hull->n_free_vert == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&facet, hull->facet_end, sizeof *facet));
+    CLX_TRY(clx_alloc(&vert, hull->vert_end, sizeof *vert));
+    const int32_t n_facet = number_facets(hull, facet);
+    const int32_t n_vert = number_vertices(hull, vert);
+    for (int32_t f = 0; f < hull->facet_end; ++f) {
+        if (facet[f] >= 0) {
+            clx_hull_facet moved = hull->facet[f];
+            for (int k = 0; k < 3; ++k) {
+                moved.vert[k] = vert[moved.vert[k]];
+                moved.adj[k] = facet[moved.adj[k]];
+            }
+            hull->facet[facet[f]] = moved;
+        }
+    }
+    for (int32_t v = 0; v < hull->vert_end; ++v) {
+        if (vert[v] >= 0) {
+            hull->vert[vert[v]] = hull->vert[v];
+        }
+    }
+    hull->facet_end = n_facet;
+    hull->vert_end = n_vert;
+    hull->n_free_facet = 0;
+    hull->n_free_vert = 0;
+done:
+    clx_free(facet);
+    clx_free(vert);
     return status;
 }
 

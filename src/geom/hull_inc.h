@@ -1,6 +1,7 @@
 #pragma once
 // A convex hull that grows: points come in batches, its volume is known after every batch, and
 // points that end up inside are forgotten.
+#include "geom/lanes.h"
 #include <clast/mesh.h>
 
 /// One triangle of the hull. Free slots have vert[0] < 0.
@@ -57,6 +58,8 @@ typedef struct clx_hull_inc {
     int64_t next_room;
     int32_t *candidate;
     int64_t candidate_room;
+    clx_lanes *plane; ///< [n_candidate / 4] the candidates' normals and minus offsets from `low`
+    int64_t plane_room;
     int32_t *work;
     int32_t n_work;
     int64_t work_room;
@@ -91,6 +94,12 @@ clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*poin
 /// fields `owner`, `excess` and `gap` still readable) and hull->fresh [n_horizon] the new ones.
 clast_status clx_hull_inc_insert(clx_hull_inc *hull, const double point[3], int32_t tag,
                                  int32_t facet, bool *done);
+
+/// Closes the gaps that dropped facets and vertices left in the arrays; slots change.
+///
+/// A hull has the fewest facets when it is large: what a lone sphere needed is long gone, and every
+/// look at all facets would pass over the empty slots.
+clast_status clx_hull_inc_compact(clx_hull_inc *hull);
 
 /// Volume of the hull; 0 while all points are coplanar. O(1): the sum of what each insertion added,
 /// all terms positive, with compensation.

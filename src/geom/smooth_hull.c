@@ -9,16 +9,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 
-// Clang takes no vectors by value between a clone and what it inlines, and the thread sanitizer
-// starts after the choice is made: those builds keep to SSE2.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
-    !defined(__SANITIZE_THREAD__)
-#define FOR_EACH_MACHINE __attribute__((target_clones("avx2", "default")))
-#else
-#define FOR_EACH_MACHINE
-#endif
-
-enum { MAX_POINTS = 1000000, PRUNE_STEP = 24 };
+enum { MAX_POINTS = 1000000, PRUNE_STEP = 24, COMPACT_STEP = 64 };
 
 void clx_smooth_hull_free(clx_smooth_hull *hull)
 {
@@ -59,29 +50,6 @@ static void look(clx_smooth_hull *hull, clx_hull_facet *facet, double offset, in
     }
 }
 
-typedef double lanes __attribute__((vector_size(32), aligned(8), may_alias));
-typedef int64_t marks __attribute__((vector_size(32)));
-
-/// First group from `group` on with a ball that reaches beyond `excess`, or n_group. This loop is
-/// most of the time of an envelope's growth.
-FOR_EACH_MACHINE
-static int32_t next_group(const clx_hull_balls *balls, int32_t group, int32_t n_group,
-                          const double n[3], double beyond)
-{
-    for (; group < n_group; ++group) {
-        const clx_hull_balls *b = &balls[group];
-        const lanes *x = (const lanes *)b->centre[0];
-        const lanes *y = (const lanes *)b->centre[1];
-        const lanes *z = (const lanes *)b->centre[2];
-        const lanes *r = (const lanes *)b->radius;
-        const marks far = n[0] * *x + n[1] * *y + n[2] * *z + *r > beyond;
-        if ((far[0] | far[1] | far[2] | far[3]) != 0) {
-            break;
-        }
-    }
-    return group;
-}
-
 /// Looks from a facet at all exposed bodies. Four bounding balls at a time tell which to look at:
 /// nearly none, once the facet's own bodies are known.
 static void look_at_exposed(clx_smooth_hull *hull, clx_hull_facet *facet, double offset)
@@ -90,7 +58,7 @@ static void look_at_exposed(clx_smooth_hull *hull, clx_hull_facet *facet, double
     for (int32_t group = 0;; ++group) {
         // a rounding below, so that what look() would keep is never passed over
         const double beyond = (offset + facet->excess) - 1e-15 * fabs(offset);
-        group = next_group(hull->balls, group, n_group, facet->normal, beyond);
+        group = clx_lanes_next(hull->balls, group, n_group, facet->normal, beyond);
         if (group == n_group) {
             break;
         }
@@ -103,14 +71,8 @@ static void look_at_exposed(clx_smooth_hull *hull, clx_hull_facet *facet, double
 /// Makes body b number i of the exposed.
 static void expose(clx_smooth_hull *hull, int32_t i, int32_t b)
 {
-    clx_hull_balls *balls = &hull->balls[i / 4];
     hull->exposed[i] = b;
-    for (int k = i % 4; k < 4; ++k) { // and empties the slots behind
-        balls->radius[k] = k == i % 4 ? hull->body[b].radius : -HUGE_VAL;
-        for (int j = 0; j < 3; ++j) {
-            balls->centre[j][k] = hull->body[b].centre[j];
-        }
-    }
+    clx_lanes_set(hull->balls, i, hull->body[b].centre, hull->body[b].radius);
 }
 
 /// Looks from a facet at all bodies, its own first.
@@ -243,6 +205,7 @@ clast_status clx_smooth_hull_survey(clx_smooth_hull *hull)
     if (!inner->is_solid) {
         return CLAST_OK;
     }
+    CLX_TRY(clx_hull_inc_compact(inner));
     set_centre(hull);
     for (int32_t f = 0; f < inner->facet_end; ++f) {
         if (inner->facet[f].vert[0] >= 0) {
@@ -276,6 +239,9 @@ double clx_smooth_hull_support(const clx_smooth_hull *hull, const double u[3], i
 clast_status clx_smooth_hull_add_points(clx_smooth_hull *hull, int32_t n, const double (*point)[3])
 {
     clast_status status = CLAST_OK;
+    if (n == 0) {
+        return CLAST_OK; // and what is known of the facets stays known
+    }
     CLX_TRY(clx_smooth_hull_reserve(hull, n));
     for (int32_t i = 0; i < n; ++i) {
         hull->touch_tag[i] = -1 - (hull->n_point + i);
@@ -283,6 +249,9 @@ clast_status clx_smooth_hull_add_points(clx_smooth_hull *hull, int32_t n, const 
     CLX_TRY(clx_hull_inc_add(&hull->inner, n, point, hull->touch_tag));
     hull->n_point += n;
     hull->is_surveyed = false;
+    if (hull->inner.facet_end > 2 * hull->inner.n_facet + COMPACT_STEP) {
+        CLX_TRY(clx_hull_inc_compact(&hull->inner));
+    }
 done:
     return status;
 }
@@ -442,6 +411,9 @@ clast_status clx_smooth_hull_refine(clx_smooth_hull *hull, double tolerance)
     clx_hull_inc *inner = &hull->inner;
     CLX_CHECK(inner->is_solid || inner->n_pending == 0, CLAST_E_GEOMETRY,
               "hull: all points lie in one plane");
+    if (hull->n_body == 0) {
+        return CLAST_OK; // polyhedra alone: nothing is smooth, nothing is open
+    }
     // a centre left behind by growth makes the cones flat and the bounds loose
     if (!hull->is_surveyed || clx_hull_inc_volume(inner) > 2.0 * hull->centre_volume) {
         CLX_TRY(clx_smooth_hull_survey(hull));

@@ -3,6 +3,7 @@
 // where a body still sticks out, and an exact volume from its combinatorics.
 #include "geom/body.h"
 #include "geom/hull_inc.h"
+#include "geom/lanes.h"
 
 /// A facet that waits for refinement; out of date when the facet's slot has changed hands.
 typedef struct clx_hull_wait {
@@ -10,12 +11,6 @@ typedef struct clx_hull_wait {
     int32_t facet;
     int64_t serial; ///< of the facet at its survey
 } clx_hull_wait;
-
-/// Bounding balls of four exposed bodies side by side; an empty slot has radius -INFINITY.
-typedef struct clx_hull_balls {
-    double centre[3][4];
-    double radius[4];
-} clx_hull_balls;
 
 /// {0} is empty; free with clx_smooth_hull_free. One thread at a time.
 typedef struct clx_smooth_hull {
@@ -26,7 +21,7 @@ typedef struct clx_smooth_hull {
     int32_t *exposed; ///< [n_exposed] bodies that may stick out of the inner hull
     int32_t n_exposed, n_pruned;
     int64_t exposed_room;
-    clx_hull_balls *balls; ///< [ceil(n_exposed / 4)] in the order of exposed
+    clx_lanes *balls; ///< [ceil(n_exposed / 4)] centres and radii in the order of exposed
     int64_t balls_room;
     int32_t n_point;      ///< points added so far
     double centre[3];     ///< inside the inner hull: apex of the facets' cones

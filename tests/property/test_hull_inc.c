@@ -174,6 +174,36 @@ static void buried_vertices_are_forgotten(void **state)
     clx_hull_inc_free(&hull);
 }
 
+/* A hull that was large in facets keeps its slots; closing the gaps changes no facet of it, then or
+ * later. */
+static void compacted_hull_goes_on_as_before(void **state)
+{
+    (void)state;
+    enum { N = 600 };
+    static point3 p[N];
+    clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, 7);
+    clx_hull_inc hull[2] = {{0}, {0}};
+    for (int i = 0; i < N; ++i) {
+        clx_rng_direction(&rng, p[i]);
+        v3_scale(p[i], i < 400 ? 1.0 : 1.3, p[i]);
+    }
+    p[400][0] = p[400][1] = p[400][2] = 5.0; /* hides most of what there was */
+    add_in_batches(&hull[0], 401, (const point3 *)p, 401);
+    add_in_batches(&hull[1], 401, (const point3 *)p, 401);
+    const int32_t before = hull[1].facet_end;
+    CHECK_OK(clx_hull_inc_compact(&hull[1]));
+    assert_true(hull[1].facet_end == hull[1].n_facet && hull[1].vert_end == hull[1].n_vert);
+    assert_true(hull[1].facet_end < before);
+    check_hull(&hull[1], 401, (const point3 *)p);
+    add_in_batches(&hull[0], N - 401, (const point3 *)p + 401, 60);
+    add_in_batches(&hull[1], N - 401, (const point3 *)p + 401, 60);
+    check_hull(&hull[1], N, (const point3 *)p);
+    assert_int_equal(hull[0].n_facet, hull[1].n_facet);
+    CHECK_REL(clx_hull_inc_volume(&hull[1]), clx_hull_inc_volume(&hull[0]), 1e-13);
+    clx_hull_inc_free(&hull[0]);
+    clx_hull_inc_free(&hull[1]);
+}
+
 static clast_status make_hull(void *context)
 {
     clast_status status = CLAST_OK;
@@ -188,6 +218,9 @@ static clast_status make_hull(void *context)
     }
     for (int i = 0; i < 60 && status == CLAST_OK; i += 20) {
         status = clx_hull_inc_add(&hull, 20, (const point3 *)p + i, tag);
+    }
+    if (status == CLAST_OK) {
+        status = clx_hull_inc_compact(&hull);
     }
     if (status == CLAST_OK) {
         status = clx_hull_inc_mesh(&hull, &mesh);
@@ -211,6 +244,7 @@ int main(void)
         cmocka_unit_test(random_points_agree_with_qhull),
         cmocka_unit_test(coplanar_points_wait_for_a_solid),
         cmocka_unit_test(buried_vertices_are_forgotten),
+        cmocka_unit_test(compacted_hull_goes_on_as_before),
         cmocka_unit_test(hull_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

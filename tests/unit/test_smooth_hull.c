@@ -190,6 +190,29 @@ static void tracked_volume_is_within_its_error(void **state)
     }
 }
 
+/* Growing by spheres once looked at all facets anew after each, since "no points" counted as
+ * points: the cost of a particle grew with the hull. And slots of the lone sphere's facets stayed
+ * in use. */
+static void growing_by_spheres_keeps_what_is_known(void **state)
+{
+    (void)state;
+    clx_smooth_hull hull = {0};
+    clx_body body;
+    for (int i = 0; i < 100; ++i) {
+        double at[3];
+        clx_rng rng = clx_rng_at(23, CLX_STREAM_TEST, (uint64_t)i);
+        clx_rng_direction(&rng, at);
+        v3_scale(at, 0.2 * i, at);
+        clx_body_sphere(&body, at, 1.0);
+        CHECK_OK(clx_smooth_hull_add_body(&hull, &body));
+        CHECK_OK(clx_smooth_hull_add_points(&hull, 0, NULL));
+        assert_true(i == 0 || hull.is_surveyed);
+        CHECK_OK(clx_smooth_hull_refine(&hull, 1e-2));
+    }
+    assert_true(hull.inner.facet_end < 3 * hull.inner.n_facet);
+    clx_smooth_hull_free(&hull);
+}
+
 static clast_status make_hull(void *context)
 {
     clast_status status = CLAST_OK;
@@ -227,6 +250,7 @@ int main(void)
         cmocka_unit_test(points_and_bodies_mix),
         cmocka_unit_test(exact_volume_lies_within_all_bounds),
         cmocka_unit_test(tracked_volume_is_within_its_error),
+        cmocka_unit_test(growing_by_spheres_keeps_what_is_known),
         cmocka_unit_test(smooth_hull_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
