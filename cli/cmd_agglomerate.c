@@ -37,7 +37,7 @@ static const clast_field own[] = {
 };
 #undef COLUMN
 
-enum { MAX_FIELD = 80, MAX_DETAIL = 6000 };
+enum { MAX_FIELD = 100, MAX_DETAIL = 6000 };
 static clast_field fields[MAX_FIELD];
 static char details[MAX_DETAIL];
 
@@ -282,13 +282,13 @@ static clast_status run(const cli_common *common, void *values)
     config *c = values;
     loaded l = {0};
     clast_agglomeration result = {0};
+    clast_domain domain = {0};
     const double begun = now();
-    if (c->agglomerate.decompose.domain[0] == '\0') {
-        return cli_fail(
-            CLAST_E_USAGE,
-            "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
+    clast_status status = cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain);
+    if (status == CLAST_OK) {
+        status = load(common, c, &l);
+        l.input.domain = &domain;
     }
-    clast_status status = load(common, c, &l);
     if (status == CLAST_OK) {
         status = clast_agglomerate(&l.input, &c->agglomerate, &result);
     }
@@ -307,6 +307,7 @@ static clast_status run(const cli_common *common, void *values)
         }
     }
     clast_agglomeration_free(&result);
+    clast_domain_free(&domain);
     free_loaded(&l);
     return status;
 }

@@ -20,7 +20,7 @@ typedef struct {
 
 static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
-enum { N_OWN = 2, MAX_FIELD = 40 };
+enum { N_OWN = 2, MAX_FIELD = 60 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
@@ -102,6 +102,7 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     json_t *out = json_object();
     cli_json_count(out, "n", r->n);
     cli_json_count(out, "n_outside", r->n_outside);
+    cli_json_count(out, "n_test", r->n_test);
     cli_json_count(out, "dimension", r->dimension);
     (void)json_object_set_new(out, "tests", json_tests(&r->before));
     cli_json_bool(out, "reject", r->before.reject);
@@ -127,6 +128,9 @@ static void print_words(const clast_decomposition *r, bool test_only)
     (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
     if (r->n_outside > 0) {
         (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
+    }
+    if (r->n_test != r->n) {
+        (void)printf(", %lld tested", (long long)r->n_test);
     }
     (void)printf("\n\n%-16s %12s %12s\n", "test", "statistic", "p");
     for (int32_t k = 0; k < r->before.n_test; ++k) {
@@ -240,15 +244,11 @@ static clast_status write_tables(const clast_decomposition *r, int64_t n_point, 
 }
 
 static clast_status write_pictures(const clast_decomposition *r, const clast_cloud *cloud,
-                                   const config *c, const char *folder)
+                                   const clast_domain *domain, const config *c, const char *folder)
 {
     char path[4096];
-    clast_domain domain;
-    clast_status status = clast_domain_parse(c->decompose.domain, &domain);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
-        status = clast_cells_write_vtu(path, r, &domain);
-    }
+    (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
+    clast_status status = clast_cells_write_vtu(path, r, domain);
     if (status == CLAST_OK) {
         (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
         status = clast_points_write_vtp(path, cloud, r);
@@ -265,13 +265,14 @@ static clast_status write_pictures(const clast_decomposition *r, const clast_clo
 }
 
 static clast_status write_folder(const clast_decomposition *r, const clast_cloud *cloud,
-                                 const config *c, json_t *summary, const char *folder)
+                                 const clast_domain *domain, const config *c, json_t *summary,
+                                 const char *folder)
 {
     char path[4096];
     (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     clast_status status = write_tables(r, cloud->n, folder);
     if (status == CLAST_OK) {
-        status = write_pictures(r, cloud, c, folder);
+        status = write_pictures(r, cloud, domain, c, folder);
     }
     (void)snprintf(path, sizeof path, "%s/summary.json", folder);
     if (status == CLAST_OK &&
@@ -294,26 +295,25 @@ static clast_status run(const cli_common *common, void *values)
     clast_table table = {0};
     clast_cloud cloud = {0};
     clast_decomposition result = {0};
+    clast_domain domain = {0};
     const double begun = now();
-    if (c->decompose.domain[0] == '\0') {
-        return cli_fail(
-            CLAST_E_USAGE,
-            "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
-    }
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
-    clast_status status = cli_points_read(common->argument[0], &c->points, &table);
+    clast_status status = cli_domain_read(c->decompose.domain, &c->points, &domain);
+    if (status == CLAST_OK) {
+        status = cli_points_read(common->argument[0], &c->points, &table);
+    }
     if (status == CLAST_OK) {
         status = clast_cloud_from_table(&table, &c->points.columns, &cloud);
     }
     if (status == CLAST_OK) {
-        status = clast_decompose(&cloud, &c->decompose, &result);
+        status = clast_decompose_in(&domain, &cloud, &c->decompose, &result);
     }
     if (status == CLAST_OK) {
         json_t *summary = summary_of(&result, now() - begun);
         if (common->output != NULL) {
-            status = write_folder(&result, &cloud, c, summary, common->output);
+            status = write_folder(&result, &cloud, &domain, c, summary, common->output);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(summary);
@@ -326,6 +326,7 @@ static clast_status run(const cli_common *common, void *values)
     }
     clast_table_free(&table);
     clast_cloud_free(&cloud);
+    clast_domain_free(&domain);
     clast_decomposition_free(&result);
     return status;
 }

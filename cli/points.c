@@ -1,6 +1,8 @@
 // Options that say how a file of points is read and which columns hold what.
 #include "points.h"
 
+#include "command.h"
+
 #define TEXT(name, help)                                                                           \
     {                                                                                              \
 #name, offsetof(clast_cloud_columns, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""       \
@@ -14,10 +16,13 @@ static const clast_field rows[] = {
     {"velocity_columns", offsetof(clast_cloud_columns, velocity_columns), CLAST_FIELD_TEXT_LIST, 0,
      0, 0, "-", "columns of velocities [m/s], as many as dimensions", ""},
     TEXT(weight_column, "column of weights: real particles that a parcel stands for"),
+    TEXT(variable_column, "column of a variable (temperature) in which tree cells are uniform too"),
     {"dataset", offsetof(cli_points, dataset), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "array or folder of an HDF5 file", ""},
     {"frame", offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
      "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
+    {"domain_unit", offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "unit of the coordinates in the file of --domain mesh:FILE; none: as the points", ""},
 };
 #undef TEXT
 
@@ -34,4 +39,14 @@ clast_status cli_points_read(const char *path, const cli_points *points, clast_t
 {
     const clast_points_options options = {points->dataset, points->frame};
     return clast_points_read(path, &options, table);
+}
+
+clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain)
+{
+    if (text[0] == '\0') {
+        return cli_fail(
+            CLAST_E_USAGE,
+            "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
+    }
+    return clast_domain_read(text, points->domain_unit, domain);
 }

@@ -7,6 +7,7 @@ typedef struct cli_points {
     clast_cloud_columns columns; // first: rows of the field table share offsets
     char *dataset;
     int64_t frame;
+    char *domain_unit;
 } cli_points;
 
 /// Appends the options of a cli_points that lies `offset` bytes into a configuration struct to a
@@ -15,3 +16,6 @@ int cli_point_fields(clast_field *fields, int n, size_t offset);
 
 /// Reads the file as a table.
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table);
+
+/// Reads the domain that --domain names; a missing one is a usage error.
+clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain);

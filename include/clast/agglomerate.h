@@ -37,6 +37,7 @@ typedef struct clast_agglomerate_input {
     const double *temperature, *shear, *dissipation; ///< [n] of the fluid at each particle
     const double *fixed_cell;   ///< [n] whole numbers >= 0: cell of the user's mesh, or < 0
     const double *fixed_volume; ///< [n] volume of that cell [m^d]
+    const clast_domain *domain; ///< NULL: the one that the configuration names
 } clast_agglomerate_input;
 
 typedef struct clast_agglomeration {

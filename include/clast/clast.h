@@ -18,6 +18,7 @@
 #include <clast/decompose_file.h>
 #include <clast/dem.h>
 #include <clast/domain.h>
+#include <clast/domain_file.h>
 #include <clast/envelope.h>
 #include <clast/export.h>
 #include <clast/fabric.h>

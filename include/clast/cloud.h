@@ -12,6 +12,7 @@ typedef struct clast_cloud {
     double *mass;      ///< [n] kg, or NULL
     double *weight;    ///< [n] real particles a parcel stands for, or NULL (1)
     double *velocity;  ///< [n][dimension] m/s, or NULL
+    double *variable;  ///< [n] temperature or the like: cells shall be uniform in it too; or NULL
 } clast_cloud;
 
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
@@ -21,7 +22,7 @@ CLAST_API void clast_cloud_free(clast_cloud *cloud);
 typedef struct clast_cloud_columns {
     clast_text_list columns;          ///< coordinates; an item may be a list itself, "x,y,z"
     clast_text_list velocity_columns; ///< as many as coordinates
-    char *radius_column, *diameter_column, *mass_column, *weight_column;
+    char *radius_column, *diameter_column, *mass_column, *weight_column, *variable_column;
 } clast_cloud_columns;
 
 /// Numbers of the named column; *column is NULL for an empty name.

@@ -45,8 +45,9 @@ typedef struct clast_decompose_config {
     int32_t ghost_samples; ///< expected score by so many ghost samples; 0: semi-analytic
     bool crossfit;         ///< events with the cells of one half and the points of the other
     int32_t max_pass;
-    double beta_dt;    ///< kernel times time step [m^d]
-    double tree_level; ///< of the chi-square test of a tree cell
+    double beta_dt;            ///< kernel times time step [m^d]
+    double tree_level;         ///< of the chi-square test of a tree cell
+    double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
     uint64_t seed;
 } clast_decompose_config;
@@ -108,8 +109,9 @@ typedef enum {
     CLAST_STOP_MAX_PASS
 } clast_decompose_stop;
 
-/// Cells. A box [low, high] is in the domain's coordinates for boxes, bins and tree cells of a box
-/// domain, in the unit cube for mapped domains; components and labels give their bounding box.
+/// Cells. A box [low, high] is in the domain's coordinates for a box or a mesh domain (there not
+/// cut), in the unit cube for mapped domains; components and labels give their bounding box. In a
+/// mesh domain cells without volume inside are left out.
 typedef struct clast_cells {
     int32_t n;
     double (*low)[3];      ///< [n][3]
@@ -122,12 +124,15 @@ typedef struct clast_cells {
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
     bool is_box;           ///< cells are boxes low .. high, not unions of bins
     int32_t nb[3];         ///< bins an axis
-    int32_t *bin_count;    ///< [nb[0] nb[1] nb[2]] real points, or NULL
-    int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube; NULL: no bins
+    int32_t *bin_count;    ///< [nb[0] nb[1] nb[2]] tested points, or NULL
+    int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube, -1 outside a
+                           ///< mesh domain; NULL: no bins
 } clast_cells;
 
 typedef struct clast_decomposition {
     int64_t n, n_outside; ///< points used and left out
+    int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
+                    ///< fill the box of a mesh domain
     int32_t dimension;
     clast_uniformity before;
     int32_t n_pass;
@@ -152,6 +157,12 @@ typedef struct clast_decomposition {
 CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
                                        const clast_decompose_config *config,
                                        clast_decomposition *result);
+
+/// The same in a ready domain, which config->domain then only names in messages (may be NULL): the
+/// way for a closed surface or the caller's own map.
+CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
+                                          const clast_decompose_config *config,
+                                          clast_decomposition *result);
 
 /// Cell of a point, -1 outside the domain; O(1) in bins, O(cells) in a tree.
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,

@@ -1,29 +1,66 @@
 #pragma once
-#include <clast/status.h>
+#include <clast/mesh.h>
 
 // Domains whose volume a map with constant Jacobian carries to the unit cube, so that uniform
-// points stay uniform. [Martinez2021 sec. 3.3; docs/theory/decompose.md]
+// points stay uniform; and domains inside a closed surface, by extension to its bounding box.
+// [Martinez2021 sec. 3.3; docs/theory/decompose.md]
 
 typedef enum {
     CLAST_DOMAIN_BOX,
     CLAST_DOMAIN_CYLINDER,  ///< axis z: (rho^2/R^2, (theta + pi)/(2 pi), z/L)
     CLAST_DOMAIN_HALF_PIPE, ///< y >= 0: (rho^2/R^2, theta/pi, z/L)
-    CLAST_DOMAIN_SPHERE     ///< (r^3/R^3, (1 + cos polar)/2, (azimuth + pi)/(2 pi))
+    CLAST_DOMAIN_SPHERE,    ///< (r^3/R^3, (1 + cos polar)/2, (azimuth + pi)/(2 pi))
+    CLAST_DOMAIN_MAP,       ///< the caller's map: clast_domain_of_map
+    CLAST_DOMAIN_MESH       ///< inside a closed surface: clast_domain_of_mesh
 } clast_domain_kind;
+
+/// A caller's map of a domain onto the unit cube. Uniform points must stay uniform: |det dx/du|
+/// has one value everywhere, the domain's volume. Called from several threads at once.
+typedef struct clast_domain_map_functions {
+    int32_t dimension; ///< 1..3
+    double volume;     ///< > 0 [m^d]
+    /// True when x [dimension] is in the closed domain; u [dimension] is then in [0, 1]^d.
+    bool (*map)(const void *context, const double *x, double *u);
+    void (*unmap)(const void *context, const double *u, double *x); ///< the inverse
+    const void *context;                                            ///< borrowed
+} clast_domain_map_functions;
+
+/// A closed surface made ready for inside tests and cut cells. Opaque.
+typedef struct clast_domain_surface clast_domain_surface;
 
 /// A known domain; never taken from the sample's own least and greatest coordinates.
 typedef struct clast_domain {
     clast_domain_kind kind;
     int32_t dimension;      ///< 1..3 for a box, else 3
-    double low[3], high[3]; ///< box
+    double low[3], high[3]; ///< box, and bounding box of a mesh
     double radius, length;  ///< R and L [m]; centre of the base (sphere: centre) at the origin
+    clast_domain_map_functions user;
+    clast_domain_surface *surface; ///< of a mesh, owned; copies of the struct borrow it
 } clast_domain;
 
 /// Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L", "half-pipe:R,L" or
 /// "sphere:R".
 ///
-/// @return CLAST_E_CONFIG with what was found; every size must be > 0 and finite
+/// @return CLAST_E_CONFIG with what was found; every size must be > 0 and finite. "mesh:FILE" is
+/// read by clast_domain_read
 CLAST_API clast_status clast_domain_parse(const char *text, clast_domain *domain);
+
+/// A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the
+/// volume of the map's small cells is constant (1e-3).
+///
+/// @return CLAST_E_CONFIG tells where a map fails
+CLAST_API clast_status clast_domain_of_map(const clast_domain_map_functions *functions,
+                                           clast_domain *domain);
+
+/// The inside of a closed surface, which is copied, its coordinates times `scale`. The sample is
+/// extended by ghosts to the bounding box, cells hold real points alone and the volume of their
+/// part inside.
+///
+/// @return CLAST_E_GEOMETRY for a surface that is open, not oriented, cuts itself, or whose parts
+/// overlap
+CLAST_API clast_status clast_domain_of_mesh(const clast_mesh *mesh, double scale,
+                                            clast_domain *domain);
+CLAST_API void clast_domain_free(clast_domain *domain); ///< only a mesh holds memory
 
 /// Volume [m^d].
 CLAST_API double clast_domain_volume(const clast_domain *domain);
@@ -36,5 +73,6 @@ CLAST_API void clast_domain_sides(const clast_domain *domain, double side[3]);
 /// unit cube.
 CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, double *u);
 
-/// The inverse map: the point x [dimension] whose image in the unit cube is u [dimension].
+/// The inverse map: the point x [dimension] whose image in the unit cube is u [dimension]. A mesh:
+/// in its bounding box, inside or not.
 CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, double *x);

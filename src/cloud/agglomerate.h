@@ -16,7 +16,8 @@ typedef struct clx_evolution {
     double *volume;       ///< [n_cell]
     clast_medium *medium; ///< [n_cell], or NULL without field columns
     int32_t n_cell;
-    bool is_rebuilt; ///< at the last snapshot
+    int64_t at;      ///< the last snapshot
+    bool is_rebuilt; ///< there
     int64_t n_event; ///< since the start
 } clx_evolution;
 

@@ -2,6 +2,8 @@
 #include "cloud/agglomerate.h"
 
 #include "base/alloc.h"
+#include "cloud/surface.h"
+#include "geom/cut_volume.h"
 #include <math.h>
 #include <string.h>
 
@@ -170,7 +172,11 @@ clast_status clx_evolution_begin(clx_evolution *r)
     r->collide.seed = r->config->decompose.seed;
     r->collide.keep_positions = r->input->n_snapshot > 1;
     CLX_TRY(clast_kernel_parse(r->config->kernel, &r->collide.kernel));
-    CLX_TRY(clast_domain_parse(r->config->decompose.domain, &r->domain));
+    if (r->input->domain != NULL) {
+        r->domain = *r->input->domain;
+    } else {
+        CLX_TRY(clast_domain_parse(r->config->decompose.domain, &r->domain));
+    }
     CLX_TRY(check_input(r));
     CLX_TRY(check_needs(r));
     CLX_TRY(make_population(r));
@@ -185,12 +191,19 @@ static clast_status gather_live(const clx_evolution *r, clast_cloud *cloud, int6
 {
     clast_status status = CLAST_OK;
     const clast_population *p = &r->population;
+    const double *variable = r->input->snapshot[r->at].variable;
     int64_t n = 0;
     CLX_TRY(clast_cloud_alloc(p->n, p->dimension, cloud));
+    if (variable != NULL) {
+        CLX_TRY(clx_alloc(&cloud->variable, p->n, sizeof *variable));
+    }
     for (int64_t i = 0; i < p->n; ++i) {
         if (p->monomers[i] > 0) {
             memcpy(cloud->x + n * p->dimension, p->x + i * p->dimension,
                    (size_t)p->dimension * sizeof *p->x);
+            if (variable != NULL) {
+                cloud->variable[n] = variable[i];
+            }
             number[n++] = i;
         }
     }
@@ -207,7 +220,7 @@ static clast_status make_mesh(clx_evolution *r)
     clast_decomposition made = {0};
     CLX_TRY(clx_alloc(&number, r->population.n, sizeof *number));
     CLX_TRY(gather_live(r, &live, number));
-    CLX_TRY(clast_decompose(&live, &r->config->decompose, &made));
+    CLX_TRY(clast_decompose_in(&r->domain, &live, &r->config->decompose, &made));
     for (int64_t i = 0; i < live.n; ++i) {
         r->cell[number[i]] = made.cells.of_point[i];
     }
@@ -258,6 +271,30 @@ static void locate(clx_evolution *r)
     }
 }
 
+/// Volumes of m bins an axis; of a mesh domain's bins the part inside, and any for those outside.
+static clast_status regular_volumes(const clast_domain *domain, int32_t m, int32_t n_cell,
+                                    double *volume)
+{
+    clast_status status = CLAST_OK;
+    double bin = clast_domain_volume(domain) / n_cell;
+    if (domain->kind == CLAST_DOMAIN_MESH) {
+        clx_cut_grid grid = {.nb = {m, m, m}};
+        memcpy(grid.low, domain->low, sizeof grid.low);
+        memcpy(grid.high, domain->high, sizeof grid.high);
+        CLX_TRY(clx_cut_grid_shares(&domain->surface->mesh, &grid, volume));
+        bin = 1.0 / n_cell;
+        for (int k = 0; k < 3; ++k) {
+            bin *= domain->high[k] - domain->low[k];
+        }
+    }
+    for (int32_t c = 0; c < n_cell; ++c) {
+        const double share = domain->kind == CLAST_DOMAIN_MESH ? volume[c] : 1.0;
+        volume[c] = share > 0.0 ? share * bin : bin;
+    }
+done:
+    return status;
+}
+
 /// The user's regular mesh.
 static clast_status fixed_regular(clx_evolution *r)
 {
@@ -271,9 +308,7 @@ static clast_status fixed_regular(clx_evolution *r)
     clx_free(r->volume);
     r->volume = NULL;
     CLX_TRY(clx_alloc(&r->volume, n_cell, sizeof *r->volume));
-    for (int32_t c = 0; c < n_cell; ++c) {
-        r->volume[c] = clast_domain_volume(&r->domain) / n_cell;
-    }
+    CLX_TRY(regular_volumes(&r->domain, m, n_cell, r->volume));
     for (int64_t i = 0; i < p->n; ++i) {
         double u[3];
         int32_t cell = 0;
@@ -418,6 +453,7 @@ done:
 clast_status clx_evolution_snapshot(clx_evolution *r, int64_t snapshot)
 {
     clast_status status = CLAST_OK;
+    r->at = snapshot;
     if (snapshot > 0) {
         move_to(r, &r->input->snapshot[snapshot]);
     }

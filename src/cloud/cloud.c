@@ -12,6 +12,7 @@ void clast_cloud_free(clast_cloud *cloud)
     clx_free(cloud->mass);
     clx_free(cloud->weight);
     clx_free(cloud->velocity);
+    clx_free(cloud->variable);
     *cloud = (clast_cloud){0};
 }
 
@@ -139,6 +140,7 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     }
     CLX_TRY(take_property(table, columns->mass_column, 1.0, &made.mass));
     CLX_TRY(take_property(table, columns->weight_column, 1.0, &made.weight));
+    CLX_TRY(take_property(table, columns->variable_column, 1.0, &made.variable));
     *cloud = made;
     made = (clast_cloud){0};
 done:

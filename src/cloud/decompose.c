@@ -3,7 +3,10 @@
 
 #include "base/alloc.h"
 #include "cloud/cells.h"
+#include "cloud/cut_cells.h"
 #include "cloud/passes.h"
+#include "cloud/sample.h"
+#include "cloud/surface.h"
 #include "cloud/uniformity_tree.h"
 #include <math.h>
 #include <string.h>
@@ -11,7 +14,7 @@
 #define FIELD(type, name) #name, offsetof(clast_decompose_config, name), type
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
-     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R [m]", ""},
+     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", ""},
     {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
      "points outside the domain: refuse the file, or leave them out", "error|drop"},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
@@ -40,6 +43,8 @@ const clast_field clast_decompose_fields[] = {
      "collision kernel times time step [m^d]", NULL},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL},
+    {FIELD(CLAST_FIELD_F64, variable_tolerance), 0.0, 0.0, 1e300, "-",
+     "standard deviation that a tree cell may keep of the variable (its column's unit)", NULL},
     {FIELD(CLAST_FIELD_I32, tree_least), 16, 2, 1000000, "-",
      "points below which a tree cell is not split", NULL},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL},
@@ -86,50 +91,19 @@ done:
     return status;
 }
 
-/// Points of the unit cube; *number lists which points of the cloud they are.
-typedef struct {
-    double *u;
-    int64_t *number;
-    int64_t n;
-    clast_domain domain;
-} mapped;
-
-static clast_status map_points(const clast_cloud *cloud, const clast_decompose_config *config,
-                               mapped *m)
+/// The cell of every real point of the cloud, given that of each point of the sample.
+static void tell_points(const clx_sample *m, const int32_t *of_sample, clast_cells *cells)
 {
-    clast_status status = CLAST_OK;
-    int64_t n_outside = 0;
-    const int32_t d = cloud->dimension;
-    CLX_TRY(clast_domain_parse(config->domain, &m->domain));
-    CLX_CHECK(m->domain.dimension == d, CLAST_E_CONFIG,
-              "domain '%s' has %d dimensions, the points have %d", config->domain,
-              m->domain.dimension, d);
-    CLX_TRY(clx_alloc(&m->u, cloud->n * d, sizeof *m->u));
-    CLX_TRY(clx_alloc(&m->number, cloud->n, sizeof *m->number));
-    for (int64_t i = 0; i < cloud->n; ++i) {
-        double u[3];
-        bool finite = true;
-        for (int32_t j = 0; j < d; ++j) {
-            finite = finite && isfinite(cloud->x[i * d + j]);
+    for (int64_t i = 0; i < m->n; ++i) {
+        if (m->number[i] >= 0) {
+            const int32_t c = of_sample != NULL ? of_sample[i] : 0;
+            cells->of_point[m->number[i]] = c;
+            ++cells->count[c];
         }
-        CLX_CHECK(finite, CLAST_E_FORMAT, "point %lld has a coordinate that is not finite",
-                  (long long)i + 1);
-        if (!clast_domain_map(&m->domain, cloud->x + i * d, u)) {
-            ++n_outside;
-            continue;
-        }
-        memcpy(m->u + m->n * d, u, (size_t)d * sizeof *u);
-        m->number[m->n++] = i;
     }
-    CLX_CHECK(n_outside == 0 || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
-              "%lld of %lld points lie outside the domain %s; give the true domain, or leave them "
-              "out with --outside drop",
-              (long long)n_outside, (long long)cloud->n, config->domain);
-done:
-    return status;
 }
 
-static clast_status one_cell(const mapped *m, clast_cells *cells)
+static clast_status one_cell(const clx_sample *m, clast_cells *cells)
 {
     const clast_status status = alloc_cells(cells, 1);
     if (status == CLAST_OK) {
@@ -137,39 +111,54 @@ static clast_status one_cell(const mapped *m, clast_cells *cells)
             cells->high[0][k] = 1.0;
         }
         cells->volume[0] = 1.0;
-        cells->count[0] = m->n;
-        for (int64_t i = 0; i < m->n; ++i) {
-            cells->of_point[m->number[i]] = 0;
-        }
+        tell_points(m, NULL, cells);
     }
     return status;
 }
 
-static clast_status tree_cells(const mapped *m, const clast_decompose_config *config,
-                               clast_cells *cells)
+/// The cloud's variable in the order of the sample.
+static clast_status take_variable(const clast_cloud *cloud, const clx_sample *m, double **variable)
+{
+    clast_status status = CLAST_OK;
+    if (cloud->variable == NULL) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(variable, m->n, sizeof **variable));
+    for (int64_t i = 0; i < m->n; ++i) {
+        (*variable)[i] = m->number[i] >= 0 ? cloud->variable[m->number[i]] : (double)NAN;
+    }
+done:
+    return status;
+}
+
+static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
+                               const clast_decompose_config *config, clast_cells *cells)
 {
     clast_status status = CLAST_OK;
     clx_uniformity_tree_cells tree = {0};
-    int32_t *of_point = NULL;
-    const clx_uniformity_tree_config limits = {config->tree_level, config->tree_least};
-    CLX_TRY(clx_alloc(&of_point, m->n, sizeof *of_point));
-    CLX_TRY(clx_uniformity_tree_split(m->u, m->n, m->domain.dimension, &limits, &tree, of_point));
+    int32_t *of_sample = NULL;
+    double *variable = NULL;
+    const int32_t d = m->domain->dimension;
+    const clx_uniformity_tree_config limits = {config->tree_level, config->tree_least,
+                                               config->variable_tolerance};
+    CLX_TRY(take_variable(cloud, m, &variable));
+    const clx_uniformity_tree_points points = {m->u, m->n_test, m->n, d, variable};
+    CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
+    CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_sample));
     CLX_TRY(alloc_cells(cells, tree.n));
     for (int32_t c = 0; c < tree.n; ++c) {
         cells->volume[c] = 1.0;
-        cells->count[c] = tree.count[c];
-        for (int32_t j = 0; j < m->domain.dimension; ++j) {
+        for (int32_t j = 0; j < d; ++j) {
             cells->low[c][j] = tree.low[c][j];
             cells->high[c][j] = tree.high[c][j];
             cells->volume[c] *= tree.high[c][j] - tree.low[c][j];
         }
     }
-    for (int64_t i = 0; i < m->n; ++i) {
-        cells->of_point[m->number[i]] = of_point[i];
-    }
+    tell_points(m, of_sample, cells);
 done:
     clx_uniformity_tree_free(&tree);
-    clx_free(of_point);
+    clx_free(of_sample);
+    clx_free(variable);
     return status;
 }
 
@@ -186,7 +175,6 @@ static void gather_bins(const clx_passes *passes, const int32_t *cell, clast_cel
         double low[3] = {0};
         double high[3] = {0};
         clx_bins_box(bins, b, low, high);
-        cells->count[c] += bins->count[b];
         cells->volume[c] += 1.0;
         cells->label[c] = (uint8_t)(passes->tag[b] % 8);
         cells->pass[c] = (uint8_t)(passes->tag[b] / 8);
@@ -200,22 +188,24 @@ static void gather_bins(const clx_passes *passes, const int32_t *cell, clast_cel
     }
 }
 
-static clast_status bin_cells(const mapped *m, const clast_decompose_config *config,
+static clast_status bin_cells(const clx_sample *m, const clast_decompose_config *config,
                               clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clx_passes passes = {0};
     int32_t *cell = NULL;
+    int32_t *of_sample = NULL;
     int32_t n_cell = 0;
-    CLX_TRY(clx_passes_run(m->u, m->n, &m->domain, config, result, &passes));
+    CLX_TRY(clx_passes_run(m->u, m->n_test, m->domain, config, result, &passes));
     CLX_TRY(clx_alloc(&cell, passes.bins.n_bin, sizeof *cell));
     CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)config->mesh, passes.tag, cell, &n_cell));
     CLX_TRY(alloc_cells(&result->cells, n_cell));
     gather_bins(&passes, cell, &result->cells);
+    CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
     for (int64_t i = 0; i < m->n; ++i) {
-        result->cells.of_point[m->number[i]] =
-            cell[clx_bins_of(&passes.bins, m->u + i * m->domain.dimension)];
+        of_sample[i] = cell[clx_bins_of(&passes.bins, m->u + i * m->domain->dimension)];
     }
+    tell_points(m, of_sample, &result->cells);
     memcpy(result->cells.nb, passes.bins.nb, sizeof result->cells.nb);
     result->cells.is_box = config->mesh == CLAST_CELLS_BOXES || config->mesh == CLAST_CELLS_BINS;
     result->cells.of_bin = cell;
@@ -225,6 +215,7 @@ static clast_status bin_cells(const mapped *m, const clast_decompose_config *con
 done:
     clx_passes_free(&passes);
     clx_free(cell);
+    clx_free(of_sample);
     return status;
 }
 
@@ -239,8 +230,8 @@ int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                .nb = {cells->nb[0], cells->nb[1], cells->nb[2]}};
         return cells->of_bin[clx_bins_of(&bins, u)];
     }
-    const double *at = domain->kind == CLAST_DOMAIN_BOX ? x : u; // as the boxes are given
-    for (int32_t c = 0; c + 1 < cells->n; ++c) {
+    const double *at = clx_domain_is_boxed(domain) ? x : u; // as the boxes are given
+    for (int32_t c = 0; c < cells->n; ++c) {
         bool inside = true;
         for (int32_t j = 0; j < domain->dimension; ++j) {
             inside = inside && at[j] >= cells->low[c][j] && at[j] <= cells->high[c][j];
@@ -249,16 +240,16 @@ int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
             return c;
         }
     }
-    return cells->n - 1;
+    return domain->kind == CLAST_DOMAIN_MESH ? -1 : cells->n - 1; // rounding at an edge, or a void
 }
 
 /// From the unit cube to the domain: volumes, and corners of a box domain.
 static void to_domain(const clast_domain *domain, clast_cells *cells)
 {
-    const double volume = clast_domain_volume(domain);
+    const double volume = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain);
     for (int32_t c = 0; c < cells->n; ++c) {
         cells->volume[c] *= volume;
-        for (int32_t j = 0; j < domain->dimension && domain->kind == CLAST_DOMAIN_BOX; ++j) {
+        for (int32_t j = 0; j < domain->dimension && clx_domain_is_boxed(domain); ++j) {
             const double side = domain->high[j] - domain->low[j];
             cells->low[c][j] = domain->low[j] + side * cells->low[c][j];
             cells->high[c][j] = domain->low[j] + side * cells->high[c][j];
@@ -358,7 +349,7 @@ static clast_status cross_events(const clast_cloud *half, const clast_decompose_
     clast_decomposition a = {0};
     double *weight = NULL;
     double sum = 0.0;
-    CLX_TRY(clast_decompose(&half[0], config, &a));
+    CLX_TRY(clast_decompose_in(domain, &half[0], config, &a));
     CLX_TRY(clx_alloc(&weight, a.cells.n, sizeof *weight));
     for (int64_t i = 0; i < half[1].n; ++i) {
         const int32_t c = clast_cells_locate(&a.cells, domain, half[1].x + i * half[1].dimension);
@@ -399,47 +390,60 @@ done:
     return status;
 }
 
-static clast_status make_cells(const mapped *m, const clast_decompose_config *config,
-                               clast_decomposition *result)
+static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
+                               const clast_decompose_config *config, clast_decomposition *result)
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
-    if (m->n < 5 || config->variant == CLAST_VARIANT_TEST ||
+    if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST ||
         (accepted && config->mesh != CLAST_CELLS_TREE)) {
         result->stop = CLAST_STOP_UNIFORM;
         return one_cell(m, &result->cells);
     }
-    return config->mesh == CLAST_CELLS_TREE ? tree_cells(m, config, &result->cells)
+    return config->mesh == CLAST_CELLS_TREE ? tree_cells(cloud, m, config, &result->cells)
                                             : bin_cells(m, config, result);
 }
 
-clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
-                             clast_decomposition *result)
+clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
+                                const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clast_decomposition made = {.dimension = cloud->dimension};
-    mapped m = {0};
+    clx_sample m = {0};
     clast_uniformity_config vote;
     double side[3];
-    CLX_TRY(map_points(cloud, config, &m));
-    made.n = m.n;
-    made.n_outside = cloud->n - m.n;
-    clast_domain_sides(&m.domain, side);
+    CLX_CHECK(cloud->variable == NULL || config->mesh == CLAST_CELLS_TREE, CLAST_E_CONFIG,
+              "cells uniform in a variable are cells of the tree: --mesh tree");
+    CLX_TRY(clx_sample_make(cloud, config, domain, &m));
+    made.n = m.n_real;
+    made.n_test = m.n_test;
+    made.n_outside = cloud->n - m.n_real;
+    clast_domain_sides(domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
-    CLX_TRY(clast_uniformity_test(m.u, m.n, cloud->dimension, side, &vote, &made.before));
+    CLX_TRY(clast_uniformity_test(m.u, m.n_test, cloud->dimension, side, &vote, &made.before));
     CLX_TRY(clx_alloc(&made.cells.of_point, cloud->n, sizeof *made.cells.of_point));
     memset(made.cells.of_point, 0xff, (size_t)cloud->n * sizeof *made.cells.of_point);
-    CLX_TRY(make_cells(&m, config, &made));
-    to_domain(&m.domain, &made.cells);
+    CLX_TRY(make_cells(cloud, &m, config, &made));
+    if (domain->kind == CLAST_DOMAIN_MESH) {
+        CLX_TRY(clx_cells_cut(&m, &made.cells));
+    }
+    to_domain(domain, &made.cells);
     CLX_TRY(count_events(cloud, config, &made));
     made.events_cross = (double)NAN;
     if (config->crossfit) {
-        CLX_TRY(crossfit(cloud, config, &m.domain, &made.events_cross));
+        CLX_TRY(crossfit(cloud, config, domain, &made.events_cross));
     }
     *result = made;
     made = (clast_decomposition){0};
 done:
     clast_decomposition_free(&made);
-    clx_free(m.u);
-    clx_free(m.number);
+    clx_sample_free(&m);
     return status;
+}
+
+clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
+                             clast_decomposition *result)
+{
+    clast_domain domain = {0};
+    clast_status status = clast_domain_parse(config->domain, &domain);
+    return status == CLAST_OK ? clast_decompose_in(&domain, cloud, config, result) : status;
 }

@@ -1,7 +1,7 @@
 // Domains and their measure-preserving maps to the unit cube.
 #include <clast/domain.h>
 
-#include "base/status.h"
+#include "cloud/surface.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,8 +32,7 @@ static clast_status bad(const char *text)
 {
     return clx_fail(CLAST_E_CONFIG,
                     "domain '%s': expected box:LOW...,HIGH... (2, 4 or 6 numbers), cylinder:R,L, "
-                    "half-pipe:R,L or "
-                    "sphere:R with positive sizes",
+                    "half-pipe:R,L, sphere:R with positive sizes, or mesh:FILE",
                     text);
 }
 
@@ -82,10 +81,19 @@ clast_status clast_domain_parse(const char *text, clast_domain *domain)
     return bad(text);
 }
 
+bool clx_domain_is_boxed(const clast_domain *d)
+{
+    return d->kind == CLAST_DOMAIN_BOX || d->kind == CLAST_DOMAIN_MESH;
+}
+
 double clast_domain_volume(const clast_domain *d)
 {
     double volume = 1.0;
     switch (d->kind) {
+    case CLAST_DOMAIN_MAP:
+        return d->user.volume;
+    case CLAST_DOMAIN_MESH:
+        return d->surface->volume;
     case CLAST_DOMAIN_BOX:
         for (int32_t j = 0; j < d->dimension; ++j) {
             volume *= d->high[j] - d->low[j];
@@ -104,7 +112,7 @@ double clast_domain_volume(const clast_domain *d)
 void clast_domain_sides(const clast_domain *d, double side[3])
 {
     for (int32_t j = 0; j < 3; ++j) {
-        side[j] = d->kind == CLAST_DOMAIN_BOX && j < d->dimension ? d->high[j] - d->low[j] : 1.0;
+        side[j] = clx_domain_is_boxed(d) && j < d->dimension ? d->high[j] - d->low[j] : 1.0;
     }
 }
 
@@ -132,7 +140,10 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
     if (d->kind == CLAST_DOMAIN_SPHERE) {
         return map_sphere(d, x, u);
     }
-    if (d->kind != CLAST_DOMAIN_BOX) {
+    if (d->kind == CLAST_DOMAIN_MAP) {
+        return d->user.map(d->user.context, x, u);
+    }
+    if (!clx_domain_is_boxed(d)) {
         return map_pipe(d, x, u);
     }
     bool inside = true;
@@ -140,12 +151,17 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
         u[j] = (x[j] - d->low[j]) / (d->high[j] - d->low[j]);
         inside = inside && u[j] >= 0.0 && u[j] <= 1.0;
     }
+    if (inside && d->kind == CLAST_DOMAIN_MESH) {
+        return clast_bvh_inside(d->surface->bvh, x);
+    }
     return inside;
 }
 
 void clast_domain_unmap(const clast_domain *d, const double *u, double *x)
 {
-    if (d->kind == CLAST_DOMAIN_BOX) {
+    if (d->kind == CLAST_DOMAIN_MAP) {
+        d->user.unmap(d->user.context, u, x);
+    } else if (clx_domain_is_boxed(d)) {
         for (int32_t j = 0; j < d->dimension; ++j) {
             x[j] = d->low[j] + u[j] * (d->high[j] - d->low[j]);
         }

@@ -9,7 +9,7 @@
 enum { MAX_DEPTH = 20, EXPECTED_LEAST = 5, MAX_BLOCK = 64 };
 
 typedef struct {
-    const double *u;
+    const clx_uniformity_tree_points *points;
     int32_t d;
     const clx_uniformity_tree_config *config;
     int64_t *order, *scratch; ///< [n] points, grouped by cell as the tree grows
@@ -27,7 +27,8 @@ static int block_of(const growth *g, const node *cell, int64_t point, int parts)
 {
     int block = 0;
     for (int32_t j = 0; j < g->d; ++j) {
-        const int at = (int)((g->u[point * g->d + j] - cell->low[j]) / cell->width[j] * parts);
+        const int at =
+            (int)((g->points->u[point * g->d + j] - cell->low[j]) / cell->width[j] * parts);
         block = block * parts + (at < 0 ? 0 : at < parts ? at : parts - 1);
     }
     return block;
@@ -42,16 +43,29 @@ static int power(int base, int32_t exponent)
     return value;
 }
 
-/// p of Pearson's chi-square for even counts.
-static double evenness(const growth *g, const node *cell, int parts)
+/// Points of the cell that are tested.
+static int64_t n_tested(const growth *g, const node *cell)
+{
+    int64_t n = 0;
+    if (g->points->n_test == g->points->n) {
+        return cell->end - cell->begin;
+    }
+    for (int64_t i = cell->begin; i < cell->end; ++i) {
+        n += g->order[i] < g->points->n_test ? 1 : 0;
+    }
+    return n;
+}
+
+/// p of Pearson's chi-square for even counts of n tested points.
+static double evenness(const growth *g, const node *cell, int64_t n, int parts)
 {
     int64_t count[MAX_BLOCK] = {0};
     const int n_block = power(parts, g->d);
-    const double n = (double)(cell->end - cell->begin);
-    const double expected = n / n_block;
+    const double expected = (double)n / n_block;
     double chi2 = 0.0;
     for (int64_t i = cell->begin; i < cell->end; ++i) {
-        ++count[block_of(g, cell, g->order[i], parts)];
+        const bool is_tested = g->order[i] < g->points->n_test;
+        count[block_of(g, cell, g->order[i], parts)] += is_tested ? 1 : 0;
     }
     for (int b = 0; b < n_block; ++b) {
         const double off = (double)count[b] - expected;
@@ -60,15 +74,58 @@ static double evenness(const growth *g, const node *cell, int parts)
     return clx_chi2_sf(chi2, n_block - 1);
 }
 
-static bool is_uneven(const growth *g, const node *cell)
+/// Whether the variable's means in the 2^d halves differ: analysis of variance, sums about the mean
+/// of the cell.
+static bool is_varied(const growth *g, const node *cell)
 {
-    const int64_t n = cell->end - cell->begin;
-    if (n < g->config->least || cell->depth >= MAX_DEPTH) {
+    double sum[MAX_BLOCK] = {0};
+    double n[MAX_BLOCK] = {0};
+    double mean = 0.0;
+    double known = 0.0;
+    double square = 0.0;
+    double between = 0.0;
+    int n_filled = 0;
+    for (int64_t i = cell->begin; i < cell->end; ++i) {
+        const double v = g->points->variable[g->order[i]];
+        known += isnan(v) ? 0.0 : 1.0;
+        mean += isnan(v) ? 0.0 : (v - mean) / known;
+    }
+    for (int64_t i = cell->begin; i < cell->end; ++i) {
+        const double off = g->points->variable[g->order[i]] - mean;
+        if (!isnan(off)) {
+            const int b = block_of(g, cell, g->order[i], 2);
+            sum[b] += off;
+            n[b] += 1.0;
+            square += off * off;
+        }
+    }
+    for (int b = 0; b < power(2, g->d); ++b) {
+        between += n[b] > 0.0 ? sum[b] * sum[b] / n[b] : 0.0;
+        n_filled += n[b] > 0.0 ? 1 : 0;
+    }
+    const double within = square - between;
+    const double freedom = known - n_filled;
+    if (known < (double)g->config->least || n_filled < 2 || freedom < 1.0 ||
+        square <= known * g->config->tolerance * g->config->tolerance) {
         return false;
     }
+    return within <= 1e-12 * square || clx_fisher_sf(between / (n_filled - 1) / (within / freedom),
+                                                     n_filled - 1, freedom) < g->config->level;
+}
+
+static bool is_uneven(const growth *g, const node *cell)
+{
+    if (cell->depth >= MAX_DEPTH) {
+        return false;
+    }
+    const int64_t n = n_tested(g, cell);
     const double level = 0.5 * g->config->level;
-    return evenness(g, cell, 2) < level ||
-           (n >= (int64_t)EXPECTED_LEAST * power(4, g->d) && evenness(g, cell, 4) < level);
+    if (n >= g->config->least &&
+        (evenness(g, cell, n, 2) < level ||
+         (n >= (int64_t)EXPECTED_LEAST * power(4, g->d) && evenness(g, cell, n, 4) < level))) {
+        return true;
+    }
+    return g->points->variable != NULL && is_varied(g, cell);
 }
 
 static clast_status add_leaf(growth *g, const node *cell)
@@ -135,17 +192,18 @@ static clast_status grow(growth *g, const node *cell)
     return is_uneven(g, cell) ? split(g, cell) : add_leaf(g, cell);
 }
 
-clast_status clx_uniformity_tree_split(const double *u, int64_t n, int32_t d,
+clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point)
 {
     clast_status status = CLAST_OK;
-    growth g = {.u = u, .d = d, .config = config, .cells = cells, .of_point = of_point};
-    node root = {.width = {1.0, 1.0, 1.0}, .end = n};
+    growth g = {
+        .points = points, .d = points->d, .config = config, .cells = cells, .of_point = of_point};
+    node root = {.width = {1.0, 1.0, 1.0}, .end = points->n};
     *cells = (clx_uniformity_tree_cells){0};
-    CLX_TRY(clx_alloc(&g.order, n, sizeof *g.order));
-    CLX_TRY(clx_alloc(&g.scratch, n, sizeof *g.scratch));
-    for (int64_t i = 0; i < n; ++i) {
+    CLX_TRY(clx_alloc(&g.order, points->n, sizeof *g.order));
+    CLX_TRY(clx_alloc(&g.scratch, points->n, sizeof *g.scratch));
+    for (int64_t i = 0; i < points->n; ++i) {
         g.order[i] = i;
     }
     CLX_TRY(grow(&g, &root));

@@ -11,16 +11,27 @@ typedef struct clx_uniformity_tree_cells {
 } clx_uniformity_tree_cells;
 
 typedef struct clx_uniformity_tree_config {
-    double level;  ///< of the test in each cell
-    int64_t least; ///< points below which a cell is not tested
+    double level;     ///< of the test in each cell
+    int64_t least;    ///< points below which a cell is not tested
+    double tolerance; ///< standard deviation of the variable that a cell may keep
 } clx_uniformity_tree_config;
 
+/// What is split.
+typedef struct clx_uniformity_tree_points {
+    const double *u; ///< [n][d]
+    int64_t n_test;  ///< the first so many are tested, the others only put into cells
+    int64_t n;
+    int32_t d;
+    const double *variable; ///< [n] cells shall be uniform in it too; NAN: not known; or NULL
+} clx_uniformity_tree_points;
+
 /// Splits [0, 1]^d while the counts of the 2^d halves, or of the 4^d quarters where at least 5
-/// points a block are expected, reject evenness at level / 2.
+/// points a block are expected, reject evenness at level / 2; and while the variable's means in the
+/// halves differ (analysis of variance at level) and it scatters by more than the tolerance.
 ///
 /// @param of_point  [n] cell of each point
 /// @note O(n depth); depth at most 20, so that equal points end
-clast_status clx_uniformity_tree_split(const double *u, int64_t n, int32_t d,
+clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point);
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells);

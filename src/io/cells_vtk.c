@@ -2,6 +2,7 @@
 #include <clast/decompose_file.h>
 
 #include "base/alloc.h"
+#include "cloud/surface.h"
 #include "io/vtk_array.h"
 #include <inttypes.h>
 #include <math.h>
@@ -56,8 +57,9 @@ done:
 static clast_status add_cut(boxes *b, const clast_domain *domain, const double low[3],
                             const double high[3], int32_t cell)
 {
-    static const double most[4][3] = {
-        {2.0, 2.0, 2.0}, {2.0, 1.0 / 36, 2.0}, {2.0, 1.0 / 18, 2.0}, {0.25, 0.125, 1.0 / 36}};
+    static const double most[6][3] = {{2.0, 2.0, 2.0},       {2.0, 1.0 / 36, 2.0},
+                                      {2.0, 1.0 / 18, 2.0},  {0.25, 0.125, 1.0 / 36},
+                                      {0.125, 0.125, 0.125}, {2.0, 2.0, 2.0}};
     clast_status status = CLAST_OK;
     int64_t n[3] = {1, 1, 1};
     for (int j = 0; j < domain->dimension && j < 3; ++j) {
@@ -83,7 +85,7 @@ static void unit_box(const clast_domain *domain, const double box[3], double u[3
 {
     for (int j = 0; j < 3; ++j) {
         const double side = domain->high[j] - domain->low[j];
-        u[j] = domain->kind == CLAST_DOMAIN_BOX && j < domain->dimension
+        u[j] = clx_domain_is_boxed(domain) && j < domain->dimension
                    ? (box[j] - domain->low[j]) / side
                    : box[j];
     }
@@ -105,6 +107,9 @@ static clast_status gather_boxes(const clast_cells *cells, const clast_domain *d
     const int32_t *nb = cells->nb;
     for (int64_t bin = 0; bin < (int64_t)nb[0] * nb[1] * nb[2]; ++bin) {
         int64_t rest = bin;
+        if (cells->of_bin[bin] < 0) {
+            continue;
+        }
         memset(low, 0, sizeof low);
         memset(high, 0, sizeof high);
         for (int32_t j = domain->dimension - 1; j >= 0; --j) {

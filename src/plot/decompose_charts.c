@@ -125,7 +125,7 @@ static clast_status draw_density(const clast_decomposition *r, const char *path)
     double *x = buffer;
     double *y = buffer + n_bin + 1;
     for (int64_t b = 0; b < n_bin; ++b) {
-        sorted[b] = (double)cells->bin_count[b] * (double)n_bin / (double)r->n;
+        sorted[b] = (double)cells->bin_count[b] * (double)n_bin / (double)r->n_test;
     }
     CLX_TRY(clx_sort_doubles(sorted, n_bin));
     for (int64_t b = 0; b < n_bin; ++b) { // one step for each distinct density

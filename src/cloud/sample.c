@@ -1,0 +1,185 @@
+// From a cloud to the points that are tested: mapping, extension, thinning.
+#include "cloud/sample.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "cloud/surface.h"
+#include "math/rng.h"
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = 4096 };
+
+void clx_sample_free(clx_sample *sample)
+{
+    clx_free(sample->u);
+    clx_free(sample->number);
+    *sample = (clx_sample){0};
+}
+
+static clast_status check_points(const clast_cloud *cloud)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < cloud->n * cloud->dimension; ++i) {
+        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
+                  "point %lld has a coordinate that is not finite",
+                  (long long)(i / cloud->dimension + 1));
+    }
+    for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
+        const double w = cloud->weight[i];
+        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
+                  "the weight of point %lld is %g; it must be a number > 0", (long long)i + 1, w);
+    }
+done:
+    return status;
+}
+
+typedef struct {
+    const clast_cloud *cloud;
+    clx_sample *sample;
+    uint64_t seed;
+} map_context;
+
+/// Images in place; number becomes -1 outside.
+static void map_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const map_context *c = context;
+    const int32_t d = c->cloud->dimension;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const bool inside =
+            clast_domain_map(c->sample->domain, c->cloud->x + i * d, c->sample->u + i * d);
+        c->sample->number[i] = inside ? i : -1;
+    }
+}
+
+/// Closes the gaps that points outside leave.
+static void close_gaps(const clast_cloud *cloud, clx_sample *s)
+{
+    const int32_t d = cloud->dimension;
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        if (s->number[i] >= 0) {
+            memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
+            s->number[s->n++] = i;
+        }
+    }
+    s->n_real = s->n_test = s->n;
+}
+
+static clast_status map_points(const clast_cloud *cloud, const clast_decompose_config *config,
+                               clx_sample *s)
+{
+    clast_status status = CLAST_OK;
+    map_context context = {.cloud = cloud, .sample = s};
+    CLX_TRY(check_points(cloud));
+    CLX_TRY(clx_alloc(&s->u, cloud->n * cloud->dimension, sizeof *s->u));
+    CLX_TRY(clx_alloc(&s->number, cloud->n, sizeof *s->number));
+    clx_parallel_for(cloud->n, BLOCK, map_block, &context);
+    close_gaps(cloud, s);
+    CLX_CHECK(s->n == cloud->n || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
+              "%lld of %lld points lie outside the domain%s%s; give the true domain, or leave them "
+              "out with --outside drop",
+              (long long)(cloud->n - s->n), (long long)cloud->n, config->domain != NULL ? " " : "",
+              config->domain != NULL ? config->domain : "");
+done:
+    return status;
+}
+
+static void swap_points(clx_sample *s, int32_t d, int64_t a, int64_t b)
+{
+    for (int32_t j = 0; j < d; ++j) {
+        const double held = s->u[a * d + j];
+        s->u[a * d + j] = s->u[b * d + j];
+        s->u[b * d + j] = held;
+    }
+    const int64_t held = s->number[a];
+    s->number[a] = s->number[b];
+    s->number[b] = held;
+}
+
+/// Tests point i with chance w_i / w_max; the others go behind.
+static void thin(const clast_cloud *cloud, uint64_t seed, clx_sample *s)
+{
+    double most = 0.0;
+    int64_t kept = 0;
+    for (int64_t i = 0; i < s->n; ++i) {
+        most = fmax(most, cloud->weight[s->number[i]]);
+    }
+    for (int64_t i = 0; i < s->n; ++i) {
+        clx_rng rng = clx_rng_at(seed, CLX_STREAM_THINNING, (uint64_t)s->number[i]);
+        if (clx_rng_uniform(&rng) * most <= cloud->weight[s->number[i]]) {
+            swap_points(s, cloud->dimension, i, kept++);
+        }
+    }
+    s->n_test = kept;
+}
+
+/// Ghosts uniform in what the box has outside the surface.
+static void draw_ghosts(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const map_context *c = context;
+    clx_sample *s = c->sample;
+    (void)worker;
+    for (int64_t g = begin; g < end; ++g) {
+        clx_rng rng = clx_rng_at(c->seed, CLX_STREAM_EXTERIOR, (uint64_t)g);
+        double *u = s->u + 3 * (s->n_test + g);
+        double x[3];
+        do {
+            for (int k = 0; k < 3; ++k) {
+                u[k] = clx_rng_uniform(&rng);
+            }
+            clast_domain_unmap(s->domain, u, x);
+        } while (clast_bvh_inside(s->domain->surface->bvh, x));
+        s->number[s->n_test + g] = -1;
+    }
+}
+
+static clast_status extend(uint64_t seed, clx_sample *s)
+{
+    clast_status status = CLAST_OK;
+    map_context context = {.sample = s, .seed = seed};
+    double box = 1.0;
+    for (int k = 0; k < 3; ++k) {
+        box *= s->domain->high[k] - s->domain->low[k];
+    }
+    const double wanted = round((double)s->n_test * (box / s->domain->surface->volume - 1.0));
+    CLX_CHECK(wanted < 0x1p31, CLAST_E_LIMIT,
+              "the domain fills %.3g of its bounding box: %.3g ghosts would fill the rest (limit "
+              "2^31)",
+              s->domain->surface->volume / box, wanted);
+    const int64_t n_ghost = wanted > 0.0 ? (int64_t)wanted : 0;
+    const int64_t n_rest = s->n - s->n_test;
+    CLX_TRY(clx_realloc(&s->u, 3 * (s->n + n_ghost), sizeof *s->u));
+    CLX_TRY(clx_realloc(&s->number, s->n + n_ghost, sizeof *s->number));
+    memmove(s->u + 3 * (s->n_test + n_ghost), s->u + 3 * s->n_test,
+            (size_t)(3 * n_rest) * sizeof *s->u);
+    memmove(s->number + s->n_test + n_ghost, s->number + s->n_test,
+            (size_t)n_rest * sizeof *s->number);
+    clx_parallel_for(n_ghost, BLOCK, draw_ghosts, &context);
+    s->n_test += n_ghost;
+    s->n += n_ghost;
+done:
+    return status;
+}
+
+clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
+                             const clast_domain *domain, clx_sample *sample)
+{
+    clast_status status = CLAST_OK;
+    clx_sample made = {.domain = domain};
+    CLX_CHECK(domain->dimension == cloud->dimension, CLAST_E_CONFIG,
+              "domain '%s' has %d dimensions, the points have %d",
+              config->domain != NULL ? config->domain : "", domain->dimension, cloud->dimension);
+    CLX_TRY(map_points(cloud, config, &made));
+    if (cloud->weight != NULL) {
+        thin(cloud, config->seed, &made);
+    }
+    if (domain->kind == CLAST_DOMAIN_MESH) {
+        CLX_TRY(extend(config->seed, &made));
+    }
+    *sample = made;
+    made = (clx_sample){0};
+done:
+    clx_sample_free(&made);
+    return status;
+}

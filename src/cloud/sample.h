@@ -1,0 +1,24 @@
+#pragma once
+// The points that are tested and cut into cells, in the unit cube.
+#include <clast/cloud.h>
+#include <clast/decompose.h>
+
+/// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
+/// (thinned out for their weights).
+typedef struct clx_sample {
+    const clast_domain *domain; ///< borrowed
+    int64_t n_test, n;          ///< tested, and all
+    int64_t n_real;
+    double *u;       ///< [n][d]
+    int64_t *number; ///< [n] which point of the cloud, -1: a ghost
+} clx_sample;
+
+/// Maps a cloud's points; with a mesh domain round(n (V_box / V - 1)) uniform ghosts fill the rest
+/// of the box; of weighted points i is tested with chance w_i / w_max, so that those tested are a
+/// sample of the real particles.
+///
+/// @return CLAST_E_FORMAT for coordinates that are not finite, weights that are not > 0, points
+/// outside with CLAST_OUTSIDE_ERROR
+clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
+                             const clast_domain *domain, clx_sample *sample);
+void clx_sample_free(clx_sample *sample);

@@ -1,0 +1,15 @@
+#pragma once
+// The closed surface of a mesh domain.
+#include "base/status.h"
+
+#include <clast/bvh.h>
+#include <clast/domain.h>
+
+struct clast_domain_surface {
+    clast_mesh mesh;
+    clast_bvh *bvh; ///< of this mesh
+    double volume;
+};
+
+/// True for a box and for a mesh, whose unit cube is its bounding box.
+bool clx_domain_is_boxed(const clast_domain *domain);

@@ -1,0 +1,43 @@
+// Domains named on the command line; those bounded by a surface are read from its file.
+#include <clast/domain_file.h>
+
+#include "base/status.h"
+#include <clast/field.h>
+#include <clast/mesh_file.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char prefix[] = "mesh:";
+
+static clast_status read_mesh(const char *path, const char *unit, clast_domain *domain)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh mesh = {0};
+    double scale = 1.0;
+    if (unit != NULL && unit[0] != '\0') {
+        CLX_TRY(clast_unit_factor(unit, "m", &scale));
+    }
+    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    status = clast_domain_of_mesh(&mesh, scale, domain);
+    if (status != CLAST_OK) {
+        char why[512];
+        (void)snprintf(why, sizeof why, "%s", clast_error_detail());
+        (void)clx_fail(status, "%s: %s", path, why);
+    }
+done:
+    clast_mesh_free(&mesh);
+    return status;
+}
+
+clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain)
+{
+    if (strncmp(text, prefix, sizeof prefix - 1) == 0) {
+        return read_mesh(text + sizeof prefix - 1, unit, domain);
+    }
+    if (unit != NULL && unit[0] != '\0') {
+        return clx_fail(CLAST_E_CONFIG,
+                        "the unit %s is of the file of mesh:FILE; domain '%s' is in metres", unit,
+                        text);
+    }
+    return clast_domain_parse(text, domain);
+}
