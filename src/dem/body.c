@@ -157,7 +157,7 @@ static void add_spheres(clast_dem *dem, int32_t g)
             item.radius = grain->scale * shape->spheres.radius[k];
             v3_scale(item.local, grain->scale, shape->spheres.centre[k]);
         }
-        m3_mul(item.position, dem->turn[g], item.local);
+        m3_mul(item.position, dem->grain[g].turn, item.local);
         v3_add(item.position, item.position, grain->position);
         dem->item[dem->n_item + k] = item;
     }

@@ -1,105 +1,255 @@
-// Forces of all contacts, once a step.
+// What all contacts do, once a step.
 //
-// Loads are summed in one fixed order, whatever the threads: on each grain first the pairs whose b
-// it is, in the order of the list, then the sums over its items' own lists. One thread adds
-// straight into the grains; several keep the loads on b with the pair and gather them per grain,
-// which gives the same bytes.
-#include "dem/dem.h"
+// Awake pairs are sorted by how they are answered and go on four at a time (batch.h); what lanes
+// cannot answer goes one by one. A contact writes its own slots only, so blocks run in any order.
+// Loads are summed afterwards, in motion.c.
+#include "dem/batch.h"
 
 #include "base/parallel.h"
+#include "contact/facet.h"
 #include "dem/container.h"
-#include "dem/push.h"
+#include <string.h>
 
-enum { BLOCK = 128 };
+enum { BLOCK = 256 };
 
-/// A pair of the list: asleep, apart, or in touch. True when it loaded its grains.
-static inline bool meet(const clast_dem *dem, clx_link *p, clx_load *on_a, clx_load *on_b)
+static clx_batch_kind kind_of(const clast_dem *dem, const clx_link *link)
 {
-    const double travel = dem->travel[clx_item_grain(dem, p->a)] +
-                          (p->b >= 0 ? dem->travel[clx_item_grain(dem, p->b)] : 0.0);
-    if (travel < p->wake) {
-        return false;
+    if (dem->item != NULL || link->b < 0) {
+        return CLX_BATCH_ANY;
     }
+    if (link->slot == 0) {
+        return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
+    }
+    const uint16_t kind = dem->list.memory[link->slot].kind;
+    return kind == CLX_FACET_EDGE_EDGE ? CLX_BATCH_EDGES
+           : kind == CLX_FACET_NONE    ? CLX_BATCH_ANY
+                                       : CLX_BATCH_FACES;
+}
+
+/// Lane k alone, by the plain way.
+static void find_one(clast_dem *dem, clx_batch *p, int k)
+{
     clx_dem_touch t = {0};
-    clx_dem_touch_find(dem, p, clx_link_memory(dem, p), &t);
-    if (t.distance >= 0.0) {
-        p->wake = travel + t.distance;
-        p->flags = 0;
-        v3_set(p->slide, 0.0, 0.0, 0.0);
-        return false;
+    clx_link *link = p->link[k];
+    clx_dem_touch_find(dem, link, clx_link_memory(dem, link), &t);
+    p->distance[k] = t.distance;
+    for (int c = 0; c < 3; ++c) {
+        p->normal[c][k] = t.normal[c];
+        p->arm_a[c][k] = t.arm_a[c];
+        p->arm_b[c][k] = t.arm_b[c];
     }
-    p->flags = CLX_LINK_TOUCHES;
-    clx_push_pair(dem, &dem->law, p, &t, on_a, on_b);
-    return true;
 }
 
-/// Contacts of an item with the container, which stand first in its list; the first link after.
-static inline int64_t meet_container(clast_dem *dem, int32_t i, clx_load *own)
+/// As clx_pair_contact does for one.
+static void add_rounding(const clast_dem *dem, const clx_batch *p, clx_facet_batch *f)
 {
-    if (dem->container == NULL) {
-        return dem->list.begin[i];
-    }
-    clx_load wall = {0};
-    clx_container_touch touch[CLX_CONTAINER_TOUCHES];
-    const int32_t n = clx_container_meet(dem, i, touch);
-    for (int32_t k = 0; k < n; ++k) {
-        clx_push_pair(dem, &dem->law, &dem->list.link[touch[k].link], &touch[k].touch, own, &wall);
-    }
-    return clx_container_end(dem, i);
-}
-
-static void meet_serial(clast_dem *dem)
-{
-    for (int32_t i = 0; i < dem->n_item; ++i) {
-        clx_load own = {0};
-        for (int64_t k = meet_container(dem, i, &own); k < dem->list.begin[i + 1]; ++k) {
-            clx_link *p = &dem->list.link[k];
-            clx_load wall = {0};
-            clx_load *on_b = p->b >= 0 ? &dem->load[clx_item_grain(dem, p->b)] : &wall;
-            (void)meet(dem, p, &own, on_b);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        const double round_a = dem->convex[p->link[k]->a].round;
+        const double round_b = dem->convex[p->link[k]->b].round;
+        f->gap[k] -= round_a + round_b;
+        for (int c = 0; c < 3; ++c) {
+            f->point[c][k] += 0.5 * (round_b - round_a) * f->normal[c][k];
         }
-        clx_load *load = &dem->load[clx_item_grain(dem, i)];
-        v3_add(load->force, load->force, own.force);
-        v3_add(load->torque, load->torque, own.torque);
+    }
+}
+
+/// Remembered facets; returns which lanes are answered.
+static int ask_facets(const clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+{
+    clx_facet_batch f;
+    clx_batch_offsets(dem, p);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        f.turn_a[k] = p->a[k]->turn[0];
+        f.turn_b[k] = p->b[k]->turn[0];
+        f.memory[k] = &dem->list.memory[p->link[k]->slot];
+    }
+    memcpy(f.offset, p->offset, sizeof f.offset);
+    const int answered =
+        kind == CLX_BATCH_FACES ? clx_facet_faces_again(&f) : clx_facet_edges_again(&f);
+    if (dem->config.rounding > 0.0) {
+        add_rounding(dem, p, &f);
+    }
+    memcpy(p->distance, f.gap, sizeof f.gap);
+    memcpy(p->arm_a, f.point, sizeof f.point);
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < CLX_LANES; ++k) {
+            p->normal[c][k] = -1.0 * f.normal[c][k];
+            p->arm_b[c][k] = f.point[c][k] - p->offset[c][k];
+        }
+    }
+    return answered;
+}
+
+/// Where the pairs of a batch meet.
+static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+{
+    int answered = 0;
+    if (kind == CLX_BATCH_SPHERES) {
+        clx_batch_offsets(dem, p);
+        clx_batch_spheres(p);
+        return;
+    }
+    if (kind != CLX_BATCH_ANY) {
+        answered = ask_facets(dem, p, kind);
+    }
+    for (int k = 0; k < p->n; ++k) {
+        if ((answered >> k & 1) == 0) {
+            find_one(dem, p, k);
+        }
+    }
+}
+
+static void part(clast_dem *dem, const clx_batch *p, int k)
+{
+    clx_link *link = p->link[k];
+    link->wake = p->travel[k] + p->distance[k];
+    link->touches = 0;
+    v3_set(link->slide, 0.0, 0.0, 0.0);
+    dem->near.push[p->at[k]] = (clx_pushed){0};
+}
+
+/// What a pair that touches does, by the plain way.
+static void push_alone(clast_dem *dem, clx_link *link, const clx_dem_touch *t, int32_t at)
+{
+    clx_load on_a = {0};
+    clx_load on_b = {0};
+    clx_pushed *out = &dem->near.push[at];
+    clx_push_pair(dem, &dem->law, link, t, &on_a, &on_b);
+    *out = (clx_pushed){0};
+    v3_copy(out->force, on_b.force);
+    v3_copy(out->torque_b, on_b.torque);
+    v3_scale(out->torque_a, -1.0, on_a.torque);
+}
+
+static void push_one(clast_dem *dem, const clx_batch *p, int k)
+{
+    clx_dem_touch t = {.distance = p->distance[k]};
+    for (int c = 0; c < 3; ++c) {
+        t.normal[c] = p->normal[c][k];
+        t.arm_a[c] = p->arm_a[c][k];
+        t.arm_b[c] = p->arm_b[c][k];
+    }
+    push_alone(dem, p->link[k], &t, p->at[k]);
+}
+
+/// Finds where the pairs meet and what those that touch do; empties the batch.
+static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+{
+    int touching = 0;
+    for (int k = p->n; k < CLX_LANES; ++k) {
+        p->link[k] = p->link[0];
+        p->a[k] = p->a[0];
+        p->b[k] = p->b[0];
+    }
+    find_all(dem, p, kind);
+    for (int k = 0; k < p->n; ++k) {
+        if (p->distance[k] >= 0.0) {
+            part(dem, p, k);
+        } else {
+            p->link[k]->touches = 1;
+            touching |= 1 << k;
+        }
+    }
+    if (touching != 0 && clx_batch_has_law(&dem->law)) {
+        clx_batch_push(dem, p, touching);
+    } else {
+        for (int k = 0; k < p->n; ++k) {
+            if ((touching >> k & 1) != 0) {
+                push_one(dem, p, k);
+            }
+        }
+    }
+    p->n = 0;
+}
+
+/// Contacts ahead whose link, and whose memory and grains, are asked for in advance: a bed of 4000
+/// hulls does not stay in a second-level cache.
+enum { LINK_AHEAD = 16, REST_AHEAD = 8 };
+
+static inline void fetch_ahead(const clast_dem *dem, int64_t at)
+{
+    const int64_t n = dem->near.n;
+    if (at + LINK_AHEAD < n) {
+        __builtin_prefetch(&dem->list.link[dem->near.link[at + LINK_AHEAD]], 1);
+    }
+    if (at + REST_AHEAD < n) {
+        const clx_link *link = &dem->list.link[dem->near.link[at + REST_AHEAD]];
+        const char *push = (const char *)&dem->near.push[at + REST_AHEAD];
+        __builtin_prefetch(push, 1);
+        __builtin_prefetch(push + 64, 1);
+        if (link->slot != 0) {
+            const char *memory = (const char *)&dem->list.memory[link->slot];
+            __builtin_prefetch(memory);
+            __builtin_prefetch(memory + 64);
+            __builtin_prefetch(memory + 128);
+        }
+        if (link->b >= 0) {
+            const char *b = (const char *)&dem->grain[clx_item_grain(dem, link->b)];
+            __builtin_prefetch(b);
+            __builtin_prefetch(b + 64);
+            __builtin_prefetch(b + 128);
+        }
     }
 }
 
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
+    clx_batch batch[CLX_N_BATCH] = {0};
     (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        clx_load own = {0};
-        for (int64_t k = meet_container(dem, (int32_t)i, &own); k < dem->list.begin[i + 1]; ++k) {
-            clx_load on_b = {0};
-            if (meet(dem, &dem->list.link[k], &own, &on_b)) {
-                dem->hit[k] = on_b;
-            }
+    for (int64_t at = begin; at < end; ++at) {
+        clx_link *link = &dem->list.link[dem->near.link[at]];
+        fetch_ahead(dem, at);
+        const int32_t a = clx_item_grain(dem, link->a);
+        const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;
+        const double travel = dem->travel[a] + (b >= 0 ? dem->travel[b] : 0.0);
+        if (travel < link->wake || clx_link_is_container(dem, link)) {
+            continue;
         }
-        dem->own[i] = own;
+        const clx_batch_kind kind = kind_of(dem, link);
+        clx_batch *p = &batch[kind];
+        p->at[p->n] = (int32_t)at;
+        p->link[p->n] = link;
+        p->travel[p->n] = travel;
+        p->a[p->n] = &dem->grain[a];
+        p->b[p->n] = b >= 0 ? &dem->grain[b] : &clx_immovable;
+        if (++p->n == CLX_LANES) {
+            finish(dem, p, kind);
+        }
+    }
+    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        if (batch[kind].n > 0) {
+            finish(dem, &batch[kind], (clx_batch_kind)kind);
+        }
     }
 }
 
-static void gather_block(int64_t begin, int64_t end, int32_t worker, void *context)
+/// Contacts of items with the container, which are decided for all triangles of an item at once.
+static void contain_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
+    const clx_near *near = &dem->near;
     (void)worker;
-    for (int64_t g = begin; g < end; ++g) {
-        clx_load sum = {0};
-        for (int64_t k = dem->list.in_begin[g]; k < dem->list.in_begin[g + 1]; ++k) {
-            const int64_t p = dem->list.in_link[k];
-            if ((dem->list.link[p].flags & CLX_LINK_TOUCHES) != 0) {
-                v3_add(sum.force, sum.force, dem->hit[p].force);
-                v3_add(sum.torque, sum.torque, dem->hit[p].torque);
+    for (int64_t i = begin; i < end; ++i) {
+        clx_container_touch touch[CLX_CONTAINER_TOUCHES];
+        int32_t at = near->begin[i];
+        if (at == near->begin[i + 1] ||
+            !clx_link_is_container(dem, &dem->list.link[near->link[at]])) {
+            continue; // they stand first
+        }
+        const int32_t n = clx_container_meet(dem, (int32_t)i, touch);
+        for (; at < near->begin[i + 1]; ++at) {
+            clx_link *link = &dem->list.link[near->link[at]];
+            if (!clx_link_is_container(dem, link)) {
+                break;
+            }
+            near->push[at] = (clx_pushed){0};
+            for (int32_t k = 0; k < n; ++k) {
+                if (touch[k].link == near->link[at]) {
+                    push_alone(dem, link, &touch[k].touch, at);
+                }
             }
         }
-        const int32_t first = dem->item_begin != NULL ? dem->item_begin[g] : (int32_t)g;
-        const int32_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : (int32_t)g + 1;
-        for (int32_t i = first; i < last; ++i) {
-            v3_add(sum.force, sum.force, dem->own[i].force);
-            v3_add(sum.torque, sum.torque, dem->own[i].torque);
-        }
-        dem->load[g] = sum;
     }
 }
 
@@ -125,13 +275,8 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 void clx_contacts(clast_dem *dem)
 {
-    if (dem->list.in_begin != NULL) {
-        clx_dem_for(dem, dem->n_item, BLOCK, meet_block, dem);
-        clx_dem_for(dem, dem->n_grain, BLOCK, gather_block, dem);
-        return;
+    clx_dem_for(dem, dem->near.n, BLOCK, meet_block, dem);
+    if (dem->container != NULL) {
+        clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }
-    for (int32_t g = 0; g < dem->n_grain; ++g) {
-        dem->load[g] = (clx_load){0};
-    }
-    meet_serial(dem);
 }

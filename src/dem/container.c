@@ -31,7 +31,7 @@ int64_t clx_container_end(const clast_dem *dem, int32_t i)
 
 static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
 {
-    clx_placed body = {.turn = dem->turn[clx_item_grain(dem, i)][0]};
+    clx_placed body = {.turn = dem->grain[clx_item_grain(dem, i)].turn[0]};
     if (dem->convex != NULL) {
         body.shape = &dem->convex[i];
     } else {
@@ -107,12 +107,12 @@ static void insert(pushes *p, const clx_contact *c, int64_t link)
 /// Friction of a link that touched a step ago, for whoever pushes that way now.
 static void remember(pushes *p, clx_link *link, const clx_contact *c, bool is_near, int64_t k)
 {
-    if ((link->flags & CLX_LINK_TOUCHES) != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
+    if (link->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
         v3_copy(p->normal[p->n_old], c->normal);
         v3_copy(p->slide[p->n_old], link->slide);
         p->old[p->n_old++] = k;
     }
-    link->flags = 0;
+    link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
 }
 
@@ -161,7 +161,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     }
     for (int32_t m = 0; m < p.n; ++m) {
         clx_link *link = &dem->list.link[p.link[m]];
-        link->flags = CLX_LINK_TOUCHES;
+        link->touches = 1;
         inherit(&p, &p.contact[m], p.link[m], link->slide);
         touch[m] = (clx_container_touch){.link = p.link[m]};
         take(&p.contact[m], &touch[m].touch);

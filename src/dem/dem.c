@@ -33,17 +33,14 @@ void clast_dem_destroy(clast_dem *dem)
     }
     clx_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
+    clx_near_free(&dem->near);
     clx_free(dem->body);
     clx_free(dem->grain);
     clx_free(dem->motion);
-    clx_free(dem->turn);
-    clx_free(dem->load);
     clx_free(dem->travel);
     clx_free(dem->item);
     clx_free(dem->item_begin);
     clx_free(dem->convex);
-    clx_free(dem->own);
-    clx_free(dem->hit);
     clx_free(dem->block_flag);
     clx_free(dem);
 }
@@ -126,10 +123,8 @@ static clast_status reserve(clast_dem *dem, int64_t n)
     const int64_t blocks = (room + CLX_MOVE_BLOCK - 1) / CLX_MOVE_BLOCK;
     CLX_TRY(clx_realloc(&dem->grain, room, sizeof *dem->grain));
     CLX_TRY(clx_realloc(&dem->motion, room, sizeof *dem->motion));
-    CLX_TRY(clx_realloc(&dem->turn, room, sizeof *dem->turn));
-    CLX_TRY(clx_realloc(&dem->load, room, sizeof *dem->load));
     CLX_TRY(clx_realloc(&dem->travel, room, sizeof *dem->travel));
-    CLX_TRY(clx_realloc(&dem->block_flag, 2 * blocks, sizeof *dem->block_flag));
+    CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
     dem->grain_capacity = room;
 done:
     return status;
@@ -170,14 +165,13 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
                       .volume = volume,
                       .density = from->density};
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
-    q_matrix(dem->turn[i], m->orientation);
+    q_matrix(g->turn, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
-    m3_mul_t(in_body, dem->turn[i], from->spin);
+    m3_mul_t(in_body, g->turn, from->spin);
     m3_mul(momentum, body->shape.inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
-    m3_mul(m->angular, dem->turn[i], momentum);
+    m3_mul(m->angular, g->turn, momentum);
     set_drag(dem, &body->shape, m);
-    dem->load[i] = (clx_load){0};
     dem->travel[i] = 0.0;
 }
 
@@ -210,6 +204,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     for (int64_t k = 0; k < n_step; ++k) {
         if (dem->list.is_due) {
             CLX_TRY(clx_list_refresh(dem));
+        }
+        if (dem->near.is_due) {
+            CLX_TRY(clx_near_find(dem));
         }
         clx_contacts(dem);
         const bool is_fine = clx_move(dem);

@@ -15,18 +15,19 @@
 #include "math/vec3.h"
 #include <clast/dem.h>
 
-/// What contacts read of a grain: two cache lines.
+/// What contacts read of a grain: 192 bytes, in fours of doubles that lanes load at once.
 typedef struct clx_grain {
     double position[3];
-    double velocity[3];
-    double spin[3]; ///< angular velocity, world axes
     double mass;
-    double radius;       ///< of the bounding sphere
-    double round_radius; ///< of the sphere of equal volume: R of Hertz's law
+    double velocity[3];
+    double radius;  ///< of the bounding sphere
+    double spin[3]; ///< angular velocity, world axes
     double scale;
+    double turn[3][3];   ///< rotation matrix, world = turn body
+    double round_radius; ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
-    double spare[2];
+    double spare;
 } clx_grain;
 
 /// What only the integration reads.
@@ -56,21 +57,39 @@ typedef struct clx_item {
     int32_t part; ///< sphere of the clump; -1: the grain's own shape
 } clx_item;
 
-enum { CLX_LINK_TOUCHES = 1 };
-
 /// Two items near each other: 48 bytes.
 typedef struct clx_link {
-    int32_t a, b;      ///< b > a, or -1 - wall
-    int16_t period[2]; ///< b's image: position + period * width
-    int32_t flags;
-    double wake;     ///< no touch before travel a + travel b gets here
-    double slide[3]; ///< tangential displacement of b over a
+    int32_t a, b;         ///< b > a, or -1 - wall
+    int16_t period[2];    ///< b's image: position + period * width
+    uint32_t touches : 1; ///< in the last step
+    uint32_t slot : 31;   ///< its memory's place in the list's `memory`; 0: it has none
+    double wake;          ///< no touch before travel a + travel b gets here
+    double slide[3];      ///< tangential displacement of b over a
 } clx_link;
 
+/// Force and torque on a grain, in fours.
 typedef struct clx_load {
-    double force[3];
-    double torque[3];
+    double force[4], torque[4]; ///< the fourth of each is 0
 } clx_load;
+
+/// What a contact does to its grains: the force on b, and the torques.
+typedef struct clx_pushed {
+    double force[4], torque_b[4]; ///< the fourth of each is 0
+    double torque_a[4];           ///< to be taken off
+} clx_pushed;
+
+/// The links that may touch before some grain's path exceeds its `until`: what a step looks at.
+typedef struct clx_near {
+    int32_t n;
+    int32_t *link;     ///< [n] rising
+    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches
+    int32_t *begin;    ///< [n_item + 1] first of each item's own
+    int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
+    int32_t *in;       ///< [n] their numbers, rising
+    double *until;     ///< [n_grain]
+    int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
+    bool is_due;
+} clx_near;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
 
@@ -124,21 +143,17 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
-    clx_contact_memory *memory;       ///< [n_link], or NULL while all items are spheres
-    clx_contact_memory *other_memory; ///< the buffer that the next refresh fills
-    int64_t memory_capacity, other_memory_capacity;
-    int64_t n_remembered; ///< links that `memory` is about: all, or none yet
-    int64_t *begin;       ///< [n_item + 1] first pair of each item
-    clx_anchor *anchor;   ///< [n_item]
-    double *limit;        ///< [n_item] below this travel an item is surely within its margin
-    uint8_t *is_stale;    ///< [n_item] looks for its neighbours in this refresh
+    clx_contact_memory *memory; ///< [n_slot] of the links that have one; the first is not in use
+    int64_t n_slot, slot_capacity;
+    int32_t *free_slot; ///< [n_free]
+    int64_t n_free, free_capacity;
+    int64_t *begin;     ///< [n_item + 1] first pair of each item
+    clx_anchor *anchor; ///< [n_item]
+    double *limit;      ///< [n_item] below this travel an item is surely within its margin
+    uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
     int64_t item_capacity;
     int32_t *near; ///< triangles of the container about one item
     int64_t near_capacity;
-    int64_t *in_begin; ///< [n_grain + 1] links whose b is an item of this grain
-    int64_t *in_link;  ///< [n_link] their numbers, rising; only with several threads
-    int64_t in_capacity;
-    int64_t in_grain_capacity;
     clx_dem_grid grid;
     clx_found *found, *sorted; ///< [n_found] as found; by a and b
     int64_t n_found, found_capacity, sorted_capacity;
@@ -163,21 +178,16 @@ struct clast_dem {
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
     int64_t grain_capacity;
-    clx_grain *grain;     ///< [n_grain]
-    clx_motion *motion;   ///< [n_grain]
-    double (*turn)[3][3]; ///< [n_grain] rotation matrices
-    clx_load *load;       ///< [n_grain] from contacts
-    double *travel;       ///< [n_grain] path of the surface's fastest point, at most
+    clx_grain *grain;   ///< [n_grain]
+    clx_motion *motion; ///< [n_grain]
+    double *travel;     ///< [n_grain] path of the surface's fastest point, at most
     int32_t n_item;
     clx_item *item;      ///< [n_item] or NULL without clumps
     int32_t *item_begin; ///< [n_grain + 1] or NULL without clumps
     clx_convex *convex;  ///< [n_item], or NULL while all items are spheres
-    clx_load *own;       ///< [n_item] from the pairs of its own list; several threads only
-    int64_t own_capacity;
-    clx_load *hit; ///< [n_link] load on b; several threads only
-    int64_t hit_capacity;
-    uint8_t *block_flag; ///< [2 blocks of CLX_MOVE_BLOCK grains] lost, due
+    uint8_t *block_flag; ///< [blocks of CLX_MOVE_BLOCK grains] clx_move_flag of each
     clx_list list;
+    clx_near near;
 };
 
 static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)
@@ -195,18 +205,25 @@ static inline double clx_item_radius(const clast_dem *dem, int32_t i)
     return dem->item != NULL ? dem->item[i].radius : dem->grain[i].radius;
 }
 
-/// The contact memory of a link, or NULL.
-static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
-{
-    return dem->list.memory != NULL ? &dem->list.memory[link - dem->list.link] : NULL;
-}
-
 /// Whether an item's contacts depend on its turn.
 static inline bool clx_item_is_round(const clast_dem *dem, int32_t i)
 {
     return dem->item != NULL && dem->item[i].part >= 0
                ? true
                : dem->grain[clx_item_grain(dem, i)].kind == CLAST_SHAPE_SPHERE;
+}
+
+/// The contact memory of a link, or NULL.
+static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
+{
+    return link->slot != 0 ? &dem->list.memory[link->slot] : NULL;
+}
+
+/// Whether a link's meeting has a closed form: both are spheres, or a sphere and a wall.
+static inline bool clx_link_is_round(const clast_dem *dem, const clx_link *link)
+{
+    return dem->all_round ||
+           (clx_item_is_round(dem, link->a) && (link->b < 0 || clx_item_is_round(dem, link->b)));
 }
 
 /// Checks sizes and time step of a configuration.
@@ -240,8 +257,15 @@ double clx_wall_distance(const clx_wall *wall, const double x[3], double normal[
 clast_status clx_list_refresh(clast_dem *dem);
 void clx_list_free(clx_list *list);
 
+/// A place for a link's memory, which begins empty.
+clast_status clx_list_give_slot(clx_list *list, clx_link *link);
+
 /// Room for n items; new ones are stale.
 clast_status clx_list_reserve(clx_list *list, int64_t n_item);
+
+/// Lists the links that may touch soon, and gives memories to those that need one.
+clast_status clx_near_find(clast_dem *dem);
+void clx_near_free(clx_near *near);
 
 /// Whether one thread does all the work: there is no other, or too few grains for the threads'
 /// meetings to pay.
@@ -250,11 +274,11 @@ bool clx_dem_is_serial(const clast_dem *dem);
 /// clx_parallel_for, or the same blocks in this thread where that is as fast.
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context);
 
-/// Forces of all contacts: loads on all grains, memories gone on by a step.
+/// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// Velocities, positions and turns one step on; true when all grains moved less than a
-/// twentieth of their radius.
+/// Sums what contacts do; velocities, positions and turns one step on. True when all grains moved
+/// less than a twentieth of their radius.
 bool clx_move(clast_dem *dem);
 
 /// Whether an item has used up this share of its margin.

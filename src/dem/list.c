@@ -18,14 +18,12 @@ void clx_list_free(clx_list *list)
     clx_free(list->link);
     clx_free(list->other);
     clx_free(list->memory);
-    clx_free(list->other_memory);
+    clx_free(list->free_slot);
     clx_free(list->begin);
     clx_free(list->anchor);
     clx_free(list->limit);
     clx_free(list->is_stale);
     clx_free(list->near);
-    clx_free(list->in_begin);
-    clx_free(list->in_link);
     clx_dem_grid_free(&list->grid);
     clx_free(list->found);
     clx_free(list->sorted);
@@ -238,24 +236,43 @@ static bool is_same(const clx_link *old, const clx_found *f)
     return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
-/// Old and found pairs of one item, both sorted by b, into the other buffer at n.
+clast_status clx_list_give_slot(clx_list *l, clx_link *link)
+{
+    clast_status status = CLAST_OK;
+    if (l->n_free > 0) {
+        link->slot = (uint32_t)l->free_slot[--l->n_free] & INT32_MAX;
+    } else {
+        const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
+        CLX_CHECK(n < INT32_MAX, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
+        CLX_TRY(clx_grow(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
+        CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
+        l->n_slot = n + 1;
+        link->slot = (uint32_t)n & INT32_MAX;
+    }
+    l->memory[link->slot] = (clx_contact_memory){0};
+done:
+    return status;
+}
+
 /// Keeps an old link, with its memory.
 static void keep(clx_list *l, int64_t old, int64_t n)
 {
     l->other[n] = l->link[old];
-    if (l->other_memory != NULL) {
-        l->other_memory[n] = old < l->n_remembered ? l->memory[old] : (clx_contact_memory){0};
+}
+
+static void drop(clx_list *l, int64_t old)
+{
+    if (l->link[old].slot != 0) { // free_slot has room for all slots
+        l->free_slot[l->n_free++] = (int32_t)l->link[old].slot;
     }
 }
 
 static void start(clx_list *l, const clx_found *f, int64_t n)
 {
     l->other[n] = fresh(f);
-    if (l->other_memory != NULL) {
-        l->other_memory[n] = (clx_contact_memory){0};
-    }
 }
 
+/// Old and found pairs of one item, both sorted by b, into the other buffer at n.
 static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
     int64_t f = l->found_begin[i];
@@ -265,6 +282,8 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
         if (take_old) {
             if (stays(l, &l->link[old])) {
                 keep(l, old, n++);
+            } else {
+                drop(l, old);
             }
             ++old;
             continue;
@@ -273,6 +292,7 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
             if (is_same(&l->link[old], &l->sorted[f])) {
                 keep(l, old, n++);
             } else {
+                drop(l, old);
                 start(l, &l->sorted[f], n++);
             }
             ++old;
@@ -288,16 +308,10 @@ static void swap_buffers(clx_list *l)
 {
     clx_link *const link = l->link;
     const int64_t capacity = l->capacity;
-    clx_contact_memory *const memory = l->memory;
-    const int64_t memory_capacity = l->memory_capacity;
     l->link = l->other;
     l->capacity = l->other_capacity;
     l->other = link;
     l->other_capacity = capacity;
-    l->memory = l->other_memory;
-    l->memory_capacity = l->other_memory_capacity;
-    l->other_memory = memory;
-    l->other_memory_capacity = memory_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
@@ -306,10 +320,6 @@ static clast_status merge(clast_dem *dem)
     clx_list *l = &dem->list;
     int64_t n = 0;
     CLX_TRY(clx_grow(&l->other, &l->other_capacity, l->n_link + l->n_found + 1, sizeof *l->other));
-    if (!dem->all_round) {
-        CLX_TRY(clx_grow(&l->other_memory, &l->other_memory_capacity, l->other_capacity,
-                         sizeof *l->other_memory));
-    }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;
@@ -323,7 +333,6 @@ static clast_status merge(clast_dem *dem)
     l->begin[dem->n_item] = n;
     swap_buffers(l);
     l->n_link = n;
-    l->n_remembered = l->memory != NULL ? n : 0;
 done:
     return status;
 }
@@ -336,43 +345,9 @@ clast_status clx_list_refresh(clast_dem *dem)
     CLX_TRY(find(dem));
     CLX_TRY(sort_found(dem));
     CLX_TRY(merge(dem));
-    CLX_TRY(clx_list_gather(dem));
     dem->list.is_due = false;
+    dem->near.is_due = true;
     ++dem->list.n_refresh;
-done:
-    return status;
-}
-
-/// For several threads: which links load each grain from outside its own list.
-clast_status clx_list_gather(clast_dem *dem)
-{
-    clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
-    if (clx_dem_is_serial(dem)) {
-        clx_free(l->in_begin);
-        l->in_begin = NULL;
-        l->in_grain_capacity = 0;
-        return CLAST_OK;
-    }
-    CLX_TRY(clx_grow(&l->in_begin, &l->in_grain_capacity, dem->n_grain + 2, sizeof *l->in_begin));
-    CLX_TRY(clx_grow(&l->in_link, &l->in_capacity, l->n_link, sizeof *l->in_link));
-    CLX_TRY(clx_grow(&dem->hit, &dem->hit_capacity, l->n_link, sizeof *dem->hit));
-    CLX_TRY(clx_grow(&dem->own, &dem->own_capacity, dem->n_item, sizeof *dem->own));
-    int64_t *begin = l->in_begin;
-    memset(begin, 0, ((size_t)dem->n_grain + 2) * sizeof *begin);
-    for (int64_t k = 0; k < l->n_link; ++k) {
-        if (l->link[k].b >= 0) {
-            ++begin[clx_item_grain(dem, l->link[k].b) + 2];
-        }
-    }
-    for (int32_t g = 1; g <= dem->n_grain; ++g) {
-        begin[g + 1] += begin[g];
-    }
-    for (int64_t k = 0; k < l->n_link; ++k) {
-        if (l->link[k].b >= 0) {
-            l->in_link[begin[clx_item_grain(dem, l->link[k].b) + 1]++] = k;
-        }
-    }
 done:
     return status;
 }

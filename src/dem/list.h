@@ -28,6 +28,3 @@ static inline bool clx_dem_grid_is_here(const clx_dem_grid *grid, const clx_dem_
     return c->at[0] == w->cell[0] && c->at[1] == w->cell[1] && c->at[2] == w->cell[2] &&
            c->level == w->level;
 }
-
-/// Lists of links by the grain that they load, for several threads.
-clast_status clx_list_gather(clast_dem *dem);

@@ -43,10 +43,10 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
-        m3_mul_t(in_body, dem->turn[i], g->spin);
+        m3_mul_t(in_body, dem->grain[i].turn, g->spin);
         m3_mul(l, dem->body[g->shape].shape.inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
-        m3_mul(momentum, dem->turn[i], l);
+        m3_mul(momentum, dem->grain[i].turn, l);
     }
     m->mass += g->mass;
     m->mean_height += g->mass * g->position[2];
@@ -93,7 +93,7 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
         add_grain(dem, i, &m);
     }
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        if ((dem->list.link[k].flags & CLX_LINK_TOUCHES) != 0) {
+        if (dem->list.link[k].touches != 0) {
             add_link(dem, &dem->list.link[k], &m);
         }
     }
@@ -119,7 +119,7 @@ static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
         const clx_link *link = &dem->list.link[k];
-        if (link->b < 0 || (link->flags & CLX_LINK_TOUCHES) == 0) {
+        if (link->b < 0 || link->touches == 0) {
             continue;
         }
         clx_dem_touch t = {0};
@@ -184,7 +184,7 @@ uint64_t clast_dem_hash(const clast_dem *dem)
         h = mix(h, dem->motion[i].orientation, 4);
     }
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        if ((dem->list.link[k].flags & CLX_LINK_TOUCHES) != 0) {
+        if (dem->list.link[k].touches != 0) {
             const double who[2] = {dem->list.link[k].a, dem->list.link[k].b};
             h = mix(h, who, 2);
             h = mix(h, dem->list.link[k].slide, 3);
@@ -213,7 +213,7 @@ clast_status clx_explain_explosion(const clast_dem *dem)
         const int32_t a = clx_item_grain(dem, link->a);
         const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : link->b;
         clx_dem_touch t = {0};
-        if ((a == worst || b == worst) && (link->flags & CLX_LINK_TOUCHES) != 0) {
+        if ((a == worst || b == worst) && link->touches != 0) {
             clx_find_again(dem, link, &t);
             if (-t.distance > depth) {
                 depth = -t.distance;

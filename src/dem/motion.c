@@ -3,24 +3,18 @@
 // Angular momentum is the state, so that it is kept exactly where nothing turns a grain; its turn
 // takes the spin of the middle of the step (one half turn ahead), which keeps the energy of a free
 // body too. With `gyroscopic` off the spin is the state, as in the reference program.
-#include "dem/dem.h"
+//
+// Four grains side by side move in lanes (move_lanes.c), others one by one with the same bits.
+//
+// The load of a grain is first the sum over contacts whose b it is, in the order of the list, then
+// the sums over its items' own contacts: the same bytes whatever the threads.
+#include "dem/move.h"
 
 #include "base/parallel.h"
 #include <clast/settling.h>
 #include <math.h>
 
 enum { BLOCK = CLX_MOVE_BLOCK };
-
-/// Share of its radius that a grain may move in a step.
-static const double STRIDE = 0.05;
-
-typedef struct {
-    clast_dem *dem;
-    double shake;     ///< acceleration along x [m/s2]
-    double damping;   ///< factor of a step
-    uint8_t *is_lost; ///< [n_block]
-    uint8_t *is_due;  ///< [n_block]
-} moving;
 
 /// q = exp(w dt / 2) q, by the series to the sixth power of the angle (below rounding for 0.1 rad).
 static void turn_by(const double w[3], double dt, double q[4])
@@ -73,15 +67,15 @@ static void turn_plainly(clx_dem_body *body, clx_grain *g, clx_motion *m, const 
     v3_add(g->spin, g->spin, change);
 }
 
-static void turn_body(clast_dem *dem, int64_t i, double factor, double dt)
+static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double factor, double dt)
 {
     clx_grain *g = &dem->grain[i];
     clx_motion *m = &dem->motion[i];
     clx_dem_body *body = &dem->body[g->shape];
     double impulse[3];
-    v3_scale(impulse, dt, dem->load[i].torque);
+    v3_scale(impulse, dt, torque);
     if (!dem->config.gyroscopic) {
-        turn_plainly(body, g, m, impulse, dem->turn[i]);
+        turn_plainly(body, g, m, impulse, g->turn);
         v3_scale(g->spin, factor, g->spin);
         turn_by(g->spin, dt, m->orientation);
     } else {
@@ -97,9 +91,9 @@ static void turn_body(clast_dem *dem, int64_t i, double factor, double dt)
         spin_of(body, m, middle, g->spin);
         turn_by(g->spin, dt, m->orientation);
     }
-    q_matrix(dem->turn[i], m->orientation);
+    q_matrix(g->turn, m->orientation);
     if (dem->config.gyroscopic) {
-        spin_of(body, m, dem->turn[i], g->spin);
+        spin_of(body, m, g->turn, g->spin);
     }
 }
 
@@ -119,14 +113,13 @@ static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_mo
 }
 
 /// Moves one grain's centre; the speed that its surface had at most.
-static double shift(const moving *c, int64_t i)
+static double shift(const clx_moving *c, int64_t i, const double f[3])
 {
     clast_dem *dem = c->dem;
     clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     const double dt = dem->config.time_step;
     const double weight = dem->config.gravity * (g->mass - dem->config.fluid_density * m->volume);
-    const double *f = dem->load[i].force;
     const double scale = dt / g->mass;
     g->velocity[0] += scale * f[0] + dt * c->shake;
     g->velocity[1] += scale * f[1];
@@ -145,7 +138,7 @@ static void place_items(clast_dem *dem, int64_t g)
     for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {
         clx_item *item = &dem->item[i];
         double arm[3];
-        m3_mul(arm, dem->turn[g], item->local);
+        m3_mul(arm, dem->grain[g].turn, item->local);
         v3_add(item->position, dem->grain[g].position, arm);
     }
 }
@@ -184,36 +177,93 @@ static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
     return !(left >= 0.0);
 }
 
+/// One grain; true unless it is lost.
+static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
+{
+    clast_dem *dem = c->dem;
+    clx_grain *g = &dem->grain[i];
+    const double dt = dem->config.time_step;
+    double speed = shift(c, i, load->force);
+    const bool is_fine = speed * dt <= CLX_STRIDE * g->radius;
+    if (g->kind == CLAST_SHAPE_SPHERE) {
+        turn_round(g, &dem->motion[i], load->torque, c->damping, dt);
+    } else {
+        turn_body(dem, i, load->torque, c->damping, dt);
+        speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);
+    }
+    dem->travel[i] += dt * speed;
+    return is_fine;
+}
+
+/// Sum of what contacts do to grain g.
+static inline clx_load load_of(const clast_dem *dem, int64_t g)
+{
+    const clx_near *near = &dem->near;
+    clx_lanes force = lanes_all(0.0);
+    clx_lanes torque = lanes_all(0.0);
+    clx_load load;
+    for (int32_t k = near->in_begin[g]; k < near->in_begin[g + 1]; ++k) {
+        const clx_pushed *push = &near->push[near->in[k]];
+        force += lanes_load(push->force);
+        torque += lanes_load(push->torque_b);
+    }
+    const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
+    const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
+    for (int64_t i = first; i < last; ++i) {
+        clx_lanes own = lanes_all(0.0);
+        clx_lanes turning = lanes_all(0.0);
+        for (int32_t k = near->begin[i]; k < near->begin[i + 1]; ++k) {
+            own -= lanes_load(near->push[k].force);
+            turning -= lanes_load(near->push[k].torque_a);
+        }
+        force += own;
+        torque += turning;
+    }
+    lanes_store(load.force, force);
+    lanes_store(load.torque, torque);
+    return load;
+}
+
+/// Whether an item of the grain has used up its margin.
+static bool is_grain_due(clast_dem *dem, int64_t i)
+{
+    if (dem->item == NULL) {
+        return is_beyond(dem, (int32_t)i, dem->travel[i]);
+    }
+    bool is_due = false;
+    place_items(dem, i);
+    for (int32_t k = dem->item_begin[i]; k < dem->item_begin[i + 1]; ++k) {
+        is_due = is_beyond(dem, k, dem->travel[i]) || is_due;
+    }
+    return is_due;
+}
+
+CLX_FOR_EACH_MACHINE
 static void move_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    const moving *c = context;
+    const clx_moving *c = context;
     clast_dem *dem = c->dem;
-    const double dt = dem->config.time_step;
-    bool is_lost = false;
-    bool is_due = false;
+    int flag = 0;
     (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        clx_grain *g = &dem->grain[i];
-        double speed = shift(c, i);
-        is_lost = is_lost || !(speed * dt <= STRIDE * g->radius);
-        if (g->kind == CLAST_SHAPE_SPHERE) {
-            turn_round(g, &dem->motion[i], dem->load[i].torque, c->damping, dt);
-        } else {
-            turn_body(dem, i, c->damping, dt);
-            speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);
+    for (int64_t i = begin; i < end;) {
+        clx_load load[CLX_LANES];
+        const int n = end - i < CLX_LANES ? (int)(end - i) : CLX_LANES;
+        for (int k = 0; k < n; ++k) {
+            load[k] = load_of(dem, i + k);
         }
-        dem->travel[i] += dt * speed;
-        if (dem->item != NULL) {
-            place_items(dem, i);
+        bool is_lost = false;
+        if (n < CLX_LANES || !clx_move_has_lanes(dem, i) || !clx_move_lanes(c, i, load, &is_lost)) {
+            for (int k = 0; k < n; ++k) {
+                is_lost = !move_one(c, i + k, &load[k]) || is_lost;
+            }
         }
-        const int32_t last = dem->item != NULL ? dem->item_begin[i + 1] : (int32_t)i + 1;
-        for (int32_t k = dem->item != NULL ? dem->item_begin[i] : (int32_t)i; k < last; ++k) {
-            is_due = is_beyond(dem, k, dem->travel[i]) || is_due;
+        flag |= is_lost ? CLX_MOVE_LOST : 0;
+        for (const int64_t last = i + n; i < last; ++i) {
+            flag |= dem->travel[i] > dem->near.until[i] ? CLX_MOVE_NEAR_DUE : 0;
+            flag |= is_grain_due(dem, i) ? CLX_MOVE_DUE : 0;
         }
     }
-    const int64_t block = begin / BLOCK;
-    c->is_lost[block] = is_lost ? 1 : 0;
-    c->is_due[block] = is_due ? 1 : 0;
+    dem->block_flag[begin / BLOCK] = (uint8_t)flag;
 }
 
 /// Acceleration of eq. 14 at this time.
@@ -230,16 +280,15 @@ static double shaking(const clast_dem *dem)
 bool clx_move(clast_dem *dem)
 {
     const int64_t n_block = (dem->n_grain + BLOCK - 1) / BLOCK;
-    moving c = {.dem = dem,
-                .shake = shaking(dem),
-                .damping = pow(dem->drive.damping, dem->config.time_step),
-                .is_lost = dem->block_flag,
-                .is_due = dem->block_flag + n_block};
+    clx_moving c = {.dem = dem,
+                    .shake = shaking(dem),
+                    .damping = pow(dem->drive.damping, dem->config.time_step)};
+    int flag = 0;
     clx_dem_for(dem, dem->n_grain, BLOCK, move_block, &c);
-    bool fine = true;
     for (int64_t b = 0; b < n_block; ++b) {
-        fine = fine && c.is_lost[b] == 0;
-        dem->list.is_due = dem->list.is_due || c.is_due[b] != 0;
+        flag |= dem->block_flag[b];
     }
-    return fine;
+    dem->list.is_due = dem->list.is_due || (flag & CLX_MOVE_DUE) != 0;
+    dem->near.is_due = dem->near.is_due || (flag & CLX_MOVE_NEAR_DUE) != 0;
+    return (flag & CLX_MOVE_LOST) == 0;
 }

@@ -38,7 +38,7 @@ static void put_link(const clx_link *link, int32_t *id, double *out)
     id[1] = link->b;
     id[2] = link->period[0];
     id[3] = link->period[1];
-    id[4] = link->flags;
+    id[4] = (int32_t)link->touches;
     out[0] = link->wake;
     memcpy(out + 1, link->slide, 3 * sizeof *out);
 }
@@ -69,9 +69,13 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
     for (int64_t k = 0; k < s.n_link; ++k) {
         put_link(&l->link[k], &s.id[k * CLX_SAVED_ID], &s.link[k * CLX_SAVED_LINK]);
     }
-    if (l->memory != NULL && l->n_remembered == l->n_link) {
-        CLX_TRY(clx_alloc(&s.memory, s.n_link * MEMORY, 1));
-        memcpy(s.memory, l->memory, (size_t)s.n_link * MEMORY);
+    if (!dem->all_round) {
+        CLX_TRY(clx_alloc(&s.memory, s.n_link * MEMORY, 1)); // zero for links without one
+        for (int64_t k = 0; k < s.n_link; ++k) {
+            if (l->link[k].slot != 0) {
+                memcpy(s.memory + k * MEMORY, &l->memory[l->link[k].slot], MEMORY);
+            }
+        }
     }
     *saved = s;
     s = (clx_dem_saved){0};
@@ -124,9 +128,27 @@ static clast_status take_link(const clast_dem *dem, const clx_dem_saved *s, int6
     *link = (clx_link){.a = id[0],
                        .b = id[1],
                        .period = {(int16_t)id[2], (int16_t)id[3]},
-                       .flags = id[4],
+                       .touches = id[4] != 0,
                        .wake = in[0]};
     memcpy(link->slide, in + 1, sizeof link->slide);
+done:
+    return status;
+}
+
+static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t k = 0; k < s->n_link; ++k) {
+        const uint8_t *bytes = s->memory + k * MEMORY;
+        bool is_empty = true;
+        for (int i = 0; is_empty && i < MEMORY; ++i) {
+            is_empty = bytes[i] == 0;
+        }
+        if (!is_empty) {
+            CLX_TRY(clx_list_give_slot(l, &l->link[k]));
+            memcpy(&l->memory[l->link[k].slot], bytes, MEMORY);
+        }
+    }
 done:
     return status;
 }
@@ -151,11 +173,9 @@ static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
     if (s->memory != NULL) {
         CLX_CHECK(!dem->all_round && s->memory_width == MEMORY, CLAST_E_FORMAT,
                   "the checkpoint's contact memories are of another version, or of other shapes");
-        CLX_TRY(clx_grow(&l->memory, &l->memory_capacity, l->capacity, sizeof *l->memory));
-        memcpy(l->memory, s->memory, (size_t)s->n_link * MEMORY);
-        l->n_remembered = s->n_link;
+        CLX_TRY(take_memories(l, s));
     }
-    CLX_TRY(clx_list_gather(dem));
+    dem->near.is_due = true;
 done:
     return status;
 }

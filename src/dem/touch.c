@@ -12,8 +12,8 @@ void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_me
     clx_contact contact;
     clx_pair pair = {.a = &dem->convex[link->a],
                      .b = &dem->convex[link->b],
-                     .turn_a = dem->turn[a][0],
-                     .turn_b = dem->turn[b][0]};
+                     .turn_a = dem->grain[a].turn[0],
+                     .turn_b = dem->grain[b].turn[0]};
     clx_link_offset(dem, link, pair.offset);
     const double ra = clx_item_radius(dem, link->a);
     const double rb = clx_item_radius(dem, link->b);
@@ -32,7 +32,7 @@ void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_conta
     static const double nowhere[3] = {0.0, 0.0, 0.0};
     const clx_wall *wall = &dem->wall[-1 - link->b];
     clx_placed body = {.shape = &dem->convex[link->a],
-                       .turn = dem->turn[clx_item_grain(dem, link->a)][0]};
+                       .turn = dem->grain[clx_item_grain(dem, link->a)].turn[0]};
     clx_contact contact;
     v3_copy(body.position, clx_item_position(dem, link->a));
     if (wall->kind == CLX_WALL_PLANE) {

@@ -82,12 +82,11 @@ void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_conta
 void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
                                clx_contact_memory *memory, clx_dem_touch *t);
 
-/// @param memory  of the link; NULL when all items are spheres
+/// @param memory  of the link; not read where both are round
 static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link,
                                       clx_contact_memory *memory, clx_dem_touch *t)
 {
-    const bool is_round = memory == NULL || (clx_item_is_round(dem, link->a) &&
-                                             (link->b < 0 || clx_item_is_round(dem, link->b)));
+    const bool is_round = clx_link_is_round(dem, link);
     if (link->b >= 0) {
         if (is_round) {
             clx_touch_spheres(dem, link, t);
@@ -109,10 +108,9 @@ static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link
 /// The same for measuring: the link's memory is not renewed.
 static inline void clx_find_again(const clast_dem *dem, const clx_link *link, clx_dem_touch *t)
 {
-    const clx_contact_memory *kept = clx_link_memory(dem, link);
     clx_contact_memory memory = {0};
-    if (kept != NULL) {
-        memory = *kept;
+    if (link->slot != 0) {
+        memory = dem->list.memory[link->slot];
     }
-    clx_dem_touch_find(dem, link, kept != NULL ? &memory : NULL, t);
+    clx_dem_touch_find(dem, link, &memory, t);
 }

@@ -1,0 +1,189 @@
+// Spheres and the linear law for four contacts at once. Each line is that of touch.h, law.h or
+// contacts.c, in their order, so that the bits are theirs.
+#include "dem/batch.h"
+
+CLX_INLINE void load3(const double *x, clx_lanes out[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        out[c] = lanes_load(x + c * CLX_LANES);
+    }
+}
+
+CLX_INLINE void store3(double *out, const clx_lanes x[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        lanes_store(out + c * CLX_LANES, x[c]);
+    }
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
+{
+    clx_lanes a[4], b[4], period[2], r[3];
+    lanes_gather(a, p->a[0]->position, p->a[1]->position, p->a[2]->position, p->a[3]->position);
+    lanes_gather(b, p->b[0]->position, p->b[1]->position, p->b[2]->position, p->b[3]->position);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        period[0][k] = p->link[k]->period[0];
+        period[1][k] = p->link[k]->period[1];
+    }
+    for (int c = 0; c < 3; ++c) {
+        r[c] = b[c] - a[c];
+    }
+    r[0] = r[0] + dem->period[0] * period[0];
+    r[1] = r[1] + dem->period[1] * period[1];
+    store3(p->offset[0], r);
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_spheres(clx_batch *p)
+{
+    clx_lanes r[3], normal[3], arm[3], ra, rb;
+    const clx_lanes zero = lanes_all(0.0);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        ra[k] = p->a[k]->radius;
+        rb[k] = p->b[k]->radius;
+    }
+    load3(p->offset[0], r);
+    const clx_lanes d = lanes_root(lanes_dot(r, r));
+    const clx_lanes distance = d - (ra + rb);
+    const clx_lanes inverse = lanes_pick(d > 0.0, 1.0 / d, zero);
+    const clx_lanes lever_a = ra + 0.5 * distance;
+    const clx_lanes lever_b = -(rb + 0.5 * distance);
+    lanes_store(p->distance, distance);
+    for (int c = 0; c < 3; ++c) {
+        normal[c] = inverse * r[c];
+        arm[c] = lever_a * normal[c];
+    }
+    store3(p->normal[0], normal);
+    store3(p->arm_a[0], arm);
+    for (int c = 0; c < 3; ++c) {
+        arm[c] = lever_b * normal[c];
+    }
+    store3(p->arm_b[0], arm);
+}
+
+bool clx_batch_has_law(const clx_law *law)
+{
+    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
+}
+
+/// Four contacts and what the law works out for them.
+typedef struct {
+    clx_lanes normal[3], arm_a[3], arm_b[3], velocity[3], slide[3], tangential[3];
+    clx_lanes mass, friction, twirl, push;
+} meetings;
+
+/// Velocity of b's surface relative to a's at the contact point; reduced mass and friction.
+CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, meetings *m)
+{
+    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3], mass_a, mass_b, is_wall;
+    lanes_gather(va, p->a[0]->velocity, p->a[1]->velocity, p->a[2]->velocity, p->a[3]->velocity);
+    lanes_gather(vb, p->b[0]->velocity, p->b[1]->velocity, p->b[2]->velocity, p->b[3]->velocity);
+    lanes_gather(wa, p->a[0]->spin, p->a[1]->spin, p->a[2]->spin, p->a[3]->spin);
+    lanes_gather(wb, p->b[0]->spin, p->b[1]->spin, p->b[2]->spin, p->b[3]->spin);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        mass_a[k] = p->a[k]->mass;
+        mass_b[k] = p->b[k]->mass;
+        is_wall[k] = p->link[k]->b < 0 ? 1.0 : 0.0;
+    }
+    lanes_cross(u, wa, m->arm_a);
+    lanes_cross(w, wb, m->arm_b);
+    for (int c = 0; c < 3; ++c) {
+        m->velocity[c] = (w[c] + vb[c]) - (u[c] + va[c]);
+    }
+    m->twirl = 0.5 * (lanes_dot(wa, m->normal) + lanes_dot(wb, m->normal));
+    m->mass = lanes_pick(is_wall > 0.0, mass_a, mass_a * mass_b / (mass_a + mass_b));
+    m->friction =
+        lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), lanes_all(dem->law.friction[0]));
+}
+
+/// clx_law_turn
+CLX_INLINE void turn_slide(double dt, meetings *m)
+{
+    clx_lanes across[3], turned[3];
+    const clx_lanes old = lanes_dot(m->slide, m->slide);
+    lanes_cross(across, m->normal, m->slide);
+    lanes_axpy(turned, m->slide, m->twirl * dt, across);
+    lanes_axpy(turned, turned, -lanes_dot(turned, m->normal), m->normal);
+    const clx_lanes now = lanes_dot(turned, turned);
+    const clx_lanes scale = lanes_pick(now > 0.0, lanes_root(old / now), lanes_all(0.0));
+    for (int c = 0; c < 3; ++c) {
+        m->slide[c] = lanes_pick(old == 0.0, m->slide[c], scale * turned[c]);
+    }
+}
+
+/// clx_law_force
+CLX_INLINE void force(const clx_law *law, clx_lanes overlap, double dt, meetings *m)
+{
+    clx_lanes along[3];
+    const clx_lanes k = m->mass * law->stiffness;
+    const clx_lanes normal_damping = m->mass * law->damping;
+    const clx_lanes kt = law->kappa * k;
+    const clx_lanes dt_along = law->root_kappa * normal_damping;
+    const clx_lanes apart = lanes_dot(m->velocity, m->normal);
+    lanes_axpy(along, m->velocity, -apart, m->normal);
+    m->push = k * overlap - normal_damping * apart;
+    if (law->clip) {
+        m->push = lanes_pick(m->push < 0.0, lanes_all(0.0), m->push);
+    }
+    const clx_lanes limit = m->friction * lanes_size(m->push);
+    turn_slide(dt, m);
+    lanes_axpy(m->slide, m->slide, lanes_all(dt), along);
+    for (int c = 0; c < 3; ++c) {
+        m->tangential[c] = -kt * m->slide[c] - dt_along * along[c];
+    }
+    const clx_lanes size2 = lanes_dot(m->tangential, m->tangential);
+    const clx_marks slips = size2 > limit * limit;
+    const clx_lanes cut = limit / lanes_root(size2);
+    const clx_lanes inverse = -1.0 / kt;
+    for (int c = 0; c < 3; ++c) {
+        const clx_lanes t = cut * m->tangential[c];
+        m->slide[c] = lanes_pick(slips, inverse * (t + dt_along * along[c]), m->slide[c]);
+        m->tangential[c] = lanes_pick(slips, t, m->tangential[c]);
+    }
+}
+
+CLX_INLINE void write(clast_dem *dem, const clx_batch *p, int lanes, const clx_lanes f[4],
+                      const clx_lanes torque_b[4], const clx_lanes torque_a[4])
+{
+    clx_pushed spare;
+    clx_pushed *to[CLX_LANES];
+    for (int k = 0; k < CLX_LANES; ++k) {
+        to[k] = (lanes >> k & 1) != 0 ? &dem->near.push[p->at[k]] : &spare;
+    }
+    lanes_scatter(f, to[0]->force, to[1]->force, to[2]->force, to[3]->force);
+    lanes_scatter(torque_b, to[0]->torque_b, to[1]->torque_b, to[2]->torque_b, to[3]->torque_b);
+    lanes_scatter(torque_a, to[0]->torque_a, to[1]->torque_a, to[2]->torque_a, to[3]->torque_a);
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_push(clast_dem *dem, const clx_batch *p, int lanes)
+{
+    meetings m;
+    clx_lanes f[4], torque_a[4], torque_b[4], slide[4];
+    lanes_gather(slide, &p->link[0]->wake, &p->link[1]->wake, &p->link[2]->wake,
+                 &p->link[3]->wake); // wake, then slide
+    load3(p->normal[0], m.normal);
+    load3(p->arm_a[0], m.arm_a);
+    load3(p->arm_b[0], m.arm_b);
+    for (int c = 0; c < 3; ++c) {
+        m.slide[c] = slide[c + 1];
+    }
+    approach(dem, p, &m);
+    force(&dem->law, -lanes_load(p->distance), dem->config.time_step, &m);
+    for (int c = 0; c < 3; ++c) {
+        f[c] = m.tangential[c] + m.push * m.normal[c];
+    }
+    const clx_lanes *turning = dem->config.normal_torque ? f : m.tangential;
+    lanes_cross(torque_b, m.arm_b, turning);
+    lanes_cross(torque_a, m.arm_a, turning);
+    f[3] = torque_a[3] = torque_b[3] = lanes_all(0.0);
+    write(dem, p, lanes, f, torque_b, torque_a);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        if ((lanes >> k & 1) != 0) {
+            for (int c = 0; c < 3; ++c) {
+                p->link[k]->slide[c] = m.slide[c][k];
+            }
+        }
+    }
+}

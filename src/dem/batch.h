@@ -1,0 +1,37 @@
+#pragma once
+// Contacts of one kind, four side by side.
+#include "contact/facet_lanes.h"
+#include "dem/push.h"
+
+typedef enum {
+    CLX_BATCH_FACES,   ///< hulls whose memory is a face with a vertex
+    CLX_BATCH_EDGES,   ///< hulls whose memory is a pair of edges
+    CLX_BATCH_SPHERES, ///< whole grains
+    CLX_BATCH_ANY,     ///< all others, one by one
+    CLX_N_BATCH
+} clx_batch_kind;
+
+typedef struct clx_batch {
+    int n;                     ///< contacts in it; the lanes beyond repeat the first
+    int32_t at[CLX_LANES];     ///< places in the near list
+    clx_link *link[CLX_LANES]; ///< may wake now
+    double travel[CLX_LANES];  ///< of both grains
+    const clx_grain *a[CLX_LANES], *b[CLX_LANES];
+    double offset[3][CLX_LANES]; ///< position of b's image less that of a; pairs of whole grains
+    double distance[CLX_LANES];  ///< from here on as clx_dem_touch
+    double normal[3][CLX_LANES];
+    double arm_a[3][CLX_LANES], arm_b[3][CLX_LANES];
+} clx_batch;
+
+/// Offsets of whole grains.
+void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
+
+/// Pairs of spheres; offsets are known.
+void clx_batch_spheres(clx_batch *batch);
+
+/// Whether clx_batch_push can do this law.
+bool clx_batch_has_law(const clx_law *law);
+
+/// Forces of four contacts by the linear law: the twin of clx_law_force, with its bits. Writes what
+/// the marked lanes (bits) push, and their displacements.
+void clx_batch_push(clast_dem *dem, const clx_batch *batch, int lanes);

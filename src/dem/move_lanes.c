@@ -1,0 +1,205 @@
+// Four grains a step on. Each line is that of motion.c, in its order, so that the bits are its.
+#include "dem/move.h"
+
+CLX_INLINE void multiply(const clx_lanes a[4], const clx_lanes b[4], clx_lanes out[4])
+{
+    out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+}
+
+CLX_INLINE void matrix(const clx_lanes q[4], clx_lanes m[9])
+{
+    const clx_lanes w = q[0], x = q[1], y = q[2], z = q[3];
+    m[0] = 1.0 - 2.0 * (y * y + z * z);
+    m[1] = 2.0 * (x * y - w * z);
+    m[2] = 2.0 * (x * z + w * y);
+    m[3] = 2.0 * (x * y + w * z);
+    m[4] = 1.0 - 2.0 * (x * x + z * z);
+    m[5] = 2.0 * (y * z - w * x);
+    m[6] = 2.0 * (x * z - w * y);
+    m[7] = 2.0 * (y * z + w * x);
+    m[8] = 1.0 - 2.0 * (x * x + y * y);
+}
+
+/// turn_by, by its series: false when an angle is too large for that, and q stays.
+CLX_INLINE bool turn_by(const clx_lanes w[3], double dt, const clx_lanes q[4], clx_lanes out[4])
+{
+    clx_lanes v[3], turned[4];
+    for (int c = 0; c < 3; ++c) {
+        v[c] = 0.5 * dt * w[c];
+    }
+    const clx_lanes s = lanes_dot(v, v);
+    if (lanes_bits(s < 0.01) != 15) {
+        return false;
+    }
+    const clx_lanes sine = 1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 - s * (1.0 / 5040.0)));
+    const clx_lanes cosine = 1.0 + s * (-0.5 + s * (1.0 / 24.0 - s * (1.0 / 720.0)));
+    const clx_lanes step[4] = {cosine, sine * v[0], sine * v[1], sine * v[2]};
+    multiply(step, q, turned);
+    const clx_lanes n = 0.5 * (3.0 - (turned[0] * turned[0] + turned[1] * turned[1] +
+                                      turned[2] * turned[2] + turned[3] * turned[3]));
+    for (int k = 0; k < 4; ++k) {
+        out[k] = n * turned[k];
+    }
+    return true;
+}
+
+/// Four grains, read.
+typedef struct {
+    clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with mass, radius, scale
+    clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
+    clx_lanes inverse[9];                                 ///< of the shapes' inertia
+} grains;
+
+CLX_INLINE void spin_of(const grains *g, const clx_lanes turn[9], clx_lanes spin[3])
+{
+    clx_lanes in_body[3], w[3];
+    lanes_mul_t(in_body, turn, g->angular);
+    lanes_mul(w, g->inverse, in_body);
+    lanes_mul(spin, turn, w);
+    for (int c = 0; c < 3; ++c) {
+        spin[c] = g->angular[3] * spin[c];
+    }
+}
+
+CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
+{
+    const clx_motion *m = &dem->motion[i];
+    const double *inverse[CLX_LANES];
+    lanes_gather(g->angular, m[0].angular, m[1].angular, m[2].angular, m[3].angular);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        inverse[k] = dem->body[dem->grain[i + k].shape].inverse_inertia[0];
+    }
+    lanes_gather(g->inverse, inverse[0], inverse[1], inverse[2], inverse[3]);
+    lanes_gather(g->inverse + 4, inverse[0] + 4, inverse[1] + 4, inverse[2] + 4, inverse[3] + 4);
+    g->inverse[8] = (clx_lanes){inverse[0][8], inverse[1][8], inverse[2][8], inverse[3][8]};
+}
+
+/// turn_body; false when an angle is too large for the series.
+CLX_INLINE bool turn_bodies(clast_dem *dem, int64_t i, double factor, const clx_lanes torque[3],
+                            grains *g)
+{
+    clx_lanes half[4], middle[9], spin[3], q[4];
+    const double dt = dem->config.time_step;
+    read_body(dem, i, g);
+    for (int c = 0; c < 3; ++c) {
+        g->angular[c] = factor * (g->angular[c] + dt * torque[c]);
+    }
+    if (!turn_by(g->spin, 0.5 * dt, g->orientation, half)) {
+        return false;
+    }
+    matrix(half, middle);
+    spin_of(g, middle, spin);
+    if (!turn_by(spin, dt, g->orientation, q)) {
+        return false;
+    }
+    for (int k = 0; k < 4; ++k) {
+        g->orientation[k] = q[k];
+    }
+    matrix(q, g->turn);
+    spin_of(g, g->turn, g->spin);
+    return true;
+}
+
+CLX_INLINE bool turn_spheres(double dt, double factor, const clx_lanes torque[3], grains *g)
+{
+    clx_lanes q[4];
+    const clx_lanes scale = 2.5 * dt / (g->position[3] * g->velocity[3] * g->velocity[3]);
+    for (int c = 0; c < 3; ++c) {
+        g->spin[c] = factor * (g->spin[c] + scale * torque[c]);
+    }
+    if (!turn_by(g->spin, dt, g->orientation, q)) {
+        return false;
+    }
+    for (int k = 0; k < 4; ++k) {
+        g->orientation[k] = q[k];
+    }
+    return true;
+}
+
+/// shift
+CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_lanes force[3], grains *g)
+{
+    const clast_dem *dem = c->dem;
+    const clx_motion *m = &dem->motion[i];
+    const double dt = dem->config.time_step;
+    const clx_lanes volume = {m[0].volume, m[1].volume, m[2].volume, m[3].volume};
+    const clx_lanes weight =
+        dem->config.gravity * (g->position[3] - dem->config.fluid_density * volume);
+    const clx_lanes scale = dt / g->position[3];
+    g->velocity[0] += scale * force[0] + dt * c->shake;
+    g->velocity[1] += scale * force[1];
+    g->velocity[2] += scale * (force[2] - weight);
+    for (int k = 0; k < 3; ++k) {
+        g->velocity[k] = c->damping * g->velocity[k];
+        g->position[k] = g->position[k] + dt * g->velocity[k];
+    }
+}
+
+CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grains *g)
+{
+    clx_grain *to = &dem->grain[i];
+    clx_motion *m = &dem->motion[i];
+    lanes_scatter(g->position, to[0].position, to[1].position, to[2].position, to[3].position);
+    lanes_scatter(g->velocity, to[0].velocity, to[1].velocity, to[2].velocity, to[3].velocity);
+    lanes_scatter(g->spin, to[0].spin, to[1].spin, to[2].spin, to[3].spin);
+    lanes_scatter(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
+                  m[3].orientation);
+    if (is_round) {
+        return;
+    }
+    lanes_scatter(g->angular, m[0].angular, m[1].angular, m[2].angular, m[3].angular);
+    lanes_scatter(g->turn, to[0].turn[0], to[1].turn[0], to[2].turn[0], to[3].turn[0]);
+    lanes_scatter(g->turn + 4, to[0].turn[0] + 4, to[1].turn[0] + 4, to[2].turn[0] + 4,
+                  to[3].turn[0] + 4);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        to[k].turn[2][2] = g->turn[8][k];
+    }
+}
+
+bool clx_move_has_lanes(const clast_dem *dem, int64_t i)
+{
+    const clx_grain *g = &dem->grain[i];
+    int n_round = 0;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        n_round += g[k].kind == CLAST_SHAPE_SPHERE ? 1 : 0;
+    }
+    return dem->config.fluid_viscosity <= 0.0 &&
+           (n_round == CLX_LANES || (n_round == 0 && dem->config.gyroscopic));
+}
+
+CLX_FOR_EACH_MACHINE
+bool clx_move_lanes(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], bool *is_lost)
+{
+    clast_dem *dem = c->dem;
+    const clx_grain *from = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    const double dt = dem->config.time_step;
+    const bool is_round = from->kind == CLAST_SHAPE_SPHERE;
+    grains g;
+    clx_lanes force[4], torque[4];
+    lanes_gather(force, load[0].force, load[1].force, load[2].force, load[3].force);
+    lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
+    lanes_gather(g.position, from[0].position, from[1].position, from[2].position,
+                 from[3].position);
+    lanes_gather(g.velocity, from[0].velocity, from[1].velocity, from[2].velocity,
+                 from[3].velocity);
+    lanes_gather(g.spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
+    lanes_gather(g.orientation, m[0].orientation, m[1].orientation, m[2].orientation,
+                 m[3].orientation);
+    shift_all(c, i, force, &g);
+    if (!(is_round ? turn_spheres(dt, c->damping, torque, &g)
+                   : turn_bodies(dem, i, c->damping, torque, &g))) {
+        return false;
+    }
+    clx_lanes speed = lanes_root(lanes_dot(g.velocity, g.velocity));
+    *is_lost = lanes_bits(speed * dt <= CLX_STRIDE * g.velocity[3]) != 15;
+    if (!is_round) {
+        speed += lanes_root(lanes_dot(g.spin, g.spin)) * g.velocity[3] * (1.0 + 1e-6);
+    }
+    lanes_store(&dem->travel[i], lanes_load(&dem->travel[i]) + dt * speed);
+    write_back(dem, i, is_round, &g);
+    return true;
+}

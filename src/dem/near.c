@@ -1,0 +1,125 @@
+// The links that a step looks at.
+//
+// Most listed pairs sleep: they cannot touch before the paths of both grains have grown to `wake`.
+// Each grain gets some path in advance (`until`); links whose wake lies beyond what both may go are
+// left out until a grain has used up its advance. A link that is here and still sleeps costs a
+// comparison, one that is not costs nothing, and whether it is here changes no result.
+#include "dem/dem.h"
+
+#include "base/alloc.h"
+#include <string.h>
+
+/// Steps at the present speed that the advance lasts, and its least share of the grain's radius.
+static const double LOOK_AHEAD = 32.0;
+static const double LEAST = 0.002;
+
+void clx_near_free(clx_near *near)
+{
+    clx_free(near->link);
+    clx_free(near->push);
+    clx_free(near->begin);
+    clx_free(near->in_begin);
+    clx_free(near->in);
+    clx_free(near->until);
+    *near = (clx_near){0};
+}
+
+static void advance(clast_dem *dem)
+{
+    const double dt = dem->config.time_step;
+    for (int32_t g = 0; g < dem->n_grain; ++g) {
+        const clx_grain *grain = &dem->grain[g];
+        const double speed =
+            v3_norm(grain->velocity) +
+            (grain->kind == CLAST_SHAPE_SPHERE ? 0.0 : v3_norm(grain->spin) * grain->radius);
+        const double ahead = LOOK_AHEAD * dt * speed;
+        const double least = LEAST * grain->radius;
+        dem->near.until[g] = dem->travel[g] + (ahead > least ? ahead : least);
+    }
+}
+
+/// Numbers of the links that may wake.
+static clast_status pick(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_near *near = &dem->near;
+    const clx_list *l = &dem->list;
+    CLX_CHECK(l->n_link <= INT32_MAX, CLAST_E_LIMIT, "%lld pairs of grains", (long long)l->n_link);
+    near->n = 0;
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        const double own = near->until[clx_item_grain(dem, i)];
+        near->begin[i] = near->n;
+        CLX_TRY(clx_grow(&near->link, &near->capacity,
+                         near->n + (l->begin[i + 1] - l->begin[i]) + 1, sizeof *near->link));
+        for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
+            const clx_link *link = &l->link[k];
+            const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
+            near->link[near->n] = (int32_t)k;
+            near->n += link->wake <= own + other ? 1 : 0;
+        }
+    }
+    near->begin[dem->n_item] = near->n;
+done:
+    return status;
+}
+
+/// Which of them load each grain as b.
+static void gather(clast_dem *dem)
+{
+    clx_near *near = &dem->near;
+    int32_t *begin = near->in_begin;
+    memset(begin, 0, ((size_t)dem->n_grain + 2) * sizeof *begin);
+    for (int32_t k = 0; k < near->n; ++k) {
+        const int32_t b = dem->list.link[near->link[k]].b;
+        if (b >= 0) {
+            ++begin[clx_item_grain(dem, b) + 2];
+        }
+    }
+    for (int32_t g = 1; g <= dem->n_grain; ++g) {
+        begin[g + 1] += begin[g];
+    }
+    for (int32_t k = 0; k < near->n; ++k) {
+        const int32_t b = dem->list.link[near->link[k]].b;
+        if (b >= 0) {
+            near->in[begin[clx_item_grain(dem, b) + 1]++] = k;
+        }
+    }
+}
+
+/// A place for the memory of every link that may be asked.
+static clast_status give_slots(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    const clx_near *near = &dem->near;
+    for (int32_t k = 0; k < near->n && !dem->all_round; ++k) {
+        clx_link *link = &l->link[near->link[k]];
+        if (link->slot == 0 && !clx_link_is_round(dem, link)) {
+            CLX_TRY(clx_list_give_slot(l, link));
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clx_near_find(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_near *near = &dem->near;
+    CLX_TRY(clx_grow(&near->begin, &near->item_capacity, (int64_t)dem->n_item + 1,
+                     sizeof *near->begin));
+    CLX_TRY(clx_grow(&near->in_begin, &near->grain_capacity, (int64_t)dem->n_grain + 2,
+                     sizeof *near->in_begin));
+    CLX_TRY(clx_grow(&near->until, &near->until_capacity, (int64_t)dem->n_grain + 1,
+                     sizeof *near->until));
+    advance(dem);
+    CLX_TRY(pick(dem));
+    CLX_TRY(clx_grow(&near->push, &near->push_capacity, (int64_t)near->n + 1, sizeof *near->push));
+    CLX_TRY(clx_grow(&near->in, &near->in_capacity, (int64_t)near->n + 1, sizeof *near->in));
+    memset(near->push, 0, (size_t)near->n * sizeof *near->push);
+    gather(dem);
+    CLX_TRY(give_slots(dem));
+    near->is_due = false;
+done:
+    return status;
+}

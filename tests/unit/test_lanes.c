@@ -1,0 +1,229 @@
+/* Unit: four contacts side by side give the bits of one by one. */
+#include "support.h"
+
+#include "contact/facet.h"
+#include "contact/facet_lanes.h"
+#include "dem/batch.h"
+#include "gravel.h"
+#include "math/vec3.h"
+#include <string.h>
+
+/* A pair of hulls in touch, its memory made at one place and asked a little beside it. */
+typedef struct {
+    clx_convex a, b;
+    double turn[2][3][3];
+    clx_pair pair;
+    clx_contact_memory memory;
+} meeting;
+
+static clx_hull_core *cores[3];
+
+static int make_cores(void **state)
+{
+    (void)state;
+    cores[0] = support_gravel_core(1, 0, 152);
+    cores[1] = support_gravel_core(1, 1, 27);
+    cores[2] = support_box_core(1.0, 0.8, 0.6);
+    return 0;
+}
+
+static int free_cores(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        clx_hull_core_destroy(cores[i]);
+    }
+    return 0;
+}
+
+static void make_meeting(clx_rng *rng, meeting *m)
+{
+    clx_contact c;
+    double q[4], side[3];
+    memset(m, 0, sizeof *m);
+    m->a = clx_convex_hull(cores[clx_rng_below(rng, 3)], 1.0);
+    m->b = clx_convex_hull(cores[clx_rng_below(rng, 3)], 0.7 + clx_rng_uniform(rng));
+    m->pair = (clx_pair){&m->a, &m->b, m->turn[0][0], m->turn[1][0], {0.0, 0.0, 0.0}};
+    for (int k = 0; k < 2; ++k) {
+        clx_rng_orientation(rng, q);
+        q_matrix(m->turn[k], q);
+    }
+    clx_rng_direction(rng, m->pair.offset);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    v3_axpy(m->pair.offset, m->pair.offset, c.gap + 1e-4, c.normal); /* overlap 1e-4 */
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    clx_rng_direction(rng, side);
+    v3_axpy(m->pair.offset, m->pair.offset, pow(10.0, -1.0 - 5.0 * clx_rng_uniform(rng)), side);
+}
+
+static bool same(double a, double b)
+{
+    return a == b && !signbit(a) == !signbit(b);
+}
+
+/* Compares a batch with its pairs one by one; how many of them are answered. */
+static int compare_facets(meeting m[CLX_LANES], bool edges)
+{
+    clx_facet_batch batch;
+    int n = 0;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        batch.turn_a[k] = m[k].pair.turn_a;
+        batch.turn_b[k] = m[k].pair.turn_b;
+        batch.memory[k] = &m[k].memory;
+        for (int c = 0; c < 3; ++c) {
+            batch.offset[c][k] = m[k].pair.offset[c];
+        }
+    }
+    const int answered = edges ? clx_facet_edges_again(&batch) : clx_facet_faces_again(&batch);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        clx_contact one;
+        const bool is_answered = clx_facet_again(&m[k].pair, &m[k].memory, &one);
+        assert_int_equal(is_answered, answered >> k & 1);
+        if (is_answered) {
+            assert_true(same(one.gap, batch.gap[k]));
+            for (int c = 0; c < 3; ++c) {
+                assert_true(same(one.normal[c], batch.normal[c][k]));
+                assert_true(same(one.point[c], batch.point[c][k]));
+            }
+            ++n;
+        }
+    }
+    return n;
+}
+
+static void facets_in_lanes_are_facets_alone(void **state)
+{
+    (void)state;
+    meeting queue[2][CLX_LANES];
+    int filled[2] = {0, 0};
+    int n_answered[2] = {0, 0};
+    int n_asked[2] = {0, 0};
+    for (uint64_t i = 0; i < 1600; ++i) {
+        clx_rng rng = clx_rng_at(40, CLX_STREAM_TEST, i);
+        meeting m;
+        make_meeting(&rng, &m);
+        if (m.memory.kind == CLX_FACET_NONE) {
+            continue;
+        }
+        const int kind = m.memory.kind == CLX_FACET_EDGE_EDGE ? 1 : 0;
+        meeting *to = &queue[kind][filled[kind]++];
+        *to = m;
+        to->pair.a = &to->a;
+        to->pair.b = &to->b;
+        to->pair.turn_a = to->turn[0][0];
+        to->pair.turn_b = to->turn[1][0];
+        if (filled[kind] == CLX_LANES) {
+            n_answered[kind] += compare_facets(queue[kind], kind == 1);
+            n_asked[kind] += CLX_LANES;
+            filled[kind] = 0;
+        }
+    }
+    for (int kind = 0; kind < 2; ++kind) { /* both answers occur, often */
+        assert_true(n_answered[kind] > 50);
+        assert_true(n_asked[kind] - n_answered[kind] > 50);
+    }
+}
+
+static void fill3(clx_rng *rng, double size, double x[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        x[c] = size * clx_rng_normal(rng);
+    }
+}
+
+static clx_grain random_grain(clx_rng *rng)
+{
+    clx_grain g = {.mass = 1e-4 * (1.0 + clx_rng_uniform(rng)), .radius = 4e-3};
+    fill3(rng, 0.1, g.velocity);
+    fill3(rng, 10.0, g.spin);
+    return g;
+}
+
+/* The scalar law for lane k of a batch. */
+static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double slide[3],
+                       clx_pushed *out)
+{
+    const clx_grain *a = p->a[k];
+    const clx_grain *b = p->b[k];
+    double n[3], arm_a[3], arm_b[3], u[3], w[3];
+    clx_push push;
+    for (int c = 0; c < 3; ++c) {
+        n[c] = p->normal[c][k];
+        arm_a[c] = p->arm_a[c][k];
+        arm_b[c] = p->arm_b[c][k];
+    }
+    clx_meeting m = {.overlap = -p->distance[k],
+                     .mass = p->link[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
+                     .friction = dem->law.friction[p->link[k]->b < 0]};
+    v3_copy(m.normal, n);
+    v3_cross(u, a->spin, arm_a);
+    v3_add(u, u, a->velocity);
+    v3_cross(w, b->spin, arm_b);
+    v3_add(w, w, b->velocity);
+    v3_sub(m.velocity, w, u);
+    m.twirl = 0.5 * (v3_dot(a->spin, n) + v3_dot(b->spin, n));
+    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &push);
+    v3_axpy(out->force, push.tangential, push.normal, n);
+    v3_cross(out->torque_b, arm_b, out->force);
+    v3_cross(out->torque_a, arm_a, out->force);
+}
+
+static void law_in_lanes_is_the_law_alone(void **state)
+{
+    (void)state;
+    clast_dem *dem = NULL;
+    clast_dem_config config;
+    clx_pushed room[CLX_LANES] = {0};
+    CHECK_OK(clast_fields_default(clast_dem_fields, &config));
+    config.wall_friction = 0.2;
+    CHECK_OK(clast_dem_create(&config, &dem));
+    dem->near.push = room;
+    for (uint64_t i = 0; i < 500; ++i) {
+        clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
+        clx_grain grain[2 * CLX_LANES];
+        clx_link link[CLX_LANES];
+        clx_batch p = {.n = CLX_LANES};
+        clx_pushed alone[CLX_LANES] = {0};
+        double slide[CLX_LANES][3];
+        for (int k = 0; k < CLX_LANES; ++k) {
+            double n[3];
+            grain[2 * k] = random_grain(&rng);
+            grain[2 * k + 1] = random_grain(&rng);
+            link[k] = (clx_link){.b = clx_rng_below(&rng, 4) == 0 ? -1 : 1};
+            clx_rng_direction(&rng, n);
+            fill3(&rng, clx_rng_below(&rng, 3) == 0 ? 0.0 : 1e-7, link[k].slide);
+            v3_copy(slide[k], link[k].slide);
+            p.at[k] = k;
+            p.link[k] = &link[k];
+            p.a[k] = &grain[2 * k];
+            p.b[k] = link[k].b < 0 ? &clx_immovable : &grain[2 * k + 1];
+            p.distance[k] = -1e-6 * clx_rng_uniform(&rng);
+            for (int c = 0; c < 3; ++c) {
+                p.normal[c][k] = n[c];
+                p.arm_a[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
+                p.arm_b[c][k] = link[k].b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
+            }
+            push_alone(dem, &p, k, slide[k], &alone[k]);
+        }
+        clx_batch_push(dem, &p, 15);
+        for (int k = 0; k < CLX_LANES; ++k) {
+            for (int c = 0; c < 3; ++c) {
+                assert_true(same(room[k].force[c], alone[k].force[c]));
+                assert_true(room[k].torque_a[c] == alone[k].torque_a[c]);
+                assert_true(room[k].torque_b[c] == alone[k].torque_b[c]);
+                assert_true(same(link[k].slide[c], slide[k][c]));
+            }
+        }
+    }
+    dem->near.push = NULL;
+    clast_dem_destroy(dem);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(facets_in_lanes_are_facets_alone, make_cores, free_cores),
+        cmocka_unit_test(law_in_lanes_is_the_law_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
