@@ -14,8 +14,49 @@ static clast_status resume(const cli_common *common, const clast_pack_config *co
     return status != CLAST_OK ? status : clast_pack_resume(config->resume, monitor, result);
 }
 
+/// One line for the hull of a surface.
+static void print_hull(const clast_pack_hull *hull)
+{
+    if (isfinite(hull->volume_added)) {
+        (void)printf("%-26s its hull adds %.3f %% of volume\n", hull->shape,
+                     100.0 * fmax(hull->volume_added, 0.0));
+    } else {
+        (void)printf("%-26s hull of an open surface\n", hull->shape);
+    }
+}
+
+/// What convex hulls add to the surfaces they were taken of: a line each, or one for many.
+static void print_hulls(const clast_pack_result *r)
+{
+    enum { MOST_LINES = 10 };
+    double sum = 0.0;
+    int32_t n = 0;
+    int32_t most = -1;
+    for (int32_t i = 0; i < r->n_hull; ++i) {
+        const double added = r->hull[i].volume_added;
+        if (r->n_hull <= MOST_LINES) {
+            print_hull(&r->hull[i]);
+        }
+        if (isfinite(added)) {
+            most = most < 0 || added > r->hull[most].volume_added ? i : most;
+            sum += added;
+            ++n;
+        }
+    }
+    if (r->n_hull > MOST_LINES && most >= 0) {
+        (void)printf("%-26s %d surfaces; they add %.3f %% of volume in the mean, %.3f %% at most "
+                     "(%s)\n",
+                     "convex hulls", n, 100.0 * fmax(sum / n, 0.0),
+                     100.0 * fmax(r->hull[most].volume_added, 0.0), r->hull[most].shape);
+    }
+    if (r->n_hull > MOST_LINES && n < r->n_hull) {
+        (void)printf("%-26s %d of open surfaces\n", "convex hulls", r->n_hull - n);
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
+    print_hulls(r);
     (void)printf("%-26s %d in %d fills, %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->dem.mass);
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
@@ -49,6 +90,7 @@ static clast_status run(const cli_common *common, void *context)
     }
     if (!common->json) {
         print_text(&result);
+        clast_pack_result_free(&result);
         return CLAST_OK;
     }
     const clast_status made = clast_pack_result_json(&result, true, &text);
@@ -56,6 +98,7 @@ static clast_status run(const cli_common *common, void *context)
         (void)puts(text);
     }
     clast_text_free(text);
+    clast_pack_result_free(&result);
     return made;
 }
 

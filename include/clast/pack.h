@@ -35,7 +35,7 @@ typedef struct clast_pack_config {
     clast_text_list shapes;
     clast_f64_list shape_weight;
     char *unit;      ///< of surface files; only ratios count, so it may be empty
-    bool hull;       ///< take convex hulls of surfaces
+    bool hull;       ///< take convex hulls of surfaces; else they must be convex
     int32_t faces;   ///< above 0: take hulls of at most so many triangles
     bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
     bool form_law;   ///< stretch every grain to a form drawn from a law
@@ -104,7 +104,16 @@ CLAST_API double clast_pack_mass(const clast_pack *pack); ///< made so far [kg]
 CLAST_API int64_t clast_pack_expected_steps(const clast_pack *pack);
 
 /// What a packing ended as.
+/// The convex hull that was taken of a surface.
+typedef struct clast_pack_hull {
+    char shape[64]; ///< name of the shape: its number and file
+    int32_t n_triangle;
+    double volume_added; ///< V of the hull / V of the surface - 1; NAN: the surface is open
+} clast_pack_hull;
+
 typedef struct clast_pack_result {
+    int32_t n_hull;
+    clast_pack_hull *hull; ///< [n_hull] of a run (clast_pack_run); else none
     clast_dem_measures dem;
     clast_pack_phase phase;
     bool converged;
@@ -119,6 +128,7 @@ typedef struct clast_pack_result {
 } clast_pack_result;
 
 CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);
+CLAST_API void clast_pack_result_free(clast_pack_result *result);
 
 /// Where the grains lie, for porosities.
 CLAST_API clast_bed clast_pack_bed(const clast_pack_config *config);

@@ -8,6 +8,8 @@ typedef struct clast_pack_source {
     clast_grading *grading;
     int32_t n_shape;
     clast_shape *shape; ///< [n_shape]
+    int32_t n_hull;
+    clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
     clast_pack_input input;
 } clast_pack_source;
 

@@ -28,19 +28,17 @@ static clast_status check_convex(const clast_shape *shape)
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
     CLX_TRY(clast_mesh_check(&shape->mesh, &found));
-    CLX_CHECK(
-        found.closed && found.oriented, CLAST_E_GEOMETRY,
-        "shape %s is not closed: %d open edges; run clast mesh repair, or take its hull (clast "
-        "mesh hull)",
-        shape->name, found.n_open_edge);
+    CLX_CHECK(found.closed && found.oriented, CLAST_E_GEOMETRY,
+              "shape %s is not closed: %d open edges; run clast mesh repair, or take its hull "
+              "(clast mesh hull, or hull: yes)",
+              shape->name, found.n_open_edge);
     CLX_CHECK(found.n_part == 1, CLAST_E_GEOMETRY,
               "shape %s has %d parts; a grain is one convex body, or a clump of spheres",
               shape->name, found.n_part);
-    CLX_CHECK(
-        found.hull_volume - shape->volume <= DENT * found.hull_volume, CLAST_E_GEOMETRY,
-        "shape %s is not convex: it fills %.4g %% of its hull; take the hull (clast mesh hull), "
-        "or a clump of spheres (clast fill)",
-        shape->name, 100.0 * shape->volume / found.hull_volume);
+    CLX_CHECK(found.hull_volume - shape->volume <= DENT * found.hull_volume, CLAST_E_GEOMETRY,
+              "shape %s is not convex: it fills %.4g %% of its hull; take the hull (hull: yes), "
+              "or a clump of spheres (clast fill)",
+              shape->name, 100.0 * shape->volume / found.hull_volume);
 done:
     clast_mesh_check_free(&found);
     return status;

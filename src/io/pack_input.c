@@ -7,6 +7,7 @@
 #include "io/shape_word.h"
 #include <clast/grading_file.h>
 #include <clast/hull.h>
+#include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
 #include <clast/reform.h>
 #include <clast/spheres_file.h>
@@ -21,13 +22,31 @@ void clast_pack_unload(clast_pack_source *source)
         clast_shape_free(&source->shape[i]);
     }
     clx_free(source->shape);
+    clx_free(source->hull);
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
 }
 
+/// Keeps what the hull adds to the surface it was taken of.
+static clast_status note_hull(const char *name, const clast_mesh *mesh, const clast_mesh *hull,
+                              clast_pack_hull *note)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh_check_result found = {0};
+    CLX_TRY(clast_mesh_check(mesh, &found));
+    (void)snprintf(note->shape, sizeof note->shape, "%s", name);
+    note->n_triangle = hull->n_tri;
+    note->volume_added = found.closed && found.oriented && found.volume != 0.0
+                             ? clast_mesh_volume(hull) / fabs(found.volume) - 1.0
+                             : (double)NAN;
+done:
+    clast_mesh_check_free(&found);
+    return status;
+}
+
 static clast_status read_surface(const clast_pack_config *config, const char *path,
-                                 const char *name, clast_shape *shape)
+                                 const char *name, clast_shape *shape, clast_pack_hull *note)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
@@ -38,6 +57,9 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
         CLX_TRY(clast_reform_hull(&mesh, config->faces, &hull));
     } else if (config->hull) {
         CLX_TRY(clast_mesh_hull(&mesh, &hull));
+    }
+    if (hull.n_tri > 0) {
+        CLX_TRY(note_hull(name, &mesh, &hull, note));
     }
     CLX_TRY(clast_shape_mesh(name, hull.n_tri > 0 ? &hull : &mesh, shape));
 done:
@@ -73,7 +95,7 @@ static clast_status make_ellipsoid(clast_shape *shape)
 }
 
 static clast_status read_shape(const clast_pack_config *config, const char *text, const char *name,
-                               clast_shape *shape)
+                               clast_shape *shape, clast_pack_hull *note)
 {
     if (strcmp(text, "sphere") == 0) {
         return clast_shape_sphere(name, 0.5, shape);
@@ -84,17 +106,18 @@ static clast_status read_shape(const clast_pack_config *config, const char *text
     if (clx_path_is(text, "csv") || clx_path_is(text, "h5")) {
         return read_clump(text, name, shape);
     }
-    return read_surface(config, text, name, shape);
+    return read_surface(config, text, name, shape, note);
 }
 
-static clast_status take_shape(const clast_pack_config *config, int32_t i, clast_shape *shape)
+static clast_status take_shape(const clast_pack_config *config, int32_t i, clast_shape *shape,
+                               clast_pack_hull *note)
 {
     clast_status status = CLAST_OK;
     clast_shape made = {0};
     char name[256];
     const char *text = config->shapes.item[i];
     (void)snprintf(name, sizeof name, "%d-%.200s", i + 1, clx_path_name(text));
-    CLX_TRY(read_shape(config, text, name, &made));
+    CLX_TRY(read_shape(config, text, name, &made, note));
     if (config->ellipsoids) {
         CLX_TRY(make_ellipsoid(&made));
     }
@@ -117,13 +140,15 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
     CLX_TRY(clast_grading_load(config->curve, (clast_grading_spread)config->spread,
                                (clast_grading_count)config->count, &made.curve, &made.grading));
     CLX_TRY(clx_alloc(&made.shape, config->shapes.n, sizeof *made.shape));
+    CLX_TRY(clx_alloc(&made.hull, config->shapes.n, sizeof *made.hull));
     for (int32_t i = 0; i < config->shapes.n; ++i) {
-        status = take_shape(config, i, &made.shape[i]);
+        status = take_shape(config, i, &made.shape[i], &made.hull[made.n_hull]);
         if (status != CLAST_OK) {
             clx_fail_prefix("shapes");
             goto done;
         }
         ++made.n_shape;
+        made.n_hull += made.hull[made.n_hull].n_triangle > 0 ? 1 : 0;
     }
     made.input = (clast_pack_input){.grading = made.grading,
                                     .curve = made.curve.n_class > 0 ? &source->curve : NULL,

@@ -28,16 +28,19 @@ const clast_field clast_pack_fields[] = {
     CHOICE(count, 0, "mean|exact", "grains of a class by its mean size (eq. 9), or by its mass"),
     CHOICE(size_meaning, 0, "sieve|volume", "sizes are sieve sizes (eq. 1), or volume-equivalent"),
     {FIELD(TEXT_LIST, shapes), 0, 0, 0, "-",
-     "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a closed convex surface, or spheres of a "
+     "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), or spheres of "
+     "a "
      "clump (CSV x,y,z,radius or state.h5); only their form counts",
      "sphere"},
     {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
      ""},
     TEXT(unit, "",
          "length unit of surface files; may be left out, since sizes come from the curve"),
-    FLAG(hull, 0, "take the convex hull of every surface"),
+    FLAG(hull, 1,
+         "take the convex hull of every surface and report the volume it adds; no: refuse surfaces "
+         "that are not convex"),
     {FIELD(I32, faces), 0, 0, 1e6, "-",
-     "take hulls of at most so many triangles; 0: surfaces as they are", NULL},
+     "take hulls of at most so many triangles; 0: as many as they have", NULL},
     FLAG(ellipsoids, 0, "take the mass-equivalent ellipsoid of every surface and clump"),
     FLAG(form_law, 0, "stretch every grain to a form drawn from normal laws of S/I and I/L"),
     NUMBER(flatness_mean, 0.647, 1e-3, 1, "-", "mean flatness S/I of form_law"),

@@ -127,6 +127,12 @@ done:
     return status;
 }
 
+void clast_pack_result_free(clast_pack_result *result)
+{
+    clx_free(result->hull);
+    *result = (clast_pack_result){0};
+}
+
 clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result)
 {
     clast_pack_result r = {.phase = pack->phase,

@@ -19,6 +19,20 @@ static void put_count(json_t *object, const char *key, int64_t value)
     (void)json_object_set_new(object, key, json_integer((json_int_t)value));
 }
 
+/// What hulls add to their surfaces: per shape; null for an open surface.
+static json_t *hulls(const clast_pack_result *r)
+{
+    json_t *list = json_array();
+    for (int32_t i = 0; i < r->n_hull; ++i) {
+        json_t *hull = json_object();
+        (void)json_object_set_new(hull, "shape", json_string(r->hull[i].shape));
+        put_count(hull, "n_triangle", r->hull[i].n_triangle);
+        put(hull, "volume_added", r->hull[i].volume_added);
+        (void)json_array_append_new(list, hull);
+    }
+    return list;
+}
+
 clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char **text)
 {
     clast_status status = CLAST_OK;
@@ -48,6 +62,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "max_speed", r->dem.max_speed);
     put(o, "kinetic_energy", r->dem.kinetic_energy);
     put_count(o, "n_fill", r->n_fill);
+    (void)json_object_set_new(o, "hulls", hulls(r));
     put(o, "grain_steps", r->grain_steps);
     put_count(o, "n_refresh", r->dem.n_refresh);
     if (times) {

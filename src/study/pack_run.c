@@ -134,6 +134,12 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
         status = clast_pack_measure(r->pack, &made);
         made.wall_s = clx_clock() - r->begun;
     }
+    if (status == CLAST_OK && r->source.n_hull > 0) { // the result takes them over
+        made.n_hull = r->source.n_hull;
+        made.hull = r->source.hull;
+        r->source.hull = NULL;
+        r->source.n_hull = 0;
+    }
     if (r->folder != NULL && status == CLAST_OK) {
         status = clx_pack_write_results(r->folder, r->text, r->pack, r->config, &made);
         const double f = r->config->frame_time;
@@ -153,9 +159,11 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
                                                                                    : "failed");
         status = status == CLAST_OK ? written : status;
     }
-    if (status == CLAST_OK) {
-        *result = made;
+    if (status != CLAST_OK) {
+        clast_pack_result_free(&made);
+        return status;
     }
+    *result = made;
     return status;
 }
 

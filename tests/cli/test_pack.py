@@ -105,6 +105,32 @@ class Pack(Case):
             self.assertAlmostEqual(out["elongation_mean"], float(row["elongation"]), 9)
             self.assertEqual(out["flatness_deviation"], 0)
 
+    def test_hulls_are_the_default_and_say_what_they_add(self):
+        # a pyramid of volume 2/3 on its tip whose lid is pushed in by half its height: V = 1/3
+        surface = self.folder / "dented.obj"
+        surface.write_text("v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 -0.5\nv 0 0 -1\n"
+                           "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n")
+        run = self.folder / "hull"
+        few = ["--mass", "1mg", "--max-steps", "1"]
+        out = clast(*SMALL, *few, "--shapes", surface, "--json", "-o", run)
+        self.assertEqual(out.code, 0, out.err)
+        (hull,) = out.json["hulls"]
+        self.assertEqual(hull["shape"], "1-dented.obj")
+        self.assertAlmostEqual(hull["volume_added"], 1.0, 12)
+        self.assertEqual(json.loads((run / "summary.json").read_text())["hulls"], out.json["hulls"])
+        words = clast(*SMALL, *few, "--shapes", surface).out
+        self.assertIn("its hull adds 100.000 % of volume", words)
+        self.assert_fails(3, *SMALL, *few, "--shapes", surface, "--no-hull", says=("not convex", "hull: yes"))
+        convex = clast(*SMALL, *few, "--shapes", ROOT / "data/standin63/grain20.ply", "--no-hull", "--json")
+        self.assertEqual((convex.code, convex.json["hulls"]), (0, []), convex.err)
+
+    def test_hulls_of_open_surfaces_add_an_unknown_volume(self):
+        opened = self.folder / "open.obj"
+        opened.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n")
+        out = clast(*SMALL, "--mass", "1mg", "--max-steps", "1", "--shapes", opened, "--json")
+        self.assertEqual(out.code, 0, out.err)
+        self.assertIsNone(out.json["hulls"][0]["volume_added"])
+
     def test_a_seed_with_a_grain_too_large_is_refused_before_the_first_step(self):
         # two sizes by number: the large ones come late, but are told at once
         curve = self.folder / "two.csv"
