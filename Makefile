@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd golden docs format hooks install clean
+.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -37,6 +37,10 @@ paper-d2sd:
 	@tools/setup.sh build
 	@tools/build.sh release
 	@tools/paper_d2sd.py
+paper-packing:
+	@tools/setup.sh build
+	@tools/build.sh release clast_cli
+	@tools/paper_packing.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 build/dev/tests/golden_test_golden
 	@git diff --stat tests/golden

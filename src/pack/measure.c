@@ -68,31 +68,25 @@ const clast_table *clast_pack_series(const clast_pack *pack)
     return &pack->series;
 }
 
-/// Mean and standard deviation over n values.
-static void spread_of(const double sum[2], int32_t n, double mean_deviation[2])
+/// Ratio of neighbouring semi-axes k + 1 and k of grain i.
+static double ratio_of(const clast_assembly *a, int32_t i, int k)
 {
-    const double mean = sum[0] / n;
-    const double square = sum[1] - n * mean * mean;
-    mean_deviation[0] = mean;
-    mean_deviation[1] = n > 1 ? sqrt(fmax(0.0, square) / (n - 1)) : 0.0;
+    const double *s = a->shape[a->shape_id[i]].semi_axes;
+    return s[k + 1] / s[k];
 }
 
-/// Flatness and elongation of the grains, every grain alike.
-static void measure_forms(const clast_assembly *a, clast_pack_result *r)
+/// Mean and standard deviation of a ratio over the grains.
+static void measure_ratio(const clast_assembly *a, int k, double mean_deviation[2])
 {
-    double flat[2] = {0.0, 0.0};
-    double slim[2] = {0.0, 0.0};
-    for (int32_t i = 0; i < a->n_grain; ++i) {
-        const double *s = a->shape[a->shape_id[i]].semi_axes;
-        const double fl = s[2] / s[1];
-        const double el = s[1] / s[0];
-        flat[0] += fl;
-        flat[1] += fl * fl;
-        slim[0] += el;
-        slim[1] += el * el;
+    double mean = 0.0;
+    double square = 0.0;
+    for (int32_t i = 0; i < a->n_grain; ++i) { // running mean: equal grains deviate by 0
+        const double off = ratio_of(a, i, k) - mean;
+        mean += off / (i + 1);
+        square += off * (ratio_of(a, i, k) - mean);
     }
-    spread_of(flat, a->n_grain, r->flatness);
-    spread_of(slim, a->n_grain, r->elongation);
+    mean_deviation[0] = mean;
+    mean_deviation[1] = a->n_grain > 1 ? sqrt(square / (a->n_grain - 1)) : 0.0;
 }
 
 /// Bulk porosity as published, and the forms; NAN while there is no bed.
@@ -112,7 +106,8 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         return CLAST_OK;
     }
     CLX_TRY(clast_dem_assembly(p->dem, &a));
-    measure_forms(&a, r);
+    measure_ratio(&a, 1, r->flatness);
+    measure_ratio(&a, 0, r->elongation);
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     status = clast_porosity_measure(&a, &bed, &o, &profile, &bulk);
     if (status == CLAST_OK) {

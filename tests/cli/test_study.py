@@ -1,11 +1,12 @@
 """CLI: clast study runs, resumes and tabulates."""
 import csv
 import signal
+import statistics
 import subprocess
 import time
 import unittest
 
-from clitest import CLAST, Case, clast
+from clitest import CLAST, ROOT, Case, clast
 
 SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
 
@@ -44,6 +45,36 @@ class Study(Case):
         for run in ("000001", "000002"):
             self.assertTrue((self.folder / "out/runs" / run / "out/state.h5").exists())
         self.assertEqual([row["shapes"] for row in self.rows()], ["sphere", "ellipsoid:3,2,1"])
+
+    def test_shipped_packing_studies_are_whole(self):
+        """Every study of examples/packing plans its runs; no run is done (there is no thousandth)."""
+        expected = {"table4": 24, "table5": 24, "table6": 21, "table7": 18, "table8": 12, "table11": 12, "forms": 378,
+                    "forms-10": 10, "mixtures": 104}
+        studies = [p for p in sorted((ROOT / "examples/packing").glob("*.yaml")) if p.stem not in ("cylinder", "periodic")]
+        self.assertGreater(len(studies), len(expected))
+        for path in studies:
+            done = clast("study", path, "-o", self.folder / path.stem, "--shard", "1000/1000", "--json")
+            self.assertEqual(done.code, 0, f"{path}: {done.err}")
+            self.assertEqual(done.json["n_run"], expected.pop(path.stem, done.json["n_run"]), path.stem)
+        self.assertEqual(expected, {})
+
+    def test_fit_reads_the_results_of_packings(self):
+        """Seven beds of one form each; clast fit finds the forms in results.csv."""
+        plan = self.plan("run: pack\nfix: [curve=6 mm, mass=8g, width=30mm, height=60mm, max_steps=9000, cut=0.95]\nvary:\n"
+                         "  - shapes = " + " | ".join(f"ellipsoid:{1 + k / 5},{1 + (k * k % 7) / 40},1" for k in range(1, 8)) + "\n")
+        done = clast("study", plan, "-o", self.folder / "out", "--json")
+        self.assertEqual(done.code, 0, done.err)
+        self.assertEqual(done.json["n_done"], 7)
+        row = self.rows()[0]
+        self.assertAlmostEqual(float(row["elongation_mean"]), (1 + 1 / 40) / 1.2, 12)
+        fit = clast("fit", self.folder / "out/results.csv", "--target", "porosity_bulk", "--columns",
+                    "flatness_mean,elongation_mean", "--n-term", 1, "--n-fold", 3, "--json")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertEqual(len(fit.json["ranking"]), 26)
+        porosity = [float(row["porosity_bulk"]) for row in self.rows()]
+        inverse = [1 / (float(row["flatness_mean"]) * float(row["elongation_mean"])) for row in self.rows()]
+        told = next(r["r"] for r in fit.json["ranking"] if r["feature"] == "inverse_equancy")
+        self.assertAlmostEqual(told, statistics.correlation(inverse, porosity), 10)
 
     def test_bad_plans_say_so_before_any_run(self):
         plan = self.plan(f"run: fill\nargument: [{SURFACE}]\n")
