@@ -60,6 +60,7 @@
 #include <clast/reform.h>
 #include <clast/render.h>
 #include <clast/report.h>
+#include <clast/scene.h>
 #include <clast/settling.h>
 #include <clast/shape.h>
 #include <clast/sizes.h>

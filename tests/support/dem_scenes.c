@@ -1,6 +1,5 @@
 #include "dem_scenes.h"
 
-#include "gravel.h"
 #include "math/rng.h"
 #include <math.h>
 #include <stdio.h>
@@ -35,34 +34,6 @@ static clast_dem_grain ball(double diameter, double x, double y, double z)
                              .density = 2650.0,
                              .position = {x, y, z},
                              .orientation = {1.0, 0.0, 0.0, 0.0}};
-}
-
-clast_dem *scene_s1(void)
-{
-    enum { SIDE = 19, TALL = 30 };
-    clast_dem_config c = scene_physics();
-    c.domain = CLAST_DEM_PERIODIC;
-    c.width = 0.134;
-    clast_dem *dem = with_spheres(&c);
-    clast_dem_grain *grain = calloc((size_t)SIDE * SIDE * TALL, sizeof *grain);
-    int32_t n = 0;
-    for (int i = 0; grain != NULL && i < SIDE * SIDE * TALL; ++i) {
-        const int x = i % SIDE;
-        const int y = i / SIDE % SIDE;
-        const int z = i / (SIDE * SIDE);
-        clx_rng rng = clx_rng_at(1, CLX_STREAM_TEST, (uint64_t)i);
-        grain[n] = ball(6.7e-3, (x - 9) * 6.9e-3, (y - 9) * 6.9e-3, 4e-3 + z * 6.9e-3);
-        for (int k = 0; k < 3; ++k) {
-            grain[n].velocity[k] = 0.1 * (2.0 * clx_rng_uniform(&rng) - 1.0);
-        }
-        ++n;
-    }
-    if (dem != NULL && clast_dem_add_grains(dem, n, grain) != CLAST_OK) {
-        clast_dem_destroy(dem);
-        dem = NULL;
-    }
-    free(grain);
-    return dem;
 }
 
 clast_dem *scene_pour(int32_t n, double low, double high, double width)
@@ -101,65 +72,6 @@ clast_dem *scene_pour_with(const clast_dem_config *config, int32_t n, double low
         dem = NULL;
     }
     free(grain);
-    return dem;
-}
-
-enum { N_FORM = 63 };
-
-static clast_status add_forms(clast_dem *dem, int32_t n_vert, double size[N_FORM])
-{
-    clast_status status = CLAST_OK;
-    for (int k = 0; k < N_FORM && status == CLAST_OK; ++k) {
-        clast_mesh mesh = {0};
-        clast_shape shape = {0};
-        char name[32];
-        int32_t id = 0;
-        (void)snprintf(name, sizeof name, "gravel-%d", k);
-        support_gravel(30, (uint64_t)k, n_vert, &mesh);
-        status = clast_shape_mesh(name, &mesh, &shape);
-        if (status == CLAST_OK) {
-            const double *s = shape.semi_axes;
-            size[k] = sqrt(2.0 * (s[1] * s[1] + s[2] * s[2])); /* eq. 1 */
-            status = clast_dem_add_shape(dem, &shape, &id);
-        }
-        clast_shape_free(&shape);
-        clast_mesh_free(&mesh);
-    }
-    return status;
-}
-
-clast_dem *scene_p1(int32_t n, double width, int32_t n_vert)
-{
-    clast_dem_config c = scene_physics();
-    clast_dem *dem = NULL;
-    double size[N_FORM];
-    const double step = 0.0145;
-    const int side = (int)(width / step);
-    c.domain = CLAST_DEM_PERIODIC;
-    c.width = width;
-    clast_dem_grain *grain = calloc((size_t)n, sizeof *grain);
-    clast_status status = clast_dem_create(&c, &dem);
-    status = status == CLAST_OK ? add_forms(dem, n_vert, size) : status;
-    for (int32_t i = 0; status == CLAST_OK && i < n; ++i) {
-        clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, (uint64_t)i);
-        const int32_t k = (int32_t)clx_rng_below(&rng, N_FORM);
-        const double d = 5.6e-3 * pow(8.0 / 5.6, clx_rng_uniform(&rng));
-        grain[i] = ball(d / size[k], (i % side - 0.5 * (side - 1)) * width / side,
-                        (i / side % side - 0.5 * (side - 1)) * width / side,
-                        (0.6 + i / (side * side)) * step);
-        grain[i].shape = k;
-        clx_rng_orientation(&rng, grain[i].orientation);
-        grain[i].velocity[0] = 0.1 * (2.0 * clx_rng_uniform(&rng) - 1.0);
-        grain[i].velocity[1] = 0.1 * (2.0 * clx_rng_uniform(&rng) - 1.0);
-        grain[i].velocity[2] = -1.0;
-    }
-    status = status == CLAST_OK ? clast_dem_add_grains(dem, n, grain) : status;
-    free(grain);
-    if (status != CLAST_OK) {
-        clast_dem_destroy(dem);
-        return NULL;
-    }
-    clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 1.0});
     return dem;
 }
 
