@@ -5,13 +5,18 @@
 
 #include <clast/table_file.h>
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
     int32_t axes, kind, degree, level;
     bool hull;
     char *unit, *columns, *surfaces, *statistics;
+    char *voxels, *voxel_edge, *dataset, *threshold;
+    int32_t voxel_type, least_voxels, skip;
+    bool big_endian;
     double spacing;
     int32_t resamples;
     uint64_t seed;
@@ -37,6 +42,19 @@ static const clast_field fields[] = {
      "series: surface of 20 x 4^level triangles for calipers and boxes", NULL},
     {"spacing", offsetof(config, spacing), CLAST_FIELD_F64, 0, 0, 1e300, "-",
      "points: grid they were sampled on, in their unit, for a surface; 0: their convex hull", NULL},
+    TEXT(voxels, "volume without a header: its sizes NX,NY,NZ, x fastest"),
+    {"voxel_type", offsetof(config, voxel_type), CLAST_FIELD_CHOICE, CLAST_VOLUME_U8, 0, 0, "-",
+     "type of its values", "u8|i8|u16|i16|u32|i32|f32|f64"},
+    {"big_endian", offsetof(config, big_endian), CLAST_FIELD_BOOL, 0, 0, 1, "-",
+     "its values have their high byte first", NULL},
+    {"skip", offsetof(config, skip), CLAST_FIELD_I32, 0, 0, INT32_MAX, "-",
+     "bytes before its values", NULL},
+    TEXT(voxel_edge, "volume: edges of a voxel, A or A,B,C along x, y, z; none: the file's, or 1"),
+    TEXT(dataset, "volume in an HDF5 file: name of the array [z][y][x]"),
+    TEXT(threshold, "volume: grains are the connected parts above this grey value, their surfaces "
+                    "its level; none: values are labels, 0 outside"),
+    {"least_voxels", offsetof(config, least_voxels), CLAST_FIELD_I32, 1, 1, INT32_MAX, "-",
+     "volume: grains of fewer voxels are left out", NULL},
     TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names"),
     TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder"),
     TEXT(statistics, "write statistics of the set into this folder: tables, Zingg diagram, "
@@ -51,6 +69,59 @@ static clast_status unit_factor(const config *c, double *factor)
 {
     *factor = 0.0;
     return c->unit[0] != '\0' ? clast_unit_factor(c->unit, "m", factor) : CLAST_OK;
+}
+
+/// Up to three numbers parted by commas; how many, or 0 for anything else.
+static int numbers_of(const char *text, double value[3])
+{
+    int n = 0;
+    for (char *end = NULL; n < 3; text = end + 1) {
+        value[n] = strtod(text, &end);
+        if (end == text) {
+            return 0;
+        }
+        ++n;
+        if (*end == '\0') {
+            return n;
+        }
+        if (*end != ',') {
+            return 0;
+        }
+    }
+    return 0;
+}
+
+static clast_status volume_options(const config *c, clast_grains_options *o)
+{
+    double n[3] = {0};
+    double *edge = o->volume.edge;
+    const int n_edge = c->voxel_edge[0] != '\0' ? numbers_of(c->voxel_edge, edge) : 3;
+    if (c->voxels[0] != '\0' && numbers_of(c->voxels, n) != 3) {
+        return cli_fail(CLAST_E_USAGE, "voxels: '%s' is not NX,NY,NZ", c->voxels);
+    }
+    for (int k = 0; k < 3; ++k) {
+        edge[k] = n_edge == 1 ? edge[0] : edge[k];
+        if (n_edge == 0 || n_edge == 2 || (c->voxel_edge[0] != '\0' && !(edge[k] > 0.0))) {
+            return cli_fail(CLAST_E_USAGE, "voxel_edge: '%s' is not one or three numbers above 0",
+                            c->voxel_edge);
+        }
+        if (c->voxels[0] != '\0' && !(n[k] >= 1.0 && n[k] < 0x1p31 && floor(n[k]) == n[k])) {
+            return cli_fail(CLAST_E_USAGE, "voxels: '%s' are not sizes", c->voxels);
+        }
+        o->volume.n[k] = (int32_t)n[k];
+    }
+    o->volume.type = (clast_volume_type)c->voxel_type;
+    o->volume.is_big_endian = c->big_endian;
+    o->volume.skip = c->skip;
+    o->least_voxels = c->least_voxels;
+    o->dataset = c->dataset;
+    o->has_threshold = c->threshold[0] != '\0';
+    double limit[3] = {0};
+    if (o->has_threshold && numbers_of(c->threshold, limit) != 1) {
+        return cli_fail(CLAST_E_USAGE, "threshold: '%s' is not a number", c->threshold);
+    }
+    o->threshold = limit[0];
+    return CLAST_OK;
 }
 
 /// True when every grain's lengths are in metres after clast_grains_to_metres.
@@ -140,7 +211,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     double unit_m = 0.0;
     clast_grain_statistics statistics = {0};
     cli_shape_result shape = {.axes = (clast_axes_kind)c->axes, .is_hull = c->hull};
-    const clast_grains_options options = {
+    clast_grains_options options = {
         .kind = (clast_grains_kind)c->kind,
         .hull = c->hull,
         .degree = c->degree,
@@ -150,6 +221,9 @@ static clast_status run(const cli_common *common, void *config_bytes)
         .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
     };
     clast_status status = unit_factor(c, &unit_m);
+    if (status == CLAST_OK) {
+        status = volume_options(c, &options);
+    }
     if (status == CLAST_OK) {
         status = clast_grains_read(common->n_argument, (const char *const *)common->argument,
                                    &options, &shape.grains);
@@ -185,8 +259,10 @@ const cli_command cli_shape = {
     .summary = "size and form of grains: volume, L I S, form factors, sphericity, roundness",
     .details =
         "Files: surfaces (STL, OBJ, PLY, OFF), coefficients of spherical harmonics (rows n m Re "
-        "Im),\nlabelled voxels (Xsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), "
-        "tables of L,I,S\nor flatness,elongation. -o FILE.csv writes everything as a table.\n"
+        "Im),\nvolumes of labels or, with --threshold, grey values (NRRD, TIFF stack, HDF5 array, "
+        "bare "
+        "values,\nXsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), tables of L,I,S "
+        "or flatness,elongation.\n-o FILE.csv writes everything as a table.\n"
         "--statistics FOLDER: means, deviations, quantiles with bootstrap intervals, Shapiro-Wilk, "
         "Pearson,\nprincipal components as CSV; Zingg diagram, histograms, correlation as SVG "
         "(docs/theory/statistics.md).\n"

@@ -76,5 +76,7 @@
 #include <clast/table.h>
 #include <clast/table_file.h>
 #include <clast/uniformity.h>
+#include <clast/volume.h>
+#include <clast/volume_file.h>
 #include <clast/voxels.h>
 #include <clast/voxels_file.h>

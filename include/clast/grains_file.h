@@ -1,6 +1,7 @@
 #pragma once
 #include <clast/grain.h>
 #include <clast/table.h>
+#include <clast/volume_file.h>
 
 // Grains from any file that holds some: surfaces, harmonic series, voxel volumes, points, tables.
 
@@ -8,19 +9,24 @@ typedef enum {
     CLAST_GRAINS_AUTO,    ///< by name and content
     CLAST_GRAINS_SURFACE, ///< STL, OBJ, PLY, OFF: one grain
     CLAST_GRAINS_SERIES,  ///< coefficients of spherical harmonics: one grain
-    CLAST_GRAINS_VOXELS,  ///< labelled volume: one grain a label
+    CLAST_GRAINS_VOXELS,  ///< volume: one grain a label, or a part above a threshold
     CLAST_GRAINS_POINTS,  ///< points inside or on one grain: its convex hull, or its cubes
     CLAST_GRAINS_TABLE    ///< one grain a row: L, I, S or flatness and elongation
 } clast_grains_kind;
 
 typedef struct clast_grains_options {
     clast_grains_kind kind;
-    bool hull;           ///< measure convex hulls, not surfaces
-    int32_t degree;      ///< series: terms up to this one; < 0: all
-    int32_t level;       ///< series: fineness of the surface, 20 * 4^level triangles
-    double spacing;      ///< points: grid they were sampled on, in their unit; 0: their hull
-    const char *columns; ///< table: see clast_form_set_of; NULL or "": by their names
-    const char *folder;  ///< write each grain's surface there as PLY; NULL: do not
+    bool hull;      ///< measure convex hulls, not surfaces
+    int32_t degree; ///< series: terms up to this one; < 0: all
+    int32_t level;  ///< series: fineness of the surface, 20 * 4^level triangles
+    double spacing; ///< points: grid they were sampled on, in their unit; 0: their hull
+    clast_volume_options volume; ///< volumes: what bare values do not say, and edges
+    const char *dataset; ///< volumes in HDF5 files: the array's name; NULL or "": no such file
+    bool has_threshold;  ///< volumes: grains are the parts above `threshold`, not labels
+    double threshold;
+    int64_t least_voxels; ///< volumes: smaller labels and parts are left out and counted
+    const char *columns;  ///< table: see clast_form_set_of; NULL or "": by their names
+    const char *folder;   ///< write each grain's surface there as PLY; NULL: do not
 } clast_grains_options;
 
 typedef struct clast_grain_record {

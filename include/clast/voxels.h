@@ -1,14 +1,16 @@
 #pragma once
 #include <clast/mesh.h>
 
-/// A volume of labelled cubes: 0 is outside, every other number one grain (or phase).
+/// A volume of labelled bricks: 0 is outside, every other number one grain (or phase).
 typedef struct clast_voxels {
-    int32_t n[3];   ///< cubes along x, y, z
-    double edge;    ///< of a cube
-    int32_t *label; ///< [n[2]][n[1]][n[0]], x fastest
+    int32_t n[3];     ///< bricks along x, y, z
+    double edge[3];   ///< of a brick
+    int32_t *label;   ///< [n[2]][n[1]][n[0]], x fastest
+    float *grey;      ///< the same of grey values that the labels were cut from, or NULL
+    double threshold; ///< of the grey values: labelled bricks are above it
 } clast_voxels;
 
-/// Room for n[0] n[1] n[2] cubes, zeroed; `voxels` must be empty.
+/// Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.
 CLAST_API clast_status clast_voxels_alloc(const int32_t n[3], double edge, clast_voxels *voxels);
 CLAST_API void clast_voxels_free(clast_voxels *voxels);
 
@@ -27,7 +29,8 @@ CLAST_API void clast_voxels_labels_free(clast_voxel_label *labels);
 
 /// Surface of one label: the level 1/2 of its occupancy, which is first smoothed over the 27
 /// neighbours with weights 1-2-1 along each axis, so that the facets follow the grain and not the
-/// cubes' faces. Closed, oriented, manifold; cubes beyond the border of the volume are outside.
+/// cubes' faces. With grey values it is their level at the threshold, unsmoothed, bricks of other
+/// labels taken as outside. Closed, oriented, manifold; cubes beyond the border are outside.
 ///
 /// The volume is that of the cubes but for rounded corners; docs/theory/form.md has the bias.
 ///

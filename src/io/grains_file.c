@@ -212,24 +212,77 @@ static clast_status take_voxels(clx_grains_task *task, const clast_voxels *voxel
     int32_t n = 0;
     CLX_TRY(clast_voxels_labels(voxels, &labels, &n));
     CLX_CHECK(n > 0, CLAST_E_GEOMETRY, "all voxels are 0: there is no grain");
+    int32_t n_small = 0;
     for (int32_t i = 0; i < n; ++i) {
+        if (labels[i].n_voxel < task->options->least_voxels) {
+            ++n_small;
+            continue;
+        }
         const clast_status one = take_label(task, voxels, &labels[i], kind, offset);
         if (one != CLAST_OK) {
             CLX_TRY(clx_grains_fault(task, one)); // the other labels may do
         }
+    }
+    if (n_small > 0) {
+        char text[128];
+        (void)snprintf(text, sizeof text, "%d of %d grains left out: fewer than %lld voxels",
+                       n_small, n, (long long)task->options->least_voxels);
+        CLX_TRY(clx_grains_note(task, text));
     }
 done:
     clast_voxels_labels_free(labels);
     return status;
 }
 
+static bool has_dataset(const clx_grains_task *task)
+{
+    return task->options->dataset != NULL && task->options->dataset[0] != '\0';
+}
+
+/// A volume of the formats of scanners, as labels.
+static clast_status read_volume(clx_grains_task *task, clast_voxels *voxels, double *unit_m)
+{
+    clast_status status = CLAST_OK;
+    const clast_grains_options *o = task->options;
+    clast_volume volume = {0};
+    if (has_dataset(task)) {
+        CLX_TRY(clast_volume_read_h5(task->path, o->dataset, &o->volume, &volume));
+    } else {
+        CLX_TRY(clast_volume_parse(task->bytes, (size_t)task->n_byte, &o->volume, &volume));
+    }
+    *unit_m = volume.unit_m;
+    clx_free(task->bytes); // the values are as large
+    task->bytes = NULL;
+    CLX_TRY(o->has_threshold ? clast_volume_parts(&volume, o->threshold, voxels)
+                             : clast_volume_labels(&volume, voxels));
+done:
+    clast_volume_free(&volume);
+    return status;
+}
+
+/// True for voxels in words: `Name: value` lines, then a whole number a voxel.
+static bool is_voxel_text(const clx_grains_task *task)
+{
+    return !has_dataset(task) && task->options->volume.n[0] == 0 &&
+           !clast_volume_is_known(task->bytes, (size_t)task->n_byte);
+}
+
 static clast_status take_voxel_file(clx_grains_task *task)
 {
+    clast_status status = CLAST_OK;
     clast_voxels voxels = {0};
-    clast_status status = clast_voxels_parse(task->bytes, (size_t)task->n_byte, &voxels);
-    if (status == CLAST_OK) {
-        status = take_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0});
+    double unit_m = 0.0;
+    if (is_voxel_text(task)) {
+        CLX_TRY(clast_voxels_parse(task->bytes, (size_t)task->n_byte, &voxels));
+    } else {
+        CLX_TRY(read_volume(task, &voxels, &unit_m));
     }
+    const int64_t first = task->grains.n;
+    CLX_TRY(take_voxels(task, &voxels, CLAST_GRAINS_VOXELS, (double[3]){0}));
+    for (int64_t i = first; i < task->grains.n; ++i) {
+        task->grains.record[i].unit_m = unit_m;
+    }
+done:
     clast_voxels_free(&voxels);
     return status;
 }
@@ -347,6 +400,10 @@ static clast_grains_kind kind_of_text(const clx_grains_task *task)
 
 static clast_grains_kind kind_of(const clx_grains_task *task)
 {
+    if (has_dataset(task) || task->options->volume.n[0] > 0 ||
+        clast_volume_is_known(task->bytes, (size_t)task->n_byte)) {
+        return CLAST_GRAINS_VOXELS;
+    }
     static const char *const delimited[] = {"csv", "tsv", "vtk", "vtp", "vtu", "dump", NULL};
     if (clast_mesh_format_of_path(task->path) != CLAST_MESH_ANY) {
         return CLAST_GRAINS_SURFACE;

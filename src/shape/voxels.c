@@ -9,6 +9,7 @@
 void clast_voxels_free(clast_voxels *voxels)
 {
     clx_free(voxels->label);
+    clx_free(voxels->grey);
     *voxels = (clast_voxels){0};
 }
 
@@ -22,9 +23,9 @@ clast_status clast_voxels_alloc(const int32_t n[3], double edge, clast_voxels *v
     CLX_CHECK(edge > 0.0 && isfinite(edge), CLAST_E_FORMAT,
               "a voxel's edge of %g; it must be positive and finite", edge);
     CLX_TRY(clx_alloc(&voxels->label, (int64_t)n[0] * n[1] * n[2], sizeof *voxels->label));
-    voxels->edge = edge;
     for (int k = 0; k < 3; ++k) {
         voxels->n[k] = n[k];
+        voxels->edge[k] = edge;
     }
 done:
     return status;
@@ -154,32 +155,77 @@ static void smooth_axis(clx_grid *grid, int axis)
     }
 }
 
+enum { MARGIN = 2 }; ///< cubes around a grain: one for the smoothing, one for the border
+
+/// How far the grey value of a brick lies below the threshold, at most 1 and at least -1 in units
+/// of `scale`: negative inside the label.
+static float below_threshold(const clast_voxels *v, int64_t x, int64_t y, int64_t z, int32_t label,
+                             float scale)
+{
+    if (x < 0 || y < 0 || z < 0 || x >= v->n[0] || y >= v->n[1] || z >= v->n[2]) {
+        return 1.0F;
+    }
+    const int64_t at = (z * v->n[1] + y) * v->n[0] + x;
+    const float depth = ((float)v->threshold - v->grey[at]) / scale;
+    return v->label[at] == label ? depth : fabsf(depth); // another grain is outside as far
+}
+
+/// Greatest distance of a label's grey values from the threshold.
+static float grey_scale(const clast_voxels *v, const clast_voxel_label *label)
+{
+    float scale = 0.0F;
+    for (int64_t z = label->low[2]; z <= label->high[2]; ++z) {
+        for (int64_t y = label->low[1]; y <= label->high[1]; ++y) {
+            for (int64_t x = label->low[0]; x <= label->high[0]; ++x) {
+                const int64_t at = (z * v->n[1] + y) * v->n[0] + x;
+                scale = fmaxf(
+                    scale, v->label[at] == label->label ? v->grey[at] - (float)v->threshold : 0.0F);
+            }
+        }
+    }
+    return scale;
+}
+
+/// Values on the nodes about a label: negative (or below 1/2 by occupancy) inside.
+static void fill_grid(const clast_voxels *voxels, const clast_voxel_label *label, clx_grid *grid)
+{
+    const int64_t n_node = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
+    const float scale = voxels->grey != NULL ? grey_scale(voxels, label) : 1.0F;
+    for (int64_t i = 0; i < n_node; ++i) {
+        const int64_t row = i / grid->n[0];
+        const int64_t x = i % grid->n[0] + label->low[0] - MARGIN;
+        const int64_t y = row % grid->n[1] + label->low[1] - MARGIN;
+        const int64_t z = row / grid->n[1] + label->low[2] - MARGIN;
+        if (voxels->grey != NULL) {
+            grid->value[i] = below_threshold(voxels, x, y, z, label->label, scale);
+        } else {
+            grid->value[i] = is_label(voxels, x, y, z, label->label) ? 0.0F : 1.0F;
+        }
+    }
+}
+
 clast_status clast_voxels_surface(const clast_voxels *voxels, const clast_voxel_label *label,
                                   clast_mesh *mesh)
 {
-    enum { MARGIN = 2 }; // cubes around the grain: one for the smoothing, one for the border
     clast_status status = CLAST_OK;
-    clx_grid grid = {.h = voxels->edge};
+    clx_grid grid = {.h = 1.0};
     int64_t n_node = 1;
     for (int k = 0; k < 3; ++k) {
         grid.n[k] = label->high[k] - label->low[k] + 1 + 2 * MARGIN;
-        grid.low[k] = voxels->edge * (label->low[k] - MARGIN + 0.5); // centres of cubes
+        grid.low[k] = label->low[k] - MARGIN + 0.5; // centres of cubes
         n_node *= grid.n[k];
     }
     CLX_CHECK(n_node < INT32_MAX, CLAST_E_LIMIT, "label %d spans %lld voxels, beyond 2^31",
               label->label, (long long)n_node);
     CLX_TRY(clx_alloc(&grid.value, n_node, sizeof *grid.value));
-    for (int64_t i = 0; i < n_node; ++i) {
-        const int64_t row = i / grid.n[0];
-        const int64_t x = i % grid.n[0] + label->low[0] - MARGIN;
-        const int64_t y = row % grid.n[1] + label->low[1] - MARGIN;
-        const int64_t z = row / grid.n[1] + label->low[2] - MARGIN;
-        grid.value[i] = is_label(voxels, x, y, z, label->label) ? 0.0F : 1.0F;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
+    fill_grid(voxels, label, &grid);
+    for (int axis = 0; axis < 3 && voxels->grey == NULL; ++axis) {
         smooth_axis(&grid, axis);
     }
-    status = clx_isosurface(&grid, 0.5, mesh);
+    status = clx_isosurface(&grid, voxels->grey != NULL ? 0.0 : 0.5, mesh);
+    for (int32_t i = 0; status == CLAST_OK && i < 3 * mesh->n_vert; ++i) {
+        mesh->vert[i / 3][i % 3] *= voxels->edge[i % 3];
+    }
     if (status == CLAST_E_GEOMETRY) {
         status =
             clx_fail(CLAST_E_GEOMETRY,
@@ -207,7 +253,8 @@ static int32_t row_points(const clast_voxels *v, const clast_voxel_label *label,
     for (int32_t x = label->low[0]; x <= label->high[0]; ++x) {
         if (is_label(v, x, y, z, label->label) && is_outermost(v, x, y, z, label->label)) {
             if (point != NULL) {
-                v3_set(point[n], v->edge * (x + 0.5), v->edge * (y + 0.5), v->edge * (z + 0.5));
+                v3_set(point[n], v->edge[0] * (x + 0.5), v->edge[1] * (y + 0.5),
+                       v->edge[2] * (z + 0.5));
             }
             ++n;
         }

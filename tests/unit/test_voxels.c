@@ -37,7 +37,7 @@ static void labels_are_counted_and_boxed(void **state)
     CHECK_OK(parse("Xsize: 3\nYsize: 2\nZsize: 1\nSource: CT scan 7\nResolution: 5\n0 9 2\n2 0 2",
                    &voxels));
     assert_int_equal(voxels.n[0], 3);
-    assert_true(voxels.edge == 5.0);
+    assert_true(voxels.edge[2] == 5.0);
     CHECK_OK(clast_voxels_labels(&voxels, &labels, &n));
     assert_int_equal(n, 2);
     assert_int_equal(labels[0].label, 2);

@@ -1,0 +1,16 @@
+#pragma once
+// Formats of volumes, from memory.
+#include <clast/volume_file.h>
+
+#include "base/status.h"
+
+bool clx_nrrd_is(const uint8_t *bytes, size_t n);
+clast_status clx_nrrd_parse(const uint8_t *bytes, size_t n, clast_volume *volume);
+
+bool clx_tiff_is(const uint8_t *bytes, size_t n);
+clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume);
+
+/// Unpacks deflated bytes (zlib or gzip) that must fill `out` exactly.
+clast_status clx_inflate(const uint8_t *bytes, size_t n, uint8_t *out, size_t n_out);
+
+enum { CLX_MOST_RATIO = 1032 }; ///< deflate packs no more bytes into one [zlib's notes]
