@@ -39,7 +39,7 @@ paper-d2sd:
 	@tools/paper_d2sd.py
 paper-packing:
 	@tools/setup.sh build
-	@tools/build.sh release clast_cli
+	@tools/build.sh release clast_cli clast
 	@tools/paper_packing.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 build/dev/tests/golden_test_golden
