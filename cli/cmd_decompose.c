@@ -68,6 +68,8 @@ static json_t *json_passes(const clast_decomposition *r)
         cli_json_number(pass, "lambda", r->pass[k].lambda);
         cli_json_count(pass, "lambda_count", r->pass[k].lambda_count);
         cli_json_count(pass, "n_lambda", r->pass[k].n_lambda);
+        cli_json_number(pass, "lower", r->pass[k].lower);
+        cli_json_count(pass, "n_lower", r->pass[k].n_lower);
         cli_json_number(pass, "score", r->pass[k].score);
         cli_json_number(pass, "ideal_score", r->pass[k].ideal);
         (void)json_array_append_new(list, pass);

@@ -54,7 +54,7 @@ static clast_status make_cells(const clast_decompose_config *config, clast_decom
 
 int main(void)
 {
-    clast_population particles = {N, 2, x, monomers, radius, mass, velocity, NULL, owner};
+    clast_population particles = {N, 2, x, monomers, radius, mass, velocity, NULL, owner, NULL};
     clast_decompose_config mesh_config;
     clast_collide_config config = {.alpha = 1.0, .block = 1024, .seed = 1};
     clast_decomposition mesh = {0};

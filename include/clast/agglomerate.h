@@ -42,7 +42,8 @@ typedef struct clast_agglomerate_input {
 
 typedef struct clast_agglomeration {
     /// One row a time: time_s, n_particle, n_particle_sd, M1, M2, M3 (means over repeats of the
-    /// sums of i^k), events (since the start), n_cell, is_rebuilt; fixed_n_particle and
+    /// sums of i^k, weighted), events (since the start), n_cell, is_rebuilt; n_parcel with weights;
+    /// fixed_n_particle and
     /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
     clast_table history;
     /// One row a particle, last state of the first repeat: coordinates, monomers, radius_m,

@@ -16,6 +16,7 @@ typedef struct clast_population {
     double *velocity;  ///< [n][dimension] m/s, or NULL
     double *speed_rms; ///< [n] m/s, or NULL
     int64_t *owner;    ///< [n] the particle it has become part of; itself while alive
+    double *weight;    ///< [n] > 0: real particles that a parcel stands for; NULL: 1 each
 } clast_population;
 
 typedef enum {
@@ -38,8 +39,9 @@ typedef struct clast_collide_config {
     double leap;   ///< Poisson: collisions that no particle exceeds on average in a sub-step
     int32_t block; ///< kinds of particles above which a cell is dealt into random blocks of this
                    ///< many; 0: never
-    bool keep_positions; ///< an aggregate stays where its heavier part was, else at the centre of
-                         ///< mass
+    bool self_collisions; ///< the particles of one parcel collide with each other too
+    bool keep_positions;  ///< an aggregate stays where its heavier part was, else at the centre of
+                          ///< mass
     uint64_t seed;
 } clast_collide_config;
 
@@ -49,7 +51,7 @@ typedef struct clast_collide_cells {
     const int32_t *of_particle; ///< [n_particle] < 0: in none
     const double *volume;       ///< [n] m^d, > 0
     const clast_medium *medium; ///< [n], or NULL: the configuration's
-    double *events;             ///< [n] out: collisions that stuck, or NULL
+    double *events;             ///< [n] out: collisions of real particles that stuck, or NULL
 } clast_collide_cells;
 
 /// Lets the particles of each cell collide for a time dt.
@@ -58,8 +60,14 @@ typedef struct clast_collide_cells {
 /// that has just merged hands its next event to the aggregate it went into. Monomers are integers
 /// and their sum never changes; momentum is kept.
 ///
+/// Parcels [Shima2009]: a pair of weights w1 >= w2 meets at alpha beta w1 / V; then each particle
+/// of the second sticks to one of the first, which keeps w1 - w2 (equal weights: it is gone), so
+/// that w1 w2 pairs collide at alpha beta / V on average and the sums of weight times monomers,
+/// mass and momentum never change. With self_collisions a parcel also halves its weight and doubles
+/// its monomers at alpha beta (w - 1) / V.
+///
 /// @param step     number of the step, below 2^32: with the seed it fixes every draw
-/// @param n_event  out, sum over cells; may be NULL
+/// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL
 /// @return CLAST_E_CONFIG when a cell's medium lacks what the kernel needs, CLAST_E_USAGE for a
 /// volume that is not > 0, CLAST_E_LIMIT beyond 50000 kinds in a cell with block = 0
 /// @note a cell of n particles of s kinds: O(s) per event; the same bytes for any thread count

@@ -28,6 +28,12 @@ typedef enum {
     CLAST_EVENTS_PAPER  ///< beta dt n^2 / V as printed in eq. 14
 } clast_event_law;
 
+/// Where bins count as under-populated.
+typedef enum {
+    CLAST_LOWER_Q20,   ///< up to the 20th percentile, as published
+    CLAST_LOWER_SEARCH ///< up to a threshold in [Q20, Q40) that is searched like the upper one
+} clast_lower;
+
 /// Which statistic of the discrepancies votes.
 typedef enum { CLAST_STATISTIC_A, CLAST_STATISTIC_T } clast_statistic;
 
@@ -45,7 +51,9 @@ typedef struct clast_decompose_config {
     int32_t ghost_samples; ///< expected score by so many ghost samples; 0: semi-analytic
     bool crossfit;         ///< events with the cells of one half and the points of the other
     int32_t max_pass;
-    double beta_dt;            ///< kernel times time step [m^d]
+    int32_t lower;  ///< clast_lower
+    bool strict;    ///< bins at a threshold are ambient: > lambda and < lower, as the prose has it
+    double beta_dt; ///< kernel times time step [m^d]
     double tree_level;         ///< of the chi-square test of a tree cell
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
@@ -97,6 +105,8 @@ typedef struct clast_pass {
     int32_t n_lambda;     ///< thresholds searched
     int32_t lambda_count; ///< best threshold as a count
     double lambda;        ///< as a density: count * bins / n
+    int32_t n_lower;      ///< lower thresholds searched
+    double lower;         ///< lower threshold as a density
     double score;         ///< expected over ghosts
     double ideal;         ///< for the size of the synthetic sample
     bool fallback;
@@ -145,7 +155,8 @@ typedef struct clast_decomposition {
                            ///< else NAN
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
-    clast_table search;    ///< every threshold searched: pass, lambda, score, ideal_score
+    clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
+                           ///< is_lower_search
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
 } clast_decomposition;
 

@@ -22,6 +22,7 @@ typedef struct clast_medium {
     double mean_free_path;   ///< of the gas [m]; 0: no slip correction
     double shear;            ///< G [1/s]
     double dissipation;      ///< eps [m^2/s^3]
+    double shear_constant;   ///< of shear_turbulent; 0: sqrt(8 pi / 15) = 1.2944
     double speed_rms;        ///< of the fluid, one component [m/s]
     double gravity;          ///< g [m/s^2]
     double efficiency;       ///< E of settling [-]

@@ -21,6 +21,8 @@ const clast_field clast_agglomerate_fields[] = {
      "collisions of the busiest particle in a sub-step of poisson", NULL},
     {DEEP(CLAST_FIELD_I32, block, block), 1024, 0, 1000000, "-",
      "kinds of particles above which a cell is dealt into random blocks; 0: never", NULL},
+    {DEEP(CLAST_FIELD_BOOL, self_collisions, self_collisions), 0, 0, 0, "-",
+     "the particles of one weighted parcel collide with each other too", NULL},
     {DEEP(CLAST_FIELD_F64, alpha, alpha), 1.0, 0.0, 1.0, "-", "share of collisions that stick",
      NULL},
     {DEEP(CLAST_FIELD_CHOICE, radius_law, radius_law), 0, 0, 0, "-",
@@ -46,6 +48,8 @@ const clast_field clast_agglomerate_fields[] = {
     {DEEP(CLAST_FIELD_F64, mean_free_path, medium.mean_free_path), 0.0, 0.0, 1.0, "m",
      "of a gas, for the slip correction; 0: none", NULL},
     {DEEP(CLAST_FIELD_F64, shear, medium.shear), 0.0, 0.0, 1e12, "-", "shear rate G [1/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, shear_constant, medium.shear_constant), 0.0, 0.0, 100.0, "-",
+     "constant of shear_turbulent, 1.3 as often printed; 0: sqrt(8 pi/15) = 1.2944", NULL},
     {DEEP(CLAST_FIELD_F64, dissipation, medium.dissipation), 0.0, 0.0, 1e12, "-",
      "turbulent dissipation eps [m^2/s^3]", NULL},
     {DEEP(CLAST_FIELD_F64, speed_rms, medium.speed_rms), 0.0, 0.0, 1e6, "-",
@@ -70,7 +74,7 @@ enum { M1, M2, M3, N_MOMENT };
 
 /// Columns of the history.
 typedef struct {
-    double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt;
+    double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt, *n_parcel;
     double *fixed_n, *fixed_events, *exact_n, *exact_m2;
 } columns;
 
@@ -82,12 +86,13 @@ void clast_agglomeration_free(clast_agglomeration *result)
 }
 
 /// Columns are looked up after all are added: adding one may move the others.
-static clast_status make_history(clast_agglomeration *r, int64_t n_row, columns *c)
+static clast_status make_history(clast_agglomeration *r, int64_t n_row, bool is_weighted,
+                                 columns *c)
 {
     static const struct {
         const char *name, *unit;
         size_t offset;
-        int when; ///< 1: fixed mesh only
+        int when; ///< 1: fixed mesh only, 2: weights only
     } list[] = {{"time_s", "s", offsetof(columns, time), 0},
                 {"n_particle", "-", offsetof(columns, n), 0},
                 {"n_particle_sd", "-", offsetof(columns, sd), 0},
@@ -97,13 +102,14 @@ static clast_status make_history(clast_agglomeration *r, int64_t n_row, columns 
                 {"events", "-", offsetof(columns, events), 0},
                 {"n_cell", "-", offsetof(columns, n_cell), 0},
                 {"is_rebuilt", "-", offsetof(columns, rebuilt), 0},
+                {"n_parcel", "-", offsetof(columns, n_parcel), 2},
                 {"fixed_n_particle", "-", offsetof(columns, fixed_n), 1},
                 {"fixed_events", "-", offsetof(columns, fixed_events), 1}};
     clast_status status = CLAST_OK;
     CLX_TRY(clast_table_init(&r->history, "agglomeration", n_row));
     for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
         double *column = NULL;
-        if (list[k].when == 0 || r->has_fixed) {
+        if (list[k].when == 0 || (list[k].when == 1 ? r->has_fixed : is_weighted)) {
             CLX_TRY(clast_table_add_number(&r->history, list[k].name, list[k].unit, &column));
         }
     }
@@ -121,16 +127,19 @@ static void record(const clx_evolution *run, columns *c, int64_t row)
     const clast_population *p = &run->population;
     double moment[N_MOMENT] = {0};
     double n = 0.0;
+    double n_parcel = 0.0;
     for (int64_t i = 0; i < p->n; ++i) {
         const double m = (double)p->monomers[i];
-        n += m > 0.0 ? 1.0 : 0.0;
-        moment[M1] += m;
-        moment[M2] += m * m;
-        moment[M3] += m * m * m;
+        const double w = p->weight != NULL ? p->weight[i] : 1.0;
+        n += m > 0.0 ? w : 0.0;
+        moment[M1] += w * m;
+        moment[M2] += w * m * m;
+        moment[M3] += w * m * m * m;
+        n_parcel += m > 0.0 ? 1.0 : 0.0;
     }
     if (run->is_fixed) {
         c->fixed_n[row] += n;
-        c->fixed_events[row] += (double)run->n_event;
+        c->fixed_events[row] += run->n_event;
         return;
     }
     c->n[row] += n;
@@ -138,7 +147,10 @@ static void record(const clx_evolution *run, columns *c, int64_t row)
     for (int k = 0; k < N_MOMENT; ++k) {
         c->moment[k][row] += moment[k];
     }
-    c->events[row] += (double)run->n_event;
+    c->events[row] += run->n_event;
+    if (c->n_parcel != NULL) {
+        c->n_parcel[row] += n_parcel;
+    }
     c->n_cell[row] += run->n_cell;
     c->rebuilt[row] += run->is_rebuilt ? 1.0 : 0.0;
 }
@@ -170,8 +182,8 @@ done:
 static void make_means(const clast_agglomerate_config *config, int64_t n_row, columns *c)
 {
     const double n = config->repeats;
-    double *const sums[] = {c->n,      c->moment[M1], c->moment[M2], c->moment[M3],  c->events,
-                            c->n_cell, c->rebuilt,    c->fixed_n,    c->fixed_events};
+    double *const sums[] = {c->n,      c->moment[M1], c->moment[M2], c->moment[M3],   c->events,
+                            c->n_cell, c->rebuilt,    c->fixed_n,    c->fixed_events, c->n_parcel};
     for (int64_t row = 0; row < n_row; ++row) {
         c->time[row] = config->duration / config->n_step * (double)row;
         for (size_t k = 0; k < sizeof sums / sizeof sums[0]; ++k) {
@@ -207,7 +219,6 @@ static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
     const uint32_t kernel = run->collide.kernel;
     const clast_medium *m = &run->collide.medium;
     const double rate = kernel == 1U ? m->constant : kernel == 2U ? m->additive : m->product;
-    const double n0 = (double)run->population.n;
     double *column = NULL;
     if ((kernel != 1U && kernel != 2U && kernel != 4U) || run->input->monomers != NULL ||
         run->input->n_snapshot > 1 || run->n_cell != 1 || run->mesh.n_outside > 0) {
@@ -218,6 +229,7 @@ static clast_status add_exact(const clx_evolution *run, clast_agglomeration *r)
     const double *time = clast_table_numbers(&r->history, "time_s");
     double *n = clast_table_numbers(&r->history, "exact_n_particle");
     double *m2 = clast_table_numbers(&r->history, "exact_M2");
+    const double n0 = clast_table_numbers(&r->history, "n_particle")[0]; // with weights
     for (int64_t row = 0; row < r->history.n_row; ++row) {
         exact_at(kernel, n0, run->collide.alpha * rate * n0 * time[row] / run->volume[0], &n[row],
                  &m2[row]);
@@ -238,8 +250,9 @@ static int64_t aggregate_of(const clast_population *p, int64_t i)
 static clast_status list_particles(const clx_evolution *run, clast_agglomeration *r)
 {
     static const char *const axis[3] = {"x_m", "y_m", "z_m"};
-    static const char *const name[5] = {"monomers", "radius_m", "mass_kg", "aggregate", "cell"};
-    static const char *const unit[5] = {"-", "m", "kg", "-", "-"};
+    static const char *const name[6] = {"monomers",  "radius_m", "mass_kg",
+                                        "aggregate", "cell",     "weight"};
+    static const char *const unit[6] = {"-", "m", "kg", "-", "-", "-"};
     clast_status status = CLAST_OK;
     const clast_population *p = &run->population;
     const bool has_radius = p->n > 0 && p->radius[0] > 0.0;
@@ -253,16 +266,19 @@ static clast_status list_particles(const clx_evolution *run, clast_agglomeration
             column[i] = p->x[aggregate_of(p, i) * p->dimension + j];
         }
     }
-    for (int k = 0; k < 5; ++k) {
-        if ((k == 1 && !has_radius) || (k == 2 && !has_mass)) {
+    for (int k = 0; k < 6; ++k) {
+        if ((k == 1 && !has_radius) || (k == 2 && !has_mass) || (k == 5 && p->weight == NULL)) {
             continue;
         }
         CLX_TRY(clast_table_add_number(&r->particles, name[k], unit[k], &column));
         for (int64_t i = 0; i < p->n; ++i) {
             const bool live = p->monomers[i] > 0;
-            const double value[5] = {(double)p->monomers[i], live ? p->radius[i] : 0.0,
-                                     live ? p->mass[i] : 0.0, (double)aggregate_of(p, i),
-                                     (double)run->cell[aggregate_of(p, i)]};
+            const double value[6] = {(double)p->monomers[i],
+                                     live ? p->radius[i] : 0.0,
+                                     live ? p->mass[i] : 0.0,
+                                     (double)aggregate_of(p, i),
+                                     (double)run->cell[aggregate_of(p, i)],
+                                     live && p->weight != NULL ? p->weight[i] : 0.0};
             column[i] = value[k];
         }
     }
@@ -313,7 +329,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     CLX_CHECK((double)n_row * config->repeats < 0x1p31, CLAST_E_LIMIT,
               "%lld times in each of %d repeats are beyond 2^31", (long long)n_row,
               config->repeats);
-    CLX_TRY(make_history(&made, n_row, &c));
+    CLX_TRY(make_history(&made, n_row, input->snapshot[0].weight != NULL, &c));
     CLX_TRY(all_runs(input, config, &c, &run, &made));
     make_means(config, n_row, &c);
     CLX_TRY(add_exact(&run, &made));

@@ -18,7 +18,7 @@ typedef struct clx_evolution {
     int32_t n_cell;
     int64_t at;      ///< the last snapshot
     bool is_rebuilt; ///< there
-    int64_t n_event; ///< since the start
+    double n_event;  ///< collisions of real particles since the start
 } clx_evolution;
 
 /// Checks input against configuration and makes the population of the first snapshot.

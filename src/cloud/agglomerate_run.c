@@ -16,6 +16,7 @@ void clx_evolution_free(clx_evolution *r)
     clx_free(r->population.velocity);
     clx_free(r->population.speed_rms);
     clx_free(r->population.owner);
+    clx_free(r->population.weight);
     clast_decomposition_free(&r->mesh);
     clx_free(r->x_at_mesh);
     clx_free(r->cell);
@@ -59,12 +60,7 @@ static clast_status check_input(const clx_evolution *r)
     CLX_TRY(check_column(in->temperature, n, "temperature", false));
     CLX_TRY(check_column(in->shear, n, "shear", false));
     CLX_TRY(check_column(in->dissipation, n, "dissipation", false));
-    for (int64_t i = 0; i < n && cloud->weight != NULL; ++i) {
-        CLX_CHECK(cloud->weight[i] == 1.0, CLAST_E_CONFIG,
-                  "particle %lld has the weight %g; collisions in time need one row a real "
-                  "particle (decompose counts the events of weighted parcels)",
-                  (long long)i + 1, cloud->weight[i]);
-    }
+    CLX_TRY(check_column(cloud->weight, n, "weight", false));
 done:
     return status;
 }
@@ -149,6 +145,10 @@ static clast_status make_population(clx_evolution *r)
         CLX_TRY(clx_alloc(&p->velocity, n * d, sizeof *p->velocity));
         memcpy(p->velocity, cloud->velocity, (size_t)(n * d) * sizeof *p->velocity);
     }
+    if (cloud->weight != NULL) {
+        CLX_TRY(clx_alloc(&p->weight, n, sizeof *p->weight));
+        memcpy(p->weight, cloud->weight, (size_t)n * sizeof *p->weight);
+    }
     if (r->input->speed_rms != NULL) {
         CLX_TRY(clx_alloc(&p->speed_rms, n, sizeof *p->speed_rms));
         memcpy(p->speed_rms, r->input->speed_rms, (size_t)n * sizeof *p->speed_rms);
@@ -197,12 +197,18 @@ static clast_status gather_live(const clx_evolution *r, clast_cloud *cloud, int6
     if (variable != NULL) {
         CLX_TRY(clx_alloc(&cloud->variable, p->n, sizeof *variable));
     }
+    if (p->weight != NULL) {
+        CLX_TRY(clx_alloc(&cloud->weight, p->n, sizeof *p->weight));
+    }
     for (int64_t i = 0; i < p->n; ++i) {
         if (p->monomers[i] > 0) {
             memcpy(cloud->x + n * p->dimension, p->x + i * p->dimension,
                    (size_t)p->dimension * sizeof *p->x);
             if (variable != NULL) {
                 cloud->variable[n] = variable[i];
+            }
+            if (p->weight != NULL) {
+                cloud->weight[n] = p->weight[i];
             }
             number[n++] = i;
         }
@@ -476,12 +482,19 @@ done:
 clast_status clx_evolution_step(clx_evolution *r, double dt, uint64_t number)
 {
     clast_status status = CLAST_OK;
-    int64_t n_event = 0;
+    double *events = NULL;
     CLX_TRY(fill_media(r));
-    const clast_collide_cells cells = {
-        .n = r->n_cell, .of_particle = r->cell, .volume = r->volume, .medium = r->medium};
-    CLX_TRY(clast_collide(&r->population, &cells, dt, number, &r->collide, &n_event));
-    r->n_event += n_event;
+    CLX_TRY(clx_alloc(&events, r->n_cell, sizeof *events));
+    const clast_collide_cells cells = {.n = r->n_cell,
+                                       .of_particle = r->cell,
+                                       .volume = r->volume,
+                                       .medium = r->medium,
+                                       .events = events};
+    CLX_TRY(clast_collide(&r->population, &cells, dt, number, &r->collide, NULL));
+    for (int32_t c = 0; c < r->n_cell; ++c) {
+        r->n_event += events[c];
+    }
 done:
+    clx_free(events);
     return status;
 }

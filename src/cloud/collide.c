@@ -20,31 +20,57 @@ static double merged_radius(const clast_population *p, const clast_collide_confi
     return cbrt(a * a * a + b * b * b);
 }
 
-int64_t clx_population_merge(clast_population *p, const clast_collide_config *c, int64_t i,
-                             int64_t j)
+/// `live` takes up as many of the other's particles as it has itself.
+static void take_up(clast_population *p, const clast_collide_config *c, int64_t live, int64_t other)
 {
-    const bool i_stays = p->mass[i] > p->mass[j] || (p->mass[i] == p->mass[j] && i < j);
-    const int64_t live = i_stays ? i : j;
-    const int64_t dead = i_stays ? j : i;
-    const double mass = p->mass[i] + p->mass[j];
-    const double share = mass > 0.0 ? p->mass[dead] / mass : 0.5; // of the one that goes
+    const double mass = p->mass[live] + p->mass[other];
+    const double share = mass > 0.0 ? p->mass[other] / mass : 0.5;
     const int32_t d = p->dimension;
-    p->radius[live] = merged_radius(p, c, i, j);
+    p->radius[live] = merged_radius(p, c, live, other);
     for (int32_t k = 0; k < d && !c->keep_positions; ++k) {
-        p->x[live * d + k] += share * (p->x[dead * d + k] - p->x[live * d + k]);
+        p->x[live * d + k] += share * (p->x[other * d + k] - p->x[live * d + k]);
     }
     for (int32_t k = 0; k < d && p->velocity != NULL; ++k) {
         p->velocity[live * d + k] +=
-            share * (p->velocity[dead * d + k] - p->velocity[live * d + k]);
+            share * (p->velocity[other * d + k] - p->velocity[live * d + k]);
     }
     if (p->speed_rms != NULL) { // independent fluctuations of the two momenta
-        p->speed_rms[live] = hypot((1.0 - share) * p->speed_rms[live], share * p->speed_rms[dead]);
+        p->speed_rms[live] = hypot((1.0 - share) * p->speed_rms[live], share * p->speed_rms[other]);
     }
-    p->monomers[live] += p->monomers[dead];
+    p->monomers[live] += p->monomers[other];
     p->mass[live] = mass;
+}
+
+int clx_population_stick(clast_population *p, const clast_collide_config *c, int64_t i, int64_t j,
+                         int64_t live[2], double *n_real)
+{
+    const double w[2] = {p->weight != NULL ? p->weight[i] : 1.0,
+                         p->weight != NULL ? p->weight[j] : 1.0};
+    const int64_t few = w[0] < w[1] ? i : j;
+    const int64_t many = w[0] < w[1] ? j : i;
+    *n_real += fmin(w[0], w[1]);
+    if (w[0] != w[1]) {
+        take_up(p, c, few, many);
+        p->weight[many] -= p->weight[few];
+        live[0] = few < many ? few : many;
+        live[1] = few < many ? many : few;
+        return 2;
+    }
+    const bool i_stays = p->mass[i] > p->mass[j] || (p->mass[i] == p->mass[j] && i < j);
+    const int64_t dead = i_stays ? j : i;
+    live[0] = i_stays ? i : j;
+    take_up(p, c, live[0], dead);
     p->monomers[dead] = 0;
-    p->owner[dead] = live;
-    return live;
+    p->owner[dead] = live[0];
+    return 1;
+}
+
+void clx_population_pair_up(clast_population *p, const clast_collide_config *c, int64_t i,
+                            double *n_real)
+{
+    take_up(p, c, i, i);
+    p->weight[i] *= 0.5;
+    *n_real += p->weight[i];
 }
 
 typedef struct {
@@ -57,6 +83,7 @@ typedef struct {
     clx_collide_scratch scratch;
     int64_t *start; ///< [n_cell + 1] in scratch.order
     int64_t *n_event;
+    double *n_real;
     bool *is_too_many;
 } step_context;
 
@@ -82,9 +109,8 @@ static void evolve(clx_block *block, double dt)
 /// Deals a cell of many kinds into random blocks again and again. In a block of m of the cell's n
 /// particles each meets m - 1 others at (n - 1) / (m - 1) times the rate, so that its expected
 /// number of collisions stays.
-static int64_t evolve_in_blocks(const clx_block *cell, double dt)
+static void evolve_in_blocks(clx_block *cell, double dt)
 {
-    int64_t n_event = 0;
     int64_t n = cell->n;
     double left = dt;
     while (left > 0.0 && n > 1) {
@@ -101,14 +127,18 @@ static int64_t evolve_in_blocks(const clx_block *cell, double dt)
             if (block.n < 2) {
                 continue;
             }
-            block.scale *= (double)(n - 1) / (double)(block.n - 1);
+            block.deal = (double)(n - 1) / (double)(block.n - 1);
+            block.scale *= block.deal;
+            block.n_event = 0;
+            block.n_real = 0.0;
             (void)clx_block_sort(&block, block.n);
             if (k == 0) {
                 const double rate = block.scale * clx_block_rates(&block) / (double)block.n;
                 delta = rate * left > MIXING ? MIXING / rate : left;
             }
             evolve(&block, delta);
-            n_event += block.n_event;
+            cell->n_event += block.n_event;
+            cell->n_real += block.n_real;
         }
         int64_t kept = 0;
         for (int64_t m = 0; m < n; ++m) {
@@ -119,7 +149,6 @@ static int64_t evolve_in_blocks(const clx_block *cell, double dt)
         n = kept;
         left -= delta;
     }
-    return n_event;
 }
 
 static void evolve_cell(const step_context *s, int32_t c)
@@ -138,21 +167,23 @@ static void evolve_cell(const step_context *s, int32_t c)
                        .frozen = s->scratch.frozen + begin,
                        .n = n,
                        .kind = s->scratch.kind + begin,
+                       .deal = 1.0,
                        .scale = s->config->alpha / s->cells->volume[c],
                        .needs = s->needs,
                        .rng = &rng};
-    if (n < 2) {
+    if (n < 1 || (n < 2 && !(s->config->self_collisions && s->population->weight != NULL))) {
         return;
     }
     shuffle(block.member, n, &rng);
     if (clx_block_sort(&block, limit > 0 ? limit : KIND_LIMIT)) {
         evolve(&block, s->dt);
-        s->n_event[c] = block.n_event;
     } else if (limit > 0) {
-        s->n_event[c] = evolve_in_blocks(&block, s->dt);
+        evolve_in_blocks(&block, s->dt);
     } else {
         s->is_too_many[c] = true;
     }
+    s->n_event[c] = block.n_event;
+    s->n_real[c] = block.n_real;
 }
 
 static void evolve_cells(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -204,6 +235,18 @@ done:
     return status;
 }
 
+static clast_status check_weights(const clast_population *p)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < p->n && p->weight != NULL; ++i) {
+        CLX_CHECK(p->weight[i] > 0.0 && isfinite(p->weight[i]), CLAST_E_FORMAT,
+                  "the weight of particle %lld is %g; it must be a number > 0", (long long)i + 1,
+                  p->weight[i]);
+    }
+done:
+    return status;
+}
+
 static clast_status run_step(step_context *s, int64_t *total)
 {
     clast_status status = CLAST_OK;
@@ -217,7 +260,7 @@ static clast_status run_step(step_context *s, int64_t *total)
         sum += s->n_event[c];
     }
     for (int32_t c = 0; c < s->cells->n && s->cells->events != NULL; ++c) {
-        s->cells->events[c] = (double)s->n_event[c];
+        s->cells->events[c] = s->n_real[c];
     }
     if (total != NULL) {
         *total = sum;
@@ -242,6 +285,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
               (unsigned long long)step);
     CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_USAGE, "the time step is %g", dt);
     CLX_TRY(check_cells(cells, config));
+    CLX_TRY(check_weights(population));
     CLX_CHECK((s.needs & CLAST_NEEDS_VELOCITY) == 0 || population->velocity != NULL, CLAST_E_CONFIG,
               "kernel ballistic needs the particles' velocities");
     CLX_TRY(clx_alloc(&s.scratch.order, n, sizeof *s.scratch.order));
@@ -250,6 +294,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
     CLX_TRY(clx_alloc(&s.scratch.kind, n, sizeof *s.scratch.kind));
     CLX_TRY(clx_alloc(&s.start, (int64_t)cells->n + 1, sizeof *s.start));
     CLX_TRY(clx_alloc(&s.n_event, cells->n, sizeof *s.n_event));
+    CLX_TRY(clx_alloc(&s.n_real, cells->n, sizeof *s.n_real));
     CLX_TRY(clx_alloc(&s.is_too_many, cells->n, sizeof *s.is_too_many));
     sort_by_cell(&s);
     CLX_TRY(run_step(&s, n_event));
@@ -260,6 +305,7 @@ done:
     clx_free(s.scratch.kind);
     clx_free(s.start);
     clx_free(s.n_event);
+    clx_free(s.n_real);
     clx_free(s.is_too_many);
     return status;
 }

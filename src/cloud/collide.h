@@ -4,9 +4,10 @@
 
 #include <clast/collide.h>
 
-/// Particles that are equal in all that the kernel sees.
+/// Particles that are equal in all that the rates see.
 typedef struct clx_kind {
     clast_collider as;
+    double weight;
     int64_t n;
     int64_t head; ///< one of its particles; the others follow in `next`, in random order
     double row;   ///< sum over the other particles of the kernel with them
@@ -29,10 +30,12 @@ typedef struct clx_block {
     int64_t n;
     clx_kind *kind;
     int64_t n_kind;
-    double scale; ///< alpha / V, times what dealing into blocks leaves out
+    double deal;  ///< what dealing into blocks leaves out; 1 without
+    double scale; ///< alpha / V, times deal
     uint32_t needs;
     clx_rng *rng;
-    int64_t n_event;
+    int64_t n_event; ///< drawn
+    double n_real;   ///< collisions of real particles
 } clx_block;
 
 /// Sorts the members into kinds; stops and returns false beyond `limit` kinds.
@@ -45,6 +48,11 @@ double clx_block_rates(clx_block *block);
 void clx_block_next_events(clx_block *block, double dt);
 void clx_block_poisson(clx_block *block, double dt);
 
-/// Merges two live particles; returns the one that lives on.
-int64_t clx_population_merge(clast_population *population, const clast_collide_config *config,
-                             int64_t i, int64_t j);
+/// Lets two live particles stick; weighted parcels as clast_collide says. `live` lists those that
+/// change and live on, in rising order; returns how many. *n_real grows by the collisions.
+int clx_population_stick(clast_population *population, const clast_collide_config *config,
+                         int64_t i, int64_t j, int64_t live[2], double *n_real);
+
+/// Lets the particles of one parcel stick to each other, two by two.
+void clx_population_pair_up(clast_population *population, const clast_collide_config *config,
+                            int64_t i, double *n_real);

@@ -3,37 +3,43 @@
 
 #include <math.h>
 
-static clast_collider as_seen(const clx_block *b, int64_t i)
+/// The kind of a particle, without members.
+static clx_kind as_seen(const clx_block *b, int64_t i)
 {
     const clast_population *p = b->population;
-    clast_collider seen = {.monomers = (double)p->monomers[i]};
+    const double weight = p->weight != NULL ? p->weight[i] : 1.0;
+    clx_kind kind = {.as.monomers = (double)p->monomers[i], .weight = weight};
+    clast_collider *seen = &kind.as;
     if ((b->needs & CLAST_NEEDS_RADIUS) != 0) {
-        seen.radius = p->radius[i];
+        seen->radius = p->radius[i];
     }
     if ((b->needs & CLAST_NEEDS_MASS) != 0) {
-        seen.mass = p->mass[i];
+        seen->mass = p->mass[i];
     }
     for (int32_t k = 0; k < p->dimension && (b->needs & CLAST_NEEDS_VELOCITY) != 0; ++k) {
-        seen.velocity[k] = p->velocity[i * p->dimension + k];
+        seen->velocity[k] = p->velocity[i * p->dimension + k];
     }
     if ((b->needs & CLAST_NEEDS_SPEED_RMS) != 0 && p->speed_rms != NULL) {
-        seen.speed_rms = p->speed_rms[i];
+        seen->speed_rms = p->speed_rms[i];
     }
-    return seen;
+    return kind;
 }
 
-static bool is_same(const clast_collider *a, const clast_collider *b)
+static bool is_same(const clx_kind *kind, const clx_kind *other)
 {
-    return a->monomers == b->monomers && a->radius == b->radius && a->mass == b->mass &&
-           a->velocity[0] == b->velocity[0] && a->velocity[1] == b->velocity[1] &&
-           a->velocity[2] == b->velocity[2] && a->speed_rms == b->speed_rms;
+    const clast_collider *a = &kind->as;
+    const clast_collider *b = &other->as;
+    return kind->weight == other->weight && a->monomers == b->monomers && a->radius == b->radius &&
+           a->mass == b->mass && a->velocity[0] == b->velocity[0] &&
+           a->velocity[1] == b->velocity[1] && a->velocity[2] == b->velocity[2] &&
+           a->speed_rms == b->speed_rms;
 }
 
 /// Number of the kind that equals `seen`; n_kind when there is none.
-static int64_t find_kind(const clx_block *b, const clast_collider *seen)
+static int64_t find_kind(const clx_block *b, const clx_kind *seen)
 {
     int64_t k = 0;
-    while (k < b->n_kind && !is_same(&b->kind[k].as, seen)) {
+    while (k < b->n_kind && !is_same(&b->kind[k], seen)) {
         ++k;
     }
     return k;
@@ -58,30 +64,42 @@ bool clx_block_sort(clx_block *b, int64_t limit)
 {
     b->n_kind = 0;
     for (int64_t m = 0; m < b->n; ++m) {
-        const clast_collider seen = as_seen(b, b->member[m]);
+        const clx_kind seen = as_seen(b, b->member[m]);
         const int64_t k = find_kind(b, &seen);
         if (k == b->n_kind) {
             if (k == limit) {
                 return false;
             }
-            b->kind[b->n_kind++] = (clx_kind){.as = seen};
+            b->kind[b->n_kind++] = seen;
         }
         put(b, k, b->member[m]);
     }
     return true;
 }
 
-static double kernel(const clx_block *b, const clast_collider *x, const clast_collider *y)
+/// Rate of a pair over scale.
+static double kernel(const clx_block *b, const clx_kind *x, const clx_kind *y)
 {
-    return clast_kernel_value(b->config->kernel, b->medium, x, y);
+    return fmax(x->weight, y->weight) *
+           clast_kernel_value(b->config->kernel, b->medium, &x->as, &y->as);
+}
+
+/// Twice the rate, over scale, at which the particles of one parcel collide: rows count pairs
+/// twice. A parcel is always in its own block, so its rate has no share of the deal.
+static double self_rate(const clx_block *b, const clx_kind *kind)
+{
+    if (!b->config->self_collisions || kind->weight <= 1.0) {
+        return 0.0;
+    }
+    return 2.0 * (kind->weight - 1.0) / b->deal *
+           clast_kernel_value(b->config->kernel, b->medium, &kind->as, &kind->as);
 }
 
 static double row_of(const clx_block *b, int64_t k)
 {
-    double row = 0.0;
+    double row = self_rate(b, &b->kind[k]);
     for (int64_t l = 0; l < b->n_kind; ++l) {
-        row +=
-            kernel(b, &b->kind[k].as, &b->kind[l].as) * (double)(b->kind[l].n - (l == k ? 1 : 0));
+        row += kernel(b, &b->kind[k], &b->kind[l]) * (double)(b->kind[l].n - (l == k ? 1 : 0));
     }
     return row;
 }
@@ -122,15 +140,20 @@ static int64_t pick_first(clx_block *b, double total)
     return last;
 }
 
+enum { WITHIN = -2 }; ///< in place of a second kind: the parcel's own particles
+
 /// Second kind: chance kernel x number of other particles of that kind.
 static int64_t pick_second(clx_block *b, int64_t first)
 {
-    double at = clx_rng_uniform(b->rng) * b->kind[first].row;
-    int64_t last = -1;
+    const double within = self_rate(b, &b->kind[first]);
+    double at = clx_rng_uniform(b->rng) * b->kind[first].row - within;
+    int64_t last = within > 0.0 ? WITHIN : -1;
+    if (at < 0.0) {
+        return last;
+    }
     for (int64_t k = 0; k < b->n_kind; ++k) {
         const int64_t n = b->kind[k].n - (k == first ? 1 : 0);
-        const double chance =
-            n > 0 ? (double)n * kernel(b, &b->kind[first].as, &b->kind[k].as) : 0.0;
+        const double chance = n > 0 ? (double)n * kernel(b, &b->kind[first], &b->kind[k]) : 0.0;
         if (chance > 0.0) {
             last = k;
             at -= chance;
@@ -143,10 +166,10 @@ static int64_t pick_second(clx_block *b, int64_t first)
 }
 
 /// Takes one particle of a kind out of all rows.
-static void unload(clx_block *b, const clast_collider *gone)
+static void unload(clx_block *b, const clx_kind *gone)
 {
     for (int64_t k = 0; k < b->n_kind; ++k) {
-        b->kind[k].row = fmax(0.0, b->kind[k].row - kernel(b, &b->kind[k].as, gone));
+        b->kind[k].row = fmax(0.0, b->kind[k].row - kernel(b, &b->kind[k], gone));
     }
 }
 
@@ -160,13 +183,13 @@ static void drop_if_empty(clx_block *b, int64_t kind)
 /// Puts a new aggregate into the block's kinds and rows.
 static void load(clx_block *b, int64_t particle)
 {
-    const clast_collider seen = as_seen(b, particle);
+    const clx_kind seen = as_seen(b, particle);
     for (int64_t k = 0; k < b->n_kind; ++k) {
-        b->kind[k].row += kernel(b, &b->kind[k].as, &seen);
+        b->kind[k].row += kernel(b, &b->kind[k], &seen);
     }
     const int64_t kind = find_kind(b, &seen);
     if (kind == b->n_kind) {
-        b->kind[b->n_kind++] = (clx_kind){.as = seen};
+        b->kind[b->n_kind++] = seen;
         put(b, kind, particle);
         b->kind[kind].row = row_of(b, kind);
     } else { // its row already counts the others of its kind, not itself: the loop above added one
@@ -174,14 +197,29 @@ static void load(clx_block *b, int64_t particle)
     }
 }
 
+static void one_self_event(clx_block *b, int64_t kind)
+{
+    const clx_kind gone = b->kind[kind];
+    const int64_t i = take(b, kind);
+    drop_if_empty(b, kind);
+    unload(b, &gone);
+    clx_population_pair_up(b->population, b->config, i, &b->n_real);
+    load(b, i);
+    ++b->n_event;
+}
+
 static bool one_event(clx_block *b, double total)
 {
     const int64_t first = pick_first(b, total);
     const int64_t second = first >= 0 ? pick_second(b, first) : -1;
+    if (second == WITHIN) {
+        one_self_event(b, first);
+        return true;
+    }
     if (second < 0) {
         return false;
     }
-    const clast_collider gone[2] = {b->kind[first].as, b->kind[second].as};
+    const clx_kind gone[2] = {b->kind[first], b->kind[second]};
     const int64_t i = take(b, first);
     const int64_t j = take(b, second);
     drop_if_empty(b, first > second ? first : second); // the higher number first: the lower stays
@@ -190,7 +228,11 @@ static bool one_event(clx_block *b, double total)
     }
     unload(b, &gone[0]);
     unload(b, &gone[1]);
-    load(b, clx_population_merge(b->population, b->config, i, j));
+    int64_t live[2];
+    const int n_live = clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
+    for (int k = 0; k < n_live; ++k) {
+        load(b, live[k]);
+    }
     ++b->n_event;
     return true;
 }
@@ -238,23 +280,31 @@ static int64_t owner_of(const clast_population *p, int64_t i)
     return i;
 }
 
+static int64_t pick_frozen(clx_block *b, int64_t kind)
+{
+    const int64_t at = b->kind[kind].head + clx_rng_below(b->rng, b->kind[kind].n);
+    return owner_of(b->population, b->frozen[at]);
+}
+
 /// One event of the frozen rates; a particle that has merged meanwhile stands for its aggregate.
 static bool frozen_event(clx_block *b, double total)
 {
     enum { MOST_TRIES = 1000 };
     for (int tries = 0; tries < MOST_TRIES; ++tries) {
+        int64_t live[2];
         const int64_t first = pick_first(b, total);
         const int64_t second = first >= 0 ? pick_second(b, first) : -1;
-        if (second < 0) {
+        if (second < 0 && second != WITHIN) {
             return false;
         }
-        const clx_kind *kind = b->kind;
-        const int64_t i = b->frozen[kind[first].head + clx_rng_below(b->rng, kind[first].n)];
-        const int64_t j = b->frozen[kind[second].head + clx_rng_below(b->rng, kind[second].n)];
-        const int64_t a = owner_of(b->population, i);
-        const int64_t c = owner_of(b->population, j);
-        if (a != c) {
-            (void)clx_population_merge(b->population, b->config, a, c);
+        const int64_t i = pick_frozen(b, first);
+        const int64_t j = second != WITHIN ? pick_frozen(b, second) : i;
+        if (second == WITHIN) {
+            clx_population_pair_up(b->population, b->config, i, &b->n_real);
+        } else if (i != j) {
+            (void)clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
+        }
+        if (second == WITHIN || i != j) {
             ++b->n_event;
             return true;
         }
@@ -276,7 +326,7 @@ static void keep_alive(clx_block *b)
 void clx_block_poisson(clx_block *b, double dt)
 {
     double left = dt;
-    while (left > 0.0 && b->n > 1) {
+    while (left > 0.0 && b->n > 0) {
         const double total = clx_block_rates(b);
         double busiest = 0.0;
         for (int64_t k = 0; k < b->n_kind; ++k) {

@@ -76,6 +76,9 @@ static double shear_turbulent(const clast_medium *m, const clast_collider *a,
                               const clast_collider *b)
 {
     const double r = contact(a, b);
+    if (m->shear_constant > 0.0) {
+        return m->shear_constant * sqrt(m->dissipation * m->density / m->viscosity) * r * r * r;
+    }
     return sqrt(8.0 * CLAST_PI / 15.0 * m->dissipation * m->density / m->viscosity) * r * r * r;
 }
 

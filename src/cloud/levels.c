@@ -58,6 +58,7 @@ static double percentile(const frequency *f, double p)
 void clx_levels_free(clx_levels *levels)
 {
     clx_free(levels->lambda);
+    clx_free(levels->lower);
     *levels = (clx_levels){0};
 }
 
@@ -76,6 +77,23 @@ static void collect(const frequency *filled, clx_levels *levels)
     }
 }
 
+/// The mirror image of collect.
+static void collect_lower(const frequency *filled, clx_levels *levels)
+{
+    const double q20 = percentile(filled, 0.2);
+    const double q40 = percentile(filled, 0.4);
+    int32_t below = 0;
+    for (int32_t c = 1; c <= filled->most && (double)c < q40; ++c) {
+        below = filled->bins[c] > 0 ? c : below;
+        if (filled->bins[c] > 0 && (double)c >= q20) {
+            levels->lower[levels->n_lower++] = c;
+        }
+    }
+    if (levels->n_lower == 0 && below > 0) {
+        levels->lower[levels->n_lower++] = below;
+    }
+}
+
 clast_status clx_levels_find(const int32_t *count, const uint8_t *active, int64_t n_bin,
                              clx_levels *levels)
 {
@@ -86,27 +104,30 @@ clast_status clx_levels_find(const int32_t *count, const uint8_t *active, int64_
     CLX_TRY(tally(count, active, n_bin, 0, &all));
     CLX_TRY(tally(count, active, n_bin, 1, &filled));
     CLX_TRY(clx_alloc(&made.lambda, (int64_t)filled.most + 1, sizeof *made.lambda));
+    CLX_TRY(clx_alloc(&made.lower, (int64_t)filled.most + 1, sizeof *made.lower));
     made.q20 = percentile(&all, 0.2);
     made.q60 = percentile(&filled, 0.6);
     made.q80 = percentile(&filled, 0.8);
     collect(&filled, &made);
+    collect_lower(&filled, &made);
     *levels = made;
-    made.lambda = NULL;
+    made = (clx_levels){0};
 done:
-    clx_free(made.lambda);
+    clx_levels_free(&made);
     clx_free(all.bins);
     clx_free(filled.bins);
     return status;
 }
 
 clast_status clx_levels_label(const int32_t *count, const uint8_t *active, int64_t n_bin,
-                              int32_t lambda, double q20, uint8_t *label)
+                              const clx_label_cut *at, uint8_t *label)
 {
     clast_status status = CLAST_OK;
     frequency cluster = {0};
     double cut[4];
     int n_cut = 0;
-    CLX_TRY(tally(count, active, n_bin, lambda, &cluster));
+    const int32_t least = at->is_strict ? at->lambda + 1 : at->lambda;
+    CLX_TRY(tally(count, active, n_bin, least, &cluster));
     for (int k = 1; k <= 4; ++k) {
         const double q = percentile(&cluster, 0.2 * k);
         if (n_cut == 0 || q > cut[n_cut - 1]) {
@@ -118,14 +139,15 @@ clast_status clx_levels_label(const int32_t *count, const uint8_t *active, int64
         if (active != NULL && active[b] == 0) {
             continue;
         }
-        if (count[b] >= lambda) {
+        if (count[b] >= least) {
             label[b] = 1;
             for (int k = 0; k < n_cut; ++k) {
                 label[b] = (uint8_t)(label[b] + (cut[k] < (double)count[b] ? 1 : 0));
             }
         } else if (count[b] == 0) {
             label[b] = CLX_LABEL_VOID;
-        } else if ((double)count[b] <= q20) {
+        } else if ((double)count[b] < at->under ||
+                   (!at->is_strict && (double)count[b] <= at->under)) {
             label[b] = CLX_LABEL_UNDER;
         }
     }

@@ -11,7 +11,17 @@ typedef struct clx_levels {
     int32_t n_lambda;
     int32_t *lambda; ///< [n_lambda] ascending: the distinct counts in (q60, q80]
     bool fallback;   ///< no count there: the smallest count above q60 was taken, if any
+    int32_t n_lower;
+    int32_t *lower; ///< [n_lower] ascending: the distinct counts in [Q20, Q40) of the bins that are
+                    ///< not empty, or else the greatest count below Q40, if any
 } clx_levels;
+
+/// What separates under, ambient and cluster bins.
+typedef struct clx_label_cut {
+    int32_t lambda;
+    double under;   ///< Q20, or a lower threshold
+    bool is_strict; ///< counts equal to a threshold are ambient
+} clx_label_cut;
 
 /// @param active  [n_bin] bins not selected in an earlier pass, or NULL for all
 /// @note n_lambda = 0 when no active bin holds more than q60
@@ -20,6 +30,6 @@ clast_status clx_levels_find(const int32_t *count, const uint8_t *active, int64_
 void clx_levels_free(clx_levels *levels);
 
 /// label [n_bin]: 1..5 for counts >= lambda, cut at the distinct 20/40/60/80 % of those counts; 6
-/// for 0 < count <= q20; 7 for 0; 0 else, and for bins that are not active.
+/// for 0 < count <= under; 7 for 0; 0 else, and for bins that are not active. Strict: > and <.
 clast_status clx_levels_label(const int32_t *count, const uint8_t *active, int64_t n_bin,
-                              int32_t lambda, double q20, uint8_t *label);
+                              const clx_label_cut *at, uint8_t *label);

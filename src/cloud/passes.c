@@ -166,56 +166,92 @@ done:
 }
 
 /// A row of the table of thresholds searched.
-static clast_status note_search(work *w, int32_t number, int32_t lambda, double score, double ideal)
+static clast_status note_search(work *w, int32_t number, const clx_label_cut *cut, bool is_lower,
+                                const double score[2])
 {
-    static const char *const name[4] = {"pass", "lambda", "score", "ideal_score"};
+    enum { N_COLUMN = 6 };
+    static const char *const name[N_COLUMN] = {"pass",  "lambda",      "lower",
+                                               "score", "ideal_score", "is_lower_search"};
     clast_status status = CLAST_OK;
     clast_table *table = w->search;
     const int64_t row = table->n_row;
-    const double value[4] = {number, (double)lambda * (double)w->passes->bins.n_bin / (double)w->n,
-                             score, ideal};
+    const double n_bin = (double)w->passes->bins.n_bin;
+    const double n = (double)w->n;
+    const double value[N_COLUMN] = {number,
+                                    (double)cut->lambda * n_bin / n,
+                                    cut->under * n_bin / n,
+                                    score[0],
+                                    score[1],
+                                    is_lower ? 1.0 : 0.0};
     if (table->n_column == 0) {
         CLX_TRY(clast_table_init(table, "search", 0));
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < N_COLUMN; ++k) {
             CLX_TRY(clast_table_add_number(table, name[k], "-", NULL));
         }
     }
     CLX_TRY(clast_table_resize(table, row + 1));
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < N_COLUMN; ++k) {
         table->column[k].number[row] = value[k];
     }
 done:
     return status;
 }
 
-/// The threshold whose expected score is nearest to the ideal one of its synthetic sample; labels
-/// go to w->best.
+/// The best cut so far.
+typedef struct {
+    clx_label_cut cut;
+    clx_ghost_plan plan;
+    double nearest; ///< |score / ideal - 1|
+} best_cut;
+
+/// Scores one cut; when it is the nearest to its ideal score, its labels go to w->best.
+static clast_status try_cut(work *w, const clx_label_cut *cut, bool is_lower, int32_t number,
+                            clast_pass *pass, best_cut *best)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n_bin = w->passes->bins.n_bin;
+    clx_ghost_plan here;
+    double score[2] = {0};
+    CLX_TRY(clx_levels_label(w->passes->bins.count, w->active, n_bin, cut, w->label));
+    CLX_TRY(score_of(w, w->label, &here, &score[0]));
+    if (w->config->ghost_samples > 0) {
+        CLX_TRY(sampled_score(w, w->label, &here, number, &score[0]));
+    }
+    score[1] = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
+    CLX_TRY(note_search(w, number, cut, is_lower, score));
+    if (here.n_ambient > 0 && fabs(score[0] - score[1]) / score[1] < best->nearest) {
+        best->nearest = fabs(score[0] - score[1]) / score[1];
+        best->cut = *cut;
+        best->plan = here;
+        pass->score = score[0];
+        pass->ideal = score[1];
+        memcpy(w->best, w->label, (size_t)n_bin);
+    }
+done:
+    return status;
+}
+
+/// The threshold whose expected score is nearest to the ideal one of its synthetic sample, then, if
+/// wanted, the lower threshold in the same way with that one.
 static clast_status search(work *w, const clx_levels *levels, int32_t number, clast_pass *pass,
                            clx_ghost_plan *plan)
 {
     clast_status status = CLAST_OK;
-    double nearest = INFINITY;
-    const int64_t n_bin = w->passes->bins.n_bin;
+    best_cut best = {.nearest = INFINITY};
+    clx_label_cut cut = {.under = levels->q20, .is_strict = w->config->strict};
     for (int32_t t = 0; t < levels->n_lambda; ++t) {
-        clx_ghost_plan here;
-        double score = 0.0;
-        CLX_TRY(clx_levels_label(w->passes->bins.count, w->active, n_bin, levels->lambda[t],
-                                 levels->q20, w->label));
-        CLX_TRY(score_of(w, w->label, &here, &score));
-        if (w->config->ghost_samples > 0) {
-            CLX_TRY(sampled_score(w, w->label, &here, number, &score));
-        }
-        const double ideal = clx_depth_ideal(&w->law, fmax(1.0, here.n_expected));
-        CLX_TRY(note_search(w, number, levels->lambda[t], score, ideal));
-        if (here.n_ambient > 0 && fabs(score - ideal) / ideal < nearest) {
-            nearest = fabs(score - ideal) / ideal;
-            pass->lambda_count = levels->lambda[t];
-            pass->score = score;
-            pass->ideal = ideal;
-            *plan = here;
-            memcpy(w->best, w->label, (size_t)n_bin);
-        }
+        cut.lambda = levels->lambda[t];
+        CLX_TRY(try_cut(w, &cut, false, number, pass, &best));
     }
+    cut.lambda = best.cut.lambda;
+    pass->n_lower = w->config->lower == CLAST_LOWER_SEARCH && cut.lambda > 0 ? levels->n_lower : 0;
+    for (int32_t t = 0; t < pass->n_lower; ++t) {
+        cut.under = levels->lower[t];
+        CLX_TRY(try_cut(w, &cut, true, number, pass, &best));
+    }
+    pass->lambda_count = best.plan.n_replaced > 0 ? best.cut.lambda : 0;
+    pass->lower = best.cut.under * (double)w->passes->bins.n_bin / (double)w->n;
+    *plan = best.plan;
 done:
     return status;
 }

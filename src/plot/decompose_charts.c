@@ -159,40 +159,53 @@ done:
     return status;
 }
 
+/// Ratios of one search as a line with points; returns the row behind it.
+static int64_t search_series(const clast_table *search, const double *ratio, int64_t begin,
+                             clast_series series[2])
+{
+    static const char *const legend[2][MAX_PASS_DRAWN] = {
+        {"pass 1", "pass 2", "pass 3", "pass 4", "pass 5", "pass 6"},
+        {"pass 1, lower", "pass 2, lower", "pass 3, lower", "pass 4, lower", "pass 5, lower",
+         "pass 6, lower"}};
+    const double *pass = clast_table_numbers(search, "pass");
+    const double *is_lower = clast_table_numbers(search, "is_lower_search");
+    const double *x = clast_table_numbers(search, is_lower[begin] > 0.0 ? "lower" : "lambda");
+    const int k = (int)pass[begin] - 1;
+    int64_t end = begin;
+    while (end < search->n_row && pass[end] == pass[begin] && is_lower[end] == is_lower[begin]) {
+        ++end;
+    }
+    series[0] = (clast_series){.kind = CLAST_SERIES_LINE,
+                               .label = legend[is_lower[begin] > 0.0 ? 1 : 0][k],
+                               .x = x + begin,
+                               .y = ratio + begin,
+                               .n = end - begin,
+                               .colour = k,
+                               .dashed = is_lower[begin] > 0.0};
+    series[1] = series[0];
+    series[1].label = NULL;
+    series[1].kind = CLAST_SERIES_POINTS;
+    return end;
+}
+
 static clast_status draw_score(const clast_decomposition *r, const char *path)
 {
-    static const char *const legend[MAX_PASS_DRAWN] = {"pass 1", "pass 2", "pass 3",
-                                                       "pass 4", "pass 5", "pass 6"};
     static const double one = 1.0;
     static const char *const mark = "ideal";
     clast_status status = CLAST_OK;
     const double *pass = clast_table_numbers(&r->search, "pass");
-    const double *lambda = clast_table_numbers(&r->search, "lambda");
     const double *score = clast_table_numbers(&r->search, "score");
     const double *ideal = clast_table_numbers(&r->search, "ideal_score");
-    clast_series series[2 * MAX_PASS_DRAWN];
+    clast_series series[4 * MAX_PASS_DRAWN];
     int32_t n_series = 0;
-    int64_t begin = 0;
     double *ratio = NULL;
     CLX_TRY(clx_alloc(&ratio, r->search.n_row, sizeof *ratio));
     for (int64_t i = 0; i < r->search.n_row; ++i) {
         ratio[i] = score[i] / ideal[i];
     }
-    for (int32_t k = 1; k <= MAX_PASS_DRAWN && begin < r->search.n_row; ++k) {
-        int64_t end = begin;
-        while (end < r->search.n_row && pass[end] == k) {
-            ++end;
-        }
-        const clast_series all = {.kind = CLAST_SERIES_LINE,
-                                  .x = lambda + begin,
-                                  .y = ratio + begin,
-                                  .n = end - begin,
-                                  .colour = k - 1};
-        series[n_series] = all;
-        series[n_series++].label = legend[k - 1];
-        series[n_series] = all;
-        series[n_series++].kind = CLAST_SERIES_POINTS;
-        begin = end;
+    for (int64_t begin = 0; begin < r->search.n_row && pass[begin] <= MAX_PASS_DRAWN;) {
+        begin = search_series(&r->search, ratio, begin, &series[n_series]);
+        n_series += 2;
     }
     const clast_chart chart = {.x = {.label = "threshold: density over the mean (-)"},
                                .y = {.label = "expected score over the ideal (-)"},

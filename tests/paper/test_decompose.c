@@ -54,8 +54,8 @@ static void check_labels(const char *set, const clx_bins *bins, const clx_levels
         int64_t bin = 0;
         assert_non_null(file);
         assert_non_null(fgets(line, sizeof line, file));
-        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin, levels->lambda[t], levels->q20,
-                                  label));
+        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin,
+                                  &(clx_label_cut){levels->lambda[t], levels->q20, false}, label));
         while (fgets(line, sizeof line, file) != NULL) {
             char *at = line;
             assert_int_equal(strtol(at, &at, 10), bin);
@@ -81,8 +81,8 @@ static void check_scores(const char *set, const clx_bins *bins, const clx_levels
     for (int32_t t = 0; t < levels->n_lambda; ++t) {
         char name[96];
         double score = 0.0;
-        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin, levels->lambda[t], levels->q20,
-                                  label));
+        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin,
+                                  &(clx_label_cut){levels->lambda[t], levels->q20, false}, label));
         const clx_ghost_plan plan = clx_ghosts_plan(bins->count, label, bins->n_bin);
         (void)snprintf(name, sizeof name, "lambda%d.N_expected", t);
         CHECK_REL(plan.n_expected, oracle_value(set, name), 1e-13);
@@ -114,8 +114,9 @@ static void check_cells(const char *set, const clx_bins *bins, const clx_levels 
     for (int t = 0; t < levels->n_lambda * 4; ++t) {
         char name[96];
         int32_t n_cell = 0;
-        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin, levels->lambda[t / 4],
-                                  levels->q20, label));
+        CHECK_OK(clx_levels_label(bins->count, NULL, bins->n_bin,
+                                  &(clx_label_cut){levels->lambda[t / 4], levels->q20, false},
+                                  label));
         for (int64_t b = 0; b < bins->n_bin; ++b) {
             tag[b] = label[b];
         }

@@ -27,7 +27,7 @@ static clast_population singles(int64_t n)
             velocity[3 * i + k] = (double)((i * 7 + k) % 11) - 5.0;
         }
     }
-    return (clast_population){n, 3, position, monomers, radius, mass, velocity, NULL, owner};
+    return (clast_population){n, 3, position, monomers, radius, mass, velocity, NULL, owner, NULL};
 }
 
 static clast_collide_config kernel(const char *name)
@@ -267,6 +267,123 @@ static void any_thread_count_gives_the_same_aggregates(void **state)
     clast_parallel_set_threads(0);
 }
 
+static double weight[MOST];
+
+static double total(const clast_population *p, int power)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        double term = p->monomers[i] > 0 ? p->weight[i] : 0.0;
+        for (int k = 0; k < power; ++k) {
+            term *= (double)p->monomers[i];
+        }
+        sum += term;
+    }
+    return sum;
+}
+
+/* 400 parcels of the weights 1 .. 4 stand for 1000 particles: with collisions within parcels they
+ * are all pairs of 1000, so that number and sum of squares meet the exact solutions of the constant
+ * and the additive kernel. Every whole particle stays: sums of weight times monomers and of
+ * momentum (whole numbers) are the same to the last bit. Tolerance: 4 standard errors, a few over
+ * 400 (parcels sample the size distribution), half a leap. */
+static void parcels_meet_the_exact_solutions(void **state)
+{
+    (void)state;
+    enum { N = 400, W = 1000, R = 60 };
+    static const char *const name[2] = {"constant", "additive"};
+    static const double t[2] = {1.0, 0.5};
+    const double exact[2][2] = {{1.0 / 1.5, 2.0}, {exp(-0.5), exp(1.0)}};
+    static double value[2][R];
+    const double volume = W;
+    for (int run = 0; run < 4; ++run) {
+        clast_collide_config c = kernel(name[run / 2]);
+        c.collisions = run % 2;
+        c.self_collisions = true;
+        c.keep_positions = true;
+        for (int r = 0; r < R; ++r) {
+            clast_population p = singles(N);
+            const clast_collide_cells cells = one_cell(&volume);
+            p.velocity = NULL;
+            p.weight = weight;
+            for (int i = 0; i < N; ++i) {
+                weight[i] = 1.0 + i % 4;
+            }
+            CHECK_OK(clast_collide(&p, &cells, t[run / 2], (uint64_t)r, &c, NULL));
+            assert_true(total(&p, 1) == W);
+            value[0][r] = total(&p, 0);
+            value[1][r] = total(&p, 2);
+        }
+        for (int q = 0; q < 2; ++q) {
+            const estimate e = estimate_of(value[q], R);
+            const double want = exact[run / 2][q];
+            const double leap = c.collisions == CLAST_COLLISIONS_POISSON ? 0.005 * W * want : 0.0;
+            const double finite = 4.0 * W / N * want * (q == 1 ? want : 1.0);
+            CHECK_ABS(e.mean, W * want, 4.0 * e.error + finite + leap);
+            assert_true(e.error > 0.0 && e.error < 0.03 * W * want);
+        }
+    }
+}
+
+/* Two parcels of 3 and 1: the rate of the event is K max(w) / V, and it leaves 2 singles and 1
+ * pair. In 4000 trials 1 - exp(-3 K t / V) collide (4 sd), momentum to the last bit. */
+static void a_heavy_parcel_keeps_what_did_not_collide(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    const double volume = 1.0;
+    int n_hit = 0;
+    clast_collide_config c = kernel("constant");
+    c.keep_positions = true;
+    for (int r = 0; r < N; ++r) {
+        clast_population p = singles(2);
+        const clast_collide_cells cells = one_cell(&volume);
+        int64_t n_event = 0;
+        p.weight = weight;
+        weight[0] = 3.0;
+        weight[1] = 1.0;
+        const double momentum = 3.0 * velocity[0] + velocity[3];
+        CHECK_OK(clast_collide(&p, &cells, 0.1, (uint64_t)r, &c, &n_event));
+        if (n_event == 1) {
+            assert_true(weight[0] == 2.0 && weight[1] == 1.0);
+            assert_true(monomers[0] == 1 && monomers[1] == 2 && owner[1] == 1);
+            CHECK_REL(radius[1], cbrt(2.0) * 1e-6, 1e-14);
+            CHECK_ABS(2.0 * velocity[0] + 2.0 * velocity[3], momentum, 1e-14);
+        }
+        n_hit += n_event > 0 ? 1 : 0;
+    }
+    const double chance = 1.0 - exp(-0.3);
+    CHECK_ABS((double)n_hit / N, chance, 4.0 * sqrt(chance * (1.0 - chance) / N));
+}
+
+/* Equal weights are particles of another number: the draws of weight 1. */
+static void unit_weights_change_nothing(void **state)
+{
+    (void)state;
+    static int64_t plain[300];
+    const double volume = 300.0;
+    const clast_collide_config c = kernel("additive");
+    for (int pass = 0; pass < 2; ++pass) {
+        clast_population p = singles(300);
+        const clast_collide_cells cells = one_cell(&volume);
+        for (int i = 0; i < 300; ++i) {
+            weight[i] = 1.0;
+        }
+        p.weight = pass == 1 ? weight : NULL;
+        CHECK_OK(clast_collide(&p, &cells, 0.4, 1, &c, NULL));
+        if (pass == 0) {
+            memcpy(plain, monomers, sizeof plain);
+        }
+    }
+    assert_memory_equal(plain, monomers, sizeof plain);
+    weight[4] = 0.0;
+    clast_population p = singles(300);
+    const clast_collide_cells cells = one_cell(&volume);
+    p.weight = weight;
+    CHECK_STATUS(clast_collide(&p, &cells, 0.4, 1, &c, NULL), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "weight of particle 5"));
+}
+
 static clast_status collide_once(void *context)
 {
     (void)context;
@@ -336,6 +453,9 @@ int main(void)
         cmocka_unit_test(no_event_is_lost_at_caps),
         cmocka_unit_test(radii_follow_their_law),
         cmocka_unit_test(blocks_have_the_rates_of_the_whole_cell),
+        cmocka_unit_test(parcels_meet_the_exact_solutions),
+        cmocka_unit_test(a_heavy_parcel_keeps_what_did_not_collide),
+        cmocka_unit_test(unit_weights_change_nothing),
         cmocka_unit_test(any_thread_count_gives_the_same_aggregates),
         cmocka_unit_test(every_refused_allocation_is_told),
         cmocka_unit_test(wrong_cells_are_refused),

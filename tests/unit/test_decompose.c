@@ -208,6 +208,90 @@ static void crossfit_has_no_bias_on_uniform_points(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
+/* The middle 36 % of a square at half the density of its rim: more bins are thin than the 20 % that
+ * the percentile takes (the score sees depths, so a hole and not a strip). Searched, the lower
+ * threshold lies above it and is the nearest of all rows to its ideal score. */
+static void a_lower_threshold_is_searched_like_the_upper_one(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    static double x[2 * N];
+    for (int i = 0; i < N; ++i) {
+        clx_rng rng = clx_rng_at(5, CLX_STREAM_TEST, (uint64_t)i);
+        double *p = x + 2 * i;
+        do {
+            p[0] = clx_rng_uniform(&rng);
+            p[1] = clx_rng_uniform(&rng);
+        } while (fabs(p[0] - 0.5) < 0.3 && fabs(p[1] - 0.5) < 0.3 && clx_rng_uniform(&rng) < 0.5);
+    }
+    const clast_cloud cloud = {.n = N, .dimension = 2, .x = x};
+    clast_decompose_config c = config_of(square);
+    clast_decomposition r[2] = {{0}, {0}};
+    set(&c, "variant", "fast");
+    set(&c, "mesh", "bins");
+    CHECK_OK(clast_decompose(&cloud, &c, &r[0]));
+    set(&c, "lower", "search");
+    CHECK_OK(clast_decompose(&cloud, &c, &r[1]));
+    const clast_pass *plain = &r[0].pass[0];
+    const clast_pass *found = &r[1].pass[0];
+    assert_int_equal(plain->n_lower, 0);
+    assert_true(found->n_lower > 1);
+    assert_int_equal(found->lambda_count, plain->lambda_count);
+    assert_true(found->lower > plain->lower);
+    double nearest = INFINITY;
+    for (int64_t i = 0; i < r[1].search.n_row; ++i) {
+        const double score = clast_table_numbers(&r[1].search, "score")[i];
+        nearest =
+            fmin(nearest, fabs(score / clast_table_numbers(&r[1].search, "ideal_score")[i] - 1.0));
+    }
+    CHECK_REL(fabs(found->score / found->ideal - 1.0), nearest, 1e-14);
+    assert_true(nearest < fabs(plain->score / plain->ideal - 1.0));
+    int64_t n_under[2] = {0};
+    for (int k = 0; k < 2; ++k) {
+        for (int32_t b = 0; b < r[k].cells.n; ++b) {
+            n_under[k] += r[k].cells.label[b] == 6 ? 1 : 0;
+        }
+        clast_decomposition_free(&r[k]);
+    }
+    assert_true(n_under[1] > n_under[0]);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Bins with exactly the threshold's count change sides, no others. */
+static void strict_thresholds_leave_ties_ambient(void **state)
+{
+    (void)state;
+    const clast_cloud cloud = cloud_of("s2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition r[2] = {{0}, {0}};
+    int n_tie = 0;
+    set(&c, "variant", "fast");
+    set(&c, "mesh", "bins");
+    for (int k = 0; k < 2; ++k) {
+        set(&c, "strict", k == 0 ? "false" : "true");
+        CHECK_OK(clast_decompose(&cloud, &c, &r[k]));
+    }
+    for (int k = 0; k < 2; ++k) {
+        const double unit = r[k].pass[0].lambda / r[k].pass[0].lambda_count;
+        const double under = r[k].pass[0].lower / unit;
+        for (int32_t b = 0; b < r[k].cells.n; ++b) {
+            const int64_t n = r[k].cells.count[b];
+            const bool above =
+                n > r[k].pass[0].lambda_count || (k == 0 && n == r[k].pass[0].lambda_count);
+            const bool below = (double)n < under - 1e-9 || (k == 0 && (double)n < under + 1e-9);
+            const int label = r[k].cells.label[b];
+            assert_true((label >= 1 && label <= 5) == above);
+            assert_true(label == 6 ? below && n > 0 : true);
+            assert_true(label == 0 ? !above && !below : true);
+            n_tie += label == 0 && n == r[k].pass[0].lambda_count ? 1 : 0;
+        }
+    }
+    assert_true(n_tie > 0);
+    clast_decomposition_free(&r[0]);
+    clast_decomposition_free(&r[1]);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
 static void the_inverse_map_leads_back(void **state)
 {
     (void)state;
@@ -266,6 +350,8 @@ int main(void)
         cmocka_unit_test(chosen_tests_and_statistics_vote),
         cmocka_unit_test(paper_prints_what_the_paper_printed),
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
+        cmocka_unit_test(a_lower_threshold_is_searched_like_the_upper_one),
+        cmocka_unit_test(strict_thresholds_leave_ties_ambient),
         cmocka_unit_test(the_inverse_map_leads_back),
         cmocka_unit_test(every_refused_allocation_is_told),
     };
