@@ -61,6 +61,9 @@ static void print_text(const clast_pack_result *r)
                  r->dem.mass);
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->converged ? " (still)" : "", (long long)r->dem.step, r->dem.time);
+    if (r->n_outside > 0) {
+        (void)printf("%-26s %d grains have left the container\n", "outside", r->n_outside);
+    }
     if (isfinite(r->porosity)) {
         (void)printf("%-26s %.4f between z = %.4g and %.4g mm\n", "bulk porosity", r->porosity,
                      1e3 * r->z_low, 1e3 * r->z_high);

@@ -24,7 +24,8 @@ typedef struct {
 #define FIELD(type, member) #member, offsetof(porosity_config, member), type
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
-     "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1 or periodic:X0,Y0,X1,Y1; none: the run's",
+     "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or mesh:FILE,UNIT; "
+     "none: the run's",
      ""},
     {FIELD(CLAST_FIELD_F64, floor), 0, -1e9, 1e9, "m", "height of the bottom, with --bed", NULL},
     {FIELD(CLAST_FIELD_CHOICE, method), CLAST_POROSITY_EXACT, 0, 1, "-",
@@ -51,7 +52,7 @@ static const clast_field fields[] = {
 };
 #undef FIELD
 
-enum { PORE_BINS = 50 };
+enum { PORE_BINS = 50, MOST_RUNS = 64 };
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -83,27 +84,40 @@ static clast_status from_spheres(const char *path, clast_assembly *assembly)
     return status;
 }
 
-/// The grains, and the run's own bed where it has one.
-static clast_status read_input(const char *input, clast_assembly *assembly, clast_bed *bed,
-                               bool *has_bed)
+/// A run that is measured.
+typedef struct {
+    clast_assembly assembly;
+    clast_bed bed;
+    clast_mesh surface;   ///< of the bed, or empty
+    clast_table contacts; ///< forces, without columns where the run does not know them
+    bool has_bed;
+} subject;
+
+static void subject_free(subject *s)
+{
+    clast_assembly_free(&s->assembly);
+    clast_mesh_free(&s->surface);
+    clast_table_free(&s->contacts);
+}
+
+/// The grains, and the run's own bed and contact forces where it has them.
+static clast_status read_input(const char *input, subject *s)
 {
     char path[4096];
     struct stat info;
-    clast_table table = {0};
     const bool is_folder = stat(input, &info) == 0 && S_ISDIR(info.st_mode);
     const int n = snprintf(path, sizeof path, is_folder ? "%s/state.h5" : "%s", input);
     if (n < 0 || (size_t)n >= sizeof path) {
         return cli_fail(CLAST_E_IO, "%s: the path is too long", input);
     }
-    *has_bed = false;
     if (!ends_with(path, ".h5")) {
-        return from_spheres(path, assembly);
+        return from_spheres(path, &s->assembly);
     }
-    const clast_status status = clast_state_read_assembly(path, assembly);
-    if (status == CLAST_OK && clast_state_read_table(path, "bed", &table) == CLAST_OK) {
-        *has_bed = clast_bed_from_table(&table, bed) == CLAST_OK;
+    const clast_status status = clast_state_read_assembly(path, &s->assembly);
+    if (status == CLAST_OK) {
+        s->has_bed = clast_bed_read(path, &s->bed, &s->surface) == CLAST_OK;
+        (void)clast_state_read_table(path, "contacts", &s->contacts); // other programs have none
     }
-    clast_table_free(&table);
     return status;
 }
 
@@ -121,6 +135,8 @@ typedef struct {
     clast_table local;        ///< without columns unless asked for, as the next
     clast_table radial;
     clast_pores pores;
+    clast_table stress; ///< without columns where forces are not known, as the next
+    clast_table stress_profile;
     clast_porosity_bulk bulk;
     double mean_coordination; ///< NAN where contacts are not known
 } findings;
@@ -133,6 +149,8 @@ static void findings_free(findings *f)
     clast_table_free(&f->local);
     clast_table_free(&f->radial);
     clast_pores_free(&f->pores);
+    clast_table_free(&f->stress);
+    clast_table_free(&f->stress_profile);
 }
 
 static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *bed, double gap,
@@ -155,10 +173,11 @@ static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *
     return status;
 }
 
-static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
-                            const clast_porosity_options *options, const porosity_config *config,
-                            findings *f)
+static clast_status measure(subject *s, const clast_porosity_options *options,
+                            const porosity_config *config, findings *f)
 {
+    clast_assembly *assembly = &s->assembly;
+    const clast_bed *bed = &s->bed;
     clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
     if (status == CLAST_OK) {
         status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
@@ -181,6 +200,12 @@ static clast_status measure(clast_assembly *assembly, const clast_bed *bed,
                                           {periodic ? bed->high[0] - bed->low[0] : 0.0,
                                            periodic ? bed->high[1] - bed->low[1] : 0.0}};
         status = clast_pores_measure(assembly, bed, z, &pores, &f->pores);
+    }
+    if (status == CLAST_OK && s->contacts.n_row > 0) {
+        status = clast_stress(&s->contacts, bed, z, &f->stress);
+        status = status == CLAST_OK
+                     ? clast_stress_profile(&s->contacts, bed, &f->profile, &f->stress_profile)
+                     : status;
     }
     return status;
 }
@@ -248,6 +273,13 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
         cli_json_number(fabric, f->fabric.column[0].text[k], f->fabric.column[1].number[k]);
     }
     (void)json_object_set_new(object, "fabric", fabric);
+    if (f->stress.n_column > 0) {
+        json_t *stress = json_object();
+        for (int64_t k = 0; k < f->stress.n_row; ++k) {
+            cli_json_number(stress, f->stress.column[0].text[k], f->stress.column[1].number[k]);
+        }
+        (void)json_object_set_new(object, "stress", stress);
+    }
     (void)json_object_set_new(object, "profile", rows);
     return object;
 }
@@ -259,23 +291,27 @@ static clast_status path_in(char path[4096], const char *folder, const char *nam
                              : cli_fail(CLAST_E_DISK, "%s: the path is too long", folder);
 }
 
+static clast_status make_folder(const char *folder)
+{
+    struct stat info;
+    if (mkdir(folder, 0777) != 0 && (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))) {
+        return cli_fail(CLAST_E_DISK, "cannot make the folder %s", folder);
+    }
+    return CLAST_OK;
+}
+
 static clast_status write_folder(const char *folder, const clast_assembly *assembly,
                                  const findings *f)
 {
     char path[4096];
-    clast_status status = CLAST_OK;
-    if (mkdir(folder, 0777) != 0) {
-        struct stat info;
-        if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
-            return cli_fail(CLAST_E_DISK, "cannot make the folder %s", folder);
-        }
-    }
+    clast_status status = make_folder(folder);
     const struct {
         const char *name;
         const clast_table *table;
     } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
                  {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
-                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes}};
+                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes},
+                 {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
             status = path_in(path, folder, files[k].name);
@@ -292,6 +328,12 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
         status = path_in(path, folder, "radial.svg");
         status = status == CLAST_OK ? clast_radial_chart_write(&f->radial, assembly->unit, path)
                                     : status;
+    }
+    if (status == CLAST_OK && f->stress_profile.n_column > 0) {
+        status = path_in(path, folder, "stress.svg");
+        status = status == CLAST_OK
+                     ? clast_stress_chart_write(&f->stress_profile, assembly->unit, path)
+                     : status;
     }
     if (status == CLAST_OK && f->pores.sizes.n_column > 0) {
         status = path_in(path, folder, "pores.svg");
@@ -341,28 +383,31 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
                      f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
     }
+    for (int64_t k = 0; k < f->stress.n_row; ++k) {
+        (void)printf("%-20s %.4g %s   %s\n", f->stress.column[0].text[k],
+                     f->stress.column[1].number[k], f->stress.column[2].text[k],
+                     f->stress.column[3].text[k]);
+    }
     if (common->output != NULL) {
         (void)printf("tables and profile.svg are in %s\n", common->output);
     }
     return CLAST_OK;
 }
 
-static clast_status run(const cli_common *common, void *context)
+/// Reads a run and measures it.
+static clast_status measure_run(const char *input, const porosity_config *config, subject *s,
+                                findings *found)
 {
-    const porosity_config *config = context;
-    clast_assembly assembly = {0};
-    clast_bed bed = {0};
-    bool has_bed = false;
-    findings found = {0};
-    clast_status status = read_input(common->argument[0], &assembly, &bed, &has_bed);
+    clast_status status = read_input(input, s);
     if (status == CLAST_OK && config->bed[0] != '\0') {
-        status = clast_bed_parse(config->bed, &bed);
-        bed.floor = config->floor;
-    } else if (status == CLAST_OK && !has_bed) {
+        clast_mesh_free(&s->surface);
+        status = clast_bed_load(config->bed, &s->bed, &s->surface);
+        s->bed.floor = s->bed.kind == CLAST_BED_MESH ? s->bed.floor : config->floor;
+    } else if (status == CLAST_OK && !s->has_bed) {
         status = cli_fail(CLAST_E_USAGE,
                           "%s does not say what holds the grains; give --bed, such "
                           "as cylinder:52mm",
-                          common->argument[0]);
+                          input);
     }
     clast_porosity_options options = clast_porosity_options_default();
     options.method = (clast_porosity_method)config->method;
@@ -371,26 +416,136 @@ static clast_status run(const cli_common *common, void *context)
     options.at_slice = config->at_slice;
     if (config->layer > 0.0) {
         options.layer = config->layer;
-    } else if (strcmp(assembly.unit, "m") != 0) {
-        options.layer = 0.1 * mean_diameter(&assembly);
+    } else if (strcmp(s->assembly.unit, "m") != 0) {
+        options.layer = 0.1 * mean_diameter(&s->assembly);
     }
-    if (status == CLAST_OK) {
-        status = measure(&assembly, &bed, &options, config, &found);
+    return status == CLAST_OK ? measure(s, &options, config, found) : status;
+}
+
+/// What several runs have in common.
+typedef struct {
+    int32_t n;
+    clast_table profile[MOST_RUNS];
+    double bulk[MOST_RUNS], coordination[MOST_RUNS];
+    char unit[16];
+    clast_table band;
+} ensemble;
+
+static clast_status gather(const cli_common *common, const porosity_config *config, ensemble *e)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
+        subject s = {0};
+        findings found = {0};
+        status = measure_run(common->argument[i], config, &s, &found);
+        if (status == CLAST_OK && i > 0 && strcmp(s.assembly.unit, e->unit) != 0) {
+            status = cli_fail(CLAST_E_USAGE, "%s is in %s, the runs before in %s",
+                              common->argument[i], s.assembly.unit, e->unit);
+        }
+        if (status == CLAST_OK) {
+            (void)snprintf(e->unit, sizeof e->unit, "%s", s.assembly.unit);
+            e->bulk[i] = found.bulk.porosity;
+            e->coordination[i] = found.mean_coordination;
+            e->profile[i] = found.profile;
+            found.profile = (clast_table){0};
+            e->n = i + 1;
+        }
+        findings_free(&found);
+        subject_free(&s);
     }
+    return status == CLAST_OK ? clast_porosity_mean_profile(e->n, e->profile, &e->band) : status;
+}
+
+static json_t *mean_json(const clast_mean *m)
+{
+    json_t *object = json_object();
+    cli_json_number(object, "mean", m->mean);
+    cli_json_number(object, "deviation", m->deviation);
+    cli_json_number(object, "low", m->low);
+    cli_json_number(object, "high", m->high);
+    return object;
+}
+
+static clast_status print_several(const cli_common *common, const ensemble *e)
+{
+    const clast_mean bulk = clast_mean_of(e->n, e->bulk);
+    const clast_mean coordination = clast_mean_of(e->n, e->coordination);
+    if (common->json) {
+        json_t *object = json_object();
+        json_t *runs = json_array();
+        for (int32_t i = 0; i < e->n; ++i) {
+            json_t *run = json_object();
+            cli_json_text(run, "run", common->argument[i]);
+            cli_json_number(run, "bulk", e->bulk[i]);
+            cli_json_number(run, "coordination", e->coordination[i]);
+            (void)json_array_append_new(runs, run);
+        }
+        cli_json_count(object, "n_run", e->n);
+        (void)json_object_set_new(object, "runs", runs);
+        (void)json_object_set_new(object, "bulk", mean_json(&bulk));
+        (void)json_object_set_new(object, "coordination", mean_json(&coordination));
+        return cli_print_json(object);
+    }
+    for (int32_t i = 0; i < e->n; ++i) {
+        (void)printf("%-32s %.6f\n", common->argument[i], e->bulk[i]);
+    }
+    (void)printf("bulk porosity       %.6f +- %.6f   mean and deviation of %d runs\n", bulk.mean,
+                 bulk.deviation, e->n);
+    (void)printf("                    %.6f to %.6f   95 %% interval of the mean\n", bulk.low,
+                 bulk.high);
+    if (isfinite(coordination.mean)) {
+        (void)printf("mean coordination   %.4f +- %.4f\n", coordination.mean,
+                     coordination.deviation);
+    }
+    return CLAST_OK;
+}
+
+static clast_status run_several(const cli_common *common, const porosity_config *config)
+{
+    ensemble e = {0};
+    char path[4096];
+    clast_status status = gather(common, config, &e);
     if (status == CLAST_OK && common->output != NULL) {
-        status = write_folder(common->output, &assembly, &found);
+        status = make_folder(common->output);
+        status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.csv") : status;
+        status = status == CLAST_OK ? clast_table_write_csv(&e.band, path) : status;
+        status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.svg") : status;
+        status =
+            status == CLAST_OK ? clast_porosity_band_chart_write(&e.band, e.unit, path) : status;
     }
     if (status == CLAST_OK) {
-        status = print(common, config, &assembly, &found);
+        status = print_several(common, &e);
+    }
+    for (int32_t i = 0; i < e.n; ++i) {
+        clast_table_free(&e.profile[i]);
+    }
+    clast_table_free(&e.band);
+    return status;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    const porosity_config *config = context;
+    subject s = {0};
+    findings found = {0};
+    if (common->n_argument > 1) {
+        return run_several(common, config);
+    }
+    clast_status status = measure_run(common->argument[0], config, &s, &found);
+    if (status == CLAST_OK && common->output != NULL) {
+        status = write_folder(common->output, &s.assembly, &found);
+    }
+    if (status == CLAST_OK) {
+        status = print(common, config, &s.assembly, &found);
     }
     findings_free(&found);
-    clast_assembly_free(&assembly);
+    subject_free(&s);
     return status;
 }
 
 const cli_command cli_porosity = {
     .name = "porosity",
-    .arguments = "RUN",
+    .arguments = "RUN [RUN...]",
     .summary = "profile and bulk porosity of a bed, by true shapes or as published",
     .details =
         "RUN is a run's folder, its state.h5, or a CSV of spheres (x, y, z, radius).\n"
@@ -399,6 +554,10 @@ const cli_command cli_porosity = {
         "The bed ends where n(z), from above, falls through --cut; bulk is the porosity between\n"
         "floor + trim and top - trim (Rettinger et al., section 4.4, eq. 16). As published:\n"
         "  cylinder  --method spheres                 periodic  --method spheres --trim 31.5mm\n"
+        "Several RUNs are realisations of one bed: mean, deviation, 95 % interval; -o FOLDER has "
+        "the\n"
+        "mean profile with its band. Runs of clast pack know their contact forces: stress (Love,\n"
+        "Weber) between the same heights, and by height in stress_profile.csv.\n"
         "-o FOLDER writes profile.csv, profile.svg, fabric.csv (directions of contacts and "
         "grains),\n"
         "coordination.csv where contacts are known, local.csv with --local, radial.csv and .svg "
@@ -407,7 +566,7 @@ const cli_command cli_porosity = {
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,
-    .n_max = 1,
+    .n_max = MOST_RUNS,
     .writes_folder = true,
     .run = run,
 };

@@ -8,6 +8,7 @@
 #include <clast/aggregate_fit_file.h>
 #include <clast/aggregate_run.h>
 #include <clast/assembly.h>
+#include <clast/bed_file.h>
 #include <clast/bvh.h>
 #include <clast/chart.h>
 #include <clast/cloud.h>
@@ -57,6 +58,7 @@
 #include <clast/porosity_model.h>
 #include <clast/porosity_model_file.h>
 #include <clast/printable.h>
+#include <clast/realisations.h>
 #include <clast/reform.h>
 #include <clast/render.h>
 #include <clast/report.h>
@@ -70,6 +72,7 @@
 #include <clast/statistics.h>
 #include <clast/statistics_charts.h>
 #include <clast/status.h>
+#include <clast/stress.h>
 #include <clast/structure.h>
 #include <clast/study.h>
 #include <clast/synthesize.h>

@@ -43,6 +43,8 @@ typedef struct clast_pack_config {
     double density; ///< [kg/m3]
     double mass;    ///< wanted [kg]
     uint64_t seed;
+    char *container;      ///< surface that holds the grains in place of domain; "": none
+    char *container_unit; ///< of its coordinates
 
     int32_t generator;
     double spacing;               ///< h_g; 0: the published one of the curve, or as grains need [m]
@@ -77,7 +79,9 @@ typedef struct clast_pack_input {
     const clast_grading *grading;
     const clast_curve *curve; ///< wanted, or NULL when sizes follow no sieve curve
     int32_t n_shape;
-    const clast_shape *shape; ///< [n_shape], any size
+    const clast_shape *shape;           ///< [n_shape], any size
+    const clast_mesh *container;        ///< walls [m], or NULL
+    const clast_mesh *container_closed; ///< the same with its holes covered (clast_bed_close)
 } clast_pack_input;
 
 /// A packing under way. Opaque.
@@ -121,6 +125,7 @@ typedef struct clast_pack_result {
     int32_t n_fill;
     double wall_s, step_s; ///< clock of the run; of the stepping alone
     double grain_steps;    ///< sum over steps of the grains that were there
+    int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
     double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
@@ -131,7 +136,7 @@ CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_res
 CLAST_API void clast_pack_result_free(clast_pack_result *result);
 
 /// Where the grains lie, for porosities.
-CLAST_API clast_bed clast_pack_bed(const clast_pack_config *config);
+CLAST_API clast_bed clast_pack_bed(const clast_pack *pack); ///< borrows the container
 CLAST_API clast_porosity_options clast_pack_porosity(const clast_pack_config *config);
 
 /// Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J,

@@ -10,6 +10,7 @@ typedef struct clast_pack_source {
     clast_shape *shape; ///< [n_shape]
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
+    clast_mesh container, container_closed;
     clast_pack_input input;
 } clast_pack_source;
 

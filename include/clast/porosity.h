@@ -6,17 +6,32 @@
 typedef enum {
     CLAST_BED_CYLINDER, ///< vertical, about (centre[0], centre[1])
     CLAST_BED_BOX,      ///< between vertical walls
-    CLAST_BED_PERIODIC  ///< box that repeats in x and y: grains count whole, wherever they poke out
+    CLAST_BED_PERIODIC, ///< box that repeats in x and y: grains count whole, wherever they poke out
+    CLAST_BED_MESH      ///< inside of a closed surface
 } clast_bed_kind;
 
 /// The container that a porosity refers to; z points up.
 typedef struct clast_bed {
     clast_bed_kind kind;
-    double centre[2];       ///< cylinder [m]
-    double radius;          ///< cylinder [m]
-    double low[2], high[2]; ///< box and periodic [m]
-    double floor;           ///< height of the bottom [m]
+    double centre[2];          ///< cylinder [m]
+    double radius;             ///< cylinder [m]
+    double low[2], high[2];    ///< box and periodic; bounds of a surface [m]
+    double floor;              ///< height of the bottom [m]
+    const clast_mesh *surface; ///< mesh: closed and outward; borrowed
 } clast_bed;
+
+/// The closed, outward surface of a container that may have holes: each is covered.
+///
+/// @param closed  empty; filled on success
+/// @return CLAST_E_GEOMETRY if it cannot be closed, or encloses nothing
+CLAST_API clast_status clast_bed_close(const clast_mesh *container, clast_mesh *closed);
+
+/// The inside of such a surface as a bed; its floor is the lowest point.
+CLAST_API clast_bed clast_bed_of_surface(const clast_mesh *closed);
+
+/// Volume between the heights edge[k] and edge[k + 1] [m3].
+CLAST_API void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *edge,
+                                 double *volume);
 
 /// Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1" or "periodic:X0,Y0,X1,Y1",
 /// each number with an optional unit; the floor is at 0.
@@ -33,7 +48,7 @@ CLAST_API clast_status clast_bed_table(const clast_bed *bed, clast_table *table)
 /// The bed of such a table; CLAST_E_FORMAT when it is none.
 CLAST_API clast_status clast_bed_from_table(const clast_table *table, clast_bed *bed);
 
-/// Horizontal area [m2].
+/// Horizontal area; of a surface its volume over its height [m2].
 CLAST_API double clast_bed_area(const clast_bed *bed);
 
 typedef enum {

@@ -16,3 +16,11 @@ CLAST_API clast_status clast_radial_chart_write(const clast_table *radial, const
 /// Draws the share of pore space nearer than delta to a grain.
 CLAST_API clast_status clast_pore_chart_write(const clast_table *pores, const char *unit,
                                               const char *path);
+
+/// Mean profile of several runs with its interval, of clast_porosity_mean_profile.
+CLAST_API clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
+                                                       const char *path);
+
+/// Normal stresses over height, of clast_stress_profile.
+CLAST_API clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
+                                                const char *path);

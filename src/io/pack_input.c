@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
+#include "io/bed_tables.h"
 #include "io/shape_word.h"
 #include <clast/grading_file.h>
 #include <clast/hull.h>
@@ -23,6 +24,8 @@ void clast_pack_unload(clast_pack_source *source)
     }
     clx_free(source->shape);
     clx_free(source->hull);
+    clast_mesh_free(&source->container);
+    clast_mesh_free(&source->container_closed);
     clast_grading_destroy(source->grading);
     clast_curve_free(&source->curve);
     *source = (clast_pack_source){0};
@@ -128,6 +131,21 @@ done:
     return status;
 }
 
+static clast_status read_container(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    if (config->container[0] == '\0') {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_container_read(config->container, config->container_unit, &made->container));
+    CLX_TRY(clast_bed_close(&made->container, &made->container_closed));
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("container");
+    }
+    return status;
+}
+
 clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
 {
     clast_status status = CLAST_OK;
@@ -154,6 +172,11 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
                                     .curve = made.curve.n_class > 0 ? &source->curve : NULL,
                                     .n_shape = made.n_shape,
                                     .shape = made.shape};
+    CLX_TRY(read_container(config, &made));
+    if (made.container.n_tri > 0) { // borrowed from where the source ends up
+        made.input.container = &source->container;
+        made.input.container_closed = &source->container_closed;
+    }
     *source = made;
     made = (clast_pack_source){0};
 done:
@@ -179,6 +202,7 @@ static const char *curve_file(const char *text)
 int32_t clast_pack_n_file(const clast_pack_config *config)
 {
     int32_t n = curve_file(config->curve) != NULL ? 1 : 0;
+    n += config->container[0] != '\0' ? 1 : 0;
     for (int32_t i = 0; i < config->shapes.n; ++i) {
         n += is_shape_file(config->shapes.item[i]) ? 1 : 0;
     }
@@ -192,6 +216,10 @@ const char *clast_pack_file(const clast_pack_config *config, int32_t i, const ch
         if (is_shape_file(config->shapes.item[k]) && i-- == 0) {
             return config->shapes.item[k];
         }
+    }
+    *role = "container";
+    if (config->container[0] != '\0' && i-- == 0) {
+        return config->container;
     }
     *role = "curve";
     return curve_file(config->curve);

@@ -3,6 +3,7 @@
 #include "io/pack_state.h"
 
 #include "base/alloc.h"
+#include "io/bed_tables.h"
 #include "io/checkpoint.h"
 #include "io/state.h"
 #include "pack/saved.h"
@@ -58,16 +59,21 @@ static clast_status build(const char *config, clast_pack *pack, clx_h5 **h5)
     clast_status status = CLAST_OK;
     clx_pack_saved saved = {0};
     clast_assembly grains = {0};
-    clast_table table[2] = {{0}, {0}};
-    clast_state state = {.assembly = &grains, .n_table = 2, .table = table};
+    clast_table table[5] = {{0}, {0}, {0}, {0}, {0}};
+    clast_state state = {.assembly = &grains, .n_table = 3, .table = table};
     clx_h5 *made = NULL;
-    const clast_bed bed = clast_pack_bed(&pack->config);
+    const clast_bed bed = clast_pack_bed(pack);
     CLX_TRY(clx_pack_save(pack, &saved));
     CLX_TRY(clast_dem_assembly(pack->dem, &grains));
     saved.count[CLX_PACK_COUNTS - 1] = grains.n_shape;
     CLX_TRY(clx_alloc_text(&state.config, config));
     CLX_TRY(clast_bed_table(&bed, &table[0]));
     table[1] = *saved.series; // borrowed
+    CLX_TRY(clast_dem_contact_table(pack->dem, &table[2]));
+    if (bed.kind == CLAST_BED_MESH) {
+        CLX_TRY(clx_bed_surface_tables(bed.surface, &table[3]));
+        state.n_table = 5;
+    }
     CLX_TRY(clx_h5_create(&made));
     CLX_TRY(clx_state_put(made, &state));
     CLX_TRY(put_pack(made, &saved));
@@ -77,6 +83,9 @@ done:
     clx_h5_close(made);
     clx_free(state.config);
     clast_table_free(&table[0]);
+    for (int k = 2; k < 5; ++k) {
+        clast_table_free(&table[k]);
+    }
     clast_assembly_free(&grains);
     clx_dem_saved_free(&saved.dem);
     return status;

@@ -51,6 +51,10 @@ const clast_field clast_pack_fields[] = {
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)"),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL},
+    TEXT(container, "",
+         "surface, closed or open, that holds the grains in place of domain, width, depth and "
+         "height; grains are made inside of it"),
+    TEXT(container_unit, "", "length unit of its coordinates"),
 
     CLX_DEM_FIELDS(clast_pack_config, dem.),
 

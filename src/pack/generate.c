@@ -207,13 +207,14 @@ done:
 double clx_pack_fill_low(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;
-    return c->dem.height * (p->n_fill == 0 && c->first_low >= 0.0 ? c->first_low : c->fill_low);
+    return p->base + p->tall * (p->n_fill == 0 && c->first_low >= 0.0 ? c->first_low : c->fill_low);
 }
 
 static double fill_high(const clast_pack *p)
 {
     const clast_pack_config *c = &p->config;
-    return c->dem.height * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
+    return p->base +
+           p->tall * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
 }
 
 /// Where the next grain of a fill may go.
@@ -242,8 +243,8 @@ static bool lattice_point(const clast_pack *p, const filling *f, int64_t k, doub
     const int64_t i = k % nx;
     const int64_t j = k / nx % ny;
     const int64_t l = k / (nx * ny);
-    x[0] = ((double)i - 0.5 * (double)(nx - 1)) * step[0];
-    x[1] = ((double)j - 0.5 * (double)(ny - 1)) * step[1];
+    x[0] = p->middle[0] + ((double)i - 0.5 * (double)(nx - 1)) * step[0];
+    x[1] = p->middle[1] + ((double)j - 0.5 * (double)(ny - 1)) * step[1];
     x[2] = f->low + 0.5 * h + (double)l * step[2];
     if (is_hcp) {
         x[0] += (j + l) % 2 != 0 ? 0.25 * h : -0.25 * h;
@@ -257,6 +258,9 @@ static bool is_inside(const clast_pack *p, const double x[3], double radius)
 {
     const clast_dem_config *d = &p->config.dem;
     const double depth = d->depth > 0.0 ? d->depth : d->width;
+    if (p->inside != NULL) {
+        return clx_pack_holds(p, x, radius);
+    }
     if (d->domain == CLAST_DEM_CYLINDER) {
         return sqrt(x[0] * x[0] + x[1] * x[1]) + radius <= 0.5 * d->width;
     }
@@ -296,7 +300,7 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
         }
     }
     // a wide grain may fit between walls where the lattice has no point: on the axis
-    v3_set(x, 0.0, 0.0, f->low + room);
+    v3_set(x, p->middle[0], p->middle[1], f->low + room);
     if (f->n == 0 && is_inside(p, x, radius) && x[2] + radius <= f->high) {
         f->next = 0;
         f->n_wide = 1;
@@ -309,20 +313,22 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
 static bool place_on_shelf(const clast_pack *p, filling *f, double radius, double x[3])
 {
     const clast_dem_config *d = &p->config.dem;
-    const double half[2] = {0.5 * d->width, 0.5 * (d->depth > 0.0 ? d->depth : d->width)};
+    const double low[2] = {p->middle[0] - 0.5 * d->width,
+                           p->middle[1] - 0.5 * (d->depth > 0.0 ? d->depth : d->width)};
+    const double high[2] = {2.0 * p->middle[0] - low[0], 2.0 * p->middle[1] - low[1]};
     const double size = 2.02 * radius;
     for (int tries = 0; tries < 100000; ++tries) {
         if (f->z + size > f->high) {
             return false;
         }
-        if (f->y + size > half[1]) { // layer is full
+        if (f->y + size > high[1]) { // layer is full
             f->z += f->layer;
-            f->y = -half[1];
-            f->x = -half[0];
+            f->y = low[1];
+            f->x = low[0];
             f->row = f->layer = 0.0;
-        } else if (f->x + size > half[0]) { // row is full
+        } else if (f->x + size > high[0]) { // row is full
             f->y += f->row > 0.0 ? f->row : 0.25 * radius;
-            f->x = -half[0];
+            f->x = low[0];
             f->row = 0.0;
         } else {
             v3_set(x, f->x + 0.5 * size, f->y + 0.5 * size, f->z + 0.5 * size);
@@ -382,8 +388,8 @@ clast_status clx_pack_fill(clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_dem_config *d = &p->config.dem;
     filling f = {.low = clx_pack_fill_low(p), .high = fill_high(p)};
-    f.x = -0.5 * d->width;
-    f.y = -0.5 * (d->depth > 0.0 ? d->depth : d->width);
+    f.x = p->middle[0] - 0.5 * d->width;
+    f.y = p->middle[1] - 0.5 * (d->depth > 0.0 ? d->depth : d->width);
     f.z = f.low;
     CLX_TRY(fill_region(p, &f));
     CLX_TRY(clast_dem_add_grains(p->dem, f.n, f.grain));

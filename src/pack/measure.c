@@ -38,7 +38,15 @@ clast_status clx_pack_series_row(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     clast_dem_measures m;
+    int32_t lost = -1;
     const int64_t row = p->series.n_row;
+    if (p->is_held && clx_pack_n_outside(p, &lost) > 0) {
+        return clx_fail(CLAST_E_CONVERGE,
+                        "grain %d has passed the walls of the closed container by step %lld: it "
+                        "was too fast, or pressed too hard, for walls without thickness; take a "
+                        "shorter collision_time and time_step",
+                        lost, (long long)clast_dem_n_step(p->dem));
+    }
     clast_dem_measure(p->dem, &m);
     const bool is_empty = m.n_grain == 0;
     const double value[N_COLUMN] = {(double)m.step,
@@ -96,7 +104,7 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     clast_assembly a = {0};
     clast_table profile = {0};
     clast_porosity_bulk bulk = {0};
-    const clast_bed bed = clast_pack_bed(&p->config);
+    const clast_bed bed = clast_pack_bed(p);
     const clast_porosity_options o = clast_pack_porosity(&p->config);
     r->porosity = r->z_low = r->z_high = (double)NAN;
     for (int k = 0; k < 2; ++k) {
@@ -137,7 +145,9 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .grain_steps = pack->grain_steps};
+    int32_t first = -1;
     clast_dem_measure(pack->dem, &r.dem);
+    r.n_outside = clx_pack_n_outside(pack, &first);
     const clast_status status = measure_bed(pack, &r);
     if (status == CLAST_OK) {
         *result = r;

@@ -15,9 +15,14 @@ const char *clast_pack_phase_name(clast_pack_phase phase)
     return names[phase];
 }
 
-clast_bed clast_pack_bed(const clast_pack_config *config)
+clast_bed clast_pack_bed(const clast_pack *pack)
 {
-    const clast_dem_config *d = &config->dem;
+    const clast_dem_config *d = &pack->config.dem;
+    if (pack->input.container_closed != NULL) {
+        clast_bed bed = clast_bed_of_surface(pack->input.container_closed);
+        bed.floor = pack->base;
+        return bed;
+    }
     const double depth = d->depth > 0.0 ? d->depth : d->width;
     return (clast_bed){.kind = d->domain == CLAST_DEM_CYLINDER   ? CLAST_BED_CYLINDER
                                : d->domain == CLAST_DEM_PERIODIC ? CLAST_BED_PERIODIC
@@ -40,21 +45,23 @@ clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
 }
 
 /// The bed at a porosity of 0.5 must stay below the place where grains are made.
-static clast_status check_room(const clast_pack_config *c)
+static clast_status check_room(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
-    const clast_bed bed = clast_pack_bed(c);
-    CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN, CLAST_E_CONFIG,
-              "a packing needs sides: domain cylinder, periodic or box");
-    CLX_CHECK(c->dem.floor, CLAST_E_CONFIG, "a packing needs a floor");
+    const clast_pack_config *c = &p->config;
+    const clast_bed bed = clast_pack_bed(p);
+    const double edge[2] = {p->base, p->base + c->fill_low * p->tall};
+    double room = 0.0;
+    CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
+              "a packing needs sides: domain cylinder, periodic or box, or a container");
+    CLX_CHECK(c->dem.floor || p->inside != NULL, CLAST_E_CONFIG, "a packing needs a floor");
     CLX_CHECK(c->fill_low < c->fill_high, CLAST_E_CONFIG, "fill_low %g is not below fill_high %g",
               c->fill_low, c->fill_high);
-    const double bed_height = c->mass / (0.5 * c->density * clast_bed_area(&bed));
-    CLX_CHECK(
-        bed_height <= c->fill_low * c->dem.height, CLAST_E_CONFIG,
-        "%g kg cannot fit: at a porosity of 0.5 the bed would be %g m high, and grains are made "
-        "above %g m (fill_low of height); take a taller or wider domain",
-        c->mass, bed_height, c->fill_low * c->dem.height);
+    clast_bed_volumes(&bed, 1, edge, &room);
+    CLX_CHECK(0.5 * c->density * room >= c->mass, CLAST_E_CONFIG,
+              "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
+              "made (fill_low of height), takes %g kg; take a taller or wider domain",
+              c->mass, edge[1], 0.5 * c->density * room);
     CLX_CHECK(c->density > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
               "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", c->density,
               c->dem.fluid_density);
@@ -67,12 +74,12 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
 {
     clast_status status = CLAST_OK;
     clast_pack *made = NULL;
-    CLX_TRY(check_room(config));
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->config = *config;
     made->input = *input;
     made->pending_form = -1;
-    CLX_TRY(clast_dem_create(&config->dem, &made->dem));
+    CLX_TRY(clx_pack_contain(made));
+    CLX_TRY(check_room(made));
     CLX_TRY(clx_pack_prepare(made));
     CLX_TRY(clx_pack_check_draws(made));
     CLX_TRY(clx_pack_series_begin(made));
@@ -89,6 +96,7 @@ void clast_pack_destroy(clast_pack *pack)
         return;
     }
     clast_dem_destroy(pack->dem);
+    clast_bvh_destroy(pack->inside);
     clast_table_free(&pack->series);
     clx_free(pack->unit_size);
     clx_free(pack->weight);

@@ -1,6 +1,7 @@
 #pragma once
 // A packing under way.
 #include "base/status.h"
+#include <clast/bvh.h>
 #include <clast/pack.h>
 
 struct clast_pack {
@@ -10,7 +11,11 @@ struct clast_pack {
     double (*unit_size)[2]; ///< [n_shape] size and volume at scale 1
     double *weight;         ///< [n_shape] running sums, last 1
     double spacing;
-    double widest; ///< greatest diameter of a grain's sphere over its size
+    clast_bvh *inside; ///< of the container, or NULL
+    bool is_held;      ///< the container is closed
+    double base, tall; ///< lowest height, and H above it
+    double middle[2];  ///< of the domain
+    double widest;     ///< greatest diameter of a grain's sphere over its size
     // what a checkpoint keeps beside the dem
     clast_pack_phase phase;
     int64_t n_made;
@@ -42,6 +47,15 @@ double clx_pack_fill_low(const clast_pack *pack);
 
 /// Sizes, weights and lattice from configuration and input.
 clast_status clx_pack_prepare(clast_pack *pack);
+
+/// Walls and room of the container, where there is one; else of the domain.
+clast_status clx_pack_contain(clast_pack *pack);
+
+/// Whether a sphere lies in the container; true without one.
+bool clx_pack_holds(const clast_pack *pack, const double x[3], double radius);
+
+/// Grains whose centre is outside; *first is one of them, or -1.
+int32_t clx_pack_n_outside(const clast_pack *pack, int32_t *first);
 
 /// Sets what acts in the phase.
 void clx_pack_drive(clast_pack *pack);

@@ -1,4 +1,5 @@
-// Porosity over height, with what was evaluated.
+// Charts of a bed: porosity over height and radius, with error bars over realisations; pores;
+// stress.
 #include <clast/porosity_chart.h>
 
 #include "base/alloc.h"
@@ -6,34 +7,58 @@
 #include <stdio.h>
 #include <string.h>
 
-/// A label such as "height (mm)"; metres are drawn as millimetres.
-static double axis_label(const char *what, const char *unit, char label[64])
+/// A chart over a length: metres are drawn as millimetres.
+typedef struct {
+    double *x; ///< [n] middles of rows, scaled
+    int64_t n;
+    double factor;
+    char label[64];
+} over;
+
+/// Middles of the columns low and high of a table; high alone when low is NULL.
+static clast_status over_make(const clast_table *table, const char *low_name, const char *high_name,
+                              const char *what, const char *unit, over *o)
 {
+    clast_status status = CLAST_OK;
     const bool is_metre = strcmp(unit, "m") == 0;
     const bool is_model = strcmp(unit, "model") == 0;
-    (void)snprintf(label, 64, "%s (%s)", what, is_metre ? "mm" : is_model ? "model units" : unit);
-    return is_metre ? 1e3 : 1.0;
+    const double *low = clast_table_numbers(table, low_name != NULL ? low_name : high_name);
+    const double *high = clast_table_numbers(table, high_name);
+    *o = (over){.n = table->n_row, .factor = is_metre ? 1e3 : 1.0};
+    CLX_CHECK(low != NULL && high != NULL, CLAST_E_USAGE, "table '%s' has no %s", table->name,
+              high_name);
+    CLX_TRY(clx_alloc(&o->x, o->n, sizeof *o->x));
+    for (int64_t k = 0; k < o->n; ++k) {
+        o->x[k] = o->factor * 0.5 * (low[k] + high[k]);
+    }
+    (void)snprintf(o->label, sizeof o->label, "%s (%s)", what,
+                   is_metre   ? "mm"
+                   : is_model ? "model units"
+                              : unit);
+done:
+    return status;
 }
+
+static clast_status draw(const char *title, const over *o, const clast_axis *y, int32_t n,
+                         const clast_series *series, const char *path)
+{
+    const clast_chart chart = {
+        .title = title, .x = {.label = o->label}, .y = *y, .series = series, .n_series = n};
+    return clast_chart_write(&chart, path);
+}
+
+static const clast_axis porosity_axis = {.label = "porosity (-)", .low = 0.0, .high = 1.0};
 
 clast_status clast_porosity_chart_write(const clast_table *profile, const clast_porosity_bulk *bulk,
                                         const char *unit, const char *path)
 {
     clast_status status = CLAST_OK;
-    const double *low = clast_table_numbers(profile, "z_low_m");
-    const double *high = clast_table_numbers(profile, "z_high_m");
-    const double *porosity = clast_table_numbers(profile, "porosity");
-    const int64_t n = profile->n_row;
-    double *middle = NULL;
-    char label[64];
-    const double factor = axis_label("height", unit, label);
+    over o = {0};
     char bulk_label[64];
-    CLX_CHECK(low != NULL && high != NULL && porosity != NULL, CLAST_E_USAGE,
-              "the table is no porosity profile");
-    CLX_TRY(clx_alloc(&middle, n, sizeof *middle));
-    for (int64_t k = 0; k < n; ++k) {
-        middle[k] = factor * 0.5 * (low[k] + high[k]);
-    }
-    const double span[2] = {factor * bulk->z_low, factor * bulk->z_high};
+    const double *porosity = clast_table_numbers(profile, "porosity");
+    CLX_CHECK(porosity != NULL, CLAST_E_USAGE, "the table is no porosity profile");
+    CLX_TRY(over_make(profile, "z_low_m", "z_high_m", "height", unit, &o));
+    const double span[2] = {o.factor * bulk->z_low, o.factor * bulk->z_high};
     const double zero[2] = {0.0, 0.0};
     const double one[2] = {1.0, 1.0};
     const double value[2] = {bulk->porosity, bulk->porosity};
@@ -47,9 +72,9 @@ clast_status clast_porosity_chart_write(const clast_table *profile, const clast_
                                     .colour = -1},
                                    {.kind = CLAST_SERIES_LINE,
                                     .label = "porosity",
-                                    .x = middle,
+                                    .x = o.x,
                                     .y = porosity,
-                                    .n = n,
+                                    .n = o.n,
                                     .colour = 0},
                                    {.kind = CLAST_SERIES_LINE,
                                     .label = bulk_label,
@@ -58,79 +83,110 @@ clast_status clast_porosity_chart_write(const clast_table *profile, const clast_
                                     .n = 2,
                                     .colour = 1,
                                     .dashed = true}};
-    const clast_chart chart = {.title = "Porosity over height",
-                               .x = {.label = label},
-                               .y = {.label = "porosity (-)", .low = 0.0, .high = 1.0},
-                               .series = series,
-                               .n_series = 3};
-    CLX_TRY(clast_chart_write(&chart, path));
+    CLX_TRY(draw("Porosity over height", &o, &porosity_axis, 3, series, path));
 done:
-    clx_free(middle);
+    clx_free(o.x);
+    return status;
+}
+
+clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
+                                             const char *path)
+{
+    clast_status status = CLAST_OK;
+    over o = {0};
+    const double *mean = clast_table_numbers(band, "porosity");
+    const double *low = clast_table_numbers(band, "low");
+    const double *high = clast_table_numbers(band, "high");
+    CLX_CHECK(mean != NULL && low != NULL && high != NULL, CLAST_E_USAGE,
+              "the table is no mean of profiles");
+    CLX_TRY(over_make(band, "z_low_m", "z_high_m", "height", unit, &o));
+    const clast_series series[] = {{.kind = CLAST_SERIES_BAND,
+                                    .label = "95 % of the mean",
+                                    .x = o.x,
+                                    .low = low,
+                                    .high = high,
+                                    .n = o.n,
+                                    .colour = -1},
+                                   {.kind = CLAST_SERIES_LINE,
+                                    .label = "mean of the runs",
+                                    .x = o.x,
+                                    .y = mean,
+                                    .n = o.n,
+                                    .colour = 0}};
+    CLX_TRY(draw("Porosity over height, all runs", &o, &porosity_axis, 2, series, path));
+done:
+    clx_free(o.x);
+    return status;
+}
+
+clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
+                                      const char *path)
+{
+    static const char *const name[3] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa"};
+    static const char *const label[3] = {"xx", "yy", "zz"};
+    const clast_axis axis = {.label = "stress (Pa), pressure above 0"};
+    clast_status status = CLAST_OK;
+    over o = {0};
+    clast_series series[3];
+    CLX_TRY(over_make(profile, "z_low_m", "z_high_m", "height", unit, &o));
+    for (int k = 0; k < 3; ++k) {
+        series[k] = (clast_series){.kind = CLAST_SERIES_LINE,
+                                   .label = label[k],
+                                   .x = o.x,
+                                   .y = clast_table_numbers(profile, name[k]),
+                                   .n = o.n,
+                                   .colour = k};
+        CLX_CHECK(series[k].y != NULL, CLAST_E_USAGE, "the table is no stress profile");
+    }
+    CLX_TRY(draw("Contact stress over height", &o, &axis, 3, series, path));
+done:
+    clx_free(o.x);
     return status;
 }
 
 clast_status clast_radial_chart_write(const clast_table *radial, const char *unit, const char *path)
 {
     clast_status status = CLAST_OK;
-    const double *low = clast_table_numbers(radial, "r_low_m");
-    const double *high = clast_table_numbers(radial, "r_high_m");
+    over o = {0};
+    double *bar = NULL;
     const double *porosity = clast_table_numbers(radial, "porosity");
     const double *error = clast_table_numbers(radial, "porosity_error");
     const int64_t n = radial->n_row;
-    double *work = NULL;
-    char label[64];
-    const double factor = axis_label("distance from the axis", unit, label);
-    CLX_CHECK(low != NULL && high != NULL && porosity != NULL && error != NULL, CLAST_E_USAGE,
-              "the table is no radial profile");
-    CLX_TRY(clx_alloc(&work, 3 * n, sizeof *work));
+    CLX_CHECK(porosity != NULL && error != NULL, CLAST_E_USAGE, "the table is no radial profile");
+    CLX_TRY(over_make(radial, "r_low_m", "r_high_m", "distance from the axis", unit, &o));
+    CLX_TRY(clx_alloc(&bar, 2 * n, sizeof *bar));
     for (int64_t k = 0; k < n; ++k) {
-        work[k] = factor * 0.5 * (low[k] + high[k]);
-        work[n + k] = porosity[k] - error[k];
-        work[2 * n + k] = porosity[k] + error[k];
+        bar[k] = porosity[k] - error[k];
+        bar[n + k] = porosity[k] + error[k];
     }
     const clast_series series[] = {
-        {.kind = CLAST_SERIES_LINE, .x = work, .y = porosity, .n = n, .colour = 0},
+        {.kind = CLAST_SERIES_LINE, .x = o.x, .y = porosity, .n = n, .colour = 0},
         {.kind = CLAST_SERIES_POINTS,
-         .x = work,
+         .x = o.x,
          .y = porosity,
-         .low = work + n,
-         .high = work + 2 * n,
+         .low = bar,
+         .high = bar + n,
          .n = n,
          .colour = 0}};
-    const clast_chart chart = {.title = "Porosity over the radius",
-                               .x = {.label = label},
-                               .y = {.label = "porosity (-)", .low = 0.0, .high = 1.0},
-                               .series = series,
-                               .n_series = 2};
-    CLX_TRY(clast_chart_write(&chart, path));
+    CLX_TRY(draw("Porosity over the radius", &o, &porosity_axis, 2, series, path));
 done:
-    clx_free(work);
+    clx_free(bar);
+    clx_free(o.x);
     return status;
 }
 
 clast_status clast_pore_chart_write(const clast_table *pores, const char *unit, const char *path)
 {
+    const clast_axis axis = {
+        .label = "share of the pore space nearer (-)", .low = 0.0, .high = 1.0};
     clast_status status = CLAST_OK;
-    const double *high = clast_table_numbers(pores, "delta_high_m");
+    over o = {0};
     const double *share = clast_table_numbers(pores, "share_smaller");
-    const int64_t n = pores->n_row;
-    double *x = NULL;
-    char label[64];
-    const double factor = axis_label("distance to the nearest grain", unit, label);
-    CLX_CHECK(high != NULL && share != NULL, CLAST_E_USAGE, "the table holds no pores");
-    CLX_TRY(clx_alloc(&x, n, sizeof *x));
-    for (int64_t k = 0; k < n; ++k) {
-        x[k] = factor * high[k];
-    }
-    const clast_series series = {.kind = CLAST_SERIES_LINE, .x = x, .y = share, .n = n};
-    const clast_chart chart = {
-        .title = "Sizes of the pores",
-        .x = {.label = label},
-        .y = {.label = "share of the pore space nearer (-)", .low = 0.0, .high = 1.0},
-        .series = &series,
-        .n_series = 1};
-    CLX_TRY(clast_chart_write(&chart, path));
+    CLX_CHECK(share != NULL, CLAST_E_USAGE, "the table holds no pores");
+    CLX_TRY(over_make(pores, NULL, "delta_high_m", "distance to the nearest grain", unit, &o));
+    const clast_series series = {.kind = CLAST_SERIES_LINE, .x = o.x, .y = share, .n = o.n};
+    CLX_TRY(draw("Sizes of the pores", &o, &axis, 1, &series, path));
 done:
-    clx_free(x);
+    clx_free(o.x);
     return status;
 }

@@ -43,6 +43,10 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
         made.radius = number[0];
         made.centre[0] = n == 3 ? number[1] : 0.0;
         made.centre[1] = n == 3 ? number[2] : 0.0;
+    } else if (strcmp(text, "mesh") == 0) { // its surface is kept beside
+        made.kind = CLAST_BED_MESH;
+        *bed = made;
+        return CLAST_OK;
     } else {
         const bool is_box = word == 3 && strncmp(text, "box", word) == 0;
         const bool is_periodic = word == 8 && strncmp(text, "periodic", word) == 0;
@@ -68,6 +72,8 @@ int clast_bed_format(const clast_bed *bed, char *text, size_t size)
     if (bed->kind == CLAST_BED_CYLINDER) {
         n = snprintf(text, size, "cylinder:%.17g,%.17g,%.17g", bed->radius, bed->centre[0],
                      bed->centre[1]);
+    } else if (bed->kind == CLAST_BED_MESH) {
+        n = snprintf(text, size, "mesh");
     } else {
         n = snprintf(text, size, "%s:%.17g,%.17g,%.17g,%.17g",
                      bed->kind == CLAST_BED_BOX ? "box" : "periodic", bed->low[0], bed->low[1],
@@ -80,6 +86,12 @@ double clast_bed_area(const clast_bed *bed)
 {
     if (bed->kind == CLAST_BED_CYLINDER) {
         return bed->radius > 0.0 ? CLAST_PI * bed->radius * bed->radius : 0.0;
+    }
+    if (bed->kind == CLAST_BED_MESH) {
+        double low[3];
+        double high[3];
+        clast_mesh_bounds(bed->surface, low, high);
+        return high[2] > low[2] ? clast_mesh_volume(bed->surface) / (high[2] - low[2]) : 0.0;
     }
     const double x = bed->high[0] - bed->low[0];
     const double y = bed->high[1] - bed->low[1];

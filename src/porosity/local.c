@@ -356,6 +356,8 @@ clast_status clast_local_porosity(const clast_assembly *assembly, const clast_be
     d.periodic = bed->kind == CLAST_BED_PERIODIC;
     d.period[0] = bed->high[0] - bed->low[0];
     d.period[1] = bed->high[1] - bed->low[1];
+    CLX_CHECK(bed->kind != CLAST_BED_MESH, CLAST_E_USAGE,
+              "local porosity knows cylinder, box and periodic beds, not the inside of a surface");
     CLX_CHECK(z_high > z_low && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
               "a bed from %g to %g over %g m2 holds nothing", z_low, z_high, clast_bed_area(bed));
     CLX_TRY(take_spheres(assembly, &d));

@@ -8,6 +8,7 @@
 #include "contact/touch_gap.h"
 #include "math/sort.h"
 #include "math/vec3.h"
+#include <clast/bvh.h>
 
 enum { BLOCK = 256, POINT_LIMIT = 100000000 };
 
@@ -16,7 +17,8 @@ typedef struct {
     const clast_bed *bed;
     const clx_touch_set *set;
     double z_low, z_high, period[2];
-    double first; ///< radius of the first search
+    double first;      ///< radius of the first search
+    clast_bvh *inside; ///< of a bed within a surface, else NULL
     double *delta;
 } search;
 
@@ -75,8 +77,9 @@ static void measure(int64_t begin, int64_t end, int32_t worker, void *context)
     for (int64_t k = begin; k < end; ++k) {
         double x[3];
         point_of(s, k, x);
-        if (s->bed->kind == CLAST_BED_CYLINDER &&
-            hypot(x[0] - s->bed->centre[0], x[1] - s->bed->centre[1]) > s->bed->radius) {
+        if ((s->bed->kind == CLAST_BED_CYLINDER &&
+             hypot(x[0] - s->bed->centre[0], x[1] - s->bed->centre[1]) > s->bed->radius) ||
+            (s->inside != NULL && !clast_bvh_inside(s->inside, x))) {
             s->delta[k] = -2.0;
             continue;
         }
@@ -163,6 +166,9 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
               "no grain to measure between %g and %g", z[0], z[1]);
     CLX_CHECK(n >= 1 && n <= POINT_LIMIT && options->n_bin >= 1, CLAST_E_USAGE,
               "pores by %lld points in %d bins", (long long)n, options->n_bin);
+    if (bed->kind == CLAST_BED_MESH) {
+        CLX_TRY(clast_bvh_create(bed->surface, &s.inside));
+    }
     CLX_TRY(clx_touch_set_init(assembly, &set));
     s.first = 0.25 * cbrt(clast_assembly_volume(assembly) / assembly->n_grain);
     CLX_TRY(clx_alloc(&s.delta, n, sizeof *s.delta));
@@ -178,6 +184,7 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
     made = (clast_pores){0};
 done:
     clx_free(s.delta);
+    clast_bvh_destroy(s.inside);
     clx_touch_set_free(&set);
     clast_pores_free(&made);
     return status;

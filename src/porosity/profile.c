@@ -73,7 +73,7 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
 {
     clast_status status = CLAST_OK;
     const int32_t n = (int32_t)table->n_row;
-    const double volume = clast_bed_area(bed) * options->layer;
+    double *volume = NULL;
     double *edge = NULL;
     double *low = NULL;
     double *high = NULL;
@@ -91,13 +91,18 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
         low[k] = edge[k];
         high[k] = edge[k + 1];
     }
+    CLX_TRY(clx_alloc(&volume, n, sizeof *volume));
+    clast_bed_volumes(bed, n, edge, volume);
     edge[0] = -HUGE_VAL;
-    edge[n] = HUGE_VAL;
+    if (bed->kind != CLAST_BED_MESH) { // what lies above a container's rim lies outside
+        edge[n] = HUGE_VAL;
+    }
     CLX_TRY(slabs(assembly, options->method, n, edge, solid));
     for (int32_t k = 0; k < n; ++k) {
-        porosity[k] = 1.0 - solid[k] / volume;
+        porosity[k] = volume[k] > 0.0 ? 1.0 - solid[k] / volume[k] : 1.0;
     }
 done:
+    clx_free(volume);
     clx_free(edge);
     return status;
 }
@@ -117,6 +122,12 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
         const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
         high[2] = fmax(high[2], assembly->position[i][2] +
                                     assembly->scale[i] * cbrt(0.75 / CLAST_PI * shape->volume));
+    }
+    if (bed->kind == CLAST_BED_MESH) {
+        double box_low[3];
+        double box_high[3];
+        clast_mesh_bounds(bed->surface, box_low, box_high);
+        high[2] = fmin(high[2], box_high[2]);
     }
     const double n = fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
     CLX_CHECK(n <= SLICE_LIMIT, CLAST_E_LIMIT,
@@ -171,7 +182,12 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
               made.top - bed->floor, options->trim);
     const double edge[2] = {options->trim > 0.0 ? made.z_low : -HUGE_VAL, made.z_high};
     CLX_TRY(slabs(assembly, options->method, 1, edge, &made.solid));
-    made.porosity = 1.0 - made.solid / (clast_bed_area(bed) * (made.z_high - made.z_low));
+    const double whole[2] = {made.z_low, made.z_high};
+    double volume = 0.0;
+    clast_bed_volumes(bed, 1, whole, &volume);
+    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY, "the bed has no volume between %g and %g m",
+              made.z_low, made.z_high);
+    made.porosity = 1.0 - made.solid / volume;
     *bulk = made;
 done:
     return status;

@@ -13,6 +13,7 @@
 #include "math/quadrature.h"
 #include "math/vec3.h"
 #include "porosity/discs.h"
+#include "porosity/slabs.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -283,6 +284,13 @@ static void add_spheres(const slices *s, const clast_spheres *spheres, double z,
         m3_mul(x, turn, spheres->centre[i]);
         add_ellipsoid(s, 4.0 / 3.0 * CLAST_PI * r * r * r, z + scale * x[2], r);
     }
+}
+
+void clx_mesh_slabs(const clast_mesh *mesh, int32_t n, const double *edge, double *solid)
+{
+    const slices s = {n, edge, solid};
+    double unturned[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    add_mesh(&s, mesh, unturned, 1.0, 0.0);
 }
 
 clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,

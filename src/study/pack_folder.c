@@ -40,7 +40,7 @@ static clast_status write_profile(const char *folder, const clast_pack *pack,
     char path[CLX_PACK_PATH];
     clast_assembly a = {0};
     clast_table profile = {0};
-    const clast_bed bed = clast_pack_bed(c);
+    const clast_bed bed = clast_pack_bed(pack);
     const clast_porosity_options o = clast_pack_porosity(c);
     clast_porosity_bulk bulk = {.porosity = r->porosity, .z_low = r->z_low, .z_high = r->z_high};
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));

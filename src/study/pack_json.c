@@ -47,6 +47,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     (void)json_object_set_new(o, "phase", json_string(clast_pack_phase_name(r->phase)));
     (void)json_object_set_new(o, "converged", json_boolean(r->converged));
     put(o, "mass", r->dem.mass);
+    put_count(o, "n_outside", r->n_outside);
     put(o, "porosity_bulk", r->porosity);
     put(o, "z_low", r->z_low);
     put(o, "z_high", r->z_high);

@@ -149,6 +149,44 @@ class Pack(Case):
         self.assert_fails(2, "pack", "--resume", str(self.folder), "--mass", "2kg", says=("drop mass",))
         self.assert_fails(3, "pack", "--resume", str(self.folder), says=("no checkpoint",))
 
+    def cup(self):
+        """A hexagonal cup with a bottom and no lid, 80 mm wide above and 50 mm below, off the axis."""
+        ring = [(math.cos(k * math.pi / 3), math.sin(k * math.pi / 3)) for k in range(6)]
+        vertices = [(25 * x + 100, 25 * y, 0) for x, y in ring] + [(40 * x + 100, 40 * y, 90) for x, y in ring]
+        vertices.append((100, 0, 0))
+        faces = []
+        for i in range(6):
+            j = (i + 1) % 6
+            faces += [(i, j, 6 + j), (i, 6 + j, 6 + i), (j, i, 12)]
+        path = self.folder / "cup.off"
+        path.write_text("OFF\n13 18 0\n" + "".join("%r %r %r\n" % v for v in vertices) + "".join("3 %d %d %d\n" % f for f in faces))
+        return path
+
+    def test_container_of_triangles_holds_a_bed(self):
+        cup = self.cup()
+        run = self.folder / "cup"
+        result = clast("pack", "--container", cup, "--container-unit", "mm", "--curve", "8 mm", "--mass", "40g",
+                       "--shaking-time", "0.02s", "--quiet", "--json", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        out = json.loads(result.out)
+        self.assertEqual(out["n_outside"], 0)
+        self.assertTrue(out["converged"])
+        self.assertGreater(out["porosity_bulk"], 0.3)
+        self.assertLess(out["porosity_bulk"], 0.7)
+        several = clast("porosity", run, run, "--method", "spheres", "--json", "-o", self.folder / "mean")
+        self.assertEqual(several.code, 0, several.err)
+        several = json.loads(several.out)
+        self.assertAlmostEqual(several["bulk"]["mean"], out["porosity_bulk"], 12)
+        self.assertEqual(several["bulk"]["deviation"], 0)
+        self.assertTrue((self.folder / "mean" / "mean_profile.svg").exists())
+        one = json.loads(clast("porosity", run, "--json", "-o", self.folder / "one").out)
+        self.assertGreater(one["stress"]["stress_zz"], 0)
+        self.assertTrue((self.folder / "one" / "stress.svg").exists())
+        by_file = clast("porosity", run, "--bed", f"mesh:{cup},mm", "--method", "spheres", "--json")
+        self.assertAlmostEqual(json.loads(by_file.out)["bulk"], out["porosity_bulk"], 9)
+        self.assert_fails(2, "pack", "--container", str(cup), "--mass", "40g", says=("unit",))
+        self.assert_fails(2, "pack", "--container", str(cup), "--container-unit", "mm", "--mass", "1kg", says=("cannot fit",))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,63 @@
+// Forces of contacts as a table.
+#include "base/alloc.h"
+#include "dem/dem.h"
+#include "dem/push.h"
+
+static const struct {
+    const char *name, *unit;
+} columns[] = {{"a", "-"},          {"b", "-"},         {"centre_z_m", "m"}, {"x_m", "m"},
+               {"y_m", "m"},        {"z_m", "m"},       {"branch_x_m", "m"}, {"branch_y_m", "m"},
+               {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"}};
+enum { N_COLUMN = sizeof columns / sizeof columns[0] };
+
+/// One touching link: its numbers, from a copy, so that nothing goes on.
+static void measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
+{
+    clx_link copy = *link;
+    clx_dem_touch t = {0};
+    clx_load on_a = {0};
+    clx_load on_b = {0};
+    const int32_t a = clx_item_grain(dem, link->a);
+    clx_find_again(dem, link, &t);
+    if (t.distance < 0.0) {
+        clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
+    }
+    out[0] = a;
+    out[1] = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;
+    out[2] = dem->grain[a].position[2];
+    for (int k = 0; k < 3; ++k) {
+        out[3 + k] = dem->grain[a].position[k] + t.arm_a[k];
+        out[6 + k] = link->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
+        out[9 + k] = -on_a.force[k];
+    }
+}
+
+clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    int64_t n = 0;
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        n += dem->list.link[k].touches != 0 ? 1 : 0;
+    }
+    CLX_TRY(clast_table_init(&made, "contacts", n));
+    for (int c = 0; c < N_COLUMN; ++c) {
+        CLX_TRY(clast_table_add_number(&made, columns[c].name, columns[c].unit, NULL));
+    }
+    int64_t row = 0;
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        double value[N_COLUMN];
+        if (dem->list.link[k].touches != 0) {
+            measure(dem, &dem->list.link[k], value);
+            for (int c = 0; c < N_COLUMN; ++c) {
+                made.column[c].number[row] = value[c];
+            }
+            ++row;
+        }
+    }
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&made);
+    return status;
+}

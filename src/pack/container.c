@@ -1,0 +1,86 @@
+// A packing in a container of triangles: its room, its walls, and who has left it.
+#include "base/alloc.h"
+#include "math/vec3.h"
+#include "pack/pack.h"
+#include <math.h>
+
+/// Triangles but those that lie in the floor: the plane pushes there.
+static clast_status walls_of(const clast_mesh *mesh, bool has_floor, double extent,
+                             clast_mesh *walls)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_mesh_copy(mesh, walls));
+    walls->n_tri = 0;
+    for (int32_t i = 0; i < mesh->n_tri; ++i) {
+        bool is_floor = has_floor;
+        for (int k = 0; k < 3; ++k) {
+            is_floor = is_floor && fabs(mesh->vert[mesh->tri[i][k]][2]) <= 1e-9 * extent;
+        }
+        if (!is_floor) {
+            for (int k = 0; k < 3; ++k) {
+                walls->tri[walls->n_tri][k] = mesh->tri[i][k];
+            }
+            ++walls->n_tri;
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clx_pack_contain(clast_pack *p)
+{
+    clast_status status = CLAST_OK;
+    clast_dem_config *d = &p->config.dem;
+    const clast_mesh *mesh = p->input.container_closed;
+    clast_mesh walls = {0};
+    double low[3];
+    double high[3];
+    p->tall = d->height;
+    if (mesh == NULL) {
+        return clast_dem_create(d, &p->dem);
+    }
+    clast_mesh_bounds(mesh, low, high);
+    CLX_CHECK(!d->floor || low[2] >= -1e-9 * (high[2] - low[2]), CLAST_E_CONFIG,
+              "the container reaches down to z = %g m, below the floor at z = 0: move it, or give "
+              "--floor no",
+              low[2]);
+    CLX_CHECK(!d->lid, CLAST_E_CONFIG, "a container has its own lid, or none: leave out lid");
+    p->base = d->floor ? 0.0 : low[2];
+    p->tall = high[2] - p->base;
+    d->domain = CLAST_DEM_OPEN;
+    d->width = high[0] - low[0];
+    d->depth = high[1] - low[1];
+    d->height = p->tall;
+    for (int k = 0; k < 2; ++k) {
+        p->middle[k] = 0.5 * (low[k] + high[k]);
+    }
+    p->is_held = mesh->n_tri == p->input.container->n_tri;
+    CLX_TRY(clast_dem_create(d, &p->dem));
+    CLX_TRY(walls_of(p->input.container, d->floor, p->tall, &walls));
+    CLX_TRY(clast_dem_add_container(p->dem, &walls));
+    CLX_TRY(clast_bvh_create(mesh, &p->inside));
+done:
+    clast_mesh_free(&walls);
+    return status;
+}
+
+bool clx_pack_holds(const clast_pack *p, const double x[3], double radius)
+{
+    return p->inside == NULL || (clast_bvh_inside(p->inside, x) &&
+                                 clast_bvh_closest(p->inside, x, radius, NULL, NULL) >= radius);
+}
+
+int32_t clx_pack_n_outside(const clast_pack *p, int32_t *first)
+{
+    int32_t n = 0;
+    *first = -1;
+    for (int32_t i = 0; p->inside != NULL && i < clast_dem_n_grain(p->dem); ++i) {
+        clast_dem_grain g;
+        clast_dem_read_grain(p->dem, i, &g);
+        if (!clast_bvh_inside(p->inside, g.position)) {
+            *first = *first < 0 ? i : *first;
+            ++n;
+        }
+    }
+    return n;
+}
