@@ -20,7 +20,8 @@ typedef enum {
     CLAST_CELLS_COMPONENTS,
     CLAST_CELLS_BINS,
     CLAST_CELLS_LABELS,
-    CLAST_CELLS_TREE
+    CLAST_CELLS_TREE,
+    CLAST_CELLS_AUTO ///< tree for the full variant in 3-D, boxes else and with paper
 } clast_cell_kind;
 
 typedef enum {
@@ -57,6 +58,7 @@ typedef struct clast_decompose_config {
     double tree_level;         ///< of the chi-square test of a tree cell
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
+    bool tree_refine; ///< cells below the root are given as the blocks that their last test saw
     uint64_t seed;
 } clast_decompose_config;
 
@@ -137,6 +139,7 @@ typedef struct clast_cells {
     int32_t *bin_count;    ///< [nb[0] nb[1] nb[2]] tested points, or NULL
     int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube, -1 outside a
                            ///< mesh domain; NULL: no bins
+    uint64_t *key;         ///< [n] Morton code of a tree cell's low corner, ascending, or NULL
 } clast_cells;
 
 typedef struct clast_decomposition {
@@ -175,7 +178,7 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
                                           const clast_decompose_config *config,
                                           clast_decomposition *result);
 
-/// Cell of a point, -1 outside the domain; O(1) in bins, O(cells) in a tree.
+/// Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                      const double *x);
 CLAST_API void clast_decomposition_free(clast_decomposition *result);

@@ -90,6 +90,9 @@ static void move_cell(clast_cells *cells, int32_t from, int32_t to)
     }
     cells->volume[to] = cells->volume[from];
     cells->count[to] = cells->count[from];
+    if (cells->key != NULL) {
+        cells->key[to] = cells->key[from];
+    }
     cells->label[to] = cells->label[from];
     cells->pass[to] = cells->pass[from];
 }

@@ -20,9 +20,10 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
      "how far to go: tests and passes, first test and one pass, one pass, tests alone",
      "full|first|fast|test"},
-    {FIELD(CLAST_FIELD_CHOICE, mesh), 0, 0, 0, "-",
-     "what bins are joined into; tree splits by a chi-square test",
-     "boxes|components|bins|labels|tree"},
+    {FIELD(CLAST_FIELD_CHOICE, mesh), CLAST_CELLS_AUTO, 0, 0, "-",
+     "what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant "
+     "in 3-D, else boxes",
+     "boxes|components|bins|labels|tree|auto"},
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
     {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
@@ -52,6 +53,8 @@ const clast_field clast_decompose_fields[] = {
      "standard deviation that a tree cell may keep of the variable (its column's unit)", NULL},
     {FIELD(CLAST_FIELD_I32, tree_least), 16, 2, 1000000, "-",
      "points below which a tree cell is not split", NULL},
+    {FIELD(CLAST_FIELD_BOOL, tree_refine), 1, 0, 0, "-",
+     "give each cell of a tree that was split as the blocks its last test looked at", NULL},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL},
     {0}};
 #undef FIELD
@@ -69,6 +72,7 @@ static void free_cells(clast_cells *cells)
     clx_free(cells->of_point);
     clx_free(cells->of_bin);
     clx_free(cells->bin_count);
+    clx_free(cells->key);
     *cells = (clast_cells){0};
 }
 
@@ -145,7 +149,7 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
     double *variable = NULL;
     const int32_t d = m->domain->dimension;
     const clx_uniformity_tree_config limits = {config->tree_level, config->tree_least,
-                                               config->variable_tolerance};
+                                               config->variable_tolerance, config->tree_refine};
     CLX_TRY(take_variable(cloud, m, &variable));
     const clx_uniformity_tree_points points = {m->u, m->n_test, m->n, d, variable};
     CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
@@ -160,6 +164,8 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
         }
     }
     tell_points(m, of_sample, cells);
+    cells->key = tree.key;
+    tree.key = NULL;
 done:
     clx_uniformity_tree_free(&tree);
     clx_free(of_sample);
@@ -203,7 +209,8 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     int32_t n_cell = 0;
     CLX_TRY(clx_passes_run(m->u, m->n_test, m->domain, config, result, &passes));
     CLX_TRY(clx_alloc(&cell, passes.bins.n_bin, sizeof *cell));
-    CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)config->mesh, passes.tag, cell, &n_cell));
+    const int32_t kind = config->mesh == CLAST_CELLS_AUTO ? CLAST_CELLS_BOXES : config->mesh;
+    CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)kind, passes.tag, cell, &n_cell));
     CLX_TRY(alloc_cells(&result->cells, n_cell));
     gather_bins(&passes, cell, &result->cells);
     CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
@@ -212,7 +219,7 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     }
     tell_points(m, of_sample, &result->cells);
     memcpy(result->cells.nb, passes.bins.nb, sizeof result->cells.nb);
-    result->cells.is_box = config->mesh == CLAST_CELLS_BOXES || config->mesh == CLAST_CELLS_BINS;
+    result->cells.is_box = kind == CLAST_CELLS_BOXES || kind == CLAST_CELLS_BINS;
     result->cells.of_bin = cell;
     cell = NULL;
     result->cells.bin_count = passes.bins.count;
@@ -235,17 +242,17 @@ int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                .nb = {cells->nb[0], cells->nb[1], cells->nb[2]}};
         return cells->of_bin[clx_bins_of(&bins, u)];
     }
-    const double *at = clx_domain_is_boxed(domain) ? x : u; // as the boxes are given
-    for (int32_t c = 0; c < cells->n; ++c) {
-        bool inside = true;
-        for (int32_t j = 0; j < domain->dimension; ++j) {
-            inside = inside && at[j] >= cells->low[c][j] && at[j] <= cells->high[c][j];
-        }
-        if (inside) {
-            return c;
-        }
+    const int32_t c = cells->key != NULL
+                          ? clx_uniformity_tree_locate(cells->key, cells->n, u, domain->dimension)
+                          : 0;
+    if (domain->kind != CLAST_DOMAIN_MESH) {
+        return c;
     }
-    return domain->kind == CLAST_DOMAIN_MESH ? -1 : cells->n - 1; // rounding at an edge, or a void
+    bool inside = true; // not so in a void, whose cell was left out
+    for (int32_t j = 0; j < domain->dimension; ++j) {
+        inside = inside && x[j] >= cells->low[c][j] && x[j] <= cells->high[c][j];
+    }
+    return inside ? c : -1;
 }
 
 /// From the unit cube to the domain: volumes, and corners of a box domain.
@@ -395,17 +402,25 @@ done:
     return status;
 }
 
+/// Boxes of bins keep the noise of about one point a bin in 3-D; the tree does not.
+static bool takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+{
+    return config->mesh == CLAST_CELLS_TREE ||
+           (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
+            config->variant == CLAST_VARIANT_FULL &&
+            (cloud->dimension == 3 || cloud->variable != NULL));
+}
+
 static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                const clast_decompose_config *config, clast_decomposition *result)
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
-    if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST ||
-        (accepted && config->mesh != CLAST_CELLS_TREE)) {
+    const bool is_tree = takes_tree(config, cloud);
+    if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
         result->stop = CLAST_STOP_UNIFORM;
         return one_cell(m, &result->cells);
     }
-    return config->mesh == CLAST_CELLS_TREE ? tree_cells(cloud, m, config, &result->cells)
-                                            : bin_cells(m, config, result);
+    return is_tree ? tree_cells(cloud, m, config, &result->cells) : bin_cells(m, config, result);
 }
 
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
@@ -416,7 +431,7 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
     clx_sample m = {0};
     clast_uniformity_config vote;
     double side[3];
-    CLX_CHECK(cloud->variable == NULL || config->mesh == CLAST_CELLS_TREE, CLAST_E_CONFIG,
+    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
     made.n = m.n_real;

@@ -1,77 +1,132 @@
-// Uniformity tree. [docs/theory/decompose.md section 5]
+// Uniformity tree: points are sorted along the Morton curve once, so that every cell is a range of
+// them and its blocks are ranges too. [docs/theory/decompose.md section 7]
 #include "cloud/uniformity_tree.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
+#include "math/morton.h"
+#include "math/sort.h"
 #include "math/special.h"
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 20, EXPECTED_LEAST = 5, MAX_BLOCK = 64 };
+enum { EXPECTED_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
 
 typedef struct {
     const clx_uniformity_tree_points *points;
     int32_t d;
     const clx_uniformity_tree_config *config;
-    int64_t *order, *scratch; ///< [n] points, grouped by cell as the tree grows
+    clx_keyed *point; ///< [n] by Morton code
     clx_uniformity_tree_cells *cells;
     int32_t *of_point;
+    int64_t *begin;  ///< of each cell in point; made at the end
+    double limit[3]; ///< chi-square over this rejects, for blocks 1 and 2 halvings down
 } growth;
 
 typedef struct {
-    double low[3], width[3];
-    int64_t begin, end; ///< in order
+    uint64_t key;       ///< Morton code of the low corner
+    int64_t begin, end; ///< in growth.point
     int depth;
 } node;
 
-static int block_of(const growth *g, const node *cell, int64_t point, int parts)
+static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    int block = 0;
-    for (int32_t j = 0; j < g->d; ++j) {
-        const int at =
-            (int)((g->points->u[point * g->d + j] - cell->low[j]) / cell->width[j] * parts);
-        block = block * parts + (at < 0 ? 0 : at < parts ? at : parts - 1);
+    const growth *g = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        g->point[i] = (clx_keyed){clx_morton_of(g->points->u + i * g->d, g->d), (uint64_t)i};
     }
-    return block;
 }
 
-static int power(int base, int32_t exponent)
+/// Bits of a code below this depth.
+static int bits_below(const growth *g, int depth)
 {
-    int value = 1;
-    for (int32_t j = 0; j < exponent; ++j) {
-        value *= base;
-    }
-    return value;
+    return g->d * (CLX_MORTON_LEVELS - depth);
 }
 
-/// Points of the cell that are tested.
-static int64_t n_tested(const growth *g, const node *cell)
+/// First of the points from `begin` on whose code is at least `key`.
+static int64_t first_from(const growth *g, int64_t begin, int64_t end, uint64_t key)
 {
+    while (begin < end) {
+        const int64_t middle = begin + (end - begin) / 2;
+        if (g->point[middle].key < key) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return begin;
+}
+
+/// Where each block of the cell begins, `levels` halvings down; start [2^(d levels) + 1].
+static void find_blocks(const growth *g, const node *cell, int levels, int64_t *start)
+{
+    const int n_block = 1 << (g->d * levels);
+    const int shift = bits_below(g, cell->depth + levels);
+    if (cell->end - cell->begin < FEW) {
+        memset(start, 0, ((size_t)n_block + 1) * sizeof *start);
+        for (int64_t i = cell->begin; i < cell->end; ++i) {
+            ++start[((g->point[i].key - cell->key) >> shift) + 1];
+        }
+        start[0] = cell->begin;
+        for (int b = 0; b < n_block; ++b) {
+            start[b + 1] += start[b];
+        }
+        return;
+    }
+    start[0] = cell->begin;
+    for (int b = 1; b < n_block; ++b) {
+        start[b] = first_from(g, start[b - 1], cell->end, cell->key + ((uint64_t)b << shift));
+    }
+    start[n_block] = cell->end;
+}
+
+/// Tested points of each block of the cell, `levels` halvings down; returns their number.
+static int64_t count_tested(const growth *g, const node *cell, int levels, int64_t *count)
+{
+    int64_t start[MAX_BLOCK + 1];
     int64_t n = 0;
-    if (g->points->n_test == g->points->n) {
-        return cell->end - cell->begin;
-    }
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        n += g->order[i] < g->points->n_test ? 1 : 0;
+    const int n_block = 1 << (g->d * levels);
+    find_blocks(g, cell, levels, start);
+    for (int b = 0; b < n_block; ++b) {
+        count[b] = start[b + 1] - start[b];
+        for (int64_t i = start[b]; i < start[b + 1] && g->points->n_test < g->points->n; ++i) {
+            count[b] -= g->point[i].item < (uint64_t)g->points->n_test ? 0 : 1;
+        }
+        n += count[b];
     }
     return n;
 }
 
-/// p of Pearson's chi-square for even counts of n tested points.
-static double evenness(const growth *g, const node *cell, int64_t n, int parts)
+/// Pearson's chi-square for even counts of n points.
+static double unevenness(const int64_t *count, int n_block, int64_t n)
 {
-    int64_t count[MAX_BLOCK] = {0};
-    const int n_block = power(parts, g->d);
     const double expected = (double)n / n_block;
     double chi2 = 0.0;
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        const bool is_tested = g->order[i] < g->points->n_test;
-        count[block_of(g, cell, g->order[i], parts)] += is_tested ? 1 : 0;
-    }
     for (int b = 0; b < n_block; ++b) {
         const double off = (double)count[b] - expected;
         chi2 += off * off / expected;
     }
-    return clx_chi2_sf(chi2, n_block - 1);
+    return chi2;
+}
+
+/// The chi-square that is exceeded with this probability, by bisection.
+static double critical(double level, double freedom)
+{
+    double low = 0.0;
+    double high = freedom + 1.0;
+    while (clx_chi2_sf(high, freedom) > level) {
+        high *= 2.0;
+    }
+    while (high - low > 1e-13 * high) {
+        const double middle = 0.5 * (low + high);
+        if (clx_chi2_sf(middle, freedom) > level) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
 }
 
 /// Whether the variable's means in the 2^d halves differ: analysis of variance, sums about the mean
@@ -85,21 +140,22 @@ static bool is_varied(const growth *g, const node *cell)
     double square = 0.0;
     double between = 0.0;
     int n_filled = 0;
+    const int shift = bits_below(g, cell->depth + 1);
     for (int64_t i = cell->begin; i < cell->end; ++i) {
-        const double v = g->points->variable[g->order[i]];
+        const double v = g->points->variable[g->point[i].item];
         known += isnan(v) ? 0.0 : 1.0;
         mean += isnan(v) ? 0.0 : (v - mean) / known;
     }
     for (int64_t i = cell->begin; i < cell->end; ++i) {
-        const double off = g->points->variable[g->order[i]] - mean;
+        const double off = g->points->variable[g->point[i].item] - mean;
         if (!isnan(off)) {
-            const int b = block_of(g, cell, g->order[i], 2);
+            const uint64_t b = (g->point[i].key - cell->key) >> shift;
             sum[b] += off;
             n[b] += 1.0;
             square += off * off;
         }
     }
-    for (int b = 0; b < power(2, g->d); ++b) {
+    for (int b = 0; b < 1 << g->d; ++b) {
         between += n[b] > 0.0 ? sum[b] * sum[b] / n[b] : 0.0;
         n_filled += n[b] > 0.0 ? 1 : 0;
     }
@@ -113,75 +169,92 @@ static bool is_varied(const growth *g, const node *cell)
                                                      n_filled - 1, freedom) < g->config->level;
 }
 
-static bool is_uneven(const growth *g, const node *cell)
+/// Halvings that the tests look down in a cell of n tested points; 0: it is not tested.
+static int levels_tested(const growth *g, const node *cell, int64_t n)
 {
-    if (cell->depth >= MAX_DEPTH) {
+    const int quarters = 1 << (2 * g->d);
+    if (n < g->config->least || cell->depth >= CLX_MORTON_LEVELS) {
+        return 0;
+    }
+    return n >= (int64_t)EXPECTED_LEAST * quarters && cell->depth + 2 <= CLX_MORTON_LEVELS ? 2 : 1;
+}
+
+/// Splits the cell, or tells the halvings that its tests looked down.
+static bool is_uneven(const growth *g, const node *cell, int *levels)
+{
+    int64_t count[MAX_BLOCK];
+    *levels = 0;
+    if (cell->depth >= CLX_MORTON_LEVELS) {
         return false;
     }
-    const int64_t n = n_tested(g, cell);
-    const double level = 0.5 * g->config->level;
-    if (n >= g->config->least &&
-        (evenness(g, cell, n, 2) < level ||
-         (n >= (int64_t)EXPECTED_LEAST * power(4, g->d) && evenness(g, cell, n, 4) < level))) {
+    const int64_t n = count_tested(g, cell, 1, count);
+    *levels = levels_tested(g, cell, n);
+    if (*levels > 0 && unevenness(count, 1 << g->d, n) > g->limit[1]) {
         return true;
+    }
+    if (*levels > 1) {
+        (void)count_tested(g, cell, 2, count);
+        if (unevenness(count, 1 << (2 * g->d), n) > g->limit[2]) {
+            return true;
+        }
     }
     return g->points->variable != NULL && is_varied(g, cell);
 }
 
-static clast_status add_leaf(growth *g, const node *cell)
+static clast_status make_room(clx_uniformity_tree_cells *c)
 {
     clast_status status = CLAST_OK;
-    clx_uniformity_tree_cells *c = g->cells;
     if (c->n == c->capacity) {
         const int64_t capacity = 2 * c->capacity + 64;
         CLX_TRY(clx_realloc(&c->low, capacity, sizeof *c->low));
         CLX_TRY(clx_realloc(&c->high, capacity, sizeof *c->high));
         CLX_TRY(clx_realloc(&c->count, capacity, sizeof *c->count));
+        CLX_TRY(clx_realloc(&c->key, capacity, sizeof *c->key));
         c->capacity = capacity;
     }
-    for (int k = 0; k < 3; ++k) {
-        c->low[c->n][k] = cell->low[k];
-        c->high[c->n][k] = cell->low[k] + cell->width[k];
-    }
-    c->count[c->n] = cell->end - cell->begin;
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        g->of_point[g->order[i]] = c->n;
-    }
-    ++c->n;
 done:
     return status;
 }
 
+static clast_status add_cell(growth *g, const node *cell)
+{
+    clx_uniformity_tree_cells *c = g->cells;
+    const clast_status status = make_room(c);
+    if (status != CLAST_OK) {
+        return status;
+    }
+    const double width = ldexp(1.0, -cell->depth);
+    for (int32_t j = 0; j < 3; ++j) {
+        uint64_t at = 0;
+        for (int level = 0; level < cell->depth && j < g->d; ++level) {
+            const int bit = bits_below(g, level) - 1 - j;
+            at = at << 1 | (cell->key >> bit & 1u);
+        }
+        c->low[c->n][j] = j < g->d ? (double)at * width : 0.0;
+        c->high[c->n][j] = j < g->d ? (double)(at + 1) * width : 1.0;
+    }
+    c->count[c->n] = cell->end - cell->begin;
+    c->key[c->n++] = cell->key;
+    return CLAST_OK;
+}
+
 static clast_status grow(growth *g, const node *cell);
 
-/// Groups the cell's points by halves (stable) and grows each.
-static clast_status split(growth *g, const node *cell)
+/// Hands the cell's blocks, `levels` halvings down, to `take`.
+static clast_status each_block(growth *g, const node *cell, int levels,
+                               clast_status (*take)(growth *g, const node *block))
 {
     clast_status status = CLAST_OK;
-    const int n_block = power(2, g->d);
-    int64_t start[9] = {0};
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        ++start[block_of(g, cell, g->order[i], 2) + 1];
-    }
+    int64_t start[MAX_BLOCK + 1];
+    const int n_block = 1 << (g->d * levels);
+    const int shift = bits_below(g, cell->depth + levels);
+    find_blocks(g, cell, levels, start);
     for (int b = 0; b < n_block; ++b) {
-        start[b + 1] += start[b];
-    }
-    int64_t at[8];
-    memcpy(at, start, sizeof at);
-    for (int64_t i = cell->begin; i < cell->end; ++i) {
-        g->scratch[cell->begin + at[block_of(g, cell, g->order[i], 2)]++] = g->order[i];
-    }
-    memcpy(g->order + cell->begin, g->scratch + cell->begin,
-           (size_t)(cell->end - cell->begin) * sizeof *g->order);
-    for (int b = 0; b < n_block; ++b) {
-        node child = {.begin = cell->begin + start[b],
-                      .end = cell->begin + start[b + 1],
-                      .depth = cell->depth + 1};
-        for (int32_t j = 0; j < g->d; ++j) {
-            child.width[j] = 0.5 * cell->width[j];
-            child.low[j] = cell->low[j] + (((b >> (g->d - 1 - j)) & 1) != 0 ? child.width[j] : 0.0);
-        }
-        CLX_TRY(grow(g, &child));
+        const node block = {.key = cell->key + ((uint64_t)b << shift),
+                            .begin = start[b],
+                            .end = start[b + 1],
+                            .depth = cell->depth + levels};
+        CLX_TRY(take(g, &block));
     }
 done:
     return status;
@@ -189,7 +262,24 @@ done:
 
 static clast_status grow(growth *g, const node *cell)
 {
-    return is_uneven(g, cell) ? split(g, cell) : add_leaf(g, cell);
+    int levels = 0;
+    if (is_uneven(g, cell, &levels)) {
+        return each_block(g, cell, 1, grow);
+    }
+    return g->config->refine && cell->depth > 0 && levels > 0
+               ? each_block(g, cell, levels, add_cell)
+               : add_cell(g, cell);
+}
+
+static void number_points(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const growth *g = context;
+    (void)worker;
+    for (int64_t c = begin; c < end; ++c) {
+        for (int64_t i = g->begin[c]; i < g->begin[c] + g->cells->count[c]; ++i) {
+            g->of_point[g->point[i].item] = (int32_t)c;
+        }
+    }
 }
 
 clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
@@ -197,23 +287,48 @@ clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point)
 {
     clast_status status = CLAST_OK;
-    growth g = {
-        .points = points, .d = points->d, .config = config, .cells = cells, .of_point = of_point};
-    node root = {.width = {1.0, 1.0, 1.0}, .end = points->n};
+    const int64_t n = points->n;
+    const int32_t d = points->d;
+    growth g = {.points = points, .d = d, .config = config, .cells = cells, .of_point = of_point};
+    const node root = {.end = n};
     *cells = (clx_uniformity_tree_cells){0};
-    CLX_TRY(clx_alloc(&g.order, points->n, sizeof *g.order));
-    CLX_TRY(clx_alloc(&g.scratch, points->n, sizeof *g.scratch));
-    for (int64_t i = 0; i < points->n; ++i) {
-        g.order[i] = i;
+    CLX_CHECK(n <= INT32_MAX, CLAST_E_LIMIT, "%lld points are too many for one tree (2^31 - 1)",
+              (long long)n);
+    CLX_TRY(clx_alloc(&g.point, n, sizeof *g.point));
+    for (int levels = 1; levels <= 2; ++levels) {
+        g.limit[levels] = critical(0.5 * config->level, (double)((1 << (d * levels)) - 1));
     }
+    clx_parallel_for(n, POINTS_A_BLOCK, take_keys, &g);
+    CLX_TRY(clx_sort_keyed(g.point, n));
     CLX_TRY(grow(&g, &root));
+    CLX_TRY(clx_alloc(&g.begin, cells->n, sizeof *g.begin));
+    for (int32_t c = 1; c < cells->n; ++c) {
+        g.begin[c] = g.begin[c - 1] + cells->count[c - 1];
+    }
+    clx_parallel_for(cells->n, 256, number_points, &g);
 done:
     if (status != CLAST_OK) {
         clx_uniformity_tree_free(cells);
     }
-    clx_free(g.order);
-    clx_free(g.scratch);
+    clx_free(g.point);
+    clx_free(g.begin);
     return status;
+}
+
+int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double *u, int32_t d)
+{
+    const uint64_t at = clx_morton_of(u, d);
+    int32_t low = 0; // key[low] <= at < key[high]
+    int32_t high = n;
+    while (high - low > 1) {
+        const int32_t middle = low + (high - low) / 2;
+        if (key[middle] <= at) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
 }
 
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells)
@@ -221,5 +336,6 @@ void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells)
     clx_free(cells->low);
     clx_free(cells->high);
     clx_free(cells->count);
+    clx_free(cells->key);
     *cells = (clx_uniformity_tree_cells){0};
 }

@@ -2,18 +2,20 @@
 // The uniformity tree: a box is split in all axes while a chi-square test finds its points uneven.
 #include "base/status.h"
 
-/// Cells of the tree as boxes of the unit cube.
+/// Cells of the tree as boxes of the unit cube, along the Morton curve.
 typedef struct clx_uniformity_tree_cells {
     int32_t n;
     int64_t capacity;
     double (*low)[3], (*high)[3];
     int64_t *count;
+    uint64_t *key; ///< [n] Morton code of the low corner, ascending
 } clx_uniformity_tree_cells;
 
 typedef struct clx_uniformity_tree_config {
     double level;     ///< of the test in each cell
     int64_t least;    ///< points below which a cell is not tested
     double tolerance; ///< standard deviation of the variable that a cell may keep
+    bool refine; ///< below the root, a cell is given as the blocks that its last test looked at
 } clx_uniformity_tree_config;
 
 /// What is split.
@@ -30,8 +32,12 @@ typedef struct clx_uniformity_tree_points {
 /// halves differ (analysis of variance at level) and it scatters by more than the tolerance.
 ///
 /// @param of_point  [n] cell of each point
-/// @note O(n depth); depth at most 20, so that equal points end
+/// @return CLAST_E_LIMIT for more than 2^31 - 1 points
+/// @note O(n); depth at most 20, so that equal points end; bytes do not depend on threads
 clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point);
+
+/// Cell of the point u [d] of the unit cube, given the keys of all cells; O(log n).
+int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double *u, int32_t d);
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells);

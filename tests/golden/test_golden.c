@@ -178,7 +178,7 @@ static void render_grain(outcome *o)
     clast_fields_free(clast_render_fields, &config);
 }
 
-static void decompose_block(outcome *o)
+static void decompose_block(outcome *o, const char *mesh)
 {
     enum { N = 5000 };
     clast_cloud cloud = {0};
@@ -188,6 +188,8 @@ static void decompose_block(outcome *o)
     CHECK_OK(clast_fields_default(clast_decompose_fields, &config));
     CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &config,
                              "box:0,0,0,1,1,1", false));
+    CHECK_OK(
+        clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &config, mesh, false));
     CHECK_OK(clast_cloud_alloc(N, 3, &cloud));
     for (int i = 0; i < 3 * N; ++i) { // half of the points in an eighth of the cube
         const double x = clx_rng_uniform(&rng);
@@ -207,13 +209,24 @@ static void decompose_block(outcome *o)
     clast_fields_free(clast_decompose_fields, &config);
 }
 
+static void decompose_boxes(outcome *o)
+{
+    decompose_block(o, "boxes");
+}
+
+static void decompose_tree(outcome *o)
+{
+    decompose_block(o, "tree");
+}
+
 static const struct {
     const char *name;
     void (*run)(outcome *o);
 } scenes[] = {
     {"aggregate_exact", aggregate_exact}, {"aggregate_spheres", aggregate_spheres},
     {"aggregate_march", aggregate_march}, {"fill_largest", fill_largest},
-    {"render_grain", render_grain},       {"decompose_block", decompose_block},
+    {"render_grain", render_grain},       {"decompose_block", decompose_boxes},
+    {"decompose_tree", decompose_tree},
 };
 enum { N_SCENE = sizeof scenes / sizeof scenes[0] };
 
