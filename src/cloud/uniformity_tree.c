@@ -27,6 +27,7 @@ typedef struct {
     uint64_t key;       ///< Morton code of the low corner
     int64_t begin, end; ///< in growth.point
     int depth;
+    bool is_of_uneven; ///< some cell above was split for its counts
 } node;
 
 static void take_keys(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -179,7 +180,7 @@ static int levels_tested(const growth *g, const node *cell, int64_t n)
     return n >= (int64_t)EXPECTED_LEAST * quarters && cell->depth + 2 <= CLX_MORTON_LEVELS ? 2 : 1;
 }
 
-/// Splits the cell, or tells the halvings that its tests looked down.
+/// Whether the cell's counts are uneven; *levels: the halvings that the tests looked down.
 static bool is_uneven(const growth *g, const node *cell, int *levels)
 {
     int64_t count[MAX_BLOCK];
@@ -194,11 +195,9 @@ static bool is_uneven(const growth *g, const node *cell, int *levels)
     }
     if (*levels > 1) {
         (void)count_tested(g, cell, 2, count);
-        if (unevenness(count, 1 << (2 * g->d), n) > g->limit[2]) {
-            return true;
-        }
+        return unevenness(count, 1 << (2 * g->d), n) > g->limit[2];
     }
-    return g->points->variable != NULL && is_varied(g, cell);
+    return false;
 }
 
 static clast_status make_room(clx_uniformity_tree_cells *c)
@@ -253,7 +252,8 @@ static clast_status each_block(growth *g, const node *cell, int levels,
         const node block = {.key = cell->key + ((uint64_t)b << shift),
                             .begin = start[b],
                             .end = start[b + 1],
-                            .depth = cell->depth + levels};
+                            .depth = cell->depth + levels,
+                            .is_of_uneven = cell->is_of_uneven};
         CLX_TRY(take(g, &block));
     }
 done:
@@ -264,9 +264,14 @@ static clast_status grow(growth *g, const node *cell)
 {
     int levels = 0;
     if (is_uneven(g, cell, &levels)) {
+        node split = *cell;
+        split.is_of_uneven = true;
+        return each_block(g, &split, 1, grow);
+    }
+    if (g->points->variable != NULL && cell->depth < CLX_MORTON_LEVELS && is_varied(g, cell)) {
         return each_block(g, cell, 1, grow);
     }
-    return g->config->refine && cell->depth > 0 && levels > 0
+    return g->config->refine && cell->is_of_uneven && levels > 0
                ? each_block(g, cell, levels, add_cell)
                : add_cell(g, cell);
 }
