@@ -1,6 +1,7 @@
 // clast fit: linear porosity models of a table of beds.
 #include "command.h"
 #include "json.h"
+#include "manifest.h"
 
 #include <clast/manifest.h>
 #include <clast/porosity_fit.h>
@@ -234,7 +235,11 @@ static clast_status run(const cli_common *common, void *values)
     const config *c = values;
     char source[256];
     job j = {0};
-    clast_status status = gather(c, common->argument[0], &j);
+    clast_manifest *manifest = NULL;
+    clast_status status = cli_manifest_begin(common, &manifest);
+    if (status == CLAST_OK) {
+        status = gather(c, common->argument[0], &j);
+    }
     if (status == CLAST_OK) {
         tell_left_out(&j);
         (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(),
@@ -245,11 +250,17 @@ static clast_status run(const cli_common *common, void *values)
         status = write_folder(common, c, &j);
         status = status == CLAST_OK ? write_charts(common->output, &j) : status;
     }
+    if (status == CLAST_OK) {
+        const cli_input inputs[] = {
+            {"table", common->argument[0]}, {"grains", c->grains}, {NULL, NULL}};
+        status = cli_manifest_end(common, manifest, fields, c, c->fit.seed, inputs);
+    }
     if (status == CLAST_OK && common->json) {
         status = cli_print_json(summary(&j));
     } else if (status == CLAST_OK) {
         print_words(&j);
     }
+    clast_manifest_destroy(manifest);
     free_job(&j);
     return status;
 }
@@ -270,7 +281,7 @@ const cli_command cli_fit = {
         "terms.csv,\n"
         "rows.csv (residual, held-out value, leverage, studentised residual, Cook's distance),\n"
         "features.csv, left_out.csv and the charts feature, predicted, residuals and leverage "
-        "(SVG).\n"
+        "(SVG), manifest.json.\n"
         "Theory: docs/theory/predict.md.",
     .fields = fields,
     .config_size = sizeof(config),

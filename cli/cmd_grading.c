@@ -12,7 +12,7 @@ typedef struct {
     int32_t spread;
     int32_t count;
     int32_t sample;
-    char *compare;
+    char *compare, *chart;
     uint64_t seed;
     double mass, density, grain_volume;
 } grading_config;
@@ -27,6 +27,8 @@ static const clast_field grading_fields[] = {
      "grains per mass: each as large as its class mean (eq. 9), or so that masses come out exactly",
      "mean|exact"},
     {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-", "sizes to draw; -o FILE.csv keeps them", NULL},
+    {FIELD(chart), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "draw mass and number passing, wanted and achieved, into this .svg, .pdf or .png", ""},
     {FIELD(compare), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "file of grain sizes to set beside the curve instead (column with its unit, diameter_m)", ""},
     {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of the draws", NULL},
@@ -256,6 +258,10 @@ static clast_status check_options(const cli_common *common, const grading_config
     if (common->output != NULL && config->sample == 0) {
         return cli_fail(CLAST_E_USAGE, "-o keeps drawn sizes; say how many with --sample");
     }
+    if (config->chart[0] != '\0' && !compares && config->sample == 0) {
+        return cli_fail(CLAST_E_USAGE,
+                        "chart draws what was achieved: --sample N or --compare FILE");
+    }
     if (compares && config->sample > 0) {
         return cli_fail(CLAST_E_USAGE, "sample draws sizes and compare reads them; take one");
     }
@@ -276,6 +282,11 @@ static clast_status run(const cli_common *common, void *config_bytes)
     }
     if (status == CLAST_OK && config->compare[0] != '\0' && a.curve.n_class == 0) {
         status = cli_fail(CLAST_E_USAGE, "'%s' is no sieve curve to compare with", a.text);
+    }
+    if (status == CLAST_OK && config->chart[0] != '\0') {
+        status = a.classes.n_row > 0
+                     ? clast_grading_chart_write(&a.classes, config->chart)
+                     : cli_fail(CLAST_E_USAGE, "chart: '%s' is no sieve curve", a.text);
     }
     if (status == CLAST_OK && common->output != NULL) {
         status = clast_table_write_csv(&a.sizes, common->output);

@@ -1,6 +1,7 @@
 // clast predict: porosity of a bed from the forms of its grains.
 #include "command.h"
 #include "json.h"
+#include "manifest.h"
 #include "predict_input.h"
 
 #include <clast/table_file.h>
@@ -294,16 +295,30 @@ static clast_status answer(const config *c, const cli_common *common, job *j)
 
 static clast_status run(const cli_common *common, void *values)
 {
+    const config *c = values;
     job j = {0};
-    clast_status status = answer(values, common, &j);
+    clast_manifest *manifest = NULL;
+    clast_status status = cli_manifest_begin(common, &manifest);
+    if (status == CLAST_OK) {
+        status = answer(c, common, &j);
+    }
     if (status == CLAST_OK && common->output != NULL) {
+        const bool is_file = strcmp(c->model, "auto") != 0 && strcmp(c->model, "single") != 0 &&
+                             strcmp(c->model, "mixture") != 0;
+        const cli_input inputs[] = {{"table", j.has_table ? common->argument[0] : NULL},
+                                    {"model", is_file ? c->model : NULL},
+                                    {NULL, NULL}};
         status = write_folder(&j, common->output);
+        if (status == CLAST_OK) {
+            status = cli_manifest_end(common, manifest, fields, c, c->seed, inputs);
+        }
     }
     if (status == CLAST_OK && common->json) {
         status = print_json(&j);
     } else if (status == CLAST_OK) {
         (j.has_one ? print_one : print_beds)(&j);
     }
+    clast_manifest_destroy(manifest);
     free_job(&j);
     return status;
 }
@@ -327,7 +342,7 @@ const cli_command cli_predict = {
         "published cross-validation error), the coefficients' printed digits (or a fitted model's\n"
         "covariance) and the sampling of the grains. Inputs outside the range of the model's data\n"
         "are named and in_range is false. Theory: docs/theory/predict.md.\n"
-        "-o FOLDER writes prediction.csv and left_out.csv.",
+        "-o FOLDER writes prediction.csv, left_out.csv and manifest.json.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 0,

@@ -29,6 +29,7 @@
 #include <clast/form_law.h>
 #include <clast/form_set.h>
 #include <clast/grading.h>
+#include <clast/grading_chart.h>
 #include <clast/grading_file.h>
 #include <clast/grain.h>
 #include <clast/grain_statistics.h>

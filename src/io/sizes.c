@@ -27,15 +27,35 @@ typedef struct {
     int64_t low_room, high_room, count_room;
 } reader;
 
+static bool is_mark(char c)
+{
+    return c == ',' || c == ';' || c == '\t';
+}
+
 static bool is_separator(char c)
 {
     return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r';
+}
+
+/// Where a word ends: at a comma, semicolon or tab if the line has one (names may then hold blanks,
+/// as "Diameter (mm)"), else at a blank too.
+static const char *word_end(const char *at, const char *end, bool has_marks)
+{
+    const char *last = at;
+    for (; at < end && *at != '#' && !(has_marks ? is_mark(*at) : is_separator(*at)); ++at) {
+        last = *at == ' ' || *at == '\r' ? last : at + 1;
+    }
+    return last;
 }
 
 /// Cuts [at, end) into words: runs of blanks are one separator, commas and semicolons each one.
 static clast_status split(reader *r, const char *at, const char *end)
 {
     clast_status status = CLAST_OK;
+    bool has_marks = false;
+    for (const char *c = at; c < end; ++c) {
+        has_marks = has_marks || is_mark(*c);
+    }
     r->n_word = 0;
     while (at < end) {
         while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) {
@@ -45,9 +65,7 @@ static clast_status split(reader *r, const char *at, const char *end)
             break;
         }
         const char *word = at;
-        while (at < end && !is_separator(*at) && *at != '#') {
-            ++at;
-        }
+        at = word_end(at, end, has_marks);
         CLX_CHECK(r->n_word < COLUMN_LIMIT && at - word < WORD_LIMIT, CLAST_E_FORMAT,
                   "%s:%lld: more than %d columns, or a word of more than %d letters", r->name,
                   (long long)r->line, COLUMN_LIMIT, WORD_LIMIT - 1);
@@ -99,17 +117,41 @@ static int32_t find_word(const reader *r, const char *with, bool whole)
     return -1;
 }
 
-/// The unit that a column's name ends in, "" for none.
-static const char *unit_of(const char *column)
+static bool is_unit(const char *text)
+{
+    double factor = 0.0;
+    return strcmp(text, "phi") == 0 || clast_unit_factor(text, "m", &factor) == CLAST_OK;
+}
+
+/// The unit that a column's name ends in ("d_mm", "Diameter (mm)"), "" for none.
+static void unit_of(const char *column, char unit[16])
 {
     const char *bar = strrchr(column, '_');
-    double factor = 0.0;
-    if (bar == NULL) {
-        return "";
+    const char *open = strrchr(column, '(');
+    const char *start = open != NULL ? open + 1 : bar != NULL ? bar + 1 : "";
+    (void)snprintf(unit, 16, "%.*s", (int)strcspn(start, ")"), start);
+    if (!is_unit(unit)) {
+        unit[0] = '\0';
     }
-    return strcmp(bar + 1, "phi") == 0 || clast_unit_factor(bar + 1, "m", &factor) == CLAST_OK
-               ? bar + 1
-               : "";
+}
+
+/// The column that is named a size, when there is just one; else -1.
+static int32_t find_size(const reader *r)
+{
+    static const char *const names[] = {"size", "diameter", "equivalent diameter", "sieve", NULL};
+    int32_t found = -1;
+    int32_t n = 0;
+    for (int32_t i = 0; i < r->n_word; ++i) {
+        for (const char *const *name = names; *name != NULL; ++name) {
+            const size_t length = strlen(*name);
+            if (begins(r->word[i], *name) && !isalnum((unsigned char)r->word[i][length])) {
+                found = i;
+                ++n;
+                break;
+            }
+        }
+    }
+    return n == 1 ? found : -1;
 }
 
 static clast_status read_header(reader *r, const char *column)
@@ -127,13 +169,14 @@ static clast_status read_header(reader *r, const char *column)
                   r->name, (long long)r->line, column, r->word[0]);
         r->high = r->low;
     } else if (r->low < 0 || r->high < 0) {
-        r->low = r->count == 0 && r->n_word > 1 ? 1 : 0;
+        r->low = find_size(r);
+        r->low = r->low >= 0 ? r->low : r->count == 0 && r->n_word > 1 ? 1 : 0;
         r->high = r->low;
     }
     CLX_CHECK(r->low != r->count, CLAST_E_FORMAT, "%s:%lld: column %s cannot be size and count",
               r->name, (long long)r->line, r->word[r->low]);
     if (r->unit[0] == '\0') {
-        (void)snprintf(r->unit, sizeof r->unit, "%s", unit_of(r->word[r->low]));
+        unit_of(r->word[r->low], r->unit);
     }
 done:
     return status;
@@ -153,7 +196,10 @@ static clast_status begin(reader *r, const char *column, bool *is_header)
         r->count = r->n_word > 1 ? 1 : -1;
     }
     CLX_CHECK(r->unit[0] != '\0', CLAST_E_CONFIG,
-              "%s: the unit of the sizes is not known; give size_unit (um, mm, m or phi)", r->name);
+              "%s: the unit of the sizes is not known; end the column's name in it (size_mm, Size "
+              "(mm)) or give "
+              "size_unit (um, mm, m or phi)",
+              r->name);
     r->is_phi = strcmp(r->unit, "phi") == 0;
     if (!r->is_phi) {
         CLX_TRY(clast_unit_factor(r->unit, "m", &r->factor));

@@ -7,6 +7,7 @@
 #include "io/pack_state.h"
 #include <clast/chart.h>
 #include <clast/export.h>
+#include <clast/grading_chart.h>
 #include <clast/manifest.h>
 #include <clast/porosity_chart.h>
 #include <clast/table_file.h>
@@ -91,50 +92,10 @@ done:
     return status;
 }
 
-/// Mass passing, wanted and achieved, over the upper sieves.
-static clast_status draw_achieved(const char *folder, const clast_table *t)
-{
-    clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
-    double *sum = NULL;
-    const int64_t n = t->n_row;
-    const double *high = clast_table_numbers(t, "high_m");
-    double *size = NULL;
-    CLX_TRY(clx_alloc(&sum, 2 * n, sizeof *sum));
-    CLX_TRY(clx_alloc(&size, n, sizeof *size));
-    for (int k = 0; k < 2; ++k) {
-        const double *share = clast_table_numbers(t, k == 0 ? "wanted_mass" : "achieved_mass");
-        double passed = 0.0;
-        for (int64_t i = 0; i < n; ++i) {
-            passed += share[i];
-            sum[k * n + i] = passed;
-            size[i] = 1e3 * high[i];
-        }
-    }
-    const clast_series line[2] = {
-        {.kind = CLAST_SERIES_LINE, .label = "wanted", .x = size, .y = sum, .n = n, .dashed = true},
-        {.kind = CLAST_SERIES_POINTS,
-         .label = "achieved",
-         .x = size,
-         .y = sum + n,
-         .n = n,
-         .colour = 1}};
-    const clast_chart chart = {.title = "Sieve curve",
-                               .x = {.label = "size (mm)", .log = true},
-                               .y = {.label = "mass passing (-)"},
-                               .series = line,
-                               .n_series = 2};
-    CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
-    CLX_TRY(clast_chart_write(&chart, path));
-done:
-    clx_free(sum);
-    clx_free(size);
-    return status;
-}
-
 static clast_status write_achieved(const char *folder, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
     clast_table achieved = {0};
     status = clast_pack_achieved(pack, &achieved);
     if (status == CLAST_E_USAGE) {
@@ -142,7 +103,8 @@ static clast_status write_achieved(const char *folder, const clast_pack *pack)
     }
     if (status == CLAST_OK) {
         CLX_TRY(write_table(folder, "achieved.csv", &achieved));
-        CLX_TRY(draw_achieved(folder, &achieved));
+        CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
+        CLX_TRY(clast_grading_chart_write(&achieved, path));
     }
 done:
     clast_table_free(&achieved);

@@ -66,6 +66,17 @@ class Fit(Case):
         self.assertAlmostEqual(answer.json["beds"][0]["porosity"], 0.4 - 0.06 + 0.005, places=12)
         self.assertIn("1 of 2 rows left out", answer.err)
 
+    def test_manifests_name_inputs_and_options(self):
+        path, run, bed = self.write(beds(0.01)), self.folder / "run", self.folder / "bed"
+        self.assertEqual(clast("fit", path, "--n-term", 1, "--seed", 7, "-o", run).code, 0)
+        manifest = json.loads((run / "manifest.json").read_text())
+        self.assertEqual((manifest["command"], manifest["outcome"], manifest["seed"]), ("fit", "done", 7))
+        self.assertEqual(manifest["config"]["n_term"], 1)
+        self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("table", str(path))])
+        self.assertEqual(clast("predict", path, "--each", "--model", run / "model.json", "-o", bed).code, 0)
+        manifest = json.loads((bed / "manifest.json").read_text())
+        self.assertEqual([i["role"] for i in manifest["inputs"]], ["table", "model"])
+
     def test_folds_follow_the_seed_and_not_the_threads(self):
         path = self.write(beds(0.01))
         texts = {clast("fit", path, "--json", "-j", j).out for j in (1, 2)}

@@ -72,6 +72,16 @@ class Grading(Case):
         self.assert_fails(2, "grading", "U1", "-o", file, says=["--sample"])
         self.assert_fails(2, "grading", "uniform:2mm", says=["uniform:LOW,HIGH"])
 
+    def test_chart_draws_wanted_and_achieved(self):
+        chart = self.folder / "sieve.svg"
+        out = clast("grading", "U7", "--sample", 2000, "--chart", chart)
+        self.assertEqual(out.code, 0, out.err)
+        text = chart.read_text()
+        self.assertTrue(text.startswith("<?xml"))
+        self.assertGreater(text.count("<path"), 20)
+        self.assert_fails(2, "grading", "U7", "--chart", chart, says=("--sample N or --compare FILE",))
+        self.assert_fails(2, "grading", "uniform:1mm,2mm", "--sample", 5, "--chart", chart, says=("no sieve curve",))
+
 
 if __name__ == "__main__":
     unittest.main()
