@@ -54,11 +54,22 @@ static void print_hulls(const clast_pack_result *r)
     }
 }
 
+static void print_no_porosity(const clast_pack_result *r)
+{
+    if (isfinite(r->top)) {
+        (void)printf("%-26s none: the bed is %.4g mm high and %.4g mm are left out at both ends; "
+                     "give a smaller --trim; %.4f with nothing left out\n",
+                     "bulk porosity", 1e3 * r->top, 1e3 * r->trim, r->untrimmed);
+    } else {
+        (void)printf("%-26s none: there is no bed yet\n", "bulk porosity");
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
     print_hulls(r);
-    (void)printf("%-26s %d in %d fills, %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
-                 r->dem.mass);
+    (void)printf("%-26s %d in %d fills, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
+                 r->dem.mass, r->mass_wanted);
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->converged ? " (still)" : "", (long long)r->dem.step, r->dem.time);
     if (r->n_outside > 0) {
@@ -68,7 +79,7 @@ static void print_text(const clast_pack_result *r)
         (void)printf("%-26s %.4f between z = %.4g and %.4g mm\n", "bulk porosity", r->porosity,
                      1e3 * r->z_low, 1e3 * r->z_high);
     } else {
-        (void)printf("%-26s none: no bed yet, or trimmed away\n", "bulk porosity");
+        print_no_porosity(r);
     }
     (void)printf("%-26s %.3f (%lld contacts of grains, %lld of walls)\n", "coordination",
                  r->dem.coordination, (long long)r->dem.n_contact,

@@ -29,6 +29,12 @@ typedef enum {
     CLAST_DEM_OPEN      ///< no side walls
 } clast_dem_domain;
 
+/// Stiffness of two bodies that meet in several spheres of clumps at once.
+typedef enum {
+    CLAST_DEM_SHARED, ///< that of one contact, divided among them [Kodam2009]
+    CLAST_DEM_EACH    ///< every sphere has its own: a pair is as stiff as it has contacts
+} clast_dem_clump_contacts;
+
 /// Physics of a run. Defaults are the paper's.
 typedef struct clast_dem_config {
     int32_t law;             ///< clast_dem_law
@@ -45,6 +51,7 @@ typedef struct clast_dem_config {
     bool clip;               ///< a dashpot never pulls
     bool normal_torque;      ///< normal forces turn grains; eq. 5 as printed leaves that out
     bool gyroscopic;         ///< angular momentum is kept (eq. 3); the reference leaves it out
+    int32_t clump_contacts;  ///< clast_dem_clump_contacts
     double time_step;        ///< [s]
     double gravity;          ///< [m/s2], along -z
     double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]

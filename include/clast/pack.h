@@ -128,8 +128,12 @@ typedef struct clast_pack_result {
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
-    double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
-    double elongation[2];  ///< I/L, the same
+    double top;           ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
+    double untrimmed;     ///< bulk porosity with nothing left out at the ends
+    double trim;          ///< left out at both ends [m]
+    double mass_wanted;   ///< [kg]
+    double flatness[2];   ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
+    double elongation[2]; ///< I/L, the same
 } clast_pack_result;
 
 CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);

@@ -21,6 +21,10 @@ static void measure(const clast_dem *dem, const clx_link *link, double out[N_COL
     clx_find_again(dem, link, &t);
     if (t.distance < 0.0) {
         clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
+        if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
+            bool is_first = true;
+            v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link, &is_first), on_a.force);
+        }
     }
     out[0] = a;
     out[1] = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;

@@ -279,4 +279,7 @@ void clx_contacts(clast_dem *dem)
     if (dem->container != NULL) {
         clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }
+    if (dem->item != NULL && dem->config.clump_contacts == CLAST_DEM_SHARED) {
+        clx_dem_for(dem, dem->n_grain, BLOCK, clx_share_pushes, dem);
+    }
 }

@@ -284,5 +284,11 @@ bool clx_move(clast_dem *dem);
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);
 
+/// Contacts that the pair of bodies of a touching link has now; whether this is the first of them.
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_first);
+
+/// A kernel over grains: sub-contacts of clumps share their pair's stiffness.
+void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context);
+
 /// Says what exploded. Returns CLAST_E_CONVERGE.
 clast_status clx_explain_explosion(const clast_dem *dem);

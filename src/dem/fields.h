@@ -76,6 +76,14 @@
          "-",                                                                                      \
          "keep angular momentum (eq. 3); off: as the reference program",                           \
          NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, clump_contacts, CHOICE),                                             \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "spheres of two clumps that touch at once: share one contact's stiffness, or each its "   \
+         "own",                                                                                    \
+         "shared|each"},                                                                           \
         {CLX_DEM_AT(TYPE, IN, time_step, F64), 5e-6, 1e-15, 1e3, "s", "time step", NULL},          \
         {CLX_DEM_AT(TYPE, IN, gravity, F64), 9.81, -1e6, 1e6, "m/s^2", "gravity along -z", NULL},  \
         {CLX_DEM_AT(TYPE, IN, fluid_density, F64),                                                 \

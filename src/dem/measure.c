@@ -74,10 +74,15 @@ static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measu
     } else {
         ++m->n_wall_contact;
     }
+    bool is_first = true;
+    const int32_t n = clx_sub_contacts(dem, link, &is_first);
+    m->coordination += link->b >= 0 && is_first ? 2.0 / dem->n_grain : 0.0;
+    const double share = dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / n : 1.0;
     const double overlap = fmax(0.0, -t.distance);
     m->max_overlap = fmax(m->max_overlap, overlap);
     if (overlap > 0.0) {
-        m->elastic_energy += clx_law_energy(&dem->law, overlap, v3_norm(link->slide), mass, radius);
+        m->elastic_energy +=
+            share * clx_law_energy(&dem->law, overlap, v3_norm(link->slide), mass, radius);
     }
 }
 
@@ -99,7 +104,6 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
     }
     if (m.mass > 0.0) {
         m.mean_height /= m.mass;
-        m.coordination = 2.0 * (double)m.n_contact / m.n_grain;
     }
     *measures = m;
 }
@@ -125,7 +129,9 @@ static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
         clx_dem_touch t = {0};
         double point[3];
         clx_find_again(dem, link, &t);
-        if (t.distance < 0.0) {
+        bool is_first = true;
+        (void)clx_sub_contacts(dem, link, &is_first);
+        if (t.distance < 0.0 && is_first) { // clumps: one contact a pair of bodies
             const int32_t a = clx_item_grain(dem, link->a);
             v3_add(point, dem->grain[a].position, t.arm_a);
             wrap(dem, point);

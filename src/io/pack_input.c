@@ -6,6 +6,7 @@
 #include "base/path.h"
 #include "io/bed_tables.h"
 #include "io/shape_word.h"
+#include "math/vec3.h"
 #include <clast/grading_file.h>
 #include <clast/hull.h>
 #include <clast/mesh_check.h>
@@ -71,14 +72,67 @@ done:
     return status;
 }
 
+/// The spheres of an aggregate's state.
+static clast_status spheres_of(const clast_assembly *a, const char *path, clast_spheres *out)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres made = {0};
+    int64_t n = 0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        CLX_CHECK(shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_CLUMP,
+                  CLAST_E_GEOMETRY,
+                  "%s: grain %d of the aggregate is no sphere (%s); a rigid grain is made of "
+                  "spheres: fill the surface (clast fill), or take the aggregate's hull",
+                  path, i, shape->name);
+        CLX_CHECK(fabs(a->density[i] - a->density[0]) <= 1e-9 * a->density[0], CLAST_E_GEOMETRY,
+                  "%s: grain %d has another density (%g, not %g kg/m3); a grain of a packing is of "
+                  "one material",
+                  path, i, a->density[i], a->density[0]);
+        n += shape->kind == CLAST_SHAPE_SPHERE ? 1 : shape->spheres.n;
+    }
+    CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_GEOMETRY, "%s holds %lld spheres", path,
+              (long long)n);
+    CLX_TRY(clast_spheres_alloc((int32_t)n, &made));
+    n = 0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        const bool is_ball = shape->kind == CLAST_SHAPE_SPHERE;
+        for (int32_t k = 0; k < (is_ball ? 1 : shape->spheres.n); ++k) {
+            double x[3] = {0.0, 0.0, 0.0};
+            if (!is_ball) {
+                q_rotate(x, a->orientation[i], shape->spheres.centre[k]);
+            }
+            v3_axpy(made.centre[n], a->position[i], a->scale[i], x);
+            made.radius[n++] =
+                a->scale[i] * (is_ball ? shape->semi_axes[0] : shape->spheres.radius[k]);
+        }
+    }
+    *out = made;
+    made = (clast_spheres){0};
+done:
+    clast_spheres_free(&made);
+    return status;
+}
+
+/// Spheres of a file, or the rigid grain that an aggregate's state is.
 static clast_status read_clump(const char *path, const char *name, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
     clast_spheres spheres = {0};
-    CLX_TRY(clast_spheres_read(path, NULL, &spheres));
+    clast_state state = {0};
+    if (clx_path_is(path, "h5")) {
+        CLX_TRY(clast_state_read(path, &state));
+    }
+    if (state.n_spheres == 0 && state.assembly != NULL) {
+        CLX_TRY(spheres_of(state.assembly, path, &spheres));
+    } else {
+        CLX_TRY(clast_spheres_read(path, NULL, &spheres));
+    }
     CLX_TRY(clast_shape_clump(name, &spheres, shape));
 done:
     clast_spheres_free(&spheres);
+    clast_state_free(&state);
     return status;
 }
 

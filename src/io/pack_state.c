@@ -187,6 +187,34 @@ done:
     return status;
 }
 
+/// The container's file may have changed, too.
+static clast_status check_container(const clast_state *state, const clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clast_table now[2] = {{0}, {0}};
+    const clast_bed bed = clast_pack_bed(pack);
+    const clast_table *kept = clast_state_table(state, "container_vertices");
+    const bool has_container = bed.kind == CLAST_BED_MESH;
+    CLX_CHECK(has_container == (kept != NULL), CLAST_E_FORMAT,
+              "the checkpoint was made with%s a container", kept != NULL ? "" : "out");
+    if (has_container) {
+        CLX_TRY(clx_bed_surface_tables(bed.surface, now));
+        CLX_CHECK(kept->n_row == now[0].n_row, CLAST_E_FORMAT,
+                  "the container is not the one that the checkpoint was made with");
+        for (int c = 0; c < 3; ++c) {
+            const double *x = clast_table_numbers(kept, now[0].column[c].name);
+            CLX_CHECK(x != NULL &&
+                          memcmp(x, now[0].column[c].number, (size_t)now[0].n_row * sizeof *x) == 0,
+                      CLAST_E_FORMAT,
+                      "the container is not the one that the checkpoint was made with");
+        }
+    }
+done:
+    clast_table_free(&now[0]);
+    clast_table_free(&now[1]);
+    return status;
+}
+
 clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -202,6 +230,7 @@ clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pa
     CLX_CHECK(series != NULL && state.assembly != NULL &&
                   saved.count[CLX_PACK_COUNTS - 1] == state.assembly->n_shape,
               CLAST_E_FORMAT, "%s lacks its series or shapes", found->path);
+    CLX_TRY(check_container(&state, pack));
     saved.series = series;
     saved.shape = state.assembly->shape;
     CLX_TRY(clx_pack_restore(pack, &saved));

@@ -220,7 +220,8 @@ static double fill_high(const clast_pack *p)
 /// Where the next grain of a fill may go.
 typedef struct {
     double low, high; ///< heights of the region
-    int64_t next;     ///< lattice point
+    uint8_t *taken;   ///< [n_point] lattice points that no grain can have any more
+    int64_t first;    ///< all before it are taken
     double x, y, z;   ///< shelf: where the next sphere may begin
     double row, layer;
     int32_t n;
@@ -287,14 +288,26 @@ static bool is_clear(const clast_pack *p, const filling *f, const double x[3], d
     return true;
 }
 
-/// Next lattice point that takes this sphere.
+/// First lattice point that takes this sphere: points that a wide grain passed over are left to
+/// those that follow.
 static bool place_on_lattice(const clast_pack *p, filling *f, double radius, double x[3])
 {
     const double room = fmax(radius, 0.5 * p->spacing);
     const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0;
-    while (lattice_point(p, f, f->next, x)) {
-        ++f->next;
-        if (is_inside(p, x, room) && (!may_overlap || is_clear(p, f, x, radius))) {
+    double spare[3];
+    for (int64_t k = f->first; lattice_point(p, f, k, x); ++k) {
+        if (f->taken[k] != 0) {
+            continue;
+        }
+        if (!is_inside(p, x, room)) {
+            f->taken[k] = room > 0.5 * p->spacing ? 0 : 1; // too near a side for any grain
+            continue;
+        }
+        if (!may_overlap || is_clear(p, f, x, radius)) {
+            f->taken[k] = 1;
+            while (lattice_point(p, f, f->first, spare) && f->taken[f->first] != 0) {
+                ++f->first;
+            }
             f->n_wide += 2.0 * radius > p->spacing ? 1 : 0;
             return true;
         }
@@ -302,7 +315,6 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
     // a wide grain may fit between walls where the lattice has no point: on the axis
     v3_set(x, p->middle[0], p->middle[1], f->low + room);
     if (f->n == 0 && is_inside(p, x, radius) && x[2] + radius <= f->high) {
-        f->next = 0;
         f->n_wide = 1;
         return true;
     }
@@ -391,6 +403,12 @@ clast_status clx_pack_fill(clast_pack *p)
     f.x = p->middle[0] - 0.5 * d->width;
     f.y = p->middle[1] - 0.5 * (d->depth > 0.0 ? d->depth : d->width);
     f.z = f.low;
+    int64_t n_point = 0;
+    double x[3];
+    while (p->config.generator != CLAST_PACK_SHELF && lattice_point(p, &f, n_point, x)) {
+        ++n_point;
+    }
+    CLX_TRY(clx_alloc(&f.taken, n_point + 1, sizeof *f.taken));
     CLX_TRY(fill_region(p, &f));
     CLX_TRY(clast_dem_add_grains(p->dem, f.n, f.grain));
     ++p->n_fill;
@@ -398,5 +416,6 @@ clast_status clx_pack_fill(clast_pack *p)
 done:
     clx_free(f.grain);
     clx_free(f.radius);
+    clx_free(f.taken);
     return status;
 }

@@ -106,7 +106,10 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     clast_porosity_bulk bulk = {0};
     const clast_bed bed = clast_pack_bed(p);
     const clast_porosity_options o = clast_pack_porosity(&p->config);
-    r->porosity = r->z_low = r->z_high = (double)NAN;
+    clast_porosity_options whole = o;
+    r->porosity = r->z_low = r->z_high = r->top = r->untrimmed = (double)NAN;
+    r->trim = o.trim;
+    r->mass_wanted = p->config.mass;
     for (int k = 0; k < 2; ++k) {
         r->flatness[k] = r->elongation[k] = (double)NAN;
     }
@@ -117,6 +120,11 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     measure_ratio(&a, 1, r->flatness);
     measure_ratio(&a, 0, r->elongation);
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
+    whole.trim = 0.0;
+    if (clast_porosity_measure(&a, &bed, &whole, &profile, &bulk) == CLAST_OK) {
+        r->top = bulk.top;
+        r->untrimmed = bulk.porosity;
+    }
     status = clast_porosity_measure(&a, &bed, &o, &profile, &bulk);
     if (status == CLAST_OK) {
         r->porosity = bulk.porosity;

@@ -37,6 +37,40 @@ done:
     return status;
 }
 
+static bool is_same_shape(const clast_shape *a, const clast_shape *b)
+{
+    const int32_t n_vert = a->mesh.n_vert;
+    const int32_t n_tri = a->mesh.n_tri;
+    const int32_t n = a->spheres.n;
+    return a->kind == b->kind && strcmp(a->name, b->name) == 0 && a->volume == b->volume &&
+           a->bounding_radius == b->bounding_radius && n_vert == b->mesh.n_vert &&
+           n_tri == b->mesh.n_tri && n == b->spheres.n &&
+           memcmp(a->inertia, b->inertia, sizeof a->inertia) == 0 &&
+           memcmp(a->semi_axes, b->semi_axes, sizeof a->semi_axes) == 0 &&
+           (n_vert == 0 ||
+            memcmp(a->mesh.vert, b->mesh.vert, (size_t)n_vert * sizeof *a->mesh.vert) == 0) &&
+           (n_tri == 0 ||
+            memcmp(a->mesh.tri, b->mesh.tri, (size_t)n_tri * sizeof *a->mesh.tri) == 0) &&
+           (n == 0 || (memcmp(a->spheres.centre, b->spheres.centre,
+                              (size_t)n * sizeof *a->spheres.centre) == 0 &&
+                       memcmp(a->spheres.radius, b->spheres.radius,
+                              (size_t)n * sizeof *a->spheres.radius) == 0));
+}
+
+/// The files of shapes may have changed since.
+static clast_status check_shapes(const clast_pack *p, const clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; shape != NULL && i < p->input.n_shape; ++i) {
+        CLX_CHECK(is_same_shape(&p->input.shape[i], &shape[i]), CLAST_E_FORMAT,
+                  "shape %d (%s) is not the one that the checkpoint was made with (%s): its file "
+                  "or its options have changed; put the old one back, or begin anew",
+                  i + 1, p->input.shape[i].name, shape[i].name);
+    }
+done:
+    return status;
+}
+
 clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
@@ -45,6 +79,7 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
                   s->count[8] >= p->input.n_shape && s->count[8] <= INT32_MAX &&
                   isfinite(s->number[0]) && isfinite(s->number[1]),
               CLAST_E_FORMAT, "the checkpoint's process is not one");
+    CLX_TRY(check_shapes(p, s->shape));
     for (int64_t i = p->input.n_shape; i < s->count[8]; ++i) {
         int32_t id = 0;
         CLX_TRY(clast_dem_add_shape(p->dem, &s->shape[i], &id));

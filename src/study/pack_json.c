@@ -47,10 +47,13 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     (void)json_object_set_new(o, "phase", json_string(clast_pack_phase_name(r->phase)));
     (void)json_object_set_new(o, "converged", json_boolean(r->converged));
     put(o, "mass", r->dem.mass);
+    put(o, "mass_wanted", r->mass_wanted);
     put_count(o, "n_outside", r->n_outside);
     put(o, "porosity_bulk", r->porosity);
     put(o, "z_low", r->z_low);
     put(o, "z_high", r->z_high);
+    put(o, "bed_top", r->top);
+    put(o, "porosity_untrimmed", r->untrimmed);
     put(o, "flatness_mean", r->flatness[0]);
     put(o, "flatness_deviation", r->flatness[1]);
     put(o, "elongation_mean", r->elongation[0]);

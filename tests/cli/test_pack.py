@@ -149,6 +149,54 @@ class Pack(Case):
         self.assert_fails(2, "pack", "--resume", str(self.folder), "--mass", "2kg", says=("drop mass",))
         self.assert_fails(3, "pack", "--resume", str(self.folder), says=("no checkpoint",))
 
+    def test_other_kinds_resume_after_a_kill(self):
+        spheres = self.folder / "clump.csv"
+        spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
+        for kind, shape in (("egg", "ellipsoid:3,2,1"), ("hull", "data/standin63/grain10.ply"), ("clump", str(spheres))):
+            options = ["--shapes", shape, "--mass", "4g", "--shaking-time", "0.004s", "--max-steps", "24000"]
+            whole = self.folder / f"{kind}-whole"
+            self.assertEqual(self.run_small(*options, "-o", whole, "--checkpoint-time", "0.02s").code, 0)
+            run = self.folder / f"{kind}-cut"
+            process = subprocess.Popen([os.environ["CLAST"], *SMALL, *options, "--checkpoint-time", "0.02s", "-o", str(run)],
+                                       cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+                time.sleep(0.002)
+            process.kill()
+            process.wait()
+            self.assertEqual(process.returncode, -9, f"{kind}: the run ended before it could be killed")
+            resumed = clast("pack", "--resume", run, "--quiet", "-j", "1")
+            self.assertEqual(resumed.code, 0, resumed.err)
+            self.assertEqual((whole / "state.h5").read_bytes(), (run / "state.h5").read_bytes(), kind)
+
+    def test_changed_shape_is_refused_at_resume(self):
+        spheres = self.folder / "clump.csv"
+        spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
+        run = self.folder / "run"
+        process = subprocess.Popen([os.environ["CLAST"], *SMALL, "--shapes", str(spheres), "-o", str(run)], cwd=ROOT,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not list(run.glob("checkpoint-*.h5")) and process.poll() is None:
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.9\n")
+        self.assert_fails(3, "pack", "--resume", str(run), says=("clump.csv", "not the one"))
+
+    def test_aggregate_is_a_grain(self):
+        made = clast("aggregate", "--core", "sphere", "--core-size", "200um", "--coat", "sphere", "--size", "100um", "--replicate",
+                     "6", "-o", self.folder / "aggregate", "--quiet")
+        self.assertEqual(made.code, 0, made.err)
+        run = self.folder / "run"
+        result = self.run_small("--shapes", self.folder / "aggregate" / "state.h5", "--shapes", "sphere", "--max-steps", "14000",
+                                "--json", "-o", run)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertGreater(json.loads(result.out)["n_grain"], 5)
+
+    def test_trimmed_away_says_what_to_do(self):
+        result = clast("pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "30g",
+                       "--shaking-time", "0s", "--quiet")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertRegex(result.out, r"none: the bed is [\d.]+ mm high and 31.5 mm are left out at both ends; give a smaller --trim")
+
     def cup(self):
         """A hexagonal cup with a bottom and no lid, 80 mm wide above and 50 mm below, off the axis."""
         ring = [(math.cos(k * math.pi / 3), math.sin(k * math.pi / 3)) for k in range(6)]

@@ -133,6 +133,35 @@ static void column_rests_on_its_weight(void **state)
     clast_dem_destroy(dem);
 }
 
+/* Ten in a column: contact i carries all that stands on it, so it gives by (n - i) m g' over m/2
+ * k_n/m; the floor by n m g' over m k_n/m. Damped from its touching start; still to rounding of the
+ * positions (1e-17 m of 1e-6 m). */
+static void tall_stack_rests_on_its_weight(void **state)
+{
+    (void)state;
+    enum { TALL = 10 };
+    clast_dem_config c = scene_physics();
+    clast_dem *dem = make(&c);
+    clast_dem_grain ball[TALL];
+    clast_dem_measures m;
+    const double ln = log(0.1);
+    const double rest = 9.81 * (1.0 - 1000.0 / DENSITY) * 4e-8 / (CLAST_PI * CLAST_PI + ln * ln);
+    for (int i = 0; i < TALL; ++i) {
+        ball[i] = at(0.0, 0.0, (2 * i + 1) * RADIUS);
+    }
+    CHECK_OK(clast_dem_add_grains(dem, TALL, ball));
+    CHECK_OK(clast_dem_step(dem, 40000));
+    for (int i = 0; i < TALL; ++i) {
+        clast_dem_read_grain(dem, i, &ball[i]);
+        const double below = i > 0 ? ball[i - 1].position[2] + 2.0 * RADIUS : RADIUS;
+        CHECK_REL(below - ball[i].position[2], (i > 0 ? 2.0 : 1.0) * (TALL - i) * rest, 1e-6);
+        CHECK_ABS(ball[i].position[0], 0.0, 1e-15);
+    }
+    clast_dem_measure(dem, &m);
+    assert_true(m.max_speed < 1e-12);
+    clast_dem_destroy(dem);
+}
+
 /* A sphere that slides slows by mu g' until it rolls at 5/7 of its speed, after 2 v / (7 mu g'). */
 static void sliding_sphere_begins_to_roll(void **state)
 {
@@ -392,6 +421,7 @@ int main(void)
         cmocka_unit_test(hertz_restitution_is_independent_of_speed),
         cmocka_unit_test(walls_bounce_with_their_restitution),
         cmocka_unit_test(column_rests_on_its_weight),
+        cmocka_unit_test(tall_stack_rests_on_its_weight),
         cmocka_unit_test(sliding_sphere_begins_to_roll),
         cmocka_unit_test(collision_keeps_momentum),
         cmocka_unit_test(clipped_dashpot_never_pulls),

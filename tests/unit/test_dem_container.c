@@ -182,12 +182,103 @@ static void open_bin_holds_a_ball(void **state)
     clast_mesh_free(&bin);
 }
 
+/// A plane through the origin that falls towards +x at this angle.
+static void make_slope(double angle, clast_mesh *mesh)
+{
+    make_floor(1, 0.5, mesh);
+    clast_mesh_transform(mesh, 1.0, (const double[4]){cos(0.5 * angle), 0.0, sin(0.5 * angle), 0.0},
+                         (const double[3]){0.0, 0.0, 0.0});
+}
+
+/// Speed down the slope after 0.05 s from rest, and the spin about y.
+static void go_down(const clast_shape *shape, double height, double angle, double friction,
+                    double out[2])
+{
+    clast_dem_config c = scene_physics();
+    clast_mesh slope = {0};
+    const double n[3] = {sin(angle), 0.0, cos(angle)};
+    c.domain = CLAST_DEM_OPEN;
+    c.floor = false;
+    c.friction = friction;
+    make_slope(angle, &slope);
+    clast_dem_grain g = {.scale = 1.0, .density = DENSITY};
+    g.orientation[0] = cos(0.5 * angle);
+    g.orientation[2] = sin(0.5 * angle);
+    for (int k = 0; k < 3; ++k) {
+        g.position[k] = (height - 1.6e-8 * cos(angle)) * n[k];
+    }
+    clast_dem *dem = in_container(&c, &slope, shape, &g);
+    CHECK_OK(clast_dem_step(dem, 10000));
+    clast_dem_read_grain(dem, 0, &g);
+    out[0] = g.velocity[0] * cos(angle) - g.velocity[2] * sin(angle);
+    out[1] = g.spin[1];
+    clast_dem_destroy(dem);
+    clast_mesh_free(&slope);
+}
+
+/* A ball rolls down at 5/7 g' sin(a) while tan(a) < 7/2 mu; on a steeper slope it slides at
+ * g' (sin(a) - mu cos(a)) and is spun up at 5/2 mu g' cos(a) / R. Spring and dashpot of the contact
+ * take some T_c of 0.05 s to load: 2e-4 / 0.05 = 0.4 %. */
+static void ball_rolls_and_slides_on_a_slope(void **state)
+{
+    (void)state;
+    const double g = 9.81 * (1.0 - 1000.0 / DENSITY);
+    const double mu = 0.2;
+    const double critical = atan(3.5 * mu);
+    clast_shape ball = {0};
+    CHECK_OK(scene_body(SCENE_BALL, &ball));
+    for (int steep = 0; steep < 2; ++steep) {
+        double out[2];
+        const double a = steep ? critical + 0.1 : critical - 0.1;
+        go_down(&ball, 4e-3, a, mu, out);
+        const double rate = steep ? g * (sin(a) - mu * cos(a)) : 5.0 / 7.0 * g * sin(a);
+        const double spin = steep ? 2.5 * mu * g * cos(a) / 4e-3 : rate / 4e-3;
+        CHECK_REL(out[0], rate * 0.05, 4e-3);
+        CHECK_REL(out[1], spin * 0.05, 4e-3);
+    }
+    clast_shape_free(&ball);
+}
+
+/* A tripod of three balls cannot roll: it stays where tan(a) < mu, and else slides at
+ * g' (sin(a) - mu cos(a)), with the friction of its three feet together. */
+static void tripod_slides_beyond_the_angle_of_friction(void **state)
+{
+    (void)state;
+    const double g = 9.81 * (1.0 - 1000.0 / DENSITY);
+    const double mu = 0.4;
+    clast_spheres feet = {0};
+    clast_shape tripod = {0};
+    CHECK_OK(clast_spheres_alloc(3, &feet));
+    for (int k = 0; k < 3; ++k) {
+        feet.centre[k][0] = 6e-3 * cos(2.0 * CLAST_PI * k / 3.0);
+        feet.centre[k][1] = 6e-3 * sin(2.0 * CLAST_PI * k / 3.0);
+        feet.radius[k] = 2e-3;
+    }
+    CHECK_OK(clast_shape_clump("tripod", &feet, &tripod));
+    for (int steep = 0; steep < 2; ++steep) {
+        double out[2];
+        const double a = atan(mu) + (steep ? 0.05 : -0.05);
+        go_down(&tripod, 2e-3, a, mu, out);
+        if (steep) {
+            CHECK_REL(out[0], g * (sin(a) - mu * cos(a)) * 0.05, 4e-3);
+        } else {
+            /* its springs give by mu g' / k_t and swing: speeds of that over T_c */
+            CHECK_ABS(out[0], 0.0, 1.6e-8 / 2e-4);
+        }
+        CHECK_ABS(out[1], 0.0, 1e-2);
+    }
+    clast_spheres_free(&feet);
+    clast_shape_free(&tripod);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_bounces_off_triangles),
         cmocka_unit_test(edges_of_a_flat_floor_are_not_felt),
         cmocka_unit_test(open_bin_holds_a_ball),
+        cmocka_unit_test(ball_rolls_and_slides_on_a_slope),
+        cmocka_unit_test(tripod_slides_beyond_the_angle_of_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,6 +167,49 @@ static void bodies_rest_on_the_floor(void **state)
     }
 }
 
+/* Two dumb-bells side by side meet in two spheres at once. The pair's stiffness is shared, so e_n
+ * and T_c are those of one contact; each its own: twice the spring and twice the dashpot, which is
+ * a collision of T_c / sqrt(2) with another damping. */
+static void clumps_share_the_stiffness_of_their_pair(void **state)
+{
+    (void)state;
+    for (int each = 0; each < 2; ++each) {
+        clast_dem_config c = scene_space();
+        clast_shape clump = {0};
+        clast_dem_measures m;
+        c.restitution = 0.3;
+        c.clump_contacts = each;
+        c.time_step = c.collision_time / 1000.0;
+        CHECK_OK(scene_body(SCENE_CLUMP, &clump));
+        clast_dem_grain g[2] = {{.scale = 1.0, .density = DENSITY, .orientation = {1.0}},
+                                {.scale = 1.0, .density = DENSITY, .orientation = {1.0}}};
+        g[0].position[1] = -2.0001e-3;
+        g[1].position[1] = 2.0001e-3;
+        g[0].velocity[1] = 0.05;
+        clast_dem *dem = scene_bodies(&c, &clump, 2, g);
+        assert_non_null(dem);
+        while (clast_dem_measure(dem, &m), m.n_contact == 0) {
+            CHECK_OK(clast_dem_step(dem, 1));
+        }
+        assert_int_equal(m.n_contact, 2);
+        CHECK_REL(m.coordination, 1.0, 1e-15); /* one neighbour each */
+        const double lasted = scene_collide(dem, c.time_step);
+        clast_dem_read_grain(dem, 0, &g[0]);
+        clast_dem_read_grain(dem, 1, &g[1]);
+        const double e = (g[1].velocity[1] - g[0].velocity[1]) / 0.05;
+        /* of x'' + 2 z w x' + w^2 x: w^2 and 2 z w doubled */
+        const double ln = log(0.3);
+        const double damping = (each ? 2.0 : 1.0) * -ln / c.collision_time;
+        const double stiffness = (each ? 2.0 : 1.0) * (CLAST_PI * CLAST_PI + ln * ln) /
+                                 (c.collision_time * c.collision_time);
+        const double duration = CLAST_PI / sqrt(stiffness - damping * damping);
+        CHECK_REL(lasted, duration, 1e-2); /* a step or two of 700 to 1000 */
+        CHECK_REL(e, exp(-damping * duration), 2.0 * damping * c.time_step + 1e-3);
+        clast_dem_destroy(dem);
+        clast_shape_free(&clump);
+    }
+}
+
 static void unusable_shapes_are_refused(void **state)
 {
     (void)state;
@@ -205,6 +248,7 @@ int main(void)
         cmocka_unit_test(every_kind_bounces_off_walls),
         cmocka_unit_test(free_body_keeps_momentum_and_energy),
         cmocka_unit_test(bodies_rest_on_the_floor),
+        cmocka_unit_test(clumps_share_the_stiffness_of_their_pair),
         cmocka_unit_test(unusable_shapes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

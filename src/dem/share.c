@@ -1,0 +1,84 @@
+// Several contacts of one pair of bodies: each takes its share of the pair's stiffness.
+//
+// k_n of the laws is that of a pair of bodies. Where clumps meet in n spheres at once, n springs
+// would stand side by side; each gets 1/n [Kodam2009]. Springs, dashpots, Coulomb's limit and
+// attraction all scale alike and the tangential displacement does not, so it is the pushes that are
+// divided.
+#include "dem/container.h"
+#include "math/vec3.h"
+
+/// Triangles whose planes are closer than this cosine are one wall.
+static const double SAME_WALL = 0.9;
+
+static bool is_same_pair(const clast_dem *dem, const clx_link *p, const clx_link *q)
+{
+    if (clx_link_is_container(dem, p) && clx_link_is_container(dem, q)) {
+        return fabs(v3_dot(clx_link_triangle(dem, p)->normal, clx_link_triangle(dem, q)->normal)) >
+               SAME_WALL;
+    }
+    if (p->b < 0 || q->b < 0) {
+        return p->b == q->b;
+    }
+    return dem->item[p->b].grain == dem->item[q->b].grain && p->period[0] == q->period[0] &&
+           p->period[1] == q->period[1];
+}
+
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_first)
+{
+    const clx_list *l = &dem->list;
+    int32_t n = 0;
+    *is_first = true;
+    if (dem->item == NULL) {
+        return 1;
+    }
+    const int32_t g = dem->item[link->a].grain;
+    const int64_t end = l->begin[dem->item_begin[g + 1]];
+    for (int64_t k = l->begin[dem->item_begin[g]]; k < end; ++k) {
+        const clx_link *other = &l->link[k];
+        if (other->touches != 0 && is_same_pair(dem, link, other)) {
+            *is_first = *is_first && (n > 0 || other == link);
+            ++n;
+        }
+    }
+    return n > 0 ? n : 1;
+}
+
+static void divide(clx_pushed *push, int32_t n)
+{
+    const double share = 1.0 / n;
+    for (int k = 0; k < 4; ++k) {
+        push->force[k] *= share;
+        push->torque_a[k] *= share;
+        push->torque_b[k] *= share;
+    }
+}
+
+/// Divides the pushes of one grain's own contacts.
+static void share(clast_dem *dem, int32_t g)
+{
+    const clx_near *near = &dem->near;
+    const int32_t begin = near->begin[dem->item_begin[g]];
+    const int32_t end = near->begin[dem->item_begin[g + 1]];
+    for (int32_t i = begin; i < end; ++i) {
+        const clx_link *link = &dem->list.link[near->link[i]];
+        int32_t n = 0;
+        if (link->touches == 0) {
+            continue;
+        }
+        for (int32_t k = begin; k < end; ++k) {
+            const clx_link *other = &dem->list.link[near->link[k]];
+            n += other->touches != 0 && is_same_pair(dem, link, other) ? 1 : 0;
+        }
+        if (n > 1) {
+            divide(&near->push[i], n);
+        }
+    }
+}
+
+void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    (void)worker;
+    for (int64_t g = begin; g < end; ++g) {
+        share(context, (int32_t)g);
+    }
+}
