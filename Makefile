@@ -20,7 +20,7 @@ docs:
 bench:
 	@tools/setup.sh build
 	@tools/bench.sh
-paper: paper-aggregate paper-predict paper-shape paper-d2sd
+paper: paper-aggregate paper-predict paper-shape paper-d2sd paper-packing
 paper-aggregate:
 	@tools/setup.sh build
 	@tools/build.sh release clast_cli
