@@ -84,3 +84,4 @@
 #include <clast/volume_file.h>
 #include <clast/voxels.h>
 #include <clast/voxels_file.h>
+#include <clast/workspace.h>

@@ -21,6 +21,16 @@ clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size)
 /// Frees; NULL is allowed.
 void clx_free(void *block);
 
+/// Blocks that wait for the next call instead of going back to the system. Sizes are rounded up to
+/// powers of two, so that the same sequence of calls takes nothing from the system the second time.
+typedef struct clx_pool clx_pool;
+clast_status clx_pool_create(clx_pool **pool);
+void clx_pool_destroy(clx_pool *pool); ///< with all its blocks; NULL is allowed
+
+/// From now on this thread's blocks come from the pool and go back to it; returns the pool before,
+/// NULL for none, to be entered again at the end. A block of a pool must be freed inside it.
+clx_pool *clx_pool_enter(clx_pool *pool);
+
 /// Most bytes one block may have (default 64 GiB); protects against absurd header counts.
 enum { CLX_ALLOC_LIMIT_GIB = 64 };
 
@@ -30,4 +40,6 @@ enum { CLX_ALLOC_LIMIT_GIB = 64 };
 int64_t clx_alloc_refuse(int64_t k);
 /// Test hook: blocks that are live now.
 int64_t clx_alloc_live(void);
+/// Test hook: blocks taken from the system so far, moved ones included.
+int64_t clx_alloc_taken(void);
 #endif

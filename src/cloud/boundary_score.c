@@ -95,16 +95,46 @@ static double constant_part(const clx_depth_law *law, double g, double a, double
     return below + above;
 }
 
-double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
+typedef struct {
+    const clx_depth_law *law;
+    const double *z;
+    int64_t n;
+    double *part; ///< one per block, added in order
+} distance_context;
+
+enum { STEPS_A_BLOCK = 16384, N_PART = 64 };
+
+/// Steps of G_n that share a part: fixed by n alone.
+static int64_t steps_a_part(int64_t n)
 {
+    const int64_t even = (n + N_PART) / N_PART;
+    return even > STEPS_A_BLOCK ? even : STEPS_A_BLOCK;
+}
+
+static void sum_steps(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const distance_context *c = context;
     double sum = 0.0;
-    double from = 0.0;
-    for (int64_t k = 0; k <= n; ++k) {
-        const double to = k < n ? z[k] : 1.0;
+    double from = begin > 0 ? c->z[begin - 1] : 0.0;
+    (void)worker;
+    for (int64_t k = begin; k < end; ++k) {
+        const double to = k < c->n ? c->z[k] : 1.0;
         if (to > from) {
-            sum += constant_part(law, (double)k / (double)n, from, to);
+            sum += constant_part(c->law, (double)k / (double)c->n, from, to);
             from = to;
         }
+    }
+    c->part[begin / steps_a_part(c->n)] = sum;
+}
+
+double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
+{
+    double part[N_PART + 1] = {0.0};
+    double sum = 0.0;
+    distance_context context = {law, z, n, part};
+    clx_parallel_for(n + 1, steps_a_part(n), sum_steps, &context);
+    for (int k = 0; k <= N_PART; ++k) {
+        sum += part[k];
     }
     return sum;
 }

@@ -3,11 +3,13 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "math/sort.h"
 #include <math.h>
 #include <string.h>
 
 enum {
     ROWS_A_BLOCK = 64,
+    POINTS_A_BLOCK = 16384,
     HALF_WIDTH = 26, ///< kernel coefficients kept on each side
     SYSTEM = 40,     ///< half-size of the system that finds them
     TILE = 64,       ///< lines that are convolved side by side
@@ -103,7 +105,7 @@ typedef struct {
     int64_t size;
     double *node, *other; ///< [size]
     int64_t *start;       ///< [count[0] + 1] points by slab of axis 0
-    int64_t *order;       ///< [n]
+    clx_keyed *order;     ///< [n] points by column
     double kernel[HALF_WIDTH + 1];
 } grid;
 
@@ -155,7 +157,7 @@ static void spread_groups(int64_t begin, int64_t end, int32_t worker, void *cont
         const int64_t last = slab + GROUP < c->g->count[0] ? slab + GROUP : c->g->count[0];
         for (int64_t p = slab < last ? c->g->start[slab] : 0; slab < last && p < c->g->start[last];
              ++p) {
-            spread_point(c->g, c->g->y + c->g->order[p] * c->g->d);
+            spread_point(c->g, c->g->y + (int64_t)c->g->order[p].item * c->g->d);
         }
     }
 }
@@ -169,44 +171,81 @@ static int64_t column_of(const grid *g, int64_t i)
     return g->d > 1 ? slab * g->count[1] + spline_weights(g, y[1], 1, unused) : slab;
 }
 
+static void take_columns(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const grid *g = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        g->order[i] = (clx_keyed){(uint64_t)column_of(g, i), (uint64_t)i};
+    }
+}
+
 /// Points by column, so that neighbours on the grid follow each other; in index order within one.
 static clast_status sort_by_column(grid *g)
 {
-    clast_status status = CLAST_OK;
-    int64_t *start = NULL;
-    const int64_t width = g->d > 1 ? g->count[1] : 1;
-    const int64_t n_column = g->count[0] * width;
-    CLX_TRY(clx_alloc(&start, n_column + 1, sizeof *start));
-    for (int64_t i = 0; i < g->n; ++i) {
-        ++start[column_of(g, i) + 1];
+    const uint64_t width = g->d > 1 ? (uint64_t)g->count[1] : 1;
+    clx_parallel_for(g->n, POINTS_A_BLOCK, take_columns, g);
+    const clast_status status = clx_sort_keyed(g->order, g->n);
+    int64_t at = 0;
+    for (int64_t slab = 0; slab <= g->count[0]; ++slab) { // first point at or behind the slab
+        int64_t end = g->n;
+        while (at < end) {
+            const int64_t middle = at + (end - at) / 2;
+            if (g->order[middle].key < (uint64_t)slab * width) {
+                at = middle + 1;
+            } else {
+                end = middle;
+            }
+        }
+        g->start[slab] = at;
     }
-    for (int64_t c = 0; c < n_column; ++c) {
-        start[c + 1] += start[c];
-    }
-    for (int64_t s = 0; s <= g->count[0]; ++s) {
-        g->start[s] = start[s * width];
-    }
-    for (int64_t i = 0; i < g->n; ++i) {
-        g->order[start[column_of(g, i)]++] = i;
-    }
-done:
-    clx_free(start);
     return status;
+}
+
+enum { N_SPAN = 64 };
+
+/// Least and greatest coordinates of N_SPAN stretches of points.
+typedef struct {
+    const grid *g;
+    double low[N_SPAN][3], high[N_SPAN][3];
+} spans;
+
+static void take_spans(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    spans *s = context;
+    const int32_t d = s->g->d;
+    (void)worker;
+    for (int64_t span = begin; span < end; ++span) {
+        for (int32_t j = 0; j < d; ++j) {
+            s->low[span][j] = s->g->y[j];
+            s->high[span][j] = s->g->y[j];
+        }
+        for (int64_t i = s->g->n * span / N_SPAN; i < s->g->n * (span + 1) / N_SPAN; ++i) {
+            for (int32_t j = 0; j < d; ++j) {
+                const double y = s->g->y[i * d + j];
+                s->low[span][j] = y < s->low[span][j] ? y : s->low[span][j];
+                s->high[span][j] = y > s->high[span][j] ? y : s->high[span][j];
+            }
+        }
+    }
 }
 
 static clast_status lay_grid(grid *g)
 {
     clast_status status = CLAST_OK;
+    spans s = {.g = g};
     g->size = 1;
+    clx_parallel_for(N_SPAN, 1, take_spans, &s);
     for (int32_t j = 0; j < 3; ++j) {
-        double high = j < g->d ? g->y[j] : 0.0;
-        g->low[j] = high;
+        g->low[j] = 0.0;
         g->count[j] = 1;
-        for (int64_t i = 1; i < g->n && j < g->d; ++i) {
-            g->low[j] = fmin(g->low[j], g->y[i * g->d + j]);
-            high = fmax(high, g->y[i * g->d + j]);
-        }
         if (j < g->d) {
+            double high = s.high[0][j];
+            g->low[j] = s.low[0][j];
+            for (int span = 1; span < N_SPAN; ++span) {
+                g->low[j] = fmin(g->low[j], s.low[span][j]);
+                high = fmax(high, s.high[span][j]);
+            }
             g->low[j] -= MARGIN * g->h;
             g->count[j] = (int64_t)ceil((high - g->low[j]) / g->h) + MARGIN + 1;
         }

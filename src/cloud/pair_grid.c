@@ -156,6 +156,39 @@ static void apply_lines(int64_t begin, int64_t end, int32_t worker, void *contex
     }
 }
 
+enum { N_DOT = 64 };
+
+/// Product of two tensors, a part for each of N_DOT pieces.
+typedef struct {
+    const double *a, *b;
+    int64_t size;
+    double part[N_DOT];
+} dot_context;
+
+static void multiply_pieces(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    dot_context *c = context;
+    (void)worker;
+    for (int64_t piece = begin; piece < end; ++piece) {
+        double sum = 0.0;
+        for (int64_t i = c->size * piece / N_DOT; i < c->size * (piece + 1) / N_DOT; ++i) {
+            sum += c->a[i] * c->b[i];
+        }
+        c->part[piece] = sum;
+    }
+}
+
+static double dot(const double *a, const double *b, int64_t size)
+{
+    dot_context c = {.a = a, .b = b, .size = size};
+    double sum = 0.0;
+    clx_parallel_for(N_DOT, 1, multiply_pieces, &c);
+    for (int piece = 0; piece < N_DOT; ++piece) {
+        sum += c.part[piece];
+    }
+    return sum;
+}
+
 static double contract(const tensor *t, int k, const double *moment, double *a, double *b)
 {
     const double *from = moment;
@@ -168,11 +201,19 @@ static double contract(const tensor *t, int k, const double *moment, double *a, 
         to = to == a ? b : a;
         stride *= 2 * t->g;
     }
-    double sum = 0.0;
-    for (int64_t i = 0; i < t->size; ++i) {
-        sum += moment[i] * from[i];
+    return dot(moment, from, t->size);
+}
+
+/// Adds the chunks' tensors to the first, in order.
+static void add_tensors(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    tensor *t = context;
+    (void)worker;
+    for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
+        for (int64_t i = begin; i < end; ++i) {
+            t->moment[0][i] += t->moment[chunk][i];
+        }
     }
-    return sum;
 }
 
 static clast_status fill_tensor(tensor *t)
@@ -182,10 +223,8 @@ static clast_status fill_tensor(tensor *t)
         CLX_TRY(clx_alloc(&t->moment[chunk], t->size, sizeof *t->moment[chunk]));
     }
     clx_parallel_for(t->n_chunk, 1, add_chunk, t);
+    clx_parallel_for(t->size, 65536, add_tensors, t);
     for (int chunk = 1; chunk < t->n_chunk; ++chunk) {
-        for (int64_t i = 0; i < t->size; ++i) {
-            t->moment[0][i] += t->moment[chunk][i];
-        }
         for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
             t->own[0][k] += t->own[chunk][k];
         }
