@@ -1,5 +1,6 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
+#include "decompose_sizes.h"
 #include "json.h"
 #include "points.h"
 
@@ -16,19 +17,29 @@ typedef struct {
     cli_points points;
     bool test_only;
     int32_t charts;
+    cli_sizes sizes;
 } config;
 
 static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
-enum { N_OWN = 2, MAX_FIELD = 60 };
+enum { N_OWN = 4, MAX_FIELD = 60 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
-static const clast_field own[N_OWN] = {{"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL,
-                                        0, 0, 0, "-", "run the uniformity tests alone", NULL},
-                                       {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0,
-                                        0, 0, "-", "format of charts", "svg|png|pdf"}};
+static const clast_field own[N_OWN] = {
+    {"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
+     "run the uniformity tests alone", NULL},
+    {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-", "format of charts",
+     "svg|png|pdf"},
+    {"sizes", offsetof(config, sizes.n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
+     "events of random parts of n, n/2, n/4 .. points, so many "
+     "sizes, as a table and a chart; 0: none",
+     NULL},
+    {"regular", offsetof(config, sizes.regular), CLAST_FIELD_I32, 0, 0, 200, "-",
+     "with --sizes: a regular mesh of so many cells an axis "
+     "beside; 0: none",
+     NULL}};
 
 __attribute__((constructor)) static void join_fields(void)
 {
@@ -284,6 +295,27 @@ static clast_status write_folder(const clast_decomposition *r, const clast_cloud
     return status;
 }
 
+/// events_by_n.csv and its chart.
+static clast_status write_sizes(const clast_domain *domain, const clast_cloud *cloud,
+                                const config *c, const char *folder)
+{
+    char path[4096];
+    clast_table table = {0};
+    clast_status status = cli_decompose_sizes(domain, cloud, &c->decompose, &c->sizes, &table);
+    if (status == CLAST_OK) {
+        (void)mkdir(folder,
+                    0777); // an existing folder is fine, a missing one is told by the writer
+        (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
+        status = clast_table_write_csv(&table, path);
+    }
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, chart_end[c->charts]);
+        status = cli_decompose_sizes_chart(&table, path);
+    }
+    clast_table_free(&table);
+    return status;
+}
+
 static double now(void)
 {
     struct timespec t;
@@ -302,6 +334,9 @@ static clast_status run(const cli_common *common, void *values)
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
+    if (c->sizes.n_size > 0 && common->output == NULL) {
+        return cli_fail(CLAST_E_USAGE, "--sizes writes a table and a chart: name a folder with -o");
+    }
     clast_status status = cli_domain_read(c->decompose.domain, &c->points, &domain);
     if (status == CLAST_OK) {
         status = cli_points_read(common->argument[0], &c->points, &table);
@@ -311,6 +346,9 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK) {
         status = clast_decompose_in(&domain, &cloud, &c->decompose, &result);
+    }
+    if (status == CLAST_OK && c->sizes.n_size > 0 && common->output != NULL) {
+        status = write_sizes(&domain, &cloud, c, common->output);
     }
     if (status == CLAST_OK) {
         json_t *summary = summary_of(&result, now() - begun);
@@ -349,7 +387,8 @@ const cli_command cli_decompose = {
                "takes n^2 / V as printed.\n"
                "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events), "
                "point_cells.csv, thresholds.csv,\nsummary.json, cells.vtu and points.vtp for "
-               "ParaView, and charts: points, density, score, events.",
+               "ParaView, and charts: points, density, score, events; with "
+               "--sizes K events_by_n.csv and its chart.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -132,6 +132,64 @@ class Decompose(Case):
             float(row.split(",")[5]) for row in (out / "cells.csv").read_text().split()[1:]))
         self.assertEqual(set(vtk_array(vtu, "types")), {9})
 
+    def test_events_of_parts_scale_to_the_whole(self):
+        random.seed(8)
+        points = []
+        while len(points) < 4000:
+            p = [random.gauss(0.5, 0.1), random.gauss(0.5, 0.1)]
+            if 0 < p[0] < 1 and 0 < p[1] < 1:
+                points.append(p)
+        write_points(self.folder / "blob.csv", points)
+        out = self.folder / "sizes"
+        r = clast("decompose", self.folder / "blob.csv", "--domain", "box:0,0,1,1", "--sizes", "4", "--regular", "20",
+                  "-o", out, "--json")
+        self.assertEqual(r.code, 0, r.err)
+        lines = [line.split(",") for line in (out / "events_by_n.csv").read_text().split()]
+        rows = [dict(zip(lines[0], map(float, line))) for line in lines[1:]]
+        self.assertEqual([row["n"] for row in rows], [500, 1000, 2000, 4000])
+        self.assertAlmostEqual(rows[-1]["events"], r.json["events"], delta=0.05 * r.json["events"])
+        truth = 0.5e-6 * 4000 ** 2 / (4 * math.pi * 0.01)  # integral of the density's square
+        for row in rows:  # a part has half the points of the next: error of the regular mesh is 1 / (2 sigma)^2 bins
+            self.assertAlmostEqual(row["scaled_events"], row["events"] * (4000 / row["n"]) ** 2, delta=1e-9)
+            self.assertLess(abs(row["scaled_regular"] / truth - 1), 0.03 + 4 * 2 / math.sqrt(row["n"]))
+        self.assertLess(abs(rows[-1]["scaled_events"] / truth - 1), 0.1)
+        self.assertTrue((out / "events_by_n.svg").read_text().startswith("<?xml"))
+        self.assert_fails(2, "decompose", self.folder / "blob.csv", "--domain", "box:0,0,1,1", "--sizes", "20", "-o", out,
+                          says=["below 5 points"])
+
+    def test_inside_of_a_surface_is_a_domain(self):
+        random.seed(9)
+        points = []
+        while len(points) < 600:
+            p = [random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)]
+            if sum(p) < 1 and (p[0] < 0.3 or random.random() < 0.2):
+                points.append(p)
+        write_points(self.folder / "corner.csv", points)
+        surface = self.folder / "corner.off"
+        surface.write_text("OFF\n4 4 0\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        for mesh in ("boxes", "components", "bins", "labels", "tree"):
+            out = self.folder / mesh
+            r = clast("decompose", self.folder / "corner.csv", "--domain", f"mesh:{surface}", "--domain-unit", "mm", "--mesh",
+                      mesh, "-o", out, "--json")
+            self.assertEqual(r.code, 0, r.err)
+            lines = [line.split(",") for line in (out / "cells.csv").read_text().split()]
+            rows = [dict(zip(lines[0], map(float, line))) for line in lines[1:]]
+            self.assertGreater(len(rows), 1)
+            self.assertAlmostEqual(sum(row["volume"] for row in rows), 1 / 6, delta=1e-12 / 6)
+            self.assertEqual(sum(row["count"] for row in rows), 600)
+            self.assertEqual(r.json["n_test"], 3600)
+            self.assertEqual(set(vtk_array((out / "cells.vtu").read_text(), "types")), {12})
+        r = clast("agglomerate", self.folder / "corner.csv", "--domain", f"mesh:{surface}", "--domain-unit", "mm", "--constant",
+                  "1e-3", "--fixed", "4", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual(r.json["moments"]["M1"][-1], 600)
+        self.assertGreater(r.json["fixed"]["events"][-1], 0)
+        surface.write_text("OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
+        out = self.folder / "none"
+        self.assert_fails(3, "decompose", self.folder / "corner.csv", "--domain", f"mesh:{surface}", "-o", out,
+                          says=["corner.off", "open", "3 open edges", "clast mesh repair"])
+        self.assertFalse(out.exists())
+
     def test_cells_of_curved_domains_fill_them(self):
         random.seed(4)
         points = []

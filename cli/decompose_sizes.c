@@ -1,0 +1,186 @@
+// Events against the number of points, as the published figures of convergence.
+#include "decompose_sizes.h"
+
+#include "command.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEAST = 5, N_COLUMN = 10 };
+
+static const char *const name[N_COLUMN] = {
+    "n",          "events",      "events_low",     "events_high",   "n_cell", "scaled_events",
+    "scaled_low", "scaled_high", "regular_events", "scaled_regular"};
+
+/// Mixes a number thoroughly. [Steele2014, splitmix64]
+static uint64_t mix(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
+typedef struct {
+    uint64_t key;
+    int64_t point;
+} rank;
+
+static int by_key(const void *a, const void *b)
+{
+    const rank *left = a;
+    const rank *right = b;
+    return left->key != right->key ? (left->key > right->key) - (left->key < right->key)
+                                   : (left->point > right->point) - (left->point < right->point);
+}
+
+/// The cloud's points in an order fixed by the seed, so that the first m are a random part.
+static clast_status shuffled(const clast_cloud *cloud, uint64_t seed, clast_cloud *out)
+{
+    const int32_t d = cloud->dimension;
+    rank *order = malloc(((size_t)cloud->n + 1) * sizeof *order);
+    clast_status status = clast_cloud_alloc(cloud->n, d, out);
+    if (status == CLAST_OK && order == NULL) {
+        status = cli_fail(CLAST_E_MEMORY, "not enough memory for %lld points", (long long)cloud->n);
+    }
+    for (int64_t i = 0; i < cloud->n && status == CLAST_OK; ++i) {
+        order[i] = (rank){mix(mix(seed) ^ (uint64_t)i), i};
+    }
+    if (status == CLAST_OK) {
+        qsort(order, (size_t)cloud->n, sizeof *order, by_key);
+    }
+    for (int64_t i = 0; i < cloud->n && status == CLAST_OK; ++i) {
+        memcpy(out->x + i * d, cloud->x + order[i].point * d, (size_t)d * sizeof *out->x);
+    }
+    free(order);
+    return status;
+}
+
+/// Pairs in the cells of a regular mesh of the unit cube, capped as the events of cells are.
+static clast_status regular_events(const clast_domain *domain, const clast_cloud *cloud, int32_t m,
+                                   double beta_dt, double *events)
+{
+    int64_t n_cell = 1;
+    for (int32_t j = 0; j < cloud->dimension; ++j) {
+        n_cell *= m;
+    }
+    int64_t *count = calloc((size_t)n_cell, sizeof *count);
+    double sum = 0.0;
+    if (count == NULL) {
+        return cli_fail(CLAST_E_MEMORY, "not enough memory for %lld cells", (long long)n_cell);
+    }
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        double u[3];
+        int64_t cell = 0;
+        if (clast_domain_map(domain, cloud->x + i * cloud->dimension, u)) {
+            for (int32_t j = 0; j < cloud->dimension; ++j) {
+                cell = cell * m + (int64_t)fmin(floor(u[j] * m), m - 1.0);
+            }
+            ++count[cell];
+        }
+    }
+    const double rate = beta_dt * (double)n_cell / clast_domain_volume(domain);
+    for (int64_t c = 0; c < n_cell; ++c) {
+        const double n = (double)count[c];
+        sum += fmin(0.5 * rate * n * fmax(0.0, n - 1.0), 0.5 * n);
+    }
+    free(count);
+    *events = sum;
+    return CLAST_OK;
+}
+
+static clast_status one_size(const clast_domain *domain, const clast_cloud *all, int64_t n,
+                             const clast_decompose_config *config, const cli_sizes *sizes,
+                             double row[N_COLUMN])
+{
+    clast_decomposition r = {0};
+    clast_cloud part = *all;
+    part.n = n;
+    clast_status status = clast_decompose_in(domain, &part, config, &r);
+    if (status == CLAST_OK && sizes->regular > 0) {
+        status = regular_events(domain, &part, sizes->regular, config->beta_dt, &row[8]);
+    }
+    if (status == CLAST_OK) {
+        const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
+        const double made[8] = {
+            (double)n,         r.events,         r.events_low,         r.events_high,
+            (double)r.cells.n, r.events * scale, r.events_low * scale, r.events_high * scale};
+        memcpy(row, made, sizeof made);
+        row[9] = row[8] * scale;
+    }
+    clast_decomposition_free(&r);
+    return status;
+}
+
+static clast_status check(const clast_domain *domain, const clast_cloud *cloud,
+                          const cli_sizes *sizes)
+{
+    if (cloud->weight != NULL || cloud->variable != NULL) {
+        return cli_fail(CLAST_E_CONFIG, "--sizes takes parts of equal points: leave out the weight "
+                                        "and variable columns");
+    }
+    if (sizes->regular > 0 && domain->kind == CLAST_DOMAIN_MESH) {
+        return cli_fail(CLAST_E_CONFIG, "--regular has no volumes for the cells of mesh:FILE; see "
+                                        "--fixed of clast agglomerate");
+    }
+    if (cloud->n >> (sizes->n_size - 1) < LEAST) {
+        return cli_fail(CLAST_E_CONFIG,
+                        "%d sizes of %lld points end below %d points; ask for fewer", sizes->n_size,
+                        (long long)cloud->n, LEAST);
+    }
+    return CLAST_OK;
+}
+
+clast_status cli_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
+                                 const clast_decompose_config *config, const cli_sizes *sizes,
+                                 clast_table *table)
+{
+    clast_cloud all = {0};
+    clast_status status = check(domain, cloud, sizes);
+    if (status == CLAST_OK) {
+        status = shuffled(cloud, config->seed, &all);
+    }
+    if (status == CLAST_OK) {
+        status = clast_table_init(table, "sizes", sizes->n_size);
+    }
+    const int n_column = sizes->regular > 0 ? N_COLUMN : N_COLUMN - 2;
+    for (int k = 0; k < n_column && status == CLAST_OK; ++k) {
+        status = clast_table_add_number(table, name[k], "-", NULL);
+    }
+    for (int32_t i = 0; i < sizes->n_size && status == CLAST_OK; ++i) {
+        double row[N_COLUMN] = {0};
+        status = one_size(domain, &all, all.n >> (sizes->n_size - 1 - i), config, sizes, row);
+        for (int k = 0; k < n_column && status == CLAST_OK; ++k) {
+            table->column[k].number[i] = row[k];
+        }
+    }
+    clast_cloud_free(&all);
+    return status;
+}
+
+clast_status cli_decompose_sizes_chart(const clast_table *table, const char *path)
+{
+    const double *n = clast_table_numbers(table, "n");
+    const double *regular = clast_table_numbers(table, "scaled_regular");
+    const clast_series series[2] = {{.kind = CLAST_SERIES_POINTS,
+                                     .label = "cells of clast, 95 % interval",
+                                     .x = n,
+                                     .y = clast_table_numbers(table, "scaled_events"),
+                                     .low = clast_table_numbers(table, "scaled_low"),
+                                     .high = clast_table_numbers(table, "scaled_high"),
+                                     .n = table->n_row},
+                                    {.kind = CLAST_SERIES_LINE,
+                                     .label = "regular mesh",
+                                     .x = n,
+                                     .y = regular,
+                                     .n = table->n_row,
+                                     .colour = 1,
+                                     .dashed = true}};
+    const clast_chart chart = {.x = {.label = "points used, n (-)", .log = true},
+                               .y = {.label = "events times (N / n)^2 (-)"},
+                               .series = series,
+                               .n_series = regular != NULL ? 2 : 1};
+    return clast_chart_write(&chart, path);
+}
