@@ -1,9 +1,12 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
 	@tools/setup.sh build
+	@tools/build.sh $@
+mpi:
+	@tools/setup.sh mpi
 	@tools/build.sh $@
 quick: dev
 	@ctest --test-dir build/dev -j2 --output-on-failure

@@ -11,8 +11,11 @@ static clast_status resume(const cli_common *common, const clast_aggregate_confi
                            const clast_monitor *monitor, clast_aggregate_report *report)
 {
     const clast_status status =
-        cli_resume_check(common, config->resume, clast_aggregate_fields, config, sizeof *config);
-    return status != CLAST_OK ? status : clast_aggregate_resume(config->resume, monitor, report);
+        cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields, config,
+                                           sizeof *config));
+    return status != CLAST_OK
+               ? status
+               : clast_aggregate_resume(config->resume, common->comm, monitor, report);
 }
 
 static clast_status print(const cli_common *common, const clast_aggregate_report *report)
@@ -35,14 +38,19 @@ static clast_status run(const cli_common *common, void *context)
     const clast_aggregate_config *config = context;
     clast_aggregate_report report = {0};
     const clast_monitor monitor = cli_monitor(common);
+    if (config->fit && common->comm->n_rank > 1) {
+        return cli_fail(CLAST_E_USAGE, "--fit runs on one rank, not %d; start it without mpirun",
+                        common->comm->n_rank);
+    }
     if (config->fit) {
         return aggregate_fit(common, config);
     }
-    clast_status status = config->resume[0] != '\0'
-                              ? resume(common, config, &monitor, &report)
-                              : clast_aggregate_run(config, common->output, &monitor, &report);
+    clast_status status =
+        config->resume[0] != '\0'
+            ? resume(common, config, &monitor, &report)
+            : clast_aggregate_run(config, common->output, common->comm, &monitor, &report);
     const char *folder = config->resume[0] != '\0' ? config->resume : common->output;
-    if (status == CLAST_OK && folder != NULL) {
+    if (common->comm->rank == 0 && status == CLAST_OK && folder != NULL) {
         status = clast_report_write_run(folder);
     }
     if (report.n > 0) {
@@ -57,6 +65,7 @@ static const char details[] =
     "The core lies at the origin. Each particle is tried along N_r rays in a cone about an axis,\n"
     "in N_o orientations on each ray, comes from outside to its first touch, and stays where its\n"
     "centre of mass ends nearest to the target. Nothing moves after that.\n"
+    "mpirun -n N clast-mpi aggregate ... (clast built with MPI) grows --repeats on N ranks.\n"
     "--fit finds rays, orientations, cone and replicate that explain an observed size, density or\n"
     "settling velocity, with their spread, and says when none do (exit code 1).\n"
     "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
@@ -79,5 +88,6 @@ const cli_command cli_aggregate = {
     .config_size = sizeof(clast_aggregate_config),
     .takes_config = true,
     .writes_folder = true,
+    .shares_ranks = true,
     .run = run,
 };

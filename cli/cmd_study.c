@@ -115,15 +115,18 @@ static clast_status run(const cli_common *common, void *context)
     const cli_command *command = NULL;
     clast_study_report report = {0};
     clast_status status = check(config, &command);
-    if (status != CLAST_OK) {
-        return status;
-    }
-    if (common->output == NULL) {
-        return cli_fail(CLAST_E_USAGE, "-o FOLDER is missing: a study needs a place for its runs");
+    if (status == CLAST_OK && common->output == NULL) {
+        status =
+            cli_fail(CLAST_E_USAGE, "-o FOLDER is missing: a study needs a place for its runs");
     }
     cli_workers *workers = calloc(1, sizeof *workers);
-    if (workers == NULL) {
-        return CLAST_E_MEMORY;
+    if (status == CLAST_OK) {
+        status = workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers);
+    }
+    status = cli_agree(common, status);
+    if (status != CLAST_OK) {
+        free(workers);
+        return status;
     }
     const clast_monitor monitor = cli_monitor(common);
     const clast_study_worker worker = {.has_folder = command->writes_folder,
@@ -133,11 +136,8 @@ static clast_status run(const cli_common *common, void *context)
                                        .wait = cli_workers_wait,
                                        .stop = cli_workers_stop,
                                        .context = workers};
-    status = cli_workers_init(workers);
-    if (status == CLAST_OK) {
-        status = clast_study_run(config, common->output, &worker, &monitor, &report);
-    }
-    if (status == CLAST_OK || status == CLAST_E_NO) {
+    status = clast_study_run(config, common->output, &worker, common->comm, &monitor, &report);
+    if (common->comm->rank == 0 && (status == CLAST_OK || status == CLAST_E_NO)) {
         const clast_status printed = print(common, &report);
         status = printed == CLAST_OK ? status : printed;
     }
@@ -155,7 +155,9 @@ static const char details[] =
     "(values that hold commas go on lines of their own: - shapes = ellipsoid:3,2,1 | sphere)\n"
     "Runs are processes of one thread, -j of them at once. The same call goes on where it was\n"
     "stopped: whole runs stay, cut-off runs resume from their checkpoint. --shard K/N takes every\n"
-    "N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared disk.\n"
+    "N-th run, for job arrays (K = $SLURM_ARRAY_TASK_ID) on a shared disk. mpirun -n N clast-mpi\n"
+    "study ... (clast built with MPI) hands the runs to N ranks, -j of them on each, by default "
+    "1.\n"
     "-o FOLDER holds plan.csv, runs/NNNNNN (result.json, messages.txt, out/), results.csv (a row "
     "a\n"
     "run: what varied, seed, exit code, every number of its --json object) and times.csv.\n"
@@ -170,5 +172,6 @@ const cli_command cli_study = {
     .config_size = sizeof(clast_study_config),
     .takes_config = true,
     .writes_folder = true,
+    .shares_ranks = true,
     .run = run,
 };

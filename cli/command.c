@@ -17,16 +17,26 @@ typedef struct {
     bool help;
 } parser;
 
-__attribute__((format(printf, 2, 3))) static int usage_error(const parser *p, const char *format,
-                                                             ...)
+static char refusal[1024];
+
+clast_status cli_fail(clast_status status, const char *format, ...)
 {
     va_list args;
-    (void)fprintf(stderr, "clast %s: ", p->command->name);
     va_start(args, format);
-    (void)vfprintf(stderr, format, args);
+    (void)vsnprintf(refusal, sizeof refusal, format, args);
     va_end(args);
-    (void)fprintf(stderr, "; see clast %s --help\n", p->command->name);
-    return 2;
+    return status;
+}
+
+__attribute__((format(printf, 2, 3))) static clast_status usage_error(const parser *p,
+                                                                      const char *format, ...)
+{
+    char text[800];
+    va_list args;
+    va_start(args, format);
+    (void)vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return cli_fail(CLAST_E_USAGE, "%s; see clast %s --help", text, p->command->name);
 }
 
 static bool is_list(const clast_field *f)
@@ -45,7 +55,7 @@ static bool touch(parser *p, const clast_field *f)
     return false;
 }
 
-static int set_field(parser *p, const char *name, const char *value)
+static clast_status set_field(parser *p, const char *name, const char *value)
 {
     const clast_field *f =
         p->command->fields != NULL ? clast_fields_find(p->command->fields, name) : NULL;
@@ -56,11 +66,7 @@ static int set_field(parser *p, const char *name, const char *value)
                             : usage_error(p, "unknown option --%s", name);
     }
     const bool append = is_list(f) && touch(p, f);
-    if (clast_field_set(f, p->config, value, append) != CLAST_OK) {
-        (void)fprintf(stderr, "clast %s: %s\n", p->command->name, clast_error_detail());
-        return 2;
-    }
-    return 0;
+    return clast_field_set(f, p->config, value, append);
 }
 
 /// A bool option may stand without a value; --NAME=false and --no-NAME turn it off.
@@ -71,7 +77,7 @@ static bool takes_value(const parser *p, const char *name)
     return f == NULL || f->type != CLAST_FIELD_BOOL;
 }
 
-static int set_pair(parser *p, const char *pair)
+static clast_status set_pair(parser *p, const char *pair)
 {
     char name[128];
     const char *equals = strchr(pair, '=');
@@ -82,10 +88,23 @@ static int set_pair(parser *p, const char *pair)
     return set_field(p, name, equals + 1);
 }
 
-/// Options that every command has; 1 when taken, 0 when not known here, -1 after an error.
-static int common_option(parser *p, const char *name, const char *value, bool *used_value)
+static clast_status set_threads(parser *p, const char *value)
+{
+    char *end = NULL;
+    const long n = strtol(value, &end, 10);
+    if (end == value || *end != '\0' || n < 0 || n > 4096) {
+        return usage_error(p, "-j takes 0 to 4096 threads, not '%s'", value);
+    }
+    p->common.threads = (int32_t)n;
+    return CLAST_OK;
+}
+
+/// Options that every command has; false when it is none of them.
+static bool common_option(parser *p, const char *name, const char *value, bool *used_value,
+                          clast_status *status)
 {
     *used_value = false;
+    *status = CLAST_OK;
     if (strcmp(name, "json") == 0) {
         p->common.json = true;
     } else if (strcmp(name, "quiet") == 0) {
@@ -96,26 +115,16 @@ static int common_option(parser *p, const char *name, const char *value, bool *u
                strcmp(name, "set") == 0) {
         *used_value = true;
         if (value == NULL) {
-            (void)usage_error(p, "--%s needs a value", name);
-            return -1;
-        }
-        if (name[0] == 'o') {
+            *status = usage_error(p, "--%s needs a value", name);
+        } else if (name[0] == 'o') {
             p->common.output = value;
-        } else if (name[0] == 's') {
-            return set_pair(p, value) == 0 ? 1 : -1;
         } else {
-            char *end = NULL;
-            const long n = strtol(value, &end, 10);
-            if (end == value || *end != '\0' || n < 0 || n > 4096) {
-                (void)usage_error(p, "-j takes 0 to 4096 threads, not '%s'", value);
-                return -1;
-            }
-            p->common.threads = (int32_t)n;
+            *status = name[0] == 's' ? set_pair(p, value) : set_threads(p, value);
         }
     } else {
-        return 0;
+        return false;
     }
-    return 1;
+    return true;
 }
 
 /// The switch that --no-NAME turns off, or NULL when the option is nothing of the kind.
@@ -129,7 +138,7 @@ static const clast_field *negated(const parser *p, const char *name)
     return f != NULL && f->type == CLAST_FIELD_BOOL ? f : NULL;
 }
 
-static int long_option(parser *p, int argc, char **argv, int *at)
+static clast_status long_option(parser *p, int argc, char **argv, int *at)
 {
     char name[128];
     const char *text = argv[*at] + 2;
@@ -138,10 +147,10 @@ static int long_option(parser *p, int argc, char **argv, int *at)
     const char *next = *at + 1 < argc ? argv[*at + 1] : NULL;
     const char *value = equals != NULL ? equals + 1 : next;
     bool used = false;
-    const int known = common_option(p, name, value, &used);
-    if (known != 0) {
+    clast_status status = CLAST_OK;
+    if (common_option(p, name, value, &used, &status)) {
         *at += used && equals == NULL ? 1 : 0;
-        return known > 0 ? 0 : 2;
+        return status;
     }
     if (negated(p, name) != NULL) {
         return equals == NULL
@@ -162,7 +171,7 @@ static int long_option(parser *p, int argc, char **argv, int *at)
     return set_field(p, name, value);
 }
 
-static int short_option(parser *p, int argc, char **argv, int *at)
+static clast_status short_option(parser *p, int argc, char **argv, int *at)
 {
     static const struct {
         char letter;
@@ -174,9 +183,10 @@ static int short_option(parser *p, int argc, char **argv, int *at)
             const bool attached = text[1] != '\0';
             const char *value = attached ? text + 1 : (*at + 1 < argc ? argv[*at + 1] : NULL);
             bool used = false;
-            const int known = common_option(p, letters[i].name, value, &used);
+            clast_status status = CLAST_OK;
+            (void)common_option(p, letters[i].name, value, &used, &status);
             *at += used && !attached ? 1 : 0;
-            return known > 0 ? 0 : 2;
+            return status;
         }
     }
     return usage_error(p, "unknown option %s", argv[*at]);
@@ -194,47 +204,35 @@ static bool is_yaml(const char *path)
 }
 
 /// Reads every YAML file among the arguments before any option, so that options win.
-static int read_configs(parser *p, int argc, char **argv)
+static clast_status read_configs(parser *p, int argc, char **argv)
 {
     for (int i = 0; i < argc && p->command->takes_config; ++i) {
         if (argv[i][0] != '-' && is_yaml(argv[i]) && (i == 0 || argv[i - 1][0] != '-')) {
             const clast_status status = clast_config_read(argv[i], p->command->fields, p->config);
             if (status != CLAST_OK) {
-                (void)fprintf(stderr, "clast %s: %s\n", p->command->name, clast_error_detail());
-                return clast_status_exit_code(status);
+                return status;
             }
         }
     }
-    return 0;
+    return CLAST_OK;
 }
 
-static int parse(parser *p, int argc, char **argv)
+static clast_status parse(parser *p, int argc, char **argv)
 {
     bool options = true;
-    int code = read_configs(p, argc, argv);
-    for (int i = 0; i < argc && code == 0; ++i) {
+    clast_status status = read_configs(p, argc, argv);
+    for (int i = 0; i < argc && status == CLAST_OK; ++i) {
         const char *text = argv[i];
         if (options && strcmp(text, "--") == 0) {
             options = false;
         } else if (options && strncmp(text, "--", 2) == 0) {
-            code = long_option(p, argc, argv, &i);
+            status = long_option(p, argc, argv, &i);
         } else if (options && text[0] == '-' && text[1] != '\0' && !looks_like_number(text)) {
-            code = short_option(p, argc, argv, &i);
+            status = short_option(p, argc, argv, &i);
         } else if (!(p->command->takes_config && is_yaml(text))) {
             p->common.argument[p->common.n_argument++] = argv[i];
         }
     }
-    return code;
-}
-
-static char refusal[1024];
-
-clast_status cli_fail(clast_status status, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    (void)vsnprintf(refusal, sizeof refusal, format, args);
-    va_end(args);
     return status;
 }
 
@@ -247,7 +245,16 @@ static const char *reason(clast_status status)
     return clast_error_detail()[0] != '\0' ? clast_error_detail() : clast_status_text(status);
 }
 
-static int execute(parser *p)
+clast_status cli_agree(const cli_common *common, clast_status status)
+{
+    if (common->comm->n_rank == 1) {
+        return status;
+    }
+    status = clast_comm_agree(common->comm, status, reason(status));
+    return status == CLAST_OK ? status : cli_fail(status, "%s", clast_error_detail());
+}
+
+static clast_status check_arguments(const parser *p)
 {
     const cli_command *c = p->command;
     if (p->common.n_argument < c->n_min) {
@@ -256,21 +263,48 @@ static int execute(parser *p)
     if (p->common.n_argument > c->n_max) {
         return usage_error(p, "too many arguments: '%s'", p->common.argument[c->n_max]);
     }
-    clast_parallel_set_threads(p->common.threads);
-    const clast_status status = c->run(&p->common, p->config);
-    if (status != CLAST_OK && status != CLAST_E_NO) {
-        (void)fprintf(stderr, "clast %s: %s\n", c->name, reason(status));
+    if (p->common.comm->n_rank > 1 && !c->shares_ranks) {
+        return usage_error(p, "runs on one rank, not %d; start it without mpirun",
+                           p->common.comm->n_rank);
     }
-    if (status == CLAST_E_STOPPED && cli_signal_code() != 0) {
-        return cli_signal_code();
-    }
-    return clast_status_exit_code(status);
+    return CLAST_OK;
 }
 
-int cli_run(const cli_command *command, int n_skip, int argc, char **argv)
+/// The one line of what went wrong, from rank 0.
+static void complain(const parser *p, clast_status status)
+{
+    if (status != CLAST_OK && status != CLAST_E_NO && p->common.comm->rank == 0) {
+        (void)fprintf(stderr, "clast %s: %s\n", p->command->name, reason(status));
+    }
+}
+
+/// Parses and runs.
+static clast_status perform(parser *p, int argc, char **argv)
+{
+    clast_status status = parse(p, argc, argv);
+    const bool is_run = status == CLAST_OK && !p->help;
+    status = cli_agree(&p->common, is_run ? check_arguments(p) : status);
+    if (status == CLAST_OK && p->help && p->common.comm->rank == 0) {
+        cli_help(p->command);
+    } else if (status == CLAST_OK && !p->help) {
+        const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
+        clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);
+        status = p->command->run(&p->common, p->config);
+    }
+    complain(p, status);
+    return status;
+}
+
+static int exit_code(clast_status status)
+{
+    return status == CLAST_E_STOPPED && cli_signal_code() != 0 ? cli_signal_code()
+                                                               : clast_status_exit_code(status);
+}
+
+int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const clast_comm *comm)
 {
     parser p = {.command = command,
-                .common = {.command = command->name, .n_word = argc, .word = argv}};
+                .common = {.command = command->name, .n_word = argc, .word = argv, .comm = comm}};
     int code = 4;
     int32_t n_field = 1;
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
@@ -284,12 +318,7 @@ int cli_run(const cli_command *command, int n_skip, int argc, char **argv)
         (void)fputs("clast: not enough memory\n", stderr);
         goto done;
     }
-    code = parse(&p, argc - n_skip, argv + n_skip);
-    if (code == 0 && p.help) {
-        cli_help(command);
-    } else if (code == 0) {
-        code = execute(&p);
-    }
+    code = exit_code(perform(&p, argc - n_skip, argv + n_skip));
     if (command->fields != NULL) {
         clast_fields_free(command->fields, p.config);
     }

@@ -4,15 +4,16 @@
 
 /// What every command understands besides its own fields.
 typedef struct cli_common {
-    const char *output;  ///< -o PATH, or NULL
-    int32_t threads;     ///< -j N; 0: one per core
-    bool json;           ///< one JSON object on stdout
-    bool quiet;          ///< no progress on stderr
-    int32_t n_argument;  ///< positional arguments
-    char **argument;     ///< borrowed from argv
-    const char *command; ///< "mesh check"
-    int32_t n_word;      ///< the whole command line
-    char *const *word;   ///< [n_word] borrowed from argv
+    const char *output;     ///< -o PATH, or NULL
+    int32_t threads;        ///< -j N; 0: one per core
+    bool json;              ///< one JSON object on stdout
+    bool quiet;             ///< no progress on stderr
+    int32_t n_argument;     ///< positional arguments
+    char **argument;        ///< borrowed from argv
+    const char *command;    ///< "mesh check"
+    int32_t n_word;         ///< the whole command line
+    char *const *word;      ///< [n_word] borrowed from argv
+    const clast_comm *comm; ///< ranks that run this command together; rank 0 speaks for all
 } cli_common;
 
 typedef struct cli_command {
@@ -27,12 +28,19 @@ typedef struct cli_command {
     /// before the options.
     bool takes_config;
     bool writes_folder; ///< -o names a run folder
+    bool shares_ranks;  ///< several ranks may run it together
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 
+/// Finds the command that argv names and runs it on every rank: returns the exit code.
+int cli_main(int argc, char **argv, const clast_comm *comm);
+
 /// Parses what follows the command's n_skip words in argv ("clast mesh check") and runs the
 /// command: returns the exit code; the error's one line goes to stderr.
-int cli_run(const cli_command *command, int n_skip, int argc, char **argv);
+int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const clast_comm *comm);
+
+/// What all ranks make of a step that ended so on this one; the line to print becomes the same too.
+clast_status cli_agree(const cli_common *common, clast_status status);
 
 /// A command's own refusal: keeps one line (printf style) for the frame to print, returns `status`.
 clast_status cli_fail(clast_status status, const char *format, ...)

@@ -23,6 +23,14 @@ clast_status cli_workers_init(cli_workers *workers)
         return cli_fail(CLAST_E_IO, "cannot find this program's file by /proc/self/exe");
     }
     workers->program[n] = '\0';
+    // The runs of clast-mpi are processes of the plain command beside it.
+    if (n > 4 && strcmp(workers->program + n - 4, "-mpi") == 0) {
+        workers->program[n - 4] = '\0';
+        if (access(workers->program, X_OK) != 0) {
+            return cli_fail(CLAST_E_IO, "the command clast is not at %s, beside clast-mpi",
+                            workers->program);
+        }
+    }
     workers->n = 0;
     return CLAST_OK;
 }
@@ -83,7 +91,7 @@ clast_status cli_workers_wait(void *context, int64_t *row, int *exit_code)
     cli_workers *workers = context;
     const struct timespec pause = {0, 5000000};
     *row = -1;
-    for (int tries = 0; tries < 40; ++tries) {
+    for (int tries = 0; tries < 4; ++tries) {
         for (int32_t i = 0; i < workers->n; ++i) {
             int state = 0;
             const pid_t ended = waitpid(workers->busy[i].process, &state, WNOHANG);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Configures (once) and builds one preset: tools/build.sh dev|release|tsan|coverage|minimal|fuzz [target...]
+# Configures (once) and builds one preset: tools/build.sh dev|release|mpi|tsan|coverage|minimal|fuzz [target...]
 set -eu
 cd "$(dirname "$0")/.."
 preset=$1; shift

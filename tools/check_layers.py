@@ -44,6 +44,8 @@ def problems():
         for name in re.findall(r'#include\s+[<"]([^>"]+)[>"]', text):
             parts = name.split("/")
             target = owners.get(parts[1]) if parts[0] == "clast" and len(parts) == 2 else parts[0]
+            if name == "mpi.h" and folder != "mpi":
+                yield f"{path.relative_to(ROOT)}: includes <mpi.h>; only src/mpi does"
             if target not in LAYER or target == folder:
                 continue
             if LAYER[target] >= LAYER[folder]:

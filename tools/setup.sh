@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing on Debian 12: tools/setup.sh build|test
+# Installs what is missing on Debian 12: tools/setup.sh build|mpi|test
 # As root it installs; otherwise it lists the missing packages and stops. Needs no network when nothing is missing.
 set -eu
 group=${1:-build}
@@ -7,10 +7,12 @@ build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core python3)
 test=(libcmocka-dev clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 codespell doxygen
       python3-sphinx python3-myst-parser python3-breathe git ccache)
+mpi=(libopenmpi-dev openmpi-bin)
 case $group in
 build) wanted=("${build[@]}") ;;
-test) wanted=("${build[@]}" "${test[@]}") ;;
-*) echo "usage: tools/setup.sh build|test" >&2; exit 2 ;;
+mpi) wanted=("${build[@]}" "${mpi[@]}") ;;
+test) wanted=("${build[@]}" "${mpi[@]}" "${test[@]}") ;;
+*) echo "usage: tools/setup.sh build|mpi|test" >&2; exit 2 ;;
 esac
 if ! command -v dpkg-query >/dev/null; then
     echo "setup: not a Debian system; please install the equivalents of: ${wanted[*]}" >&2

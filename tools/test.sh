@@ -22,8 +22,11 @@ say "release build and exported symbols"
 tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
 rm -f build-release.log
 tools/check_symbols.sh
+say "ranks (mpirun)"
+ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
 say "documents"; skip docs || tools/docs.sh
 say "done"
-awk '/tests passed, .* tests failed out of/ {print $NF - $4 " passed, " $4 " failed"}' build/ctest.log
+awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
+     END {print passed " passed, " failed + 0 " failed"}' build/ctest.log

@@ -1,6 +1,7 @@
 #pragma once
 // A whole run of an aggregation: all repeats, their folder, checkpoints and going on.
 #include <clast/aggregate.h>
+#include <clast/comm.h>
 
 /// Results of the repeats, in order. {0} is empty.
 typedef struct clast_aggregate_report {
@@ -25,15 +26,21 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 /// Nothing is written before the configuration and all inputs have been found good. All files but
 /// manifest.json are the same bytes for equal runs.
 ///
-/// @param folder   NULL for no files    @param monitor  may be NULL
+/// Ranks grow the repeats one by one as they are free and write their states into the folder, which
+/// must lie on a disk that all of them see; the files are the same bytes for any number of ranks.
+///
+/// @param folder   NULL for no files    @param comm  NULL for one rank
+/// @param monitor  may be NULL          @param report  filled on rank 0 only
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
 ///         CLAST_E_CONVERGE when a stop criterion was not reached (all files are written);
 ///         CLAST_E_USAGE when the folder holds a run, finished or not, and config->force is not
 ///         set; with it that run's files are removed first (others stay)
 CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
-                                           const clast_monitor *monitor,
+                                           const clast_comm *comm, const clast_monitor *monitor,
                                            clast_aggregate_report *report);
 
-/// Goes on from the newest checkpoint of a folder; ends in the same bytes as an uninterrupted run.
-CLAST_API clast_status clast_aggregate_resume(const char *folder, const clast_monitor *monitor,
+/// Goes on from the newest checkpoints of a folder, with any number of ranks; ends in the same
+/// bytes as an uninterrupted run.
+CLAST_API clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
+                                              const clast_monitor *monitor,
                                               clast_aggregate_report *report);

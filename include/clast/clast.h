@@ -13,6 +13,7 @@
 #include <clast/chart.h>
 #include <clast/cloud.h>
 #include <clast/collide.h>
+#include <clast/comm.h>
 #include <clast/config.h>
 #include <clast/decompose.h>
 #include <clast/decompose_charts.h>

@@ -1,5 +1,6 @@
 #pragma once
 // Many runs of one command: what varies, who has been run, one table of results.
+#include <clast/comm.h>
 #include <clast/field.h>
 #include <clast/monitor.h>
 #include <clast/table.h>
@@ -47,7 +48,7 @@ typedef struct clast_study_worker {
     /// Starts a run whose standard output goes to FOLDER/result.json and standard error to
     /// FOLDER/messages.txt.
     clast_status (*start)(void *context, const clast_study_item *item);
-    /// Waits at most a fifth of a second for a run to end; *row is -1 when none did.
+    /// Waits at most a fiftieth of a second for a run to end; *row is -1 when none did.
     clast_status (*wait)(void *context, int64_t *row, int *exit_code);
     /// Asks all runs to stop; wait() still reports each.
     void (*stop)(void *context);
@@ -70,9 +71,13 @@ typedef struct clast_study_report {
 /// The same call again goes on: whole runs stay, runs that were cut off resume from their
 /// checkpoint where the command can, and start anew where not. A run that fails is noted and the
 /// study goes on; it is tried again by the next call.
+/// Ranks take runs from rank 0 one by one, each clast_parallel_threads() at a time, and write them
+/// into the same folder, which must lie on a disk that all of them see.
 ///
+/// @param comm    NULL for one rank    @param monitor  may be NULL; rank 0's hears of all runs
+/// @param report  the same on all ranks
 /// @return CLAST_E_USAGE when the folder holds another plan, CLAST_E_STOPPED after a stop,
 ///         CLAST_E_NO when runs failed, and errors of the disk
 CLAST_API clast_status clast_study_run(const clast_study_config *config, const char *folder,
-                                       const clast_study_worker *worker,
+                                       const clast_study_worker *worker, const clast_comm *comm,
                                        const clast_monitor *monitor, clast_study_report *report);

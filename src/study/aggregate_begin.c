@@ -47,7 +47,7 @@ static clast_status remove_left(const char *folder)
                       clx_errno_text());
         }
     }
-    CLX_TRY(clx_checkpoint_clear(folder));
+    CLX_TRY(clx_folder_clear_checkpoints(folder));
 done:
     clx_folder_free(&entries);
     return status;

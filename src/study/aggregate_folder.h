@@ -9,12 +9,24 @@ clast_status clx_folder_write_state(const char *folder, const clast_aggregate_co
                                     int32_t repeat, const clast_aggregate *aggregate);
 clast_status clx_folder_read_state(const char *folder, int32_t repeat, clast_state *state);
 
-/// The same contents as a checkpoint.
+/// True when the repeat's state file is there, which is written whole or not at all.
+bool clx_folder_has_state(const char *folder, int32_t repeat);
+
+/// The same contents as a checkpoint: `folder`/checkpoint-*.h5 of the first repeat,
+/// `folder`/repeat-0002/checkpoint-*.h5 of the second, ... so that repeats may grow side by side.
+/// The first repeat's stay until the run ends: they say that a run is under way, and its
+/// configuration.
 clast_status clx_folder_write_checkpoint(const char *folder, const clast_aggregate_config *config,
                                          int32_t repeat, const clast_aggregate *aggregate);
 
-/// Newest whole checkpoint; CLAST_E_IO when there is none.
-clast_status clx_folder_read_checkpoint(const char *folder, clast_state *state);
+/// True when the repeat has checkpoints.
+bool clx_folder_has_checkpoint(const char *folder, int32_t repeat);
+
+/// The repeat's newest whole checkpoint; CLAST_E_IO when there is none.
+clast_status clx_folder_read_checkpoint(const char *folder, int32_t repeat, clast_state *state);
+
+/// Removes the checkpoints of all repeats.
+clast_status clx_folder_clear_checkpoints(const char *folder);
 
 /// What clast_aggregate_restore takes, borrowed from a state; CLAST_E_FORMAT when parts are
 /// missing.

@@ -1,28 +1,40 @@
 // A whole run: all repeats, the folder, checkpoints, going on.
+//
+// Ranks take repeats from a queue and write their states; rank 0 gathers the numbers in the order
+// of repeats and writes all else, so that the files do not tell how many ranks there were.
 #include <clast/aggregate_run.h>
 
-#include "base/alloc.h"
 #include "base/file.h"
+#include "base/queue.h"
 #include "study/aggregate_folder.h"
+#include "study/aggregate_repeats.h"
 #include <clast/aggregate_file.h>
 #include <clast/config.h>
 #include <clast/manifest.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct {
     const clast_aggregate_config *config;
     const char *folder; ///< or NULL
     bool force;         ///< an earlier run in it may be replaced
+    bool is_resumed;    ///< what the folder holds is gone on with
     const clast_monitor *monitor;
+    const clast_comm *comm;
+    clx_queue queue; ///< of repeats
     clast_aggregate_source source;
-    clast_manifest *manifest; ///< NULL without a folder
+    clast_manifest *manifest; ///< rank 0's, NULL without a folder
     clast_aggregate *aggregate;
     int32_t repeat;       ///< under way
-    clast_assembly first; ///< the first repeat's grains
-    clast_table history;  ///< of all finished repeats
+    clast_assembly first; ///< the first repeat's grains, on rank 0
+    clx_repeats repeats;  ///< that this rank finished
+    clast_table history;  ///< of all repeats
     clast_aggregate_report report;
 } run;
+
+static bool is_first(const run *r)
+{
+    return r->comm->rank == 0;
+}
 
 static void free_run(run *r)
 {
@@ -30,55 +42,62 @@ static void free_run(run *r)
     clast_aggregate_unload(&r->source);
     clast_manifest_destroy(r->manifest);
     clast_assembly_free(&r->first);
+    clx_repeats_free(&r->repeats);
     clast_table_free(&r->history);
     clast_aggregate_report_free(&r->report);
 }
 
-static clast_status append_rows(clast_table *all, clast_table *rows)
+static void drop_aggregate(run *r)
 {
-    clast_status status = CLAST_OK;
-    if (all->n_column == 0) {
-        *all = *rows;
-        *rows = (clast_table){0};
-        return CLAST_OK;
-    }
-    const int64_t before = all->n_row;
-    CLX_TRY(clast_table_resize(all, before + rows->n_row));
-    for (int32_t c = 0; c < all->n_column; ++c) {
-        memcpy(&all->column[c].number[before], rows->column[c].number,
-               (size_t)rows->n_row * sizeof(double));
-    }
-done:
-    return status;
+    clast_aggregate_destroy(r->aggregate);
+    r->aggregate = NULL;
 }
 
 /// The finished aggregate's numbers and rows join those before it.
 static clast_status collect(run *r)
 {
     clast_status status = CLAST_OK;
-    clast_table rows = {0};
-    clast_aggregate_report *report = &r->report;
-    CLX_TRY(clx_realloc(&report->result, report->n + 1, sizeof *report->result));
-    CLX_TRY(clast_aggregate_measure(r->aggregate, &report->result[report->n]));
-    ++report->n;
-    CLX_TRY(clast_aggregate_history(r->aggregate, &rows));
-    CLX_TRY(append_rows(&r->history, &rows));
+    CLX_TRY(clx_repeats_add(&r->repeats, r->repeat, r->aggregate));
     if (r->repeat == 0) {
         CLX_TRY(clast_assembly_copy(clast_aggregate_assembly(r->aggregate), &r->first));
     }
 done:
-    clast_table_free(&rows);
-    clast_aggregate_destroy(r->aggregate);
-    r->aggregate = NULL;
+    drop_aggregate(r);
     return status;
+}
+
+static bool asked_to_stop(void *context)
+{
+    const run *r = context;
+    return r->monitor != NULL && r->monitor->stop != NULL && r->monitor->stop(r->monitor->context);
+}
+
+/// Asked while a repeat grows; other ranks are answered meanwhile.
+static bool stops(void *context)
+{
+    run *r = context;
+    if (asked_to_stop(r)) {
+        clx_queue_stop(&r->queue);
+    }
+    clx_queue_serve(&r->queue);
+    return r->queue.is_stopping;
+}
+
+static void tell(void *context, const char *phase, int64_t done, int64_t total)
+{
+    const run *r = context;
+    if (r->monitor != NULL && r->monitor->report != NULL) {
+        r->monitor->report(r->monitor->context, phase, done, total);
+    }
 }
 
 /// Grows the repeat under way to its end, a checkpoint every so often and when it must stop.
 static clast_status grow(run *r)
 {
     clast_status status = CLAST_OK;
+    const clast_monitor monitor = {.report = tell, .stop = stops, .context = r};
     while (status == CLAST_OK && !clast_aggregate_is_done(r->aggregate)) {
-        status = clast_aggregate_grow(r->aggregate, r->config->checkpoint_every, r->monitor);
+        status = clast_aggregate_grow(r->aggregate, r->config->checkpoint_every, &monitor);
         if (r->folder != NULL && (status == CLAST_OK || status == CLAST_E_STOPPED)) {
             const clast_status written =
                 clx_folder_write_checkpoint(r->folder, r->config, r->repeat, r->aggregate);
@@ -88,30 +107,77 @@ static clast_status grow(run *r)
     return status;
 }
 
-static clast_status finish_repeat(run *r)
+/// One repeat as its state file or a checkpoint has it.
+static clast_status restore(run *r, const clast_state *state)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(grow(r));
-    if (r->folder != NULL) {
-        CLX_TRY(clx_folder_write_state(r->folder, r->config, r->repeat, r->aggregate));
+    clast_aggregate_saved saved;
+    CLX_TRY(clx_folder_saved(state, &saved));
+    CLX_CHECK(saved.repeat == r->repeat, CLAST_E_FORMAT, "%s: the state of repeat %d is one of %d",
+              r->folder, r->repeat + 1, saved.repeat + 1);
+    CLX_TRY(clast_aggregate_restore(r->config, &r->source.input, &saved, &r->aggregate));
+done:
+    return status;
+}
+
+/// Makes the repeat under way: from its state, from its checkpoint, else from its core.
+static clast_status open_repeat(run *r, bool *is_whole)
+{
+    clast_status status = CLAST_OK;
+    clast_state state = {0};
+    *is_whole = r->is_resumed && clx_folder_has_state(r->folder, r->repeat);
+    if (r->aggregate != NULL) {
+        return CLAST_OK; // made already, to try the input
+    }
+    if (*is_whole) {
+        CLX_TRY(clx_folder_read_state(r->folder, r->repeat, &state));
+        CLX_TRY(restore(r, &state));
+    } else if (r->is_resumed && clx_folder_has_checkpoint(r->folder, r->repeat)) {
+        CLX_TRY(clx_folder_read_checkpoint(r->folder, r->repeat, &state));
+        CLX_TRY(restore(r, &state));
+    } else {
+        CLX_TRY(clast_aggregate_create(r->config, &r->source.input, r->repeat, &r->aggregate));
+    }
+done:
+    clast_state_free(&state);
+    return status;
+}
+
+static clast_status do_repeat(run *r)
+{
+    clast_status status = CLAST_OK;
+    bool is_whole = false;
+    CLX_TRY(open_repeat(r, &is_whole));
+    if (!is_whole) {
+        CLX_TRY(grow(r));
+        if (r->folder != NULL) {
+            CLX_TRY(clx_folder_write_state(r->folder, r->config, r->repeat, r->aggregate));
+        }
     }
     CLX_TRY(collect(r));
 done:
     return status;
 }
 
-/// All repeats from the one under way on; the handle of that one may be made already.
+/// Repeats of this rank, the first one on rank 0; ends when all ranks have ended theirs.
 static clast_status grow_all(run *r)
 {
     clast_status status = CLAST_OK;
-    for (; r->repeat < r->config->repeats; ++r->repeat) {
-        if (r->aggregate == NULL) {
-            CLX_TRY(clast_aggregate_create(r->config, &r->source.input, r->repeat, &r->aggregate));
+    int64_t item = 0;
+    while (status == CLAST_OK && !r->queue.is_empty && !r->queue.is_stopping) {
+        if (clx_queue_take(&r->queue, &item)) {
+            r->repeat = (int32_t)item;
+            status = do_repeat(r);
+        } else if (!is_first(r)) {
+            clx_queue_rest();
         }
-        CLX_TRY(finish_repeat(r));
     }
-done:
-    return status;
+    if (status != CLAST_OK) {
+        clx_queue_stop(&r->queue);
+    }
+    clx_queue_leave(&r->queue, asked_to_stop, r);
+    return status == CLAST_OK && r->queue.is_stopping ? clx_fail(CLAST_E_STOPPED, "stopped")
+                                                      : status;
 }
 
 static clast_status note_inputs(run *r)
@@ -161,6 +227,7 @@ static const char *outcome_of(clast_status status)
     return status == CLAST_OK ? "done" : status == CLAST_E_STOPPED ? "stopped" : "failed";
 }
 
+/// Rank 0: all files of a run that went well, and the end of the manifest.
 static clast_status finish(run *r, clast_status status)
 {
     if (status == CLAST_OK && r->folder != NULL) {
@@ -180,24 +247,34 @@ static clast_status finish(run *r, clast_status status)
             clx_fail(CLAST_E_STOPPED, "stopped; go on with clast aggregate --resume %s", r->folder);
     }
     const char *outcome = status == CLAST_E_CONVERGE ? "done" : outcome_of(status);
-    if (r->folder != NULL && r->report.n + (r->aggregate != NULL) > 0) {
-        const clast_status written = write_manifest(r, outcome);
-        status = status == CLAST_OK ? written : status;
-    }
+    const clast_status written = write_manifest(r, outcome);
+    return status == CLAST_OK ? written : status;
+}
+
+static clast_status start_manifest(run *r)
+{
+    clast_status status = CLAST_OK;
+    char ranks[32];
+    CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
+    CLX_TRY(note_inputs(r));
+    (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
+    CLX_TRY(clast_manifest_note(r->manifest, "ranks", ranks));
+done:
     return status;
 }
 
-/// Loads and makes the first repeat, so that bad input is refused before anything is written.
+/// Loads; rank 0 makes the first repeat, so that bad input is refused before anything is written.
 static clast_status begin(run *r)
 {
     clast_status status = CLAST_OK;
-    r->report.confidence = r->config->confidence;
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
+    if (!is_first(r)) {
+        return CLAST_OK;
+    }
     CLX_TRY(clast_aggregate_create(r->config, &r->source.input, 0, &r->aggregate));
     if (r->folder != NULL) {
         CLX_TRY(clx_folder_take(r->folder, r->force));
-        CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
-        CLX_TRY(note_inputs(r));
+        CLX_TRY(start_manifest(r));
         CLX_TRY(clx_folder_make(r->folder));
         CLX_TRY(write_manifest(r, "running"));
     }
@@ -205,93 +282,90 @@ done:
     return status;
 }
 
-clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
-                                 const clast_monitor *monitor, clast_aggregate_report *report)
-{
-    clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
-    run r = {.config = &own, .folder = folder, .force = config->force, .monitor = monitor};
-    own.force = false;
-    clast_status status = begin(&r);
-    if (status == CLAST_OK) {
-        status = finish(&r, grow_all(&r));
-    }
-    if (status == CLAST_OK || status == CLAST_E_CONVERGE) {
-        *report = r.report;
-        r.report = (clast_aggregate_report){0};
-    }
-    free_run(&r);
-    return status;
-}
-
-/// One repeat as its state file or the checkpoint has it.
-static clast_status restore(run *r, const clast_state *state)
+static clast_status begin_again(run *r)
 {
     clast_status status = CLAST_OK;
-    clast_aggregate_saved saved;
-    CLX_TRY(clx_folder_saved(state, &saved));
-    CLX_TRY(clast_aggregate_restore(r->config, &r->source.input, &saved, &r->aggregate));
-    r->repeat = saved.repeat;
+    CLX_TRY(clast_aggregate_load(r->config, &r->source));
+    if (is_first(r)) {
+        CLX_TRY(start_manifest(r));
+        CLX_TRY(clast_manifest_note(r->manifest, "resumed", "yes"));
+    }
 done:
     return status;
 }
 
-/// The repeats that had ended, from their state files.
-static clast_status restore_finished(run *r, int32_t n)
+/// Everything after the beginning; the report goes to rank 0's caller.
+static clast_status go(run *r, clast_status begun, clast_aggregate_report *report)
+{
+    clast_status status = CLAST_OK;
+    r->report.confidence = r->config->confidence;
+    r->queue = clx_queue_begin(r->comm, r->config->repeats, (clx_queue_owner){0});
+    CLX_TRY(clast_comm_agree(r->comm, begun, NULL));
+    status = clast_comm_agree(r->comm, grow_all(r), NULL);
+    if (status == CLAST_OK) {
+        status = clx_repeats_gather(r->comm, &r->repeats);
+    }
+    if (is_first(r)) {
+        status =
+            status == CLAST_OK ? clx_repeats_merge(&r->repeats, &r->report, &r->history) : status;
+        status = finish(r, status);
+    }
+    status = clast_comm_agree(r->comm, status, NULL);
+    if (is_first(r) && (status == CLAST_OK || status == CLAST_E_CONVERGE)) {
+        *report = r->report;
+        r->report = (clast_aggregate_report){0};
+    }
+done:
+    return status;
+}
+
+clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
+                                 const clast_comm *comm, const clast_monitor *monitor,
+                                 clast_aggregate_report *report)
+{
+    clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
+    run r = {.config = &own,
+             .folder = folder,
+             .force = config->force,
+             .monitor = monitor,
+             .comm = clx_comm_or_one(comm)};
+    own.force = false;
+    const clast_status status = go(&r, begin(&r), report);
+    free_run(&r);
+    return status;
+}
+
+/// The configuration that the folder's first checkpoint holds.
+static clast_status read_config(const char *folder, clast_aggregate_config *config)
 {
     clast_status status = CLAST_OK;
     clast_state state = {0};
-    for (int32_t i = 0; i < n; ++i) {
-        CLX_TRY(clx_folder_read_state(r->folder, i, &state));
-        CLX_TRY(restore(r, &state));
-        CLX_TRY(collect(r));
-        clast_state_free(&state);
-    }
+    CLX_TRY(clx_folder_read_checkpoint(folder, 0, &state));
+    CLX_CHECK(state.config != NULL, CLAST_E_FORMAT, "%s: the checkpoint has no configuration",
+              folder);
+    CLX_TRY(clast_config_parse(folder, state.config, clast_aggregate_fields, config));
 done:
     clast_state_free(&state);
     return status;
 }
 
-static clast_status begin_again(run *r, const clast_state *state)
-{
-    clast_status status = CLAST_OK;
-    clast_aggregate_saved saved;
-    r->report.confidence = r->config->confidence;
-    CLX_TRY(clx_folder_saved(state, &saved));
-    CLX_TRY(clast_aggregate_load(r->config, &r->source));
-    CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
-    CLX_TRY(note_inputs(r));
-    CLX_TRY(clast_manifest_note(r->manifest, "resumed", "yes"));
-    CLX_TRY(restore_finished(r, saved.repeat));
-    CLX_TRY(restore(r, state));
-done:
-    return status;
-}
-
-clast_status clast_aggregate_resume(const char *folder, const clast_monitor *monitor,
-                                    clast_aggregate_report *report)
+clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
+                                    const clast_monitor *monitor, clast_aggregate_report *report)
 {
     clast_status status = CLAST_OK;
     clast_aggregate_config config = {0};
-    clast_state state = {0};
-    bool has_config = false;
-    run r = {.config = &config, .folder = folder, .monitor = monitor};
-    CLX_TRY(clx_folder_read_checkpoint(folder, &state));
-    CLX_CHECK(state.config != NULL, CLAST_E_FORMAT, "%s: the checkpoint has no configuration",
-              folder);
-    CLX_TRY(clast_fields_default(clast_aggregate_fields, &config));
-    has_config = true;
-    CLX_TRY(clast_config_parse(folder, state.config, clast_aggregate_fields, &config));
-    CLX_TRY(begin_again(&r, &state));
-    status = finish(&r, grow_all(&r));
-    if (status == CLAST_OK || status == CLAST_E_CONVERGE) {
-        *report = r.report;
-        r.report = (clast_aggregate_report){0};
+    run r = {.config = &config,
+             .folder = folder,
+             .is_resumed = true,
+             .monitor = monitor,
+             .comm = clx_comm_or_one(comm)};
+    CLX_TRY(clast_comm_agree(r.comm, clast_fields_default(clast_aggregate_fields, &config), NULL));
+    status = clast_comm_agree(r.comm, read_config(folder, &config), NULL);
+    if (status == CLAST_OK) {
+        status = go(&r, begin_again(&r), report);
     }
-done:
     free_run(&r);
-    clast_state_free(&state);
-    if (has_config) {
-        clast_fields_free(clast_aggregate_fields, &config);
-    }
+    clast_fields_free(clast_aggregate_fields, &config);
+done:
     return status;
 }

@@ -1,11 +1,12 @@
 // The order of work of a study: which runs are open, who is busy, what became of each.
 //
 // A run works in runs/NNNNNN.part; the rename to runs/NNNNNN is what makes it whole, so a study may
-// be killed at any moment and go on.
+// be killed at any moment and go on. Ranks share rows by a queue; rank 0 keeps plan and tables.
 #include "study/study.h"
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/queue.h"
 #include "io/folder.h"
 #include <clast/parallel.h>
 #include <ftw.h>
@@ -15,17 +16,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// A study under way.
+/// A study under way on one rank.
 typedef struct {
     const clast_study_config *config;
     const char *folder;
     const clast_study_worker *worker;
     const clast_monitor *monitor;
-    clast_study_report *report;
+    clast_study_report *report; ///< rank 0 counts for all
     const clast_table *plan;
     int64_t shard, n_shard; ///< this call does rows shard, shard + n_shard, ...
-    int32_t n_busy;
+    int64_t n_mine;         ///< of these that are open
+    int32_t n_busy;         ///< of this rank
+    clx_queue queue;        ///< item i is row shard + i n_shard
 } scheduler;
+
+/// Code of a run that was asked to stop and has no answer.
+enum { CUT_OFF = -1 };
 
 static clast_status parse_shard(const char *text, int64_t *shard, int64_t *n_shard)
 {
@@ -106,120 +112,193 @@ done:
     return status;
 }
 
-/// Takes note of a run that ended; `stopping`: it was asked to.
+static int64_t row_of(const scheduler *s, int64_t item)
+{
+    return s->shard + item * s->n_shard;
+}
+
+/// Takes note of a run of this rank that ended; `stopping`: it was asked to.
 static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stopping)
 {
     clast_status status = CLAST_OK;
     char part[CLX_STUDY_PATH];
     char whole[CLX_STUDY_PATH];
+    int64_t code = CUT_OFF;
     --s->n_busy;
     if (stopping && !clx_study_is_answer(exit_code)) {
-        return CLAST_OK;
+        goto done;
     }
     CLX_TRY(clx_study_run_folder(s->folder, row, ".part", part));
     CLX_TRY(clx_study_run_folder(s->folder, row, "", whole));
     CLX_TRY(clx_study_write_exit(part, exit_code));
-    if (!clx_study_is_answer(exit_code)) {
-        const bool first = s->report->n_failed++ == 0 || row + 1 < s->report->first_failed;
-        s->report->first_failed = first ? row + 1 : s->report->first_failed;
-        return CLAST_OK;
+    if (clx_study_is_answer(exit_code)) {
+        CLX_CHECK(rename(part, whole) == 0, CLAST_E_DISK, "cannot rename %s: %s", part,
+                  clx_errno_text());
     }
-    CLX_CHECK(rename(part, whole) == 0, CLAST_E_DISK, "cannot rename %s: %s", part,
-              clx_errno_text());
-    ++s->report->n_done;
+    code = exit_code;
 done:
+    clx_queue_end(&s->queue, (row - s->shard) / s->n_shard, code);
     return status;
 }
 
-static bool asked_to_stop(const scheduler *s)
+static bool asked_to_stop(void *context)
 {
+    const scheduler *s = context;
     return s->monitor != NULL && s->monitor->stop != NULL && s->monitor->stop(s->monitor->context);
 }
 
-static void tell(const scheduler *s, int64_t n_mine)
+static void tell(const scheduler *s)
 {
     if (s->monitor != NULL && s->monitor->report != NULL) {
         s->monitor->report(s->monitor->context, "runs", s->report->n_done + s->report->n_failed,
-                           n_mine);
+                           s->n_mine);
     }
 }
 
-/// Next row of this shard from `row` that is not whole, or n_row.
-static int64_t next_open(const scheduler *s, int64_t row)
+/// A run of any rank has ended; rank 0 counts.
+static void count_end(void *context, int64_t item, int64_t code)
 {
-    while (row < s->plan->n_row && clx_study_is_done(s->folder, row)) {
-        row += s->n_shard;
+    const scheduler *s = context;
+    clast_study_report *report = s->report;
+    const int64_t number = row_of(s, item) + 1;
+    if (code == CUT_OFF) {
+        return;
     }
-    return row;
+    if (clx_study_is_answer((int)code)) {
+        ++report->n_done;
+    } else {
+        const bool first = report->n_failed++ == 0 || number < report->first_failed;
+        report->first_failed = first ? number : report->first_failed;
+    }
+    tell(s);
 }
 
-/// Keeps `n_worker` runs busy until none is open; on a stop or an error waits for those under way.
-static clast_status work(scheduler *s, int32_t n_worker, int64_t n_mine)
+static bool is_open(void *context, int64_t item)
+{
+    const scheduler *s = context;
+    return !clx_study_is_done(s->folder, row_of(s, item));
+}
+
+/// Begins runs while there are free workers and open rows for this rank.
+static clast_status start_some(scheduler *s, int32_t n_worker)
 {
     clast_status status = CLAST_OK;
-    bool stopping = false;
-    int64_t row = next_open(s, s->shard);
-    tell(s, n_mine);
-    while (s->n_busy > 0 || (row < s->plan->n_row && !stopping)) {
-        int64_t ended = -1;
-        int code = 0;
-        while (!stopping && s->n_busy < n_worker && row < s->plan->n_row) {
-            status = start(s, row);
-            stopping = status != CLAST_OK;
-            row = next_open(s, row + s->n_shard);
-        }
-        if (s->n_busy > 0) {
-            const clast_status waited = s->worker->wait(s->worker->context, &ended, &code);
-            status = status == CLAST_OK ? waited : status;
-        }
-        if (ended >= 0) {
-            const clast_status ending = finish(s, ended, code, stopping);
-            status = status == CLAST_OK ? ending : status;
-            tell(s, n_mine);
-        }
-        if (!stopping && (status != CLAST_OK || asked_to_stop(s))) {
-            stopping = true;
-            status = status == CLAST_OK
-                         ? clx_fail(CLAST_E_STOPPED, "stopped; the same call goes on")
-                         : status;
-            s->worker->stop(s->worker->context);
-        }
+    int64_t item = 0;
+    while (status == CLAST_OK && s->n_busy < n_worker && clx_queue_take(&s->queue, &item)) {
+        status = start(s, row_of(s, item));
     }
     return status;
 }
 
-/// Runs of this shard that are open; the report's counts of the others.
-static int64_t count(scheduler *s)
+static bool has_more(const scheduler *s)
 {
-    int64_t n_mine = 0;
+    return s->n_busy > 0 || !(s->queue.is_empty || s->queue.is_stopping);
+}
+
+/// Waits for a run to end, or for rank 0's answer.
+static clast_status wait_some(scheduler *s, bool stopping)
+{
+    clast_status status = CLAST_OK;
+    int64_t ended = -1;
+    int code = 0;
+    if (s->n_busy == 0) {
+        clx_queue_rest();
+        return CLAST_OK;
+    }
+    status = s->worker->wait(s->worker->context, &ended, &code);
+    if (ended >= 0) {
+        const clast_status ending = finish(s, ended, code, stopping);
+        status = status == CLAST_OK ? ending : status;
+    }
+    return status;
+}
+
+/// Keeps `n_worker` runs busy until none is open; on a stop or an error waits for those under way.
+static clast_status work(scheduler *s, int32_t n_worker)
+{
+    clast_status status = CLAST_OK;
+    bool stopping = false;
+    while (has_more(s)) {
+        if (!stopping) {
+            status = start_some(s, n_worker);
+        }
+        const clast_status waited =
+            status == CLAST_OK || stopping ? wait_some(s, stopping) : status;
+        status = status == CLAST_OK ? waited : status;
+        clx_queue_serve(&s->queue);
+        if (!stopping && (status != CLAST_OK || s->queue.is_stopping || asked_to_stop(s))) {
+            stopping = true;
+            clx_queue_stop(&s->queue);
+            s->worker->stop(s->worker->context);
+        }
+    }
+    clx_queue_leave(&s->queue, asked_to_stop, s);
+    return status == CLAST_OK && s->queue.is_stopping
+               ? clx_fail(CLAST_E_STOPPED, "stopped; the same call goes on")
+               : status;
+}
+
+/// Rank 0: runs of this shard that are open; the report's counts of the others.
+static void count(scheduler *s)
+{
     s->report->n_run = s->plan->n_row;
     for (int64_t row = 0; row < s->plan->n_row; ++row) {
         const bool done = clx_study_is_done(s->folder, row);
         const bool mine = row % s->n_shard == s->shard;
         s->report->n_before += done;
         s->report->n_other += !done && !mine;
-        n_mine += !done && mine;
+        s->n_mine += !done && mine;
     }
-    return n_mine;
+}
+
+/// The plan, on every rank; rank 0 keeps it in the folder.
+static clast_status prepare(scheduler *s, const clast_comm *comm, clast_table *plan)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(parse_shard(s->config->shard, &s->shard, &s->n_shard));
+    CLX_TRY(clast_study_plan(s->config, plan));
+    if (comm->rank == 0) {
+        CLX_TRY(clx_study_keep(s->config, s->folder, plan));
+        count(s);
+        tell(s);
+    }
+    const int64_t n = (plan->n_row - s->shard + s->n_shard - 1) / s->n_shard;
+    s->queue = clx_queue_begin(comm, n, (clx_queue_owner){is_open, count_end, s});
+done:
+    return status;
+}
+
+/// Rank 0 writes the tables of what is there, however the work ended; the first failure counts.
+static clast_status collect(const scheduler *s, clast_status worked)
+{
+    char text[1024];
+    (void)snprintf(text, sizeof text, "%s", clast_error_detail());
+    const clast_status collected = clx_study_collect(s->config, s->folder, s->plan);
+    return worked == CLAST_OK ? collected : clx_fail(worked, "%s", text);
 }
 
 clast_status clast_study_run(const clast_study_config *config, const char *folder,
-                             const clast_study_worker *worker, const clast_monitor *monitor,
-                             clast_study_report *report)
+                             const clast_study_worker *worker, const clast_comm *comm,
+                             const clast_monitor *monitor, clast_study_report *report)
 {
     clast_status status = CLAST_OK;
     clast_table plan = {0};
     clast_study_report made = {0};
-    scheduler s = {config, folder, worker, monitor, &made, &plan, 0, 1, 0};
-    const int32_t n_worker = clast_parallel_threads();
-    CLX_TRY(parse_shard(config->shard, &s.shard, &s.n_shard));
-    CLX_TRY(clast_study_plan(config, &plan));
-    CLX_TRY(clx_study_keep(config, folder, &plan));
-    const int64_t n_mine = count(&s);
-    status = work(&s, n_worker, n_mine);
-    const clast_status gathered = clx_study_collect(config, folder, &plan);
-    CLX_TRY(status);
-    CLX_TRY(gathered);
+    scheduler s = {.config = config,
+                   .folder = folder,
+                   .worker = worker,
+                   .monitor = monitor,
+                   .report = &made,
+                   .plan = &plan,
+                   .n_shard = 1};
+    const clast_comm *all = clx_comm_or_one(comm);
+    CLX_TRY(clast_comm_agree(all, prepare(&s, all, &plan), NULL));
+    status = clast_comm_agree(all, work(&s, clast_parallel_threads()), NULL);
+    if (all->rank == 0) {
+        status = collect(&s, status);
+    }
+    CLX_TRY(clast_comm_agree(all, status, NULL));
+    all->broadcast(all->context, 0, &made, (int64_t)sizeof made);
     *report = made;
     CLX_CHECK(made.n_failed == 0, CLAST_E_NO, "%lld of %lld runs failed, the first is run %lld",
               (long long)made.n_failed, (long long)made.n_run, (long long)made.first_failed);

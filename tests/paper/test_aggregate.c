@@ -16,7 +16,7 @@ static clast_interval porosity_of(const char *options, clast_interval *diameter)
     double size[64];
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
     support_aggregate_options(&config, options);
-    CHECK_OK(clast_aggregate_run(&config, NULL, NULL, &report));
+    CHECK_OK(clast_aggregate_run(&config, NULL, NULL, NULL, &report));
     for (int32_t i = 0; i < report.n; ++i) {
         porosity[i] = report.result[i].porosity[0];
         size[i] = report.result[i].d_agg;

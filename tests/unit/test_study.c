@@ -204,7 +204,7 @@ static void failed_runs_are_noted_and_tried_again(void **state)
     folder_for(folder, "failing");
     set(&config, "run", "fill");
     set(&config, "vary", "a=1|2|3|4");
-    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, &report), CLAST_E_NO);
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_NO);
     assert_int_equal(report.n_failed, 1);
     assert_int_equal(report.first_failed, 2);
     assert_int_equal(report.n_done, 3);
@@ -214,15 +214,15 @@ static void failed_runs_are_noted_and_tried_again(void **state)
     CHECK_ABS(result(folder, "times.csv", "wall_s", 2), 3.0, 0.0);
     p.code[1] = 0;
     p.n_started = 0;
-    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, &report));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
     assert_int_equal(p.n_started, 1);
     assert_int_equal(report.n_before, 3);
     CHECK_ABS(result(folder, "results.csv", "x.y", 1), 10.0, 0.0);
     set(&config, "keep", "list.1");
-    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, &report));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
     CHECK_ABS(result(folder, "results.csv", "list.1", 3), 6.0, 0.0);
     set(&config, "vary", "b=1|2");
-    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, &report), CLAST_E_USAGE);
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_USAGE);
     clast_fields_free(clast_study_fields, &config);
 }
 
@@ -240,7 +240,8 @@ static void stopped_study_goes_on(void **state)
     set(&config, "run", "aggregate");
     set(&config, "seeds", "6");
     clast_parallel_set_threads(2);
-    CHECK_STATUS(clast_study_run(&config, folder, &worker, &monitor, &report), CLAST_E_STOPPED);
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, &monitor, &report),
+                 CLAST_E_STOPPED);
     clast_parallel_set_threads(0);
     assert_int_equal(p.n_started, 2);
     // Whatever was cut off and left a checkpoint is resumed.
@@ -250,7 +251,7 @@ static void stopped_study_goes_on(void **state)
     (void)fclose(fopen(path, "w"));
     p.stop_after = 0;
     p.stopped = false;
-    CHECK_OK(clast_study_run(&config, folder, &worker, &monitor, &report));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, &monitor, &report));
     assert_int_equal(p.n_resumed, 1);
     assert_int_equal(report.n_before + report.n_done, 6);
     clast_fields_free(clast_study_fields, &config);
@@ -268,16 +269,16 @@ static void shards_share_the_runs(void **state)
     set(&config, "run", "aggregate");
     set(&config, "seeds", "5");
     set(&config, "shard", "2/2");
-    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, &report));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
     assert_int_equal(report.n_done, 2);
     assert_int_equal(report.n_other, 3);
     assert_true(isnan(result(folder, "results.csv", "x.y", 0)));
     set(&config, "shard", "1/2");
-    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, &report));
+    CHECK_OK(clast_study_run(&config, folder, &worker, NULL, NULL, &report));
     assert_int_equal(report.n_done, 3);
     CHECK_ABS(result(folder, "results.csv", "x.y", 1), 10.0, 0.0);
     set(&config, "shard", "3/2");
-    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, &report), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_study_run(&config, folder, &worker, NULL, NULL, &report), CLAST_E_CONFIG);
     clast_fields_free(clast_study_fields, &config);
 }
 

@@ -1,0 +1,18 @@
+// clast-mpi: the same command on the ranks of an MPI job.
+#include "command.h"
+
+#include <clast/mpi.h>
+#include <stdio.h>
+
+int main(int argc, char **argv)
+{
+    clast_comm comm = {0};
+    const clast_status status = clast_mpi_begin(&comm);
+    if (status != CLAST_OK) {
+        (void)fprintf(stderr, "clast-mpi: MPI does not start: %s\n", clast_status_text(status));
+        return clast_status_exit_code(status);
+    }
+    const int code = cli_main(argc, argv, &comm);
+    clast_mpi_end(&comm);
+    return code;
+}

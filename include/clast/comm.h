@@ -1,0 +1,40 @@
+#pragma once
+// Processes that share one piece of work ("ranks"), behind a table of functions.
+//
+// The library itself knows one rank. libclast_mpi (clast/mpi.h) fills the table for the ranks of an
+// MPI job; a program may fill it for any other kind. What runs on several ranks ends in the same
+// bytes as on one.
+#include <clast/status.h>
+
+enum { CLAST_COMM_WORDS = 3 };
+
+/// One rank's view of all. Functions are called from one thread of each rank. A failure between
+/// ranks is not reported here: as in MPI it ends all of them.
+typedef struct clast_comm {
+    int32_t rank; ///< of this process, 0 .. n_rank - 1
+    int32_t n_rank;
+    /// Sends a message to another rank and returns at once; messages between two ranks keep their
+    /// order.
+    void (*send)(void *context, int32_t to, const int64_t word[CLAST_COMM_WORDS]);
+    /// Takes the next message that has come, and its sender; false when there is none.
+    bool (*take)(void *context, int32_t *from, int64_t word[CLAST_COMM_WORDS]);
+    /// Least of all ranks' values, on every rank. Called by all ranks, as the next two.
+    int64_t (*least)(void *context, int64_t value);
+    /// Copies n bytes from rank `root` to all others.
+    void (*broadcast)(void *context, int32_t root, void *bytes, int64_t n);
+    /// Puts the ranks' bytes one after another into `all` on rank 0; `count` [n_rank], the bytes of
+    /// each, and `all` matter there only.
+    void (*gather)(void *context, const void *bytes, int64_t n, const int64_t *count, void *all);
+    void *context;
+} clast_comm;
+
+/// The only rank of one.
+CLAST_API const clast_comm *clast_comm_one(void);
+
+/// Makes all ranks agree on how a step ended: OK when it was so for every one, else the status and
+/// text of the first rank that failed (one that was merely stopped only if none failed). Every rank
+/// must call it; afterwards clast_error_detail() is the same on all.
+///
+/// @param text  this rank's error text; NULL: clast_error_detail()
+CLAST_API clast_status clast_comm_agree(const clast_comm *comm, clast_status status,
+                                        const char *text);

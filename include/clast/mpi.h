@@ -1,0 +1,22 @@
+#pragma once
+// Ranks of an MPI job. This header belongs to a library of its own, libclast_mpi; it needs neither
+// <mpi.h> nor MPI's compiler wrapper.
+#include <clast/comm.h>
+
+/// Starts MPI and fills `comm` for all its ranks; end with clast_mpi_end. For programs that do not
+/// use MPI otherwise.
+///
+/// @return CLAST_E_USAGE when MPI runs already, CLAST_E_MEMORY, CLAST_E_IO when it does not start
+CLAST_API clast_status clast_mpi_begin(clast_comm *comm);
+
+/// Releases `comm` and ends MPI; {0} is allowed.
+CLAST_API void clast_mpi_end(clast_comm *comm);
+
+/// Fills `comm` for the ranks of a communicator of the caller's, given as MPI_Comm_c2f(...) gives
+/// it. Messages go over a copy, so they never meet the caller's own. Called by all its ranks.
+///
+/// @return CLAST_E_USAGE when MPI does not run, CLAST_E_MEMORY
+CLAST_API clast_status clast_mpi_create(int32_t communicator, clast_comm *comm);
+
+/// Releases it on all ranks; {0} is allowed.
+CLAST_API void clast_mpi_destroy(clast_comm *comm);

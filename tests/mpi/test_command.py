@@ -1,0 +1,126 @@
+"""MPI: `clast-mpi` gives the same bytes on 1, 2 and 4 ranks as `clast`, and fails and stops on all ranks."""
+import csv
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import Case, clast
+
+CLAST_MPI = os.environ["CLAST_MPI"]
+MPIEXEC = os.environ["MPIEXEC"]
+SURFACE = "data/scarlet/stl/27sk21_shape_fine.stl"
+# Two cores are enough for four ranks; a container's root is no danger to anybody.
+ENV = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
+SPHERES = ("aggregate", "--core", "sphere", "--core-size", "30um", "--coat", "sphere", "--size", "8um", "--rays", "10",
+           "--no-picture", "--envelope", "sphere_hull", "-q")
+
+
+def start(n, *arguments):
+    return subprocess.Popen([MPIEXEC, "-n", str(n), CLAST_MPI, *map(str, arguments)], env=ENV, text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+
+
+def ranks(n, *arguments, seconds=120):
+    """Runs `clast-mpi ARGUMENTS` on n ranks: (code, out, err). A run that hangs is killed, ranks and all."""
+    process = start(n, *arguments)
+    try:
+        out, err = process.communicate(timeout=seconds)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        raise
+    return process.returncode, out, err
+
+
+def own_lines(err):
+    """What clast said, without mpirun's own remarks."""
+    return [line for line in err.splitlines() if line.startswith("clast")]
+
+
+class Ranks(Case):
+    def files(self, folder):
+        """Bytes of a run's files but those that name the command and the time, and a killed writer's leavings."""
+        return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(pathlib.Path(folder).rglob("*"))
+                if path.is_file() and path.name not in ("manifest.json", "report.html") and path.name[0] != "."}
+
+    def study(self, folder, *more):
+        plan = self.folder / "study.yaml"
+        plan.write_text(f"run: fill\nargument: [{SURFACE}]\nvary: [spheres = 5 | 9 | 12, strategy = random | largest]\n")
+        return ("study", plan, "-o", folder, "-q", *more)
+
+    def test_a_study_is_the_same_table(self):
+        alone = clast(*self.study(self.folder / "alone", "-j", 1), "--json")
+        self.assertEqual(alone.code, 0, alone.err)
+        for n in (1, 2, 4):
+            code, out, err = ranks(n, *self.study(self.folder / str(n)))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(out.count("6 runs: 6 done now"), 1)  # said once
+            self.assertEqual((self.folder / str(n) / "results.csv").read_bytes(),
+                             (self.folder / "alone/results.csv").read_bytes())
+
+    def test_a_run_that_fails_is_named_and_tried_again(self):
+        folder = self.folder / "out"
+        wrong = self.folder / "wrong.stl"
+        wrong.write_text("not yet a surface\n")
+        arguments = ("study", "--run", "fill", "--vary", "spheres=5|6|7", "--argument", wrong, "-o", folder, "-q")
+        code, _, err = ranks(2, *arguments)
+        self.assertEqual(code, 1, err)
+        with open(folder / "results.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual([row["exit_code"] for row in csv.DictReader(file)], ["3", "3", "3"])
+        self.assertIn("wrong.stl", (folder / "runs/000002.part/messages.txt").read_text())
+        wrong.write_bytes(pathlib.Path(SURFACE).read_bytes())
+        code, out, err = ranks(2, *arguments)
+        self.assertEqual(code, 0, err)
+        self.assertIn("3 done now", out)
+
+    def test_repeats_are_the_same_bytes(self):
+        command = (*SPHERES, "--replicate", 30, "--repeats", 5, "--checkpoint-every", 10)
+        alone = clast(*command, "-o", self.folder / "alone")
+        self.assertEqual(alone.code, 0, alone.err)
+        for n in (1, 2, 4):
+            code, out, err = ranks(n, *command, "-o", self.folder / str(n))
+            self.assertEqual(code, 0, err)
+            self.assertEqual(out, alone.out)
+            self.assertTrue(self.files(self.folder / str(n)) == self.files(self.folder / "alone"))
+
+    def test_a_killed_job_goes_on(self):
+        command = (*SPHERES, "--replicate", 60, "--rays", 1000, "--repeats", 12, "--checkpoint-every", 5)
+        whole = clast(*command, "-o", self.folder / "whole")
+        self.assertEqual(whole.code, 0, whole.err)
+        for number, n in ((signal.SIGINT, 1), (signal.SIGKILL, 2)):
+            run = self.folder / f"cut-{number}"
+            process = start(4, *command, "-o", run)
+            until = time.time() + 60
+            while not list(run.glob("repeat-*/checkpoint-*.h5")) and time.time() < until and process.poll() is None:
+                time.sleep(0.01)
+            if number == signal.SIGKILL:
+                os.killpg(process.pid, number)
+            else:
+                process.send_signal(number)
+            process.communicate(timeout=60)
+            time.sleep(0.5)  # ranks outlive a killed mpirun by a moment
+            self.assertFalse((run / "summary.json").exists())
+            code, _, err = ranks(n, "aggregate", "--resume", run, "-q")
+            self.assertEqual(code, 0, err)
+            self.assertTrue(self.files(run) == self.files(self.folder / "whole"))
+
+    def test_what_cannot_be_shared_says_so_once(self):
+        for arguments, code, says in (
+                (("mesh", "check", SURFACE), 2, "without mpirun"),
+                (("aggregate", "--fit", "--core", "sphere"), 2, "--fit runs on one rank"),
+                (("study", "--vry", "a=1"), 2, "did you mean --vary"),
+                (("study", "--run", "fill", "--vary", "spheres=1|2"), 2, "-o FOLDER"),
+                (("aggregate", self.folder / "absent.yaml"), 3, "absent.yaml"),
+                (("aggregate", "--resume", self.folder), 3, "no checkpoint")):
+            found, out, err = ranks(2, *arguments)
+            self.assertEqual(found, code, err)
+            self.assertEqual(out, "")
+            self.assertEqual(len(own_lines(err)), 1, err)
+            self.assertIn(says, own_lines(err)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
