@@ -40,6 +40,7 @@ paper-d2sd:
 	@tools/setup.sh build
 	@tools/build.sh release
 	@tools/paper_d2sd.py
+	@CLAST_POINTS=1200000 build/release/tests/property_test_decompose_threads
 paper-packing:
 	@tools/setup.sh build
 	@tools/build.sh release clast_cli clast

@@ -6,6 +6,8 @@
 
 clast_status cli_scene_d6(cli_lap *b);
 clast_status cli_scene_d7(cli_lap *b);
+clast_status cli_scene_d6_boxes(cli_lap *b);
+clast_status cli_scene_d7_blob(cli_lap *b);
 
 /// A number in [0, 1): splitmix64 [Steele2014].
 static double draw(uint64_t *state)
@@ -16,19 +18,24 @@ static double draw(uint64_t *state)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/// Half of the points uniform in the unit cube, half in a dense block of an eighth of it.
-static clast_status make_points(int64_t n, clast_cloud *cloud)
+/// Half of the points uniform in the unit cube, half in a dense block of an eighth of it, or in a
+/// blob: the mean of 8 uniform coordinates, nearly normal with sd 0.10.
+static clast_status make_points(int64_t n, bool is_blob, clast_cloud *cloud)
 {
     uint64_t state = 1;
     const clast_status status = clast_cloud_alloc(n, 3, cloud);
     for (int64_t i = 0; status == CLAST_OK && i < 3 * n; ++i) {
         const double x = draw(&state);
         cloud->x[i] = i / 3 % 2 == 0 ? x : 0.25 + 0.5 * x;
+        for (int k = 1; k < 8 && is_blob && i / 3 % 2 == 1; ++k) {
+            cloud->x[i] = (k == 1 ? x : cloud->x[i]) + draw(&state);
+        }
+        cloud->x[i] /= is_blob && i / 3 % 2 == 1 ? 8.0 : 1.0;
     }
     return status;
 }
 
-static clast_status decompose(cli_lap *b, int64_t n)
+static clast_status decompose(cli_lap *b, int64_t n, bool is_blob, const char *mesh)
 {
     clast_decompose_config config;
     clast_cloud cloud = {0};
@@ -38,7 +45,11 @@ static clast_status decompose(cli_lap *b, int64_t n)
         status = clast_field_set(domain, &config, "box:0,0,0,1,1,1", false);
     }
     if (status == CLAST_OK) {
-        status = make_points(n, &cloud);
+        status = clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &config, mesh,
+                                 false);
+    }
+    if (status == CLAST_OK) {
+        status = make_points(n, is_blob, &cloud);
     }
     while (status == CLAST_OK && cli_lap_again(b)) {
         clast_decomposition result = {0};
@@ -55,10 +66,20 @@ static clast_status decompose(cli_lap *b, int64_t n)
 
 clast_status cli_scene_d6(cli_lap *b)
 {
-    return decompose(b, 1000000);
+    return decompose(b, 1000000, false, "auto");
 }
 
 clast_status cli_scene_d7(cli_lap *b)
 {
-    return decompose(b, 10000000);
+    return decompose(b, 10000000, false, "auto");
+}
+
+clast_status cli_scene_d6_boxes(cli_lap *b)
+{
+    return decompose(b, 1000000, false, "boxes");
+}
+
+clast_status cli_scene_d7_blob(cli_lap *b)
+{
+    return decompose(b, 10000000, true, "auto");
 }
