@@ -2,6 +2,7 @@
 #include "command.h"
 #include "json.h"
 #include "manifest.h"
+#include "study_grains.h"
 
 #include <clast/manifest.h>
 #include <clast/porosity_fit.h>
@@ -31,7 +32,7 @@ static const clast_field own[N_OWN] = {
      "mixture with --grains, else form where the table has forms, else columns",
      "auto|form|mixture|columns"},
     {"grains", offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
-     "table of all beds' grains, with a column that names the bed (--group)", ""},
+     "study folder, or table of all beds' grains, with a column that names the bed (--group)", ""},
     {"name", offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", "name of the model",
      "fitted"}};
 
@@ -90,7 +91,9 @@ static clast_status gather(const config *c, const char *path, job *j)
     if (what == COLUMNS) {
         return clast_fit_data_columns(&j->beds, &c->fit, &j->data);
     }
-    status = clast_table_read_csv(c->grains, NULL, &j->grains, NULL);
+    status = cli_is_folder(c->grains)
+                 ? cli_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
+                 : clast_table_read_csv(c->grains, NULL, &j->grains, NULL);
     return status == CLAST_OK ? clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data)
                               : status;
 }
@@ -171,7 +174,7 @@ static clast_status write_model(const cli_common *common, const config *c, const
     char seed[32];
     int64_t n_byte = 0;
     clast_status status = clast_sha256_file(common->argument[0], hash[0], &n_byte);
-    if (status == CLAST_OK && c->grains[0] != '\0') {
+    if (status == CLAST_OK && c->grains[0] != '\0' && !cli_is_folder(c->grains)) {
         status = clast_sha256_file(c->grains, hash[1], &n_byte);
     }
     (void)snprintf(seed, sizeof seed, "%llu", (unsigned long long)c->fit.seed);
@@ -251,8 +254,9 @@ static clast_status run(const cli_common *common, void *values)
         status = status == CLAST_OK ? write_charts(common->output, &j) : status;
     }
     if (status == CLAST_OK) {
-        const cli_input inputs[] = {
-            {"table", common->argument[0]}, {"grains", c->grains}, {NULL, NULL}};
+        const cli_input inputs[] = {{"table", common->argument[0]},
+                                    {"grains", cli_is_folder(c->grains) ? NULL : c->grains},
+                                    {NULL, NULL}};
         status = cli_manifest_end(common, manifest, fields, c, c->fit.seed, inputs);
     }
     if (status == CLAST_OK && common->json) {
@@ -272,7 +276,9 @@ const cli_command cli_fit = {
     .details =
         "TABLE has a row a bed: its porosity and its form (flatness and elongation, or L, I, S), "
         "or\n"
-        "other columns of numbers; with --grains a second table holds the grains of all beds.\n"
+        "other columns of numbers; with --grains a second table, or the folder of the study of "
+        "clast\n"
+        "pack that made them (--group run), holds the grains of all beds.\n"
         "1. Features are ranked by their correlation with the porosity; the first is taken.\n"
         "2. Features with |r| > 0.8 to a taken one are removed.\n"
         "3. Of the others the one with the least held-out error (10 folds) joins, until --n-term.\n"

@@ -122,7 +122,8 @@ static const char details[] =
     "Defaults are those of Rettinger, Ruede, Vollmer and Frings (eqs 4 to 15, sec. 4); options "
     "name\n"
     "where their program differs. --max-steps ends a run early, as it is then.\n\n"
-    "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json,\n"
+    "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, grains.csv, summary.json, "
+    "manifest.json,\n"
     "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
     "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.";
 

@@ -7,6 +7,7 @@
 #include "io/pack_state.h"
 #include <clast/chart.h>
 #include <clast/export.h>
+#include <clast/form.h>
 #include <clast/grading_chart.h>
 #include <clast/manifest.h>
 #include <clast/porosity_chart.h>
@@ -111,6 +112,39 @@ done:
     return status;
 }
 
+/// A row a grain: its shape, form and size, as `clast fit --grains` and `clast shape` read them.
+static clast_status write_grains(const char *folder, const clast_pack *pack)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly a = {0};
+    clast_table table = {0};
+    double *flatness = NULL;
+    double *elongation = NULL;
+    double *size = NULL;
+    CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
+    CLX_TRY(clast_table_init(&table, "grains", a.n_grain));
+    CLX_TRY(clast_table_add_text(&table, "shape"));
+    CLX_TRY(clast_table_add_number(&table, "flatness", "-", NULL));
+    CLX_TRY(clast_table_add_number(&table, "elongation", "-", NULL));
+    CLX_TRY(clast_table_add_number(&table, "sieve_size_m", "m", NULL));
+    flatness = clast_table_numbers(&table, "flatness");
+    elongation = clast_table_numbers(&table, "elongation");
+    size = clast_table_numbers(&table, "sieve_size_m");
+    for (int32_t i = 0; i < a.n_grain; ++i) {
+        const clast_shape *shape = &a.shape[a.shape_id[i]];
+        const double *s = shape->semi_axes; // a >= b >= c
+        CLX_TRY(clast_table_set_text(&table, 0, i, shape->name));
+        flatness[i] = s[2] / s[1];
+        elongation[i] = s[1] / s[0];
+        size[i] = clast_form_sieve_size(2.0 * a.scale[i] * s[1], 2.0 * a.scale[i] * s[2]);
+    }
+    CLX_TRY(write_table(folder, "grains.csv", &table));
+done:
+    clast_table_free(&table);
+    clast_assembly_free(&a);
+    return status;
+}
+
 static clast_status write_summary(const char *folder, const clast_pack_result *result)
 {
     clast_status status = CLAST_OK;
@@ -137,6 +171,7 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
     if (result->dem.n_grain > 0) {
         CLX_TRY(write_profile(folder, pack, physics, result));
         CLX_TRY(write_achieved(folder, pack));
+        CLX_TRY(write_grains(folder, pack));
     }
     CLX_TRY(write_summary(folder, result));
     CLX_TRY(clx_checkpoint_clear(folder));

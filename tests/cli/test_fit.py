@@ -66,6 +66,27 @@ class Fit(Case):
         self.assertAlmostEqual(answer.json["beds"][0]["porosity"], 0.4 - 0.06 + 0.005, places=12)
         self.assertIn("1 of 2 rows left out", answer.err)
 
+    def test_a_studys_folder_holds_the_grains_of_its_beds(self):
+        rows = []
+        study = self.folder / "study"
+        for run in range(1, 25):
+            forms = [(0.3 + 0.02 * run + 0.01 * k, 0.55 + 0.012 * ((7 * run) % 11) + 0.015 * k) for k in range(5)]
+            folder = study / f"runs/{run:06d}"
+            folder.mkdir(parents=True)
+            (folder / "grains.csv").write_text(
+                "shape,flatness,elongation,sieve_size_m\n" + "".join(f"a,{f!r},{e!r},0.006\n" for f, e in forms))
+            mean = sum(f * e for f, e in forms) / 5
+            rows.append((run, 0.3 + 0.03 / mean))
+        rows.append((25, math.nan))  # failed: it left no grains
+        beds_path = study / "results.csv"
+        beds_path.write_text("run,exit_code,porosity_bulk\n" + "".join(f"{r},{int(r > 24)},{p!r}\n" for r, p in rows))
+        fit = clast("fit", beds_path, "--target", "porosity_bulk", "--group", "run", "--grains", study, "--n-term", 1, "--json")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertEqual((fit.json["n_bed"], fit.json["n_candidate"], fit.json["n_left_out"]), (24, 104, 1))
+        self.assertEqual(fit.json["terms"][1]["term"], "inverse_mean_equancy")
+        self.assertAlmostEqual(fit.json["terms"][1]["coefficient"], 0.03, 9)
+        self.assert_fails(3, "fit", beds_path, "--target", "porosity_bulk", "--grains", study, says=("--group run",))
+
     def test_manifests_name_inputs_and_options(self):
         path, run, bed = self.write(beds(0.01)), self.folder / "run", self.folder / "bed"
         self.assertEqual(clast("fit", path, "--n-term", 1, "--seed", 7, "-o", run).code, 0)

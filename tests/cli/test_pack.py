@@ -13,7 +13,7 @@ from clitest import Case, ROOT, clast
 
 SMALL = ["pack", "--curve", "6 mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--shaking-time", "0.01s",
          "--seed", "3", "--quiet", "-j", "1"]
-FILES = ["state.h5", "series.csv", "profile.csv", "summary.json", "energy.svg"]
+FILES = ["state.h5", "series.csv", "profile.csv", "grains.csv", "summary.json", "energy.svg"]
 
 
 class Pack(Case):
