@@ -45,17 +45,19 @@ static clast_status shuffled(const clast_cloud *cloud, uint64_t seed, clast_clou
     if (status == CLAST_OK && order == NULL) {
         status = cli_fail(CLAST_E_MEMORY, "not enough memory for %lld points", (long long)cloud->n);
     }
-    for (int64_t i = 0; i < cloud->n && status == CLAST_OK; ++i) {
+    if (status != CLAST_OK || order == NULL) {
+        free(order);
+        return status;
+    }
+    for (int64_t i = 0; i < cloud->n; ++i) {
         order[i] = (rank){mix(mix(seed) ^ (uint64_t)i), i};
     }
-    if (status == CLAST_OK) {
-        qsort(order, (size_t)cloud->n, sizeof *order, by_key);
-    }
-    for (int64_t i = 0; i < cloud->n && status == CLAST_OK; ++i) {
+    qsort(order, (size_t)cloud->n, sizeof *order, by_key);
+    for (int64_t i = 0; i < cloud->n; ++i) {
         memcpy(out->x + i * d, cloud->x + order[i].point * d, (size_t)d * sizeof *out->x);
     }
     free(order);
-    return status;
+    return CLAST_OK;
 }
 
 /// Pairs in the cells of a regular mesh of the unit cube, capped as the events of cells are.

@@ -66,7 +66,7 @@ static clast_status find_columns(const clast_table *table, const clast_text_list
     char *rest = names;
     *d = 0;
     for (char *name = strtok_r(rest, ",", &rest); name != NULL; name = strtok_r(rest, ",", &rest)) {
-        if (is_default && *d > 0 && clast_table_numbers(table, name) == NULL) {
+        if (is_default && *d > 0 && clast_table_find(table, name) < 0) {
             break;
         }
         CLX_CHECK(*d < 3, CLAST_E_FORMAT, "%s: more than three columns, from '%s' on", table->name,

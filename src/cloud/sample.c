@@ -25,6 +25,11 @@ static clast_status check_points(const clast_cloud *cloud)
                   "point %lld has a coordinate that is not finite",
                   (long long)(i / cloud->dimension + 1));
     }
+    for (int64_t i = 0; i < cloud->n && cloud->radius != NULL; ++i) {
+        CLX_CHECK(cloud->radius[i] > 0.0 && isfinite(cloud->radius[i]), CLAST_E_FORMAT,
+                  "the radius of point %lld is %g; it must be a number > 0", (long long)i + 1,
+                  cloud->radius[i]);
+    }
     for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
         const double w = cloud->weight[i];
         CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,

@@ -1,4 +1,4 @@
-// VTP and VTU files: points of one piece and their data; ASCII, base64 or appended raw, plain or
+// VTP and VTU files: points of all pieces and their data; ASCII, base64 or appended raw, plain or
 // zlib. [VTK file formats, "XML file formats"]
 #include "io/points.h"
 
@@ -17,7 +17,8 @@ typedef struct {
 
 typedef struct {
     const char *name; ///< of the file
-    stretch xml;      ///< before appended data
+    int64_t size;     ///< of the file
+    stretch xml;      ///< before appended data; while a piece is read, the piece
     stretch appended; ///< after its '_'
     bool is_base64;   ///< appended data
     bool is_big, is_zlib;
@@ -283,10 +284,8 @@ done:
 static clast_status check_room(vtx *v, int64_t n)
 {
     clast_status status = CLAST_OK;
-    const int64_t size =
-        (v->xml.end - v->xml.at) + (v->appended.at != NULL ? v->appended.end - v->appended.at : 0);
     v->n_value += n;
-    CLX_CHECK(v->n_value <= (v->is_zlib ? size * 1032 : size), CLAST_E_FORMAT,
+    CLX_CHECK(v->n_value <= (v->is_zlib ? v->size * 1032 : v->size), CLAST_E_FORMAT,
               "%s: %" PRId64 " numbers are declared, the file is too short", v->name, v->n_value);
 done:
     return status;
@@ -393,18 +392,67 @@ done:
     return status;
 }
 
+/// Points and data of one piece as v->table.
 static clast_status read_piece(vtx *v)
 {
     clast_status status = CLAST_OK;
-    const char *at = v->xml.at;
+    v->has_points = false;
+    CLX_TRY(clast_table_init(&v->table, v->name, v->n));
+    CLX_TRY(read_group(v, "Points", "</Points>"));
+    CLX_CHECK(v->has_points, CLAST_E_FORMAT, "%s: the file has no array of points", v->name);
+    CLX_TRY(read_group(v, "PointData", "</PointData>"));
+done:
+    return status;
+}
+
+/// Puts the piece behind the pieces before it; all have the same arrays.
+static clast_status append_piece(vtx *v, clast_table *all)
+{
+    clast_status status = CLAST_OK;
+    const int64_t before = all->n_row;
+    CLX_CHECK(v->table.n_column == all->n_column, CLAST_E_FORMAT,
+              "%s: a piece has %d columns of data, the first has %d", v->name, v->table.n_column,
+              all->n_column);
+    CLX_TRY(clast_table_resize(all, before + v->n));
+    for (int32_t c = 0; c < all->n_column; ++c) {
+        const double *from = clast_table_numbers(&v->table, all->column[c].name);
+        CLX_CHECK(from != NULL, CLAST_E_FORMAT, "%s: a piece lacks the data '%s'", v->name,
+                  all->column[c].name);
+        memcpy(all->column[c].number + before, from, (size_t)v->n * sizeof *from);
+    }
+    clast_table_free(&v->table);
+done:
+    return status;
+}
+
+/// Pieces in turn; one without points may lack arrays unless it is the only one.
+static clast_status read_pieces(vtx *v, clast_table *all)
+{
+    clast_status status = CLAST_OK;
+    const stretch file = v->xml;
+    const char *at = file.at;
     stretch tag;
-    stretch more;
     stretch text;
-    CLX_CHECK(next_tag(v->xml, "Piece", &at, &tag) && attribute(tag, "NumberOfPoints", &text) &&
-                  integer_of(text, &v->n) && v->n >= 0 && v->n < INT64_C(1) << 40,
-              CLAST_E_FORMAT, "%s: there is no <Piece> with a number of points", v->name);
-    CLX_CHECK(!next_tag(v->xml, "Piece", &at, &more), CLAST_E_FORMAT,
-              "%s: the file has several pieces; write it as one", v->name);
+    bool is_more = next_tag(file, "Piece", &at, &tag);
+    CLX_CHECK(is_more, CLAST_E_FORMAT, "%s: there is no <Piece> with a number of points", v->name);
+    while (is_more) {
+        CLX_CHECK(attribute(tag, "NumberOfPoints", &text) && integer_of(text, &v->n) && v->n >= 0 &&
+                      v->n < INT64_C(1) << 40,
+                  CLAST_E_FORMAT, "%s: a <Piece> without a number of points", v->name);
+        v->xml.at = at;
+        is_more = next_tag(file, "Piece", &at, &tag);
+        v->xml.end = is_more ? tag.at : file.end;
+        if (v->n == 0 && (is_more || all->n_column > 0)) {
+            continue;
+        }
+        CLX_TRY(read_piece(v));
+        if (all->n_column > 0) {
+            CLX_TRY(append_piece(v, all));
+        } else {
+            *all = v->table;
+            v->table = (clast_table){0};
+        }
+    }
 done:
     return status;
 }
@@ -412,17 +460,15 @@ done:
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table)
 {
     clast_status status = CLAST_OK;
-    vtx v = {.name = name};
+    vtx v = {.name = name, .size = (int64_t)n};
+    clast_table all = {0};
     const char *text = bytes;
     CLX_TRY(read_head(&v, (stretch){text, text + n}));
-    CLX_TRY(read_piece(&v));
-    CLX_TRY(clast_table_init(&v.table, name, v.n));
-    CLX_TRY(read_group(&v, "Points", "</Points>"));
-    CLX_CHECK(v.has_points, CLAST_E_FORMAT, "%s: the file has no array of points", name);
-    CLX_TRY(read_group(&v, "PointData", "</PointData>"));
-    *table = v.table;
-    v.table = (clast_table){0};
+    CLX_TRY(read_pieces(&v, &all));
+    *table = all;
+    all = (clast_table){0};
 done:
     clast_table_free(&v.table);
+    clast_table_free(&all);
     return status;
 }

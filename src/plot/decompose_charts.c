@@ -116,8 +116,8 @@ static clast_status draw_density(const clast_decomposition *r, const char *path)
     const int64_t n_bin = (int64_t)cells->nb[0] * cells->nb[1] * cells->nb[2];
     double *buffer = NULL;
     double *sorted = NULL;
-    double line[MAX_PASS_DRAWN][4];
-    clast_series series[MAX_PASS_DRAWN + 1];
+    double line[2 * MAX_PASS_DRAWN][4];
+    clast_series series[2 * MAX_PASS_DRAWN + 1];
     int32_t n_series = 0;
     int64_t n = 0;
     CLX_TRY(clx_alloc(&sorted, n_bin, sizeof *sorted));
@@ -136,17 +136,19 @@ static clast_status draw_density(const clast_decomposition *r, const char *path)
     }
     series[n_series++] = (clast_series){
         .kind = CLAST_SERIES_STEP, .label = "share of bins", .x = x, .y = y, .n = n, .colour = 0};
-    for (int32_t k = 0; k < r->n_pass && k < MAX_PASS_DRAWN; ++k) {
-        line[k][0] = line[k][1] = r->pass[k].lambda;
+    for (int32_t k = 0; k < 2 * r->n_pass && k < 2 * MAX_PASS_DRAWN; ++k) {
+        const bool is_lower = k % 2 == 1;
+        static const char *const legend[2] = {"threshold", "lower threshold"};
+        line[k][0] = line[k][1] = is_lower ? r->pass[k / 2].lower : r->pass[k / 2].lambda;
         line[k][2] = 0.0;
         line[k][3] = 1.0;
         series[n_series++] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                            .label = k == 0 ? "threshold" : NULL,
+                                            .label = k < 2 ? legend[k] : NULL,
                                             .x = &line[k][0],
                                             .y = &line[k][2],
                                             .n = 2,
-                                            .colour = 1,
-                                            .dashed = k > 0};
+                                            .colour = is_lower ? 4 : 1,
+                                            .dashed = k > 1};
     }
     const clast_chart chart = {.x = {.label = "density over the mean (-)"},
                                .y = {.label = "reduced cdf (-)"},

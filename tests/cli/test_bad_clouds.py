@@ -50,6 +50,16 @@ class BadClouds(Case):
         path = self.write("weights.csv", [[0.5, 0.5, 0.5, -2.0]], "x,y,z,w")
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--weight-column", "w", says=["weight of point 1", "-2"])
         self.assert_fails(3, "agglomerate", path, "--domain", CUBE, "--weight-column", "w", says=["weight of particle 1", "-2"])
+        small = self.write("r.csv", [[0.5, 0.5, 0.5, -1e-6]], "x,y,z,r")
+        for command in ("decompose", "agglomerate"):
+            self.assert_fails(3, command, small, "--domain", CUBE, "--radius-column", "r", says=["the radius of", "-1e-06"])
+        words = self.folder / "words.csv"
+        words.write_text("x,y,z\n0.1,abc,0.3\n")
+        self.assert_fails(3, "decompose", words, "--domain", CUBE, says=["no column of numbers named 'y'"])
+        for kernel in ("brownian", "shear_laminar", "settling", "inertial", "ballistic", "cloud_turbulence"):
+            self.assert_fails(2, "agglomerate", path, "--domain", CUBE, "--kernel", kernel, "-o", self.folder / "none",
+                              says=[f"kernel {kernel} needs radii"])
+        self.assertFalse((self.folder / "none").exists())
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--columns", "x,y,w,z,x", says=["more than three"])
         self.assert_fails(2, "decompose", path, "--domain", CUBE, "--radius-column", "x", "--diameter-column", "y",
                           says=["not both"])

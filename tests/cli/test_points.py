@@ -108,6 +108,29 @@ class Points(Case):
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--frame", "3", says=["no snapshot 3 among 3"])
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--frame", "-4", says=["no snapshot -4 among 3"])
 
+    def test_pieces_of_a_file_are_joined(self):
+        def piece(rows, kind, extra=""):
+            zero = "".join(f' NumberOf{k}="0"' for k in (["Cells"] if kind == "UnstructuredGrid" else ["Verts", "Lines", "Polys"]))
+            numbers = " ".join(repr(c) for row in rows for c in row)
+            size = " ".join(repr(row[0] + 1) for row in rows)
+            return (f'<Piece NumberOfPoints="{len(rows)}"{zero}><PointData><DataArray type="Float64" Name="size" format="ascii">'
+                    f'{size}</DataArray>{extra}</PointData><Points><DataArray type="Float64" NumberOfComponents="3" '
+                    f'format="ascii">{numbers}</DataArray></Points></Piece>')
+        other = f'<DataArray type="Int32" Name="id" format="ascii">{" ".join("7" for _ in ROWS[200:])}</DataArray>'
+        plain = clast("decompose", CSV, "--domain", CUBE, "--json").json
+        for kind, name in (("PolyData", "p.vtp"), ("UnstructuredGrid", "u.vtu")):
+            for last, code in (("", 0), (other, 3)):
+                path = self.folder / name
+                path.write_text(f'<?xml version="1.0"?><VTKFile type="{kind}" version="0.1" byte_order="LittleEndian"><{kind}>'
+                                + piece(ROWS[:200], kind) + '<Piece NumberOfPoints="0"></Piece>' + piece(ROWS[200:], kind, last)
+                                + f"</{kind}></VTKFile>")
+                r = clast("decompose", path, "--domain", CUBE, "--radius-column", "size", "--json")
+                self.assertEqual(r.code, code, r.err)
+                if code == 0:
+                    self.assertEqual(r.json["events"], plain["events"])
+                else:
+                    self.assertIn("a piece has 5 columns of data, the first has 4", r.err)
+
     def test_columns_of_any_name_are_mapped(self):
         path = self.folder / "names.csv"
         path.write_text("a;b;c\n" + "\n".join(";".join(map(repr, [p[2], p[0], p[1]])) for p in ROWS) + "\n")
