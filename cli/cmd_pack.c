@@ -85,6 +85,13 @@ static void print_text(const clast_pack_result *r)
                  r->dem.coordination, (long long)r->dem.n_contact,
                  (long long)r->dem.n_wall_contact);
     (void)printf("%-26s %.3g m\n", "deepest overlap", r->dem.max_overlap);
+    if (r->dem.verified.n > 0) {
+        (void)printf("%-26s %lld compared, %lld off by more than 1e-11 m, %lld by 1e-8 m, worst "
+                     "%.2g m\n",
+                     "remembered contacts", (long long)r->dem.verified.n,
+                     (long long)r->dem.verified.n_off, (long long)r->dem.verified.n_bad,
+                     r->dem.verified.worst);
+    }
     (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
                  r->grain_steps > 0.0 ? 1e9 * r->step_s / r->grain_steps : 0.0);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);

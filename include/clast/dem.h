@@ -62,6 +62,7 @@ typedef struct clast_dem_config {
     bool floor, lid;         ///< planes z = 0 and z = height
     double rounding;         ///< radius that edges of hulls get, their volume kept [m]
     double skin;             ///< half the skin of neighbour lists over a grain's radius
+    int32_t verify;          ///< steps between comparisons of contacts with cold ones; 0: never
 } clast_dem_config;
 
 CLAST_API extern const clast_field clast_dem_fields[];
@@ -84,6 +85,15 @@ typedef struct clast_dem_drive {
     double damping;         ///< c_d of eq. 15, factor a second on all velocities; 1: none
 } clast_dem_drive;
 
+/// Remembered contacts beside cold ones (`verify`): pairs of bodies of which one at least is no
+/// sphere, touching or listed.
+typedef struct clast_dem_verification {
+    int64_t n;     ///< compared
+    int64_t n_off; ///< gaps that differ by more than 1e-11 m
+    int64_t n_bad; ///< by more than 1e-8 m
+    double worst;  ///< greatest difference [m]
+} clast_dem_verification;
+
 /// Sums over all grains.
 typedef struct clast_dem_measures {
     int64_t step;
@@ -103,6 +113,7 @@ typedef struct clast_dem_measures {
     double max_overlap;      ///< deepest contact [m]
     double coordination;     ///< mean touching grains a grain, walls left out
     int64_t n_refresh;       ///< times that neighbour lists were brought up to date
+    clast_dem_verification verified;
 } clast_dem_measures;
 
 /// A running simulation. Opaque; one thread at a time (it uses threads itself).

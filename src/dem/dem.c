@@ -209,6 +209,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_near_find(dem));
         }
         clx_contacts(dem);
+        if (dem->config.verify > 0 && dem->step % dem->config.verify == 0) {
+            clx_verify(dem);
+        }
         const bool is_fine = clx_move(dem);
         ++dem->step;
         if (!is_fine) {

@@ -188,6 +188,7 @@ struct clast_dem {
     uint8_t *block_flag; ///< [blocks of CLX_MOVE_BLOCK grains] clx_move_flag of each
     clx_list list;
     clx_near near;
+    clast_dem_verification verified; ///< since the simulation was made or restored
 };
 
 static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)
@@ -276,6 +277,9 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 /// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
+
+/// Compares what clx_contacts has just found with cold contacts.
+void clx_verify(clast_dem *dem);
 
 /// Sums what contacts do; velocities, positions and turns one step on. True when all grains moved
 /// less than a twentieth of their radius.

@@ -107,7 +107,15 @@
          "m",                                                                                      \
          "radius that edges of surfaces get; the surface shrinks so that its volume stays",        \
          NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, skin, F64),                                                          \
+         0.1,                                                                                      \
+         1e-3,                                                                                     \
+         10.0,                                                                                     \
+         "-",                                                                                      \
+         "margin of neighbour lists over a grain's radius: speed only",                            \
+         NULL},                                                                                    \
     {                                                                                              \
-        CLX_DEM_AT(TYPE, IN, skin, F64), 0.1, 1e-3, 10.0, "-",                                     \
-            "margin of neighbour lists over a grain's radius: speed only", NULL                    \
+        CLX_DEM_AT(TYPE, IN, verify, I32), 0, 0, 1e9, "-",                                         \
+            "every so many steps contacts are compared with ones found without memory; 0: never",  \
+            NULL                                                                                   \
     }

@@ -93,7 +93,8 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
                             .n_grain = dem->n_grain,
                             .top = -INFINITY,
                             .n_listed = dem->list.n_link,
-                            .n_refresh = dem->list.n_refresh};
+                            .n_refresh = dem->list.n_refresh,
+                            .verified = dem->verified};
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         add_grain(dem, i, &m);
     }

@@ -33,6 +33,17 @@ static json_t *hulls(const clast_pack_result *r)
     return list;
 }
 
+/// Remembered contacts beside cold ones.
+static json_t *verified(const clast_dem_verification *v)
+{
+    json_t *o = json_object();
+    put_count(o, "n", v->n);
+    put_count(o, "n_off", v->n_off);
+    put_count(o, "n_bad", v->n_bad);
+    put(o, "worst", v->worst);
+    return o;
+}
+
 clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char **text)
 {
     clast_status status = CLAST_OK;
@@ -69,6 +80,9 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     (void)json_object_set_new(o, "hulls", hulls(r));
     put(o, "grain_steps", r->grain_steps);
     put_count(o, "n_refresh", r->dem.n_refresh);
+    if (r->dem.verified.n > 0) {
+        (void)json_object_set_new(o, "verified", verified(&r->dem.verified));
+    }
     if (times) {
         put(o, "wall_s", r->wall_s);
         put(o, "ns_per_grain_step",

@@ -1,0 +1,61 @@
+/* Property: in a bed that moves, remembered contacts are those found without memory; and the mode
+ * that says so sees one that is not. */
+#include "support.h"
+
+#include "dem/dem.h"
+#include <clast/parallel.h>
+#include <clast/scene.h>
+
+static clast_dem *bed_after(int32_t verify, int64_t n_step)
+{
+    clast_dem *dem = NULL;
+    CHECK_OK(clast_scene_p1(&(clast_scene_bed){100, 27, 0.05, 2.0}, &dem));
+    dem->config.verify = verify;
+    CHECK_OK(clast_dem_step(dem, n_step));
+    return dem;
+}
+
+static void remembered_contacts_are_cold_ones(void **state)
+{
+    (void)state;
+    clast_dem_measures m;
+    clast_dem *dem = bed_after(20, 2000);
+    clast_dem *plain = bed_after(0, 2000);
+    clast_dem_measure(dem, &m);
+    assert_true(m.n_contact > 5 && m.verified.n > 2000);
+    assert_int_equal(m.verified.n_off, 0);
+    assert_int_equal(m.verified.n_bad, 0);
+    assert_true(clast_dem_hash(dem) == clast_dem_hash(plain)); /* looking changes nothing */
+    clast_dem_destroy(dem);
+    clast_dem_destroy(plain);
+}
+
+static void broken_memories_and_promises_are_seen(void **state)
+{
+    (void)state;
+    clast_dem_measures m;
+    clast_dem *dem = bed_after(0, 2000);
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        clx_link *link = &dem->list.link[k];
+        if (link->touches != 0 && link->slot != 0 && dem->list.memory[link->slot].kind == 1) {
+            dem->list.memory[link->slot].data[3] += 2e-8; /* the face's place */
+        } else if (link->touches == 0 && link->b >= 0) {
+            link->wake += 0.02; /* farther than any listed pair */
+        }
+    }
+    clx_verify(dem);
+    clast_dem_measure(dem, &m);
+    assert_true(m.verified.n > 100 && m.verified.n_bad > m.verified.n / 2);
+    assert_true(m.verified.worst > 1e-3);
+    clast_dem_destroy(dem);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(remembered_contacts_are_cold_ones),
+        cmocka_unit_test(broken_memories_and_promises_are_seen),
+    };
+    clast_parallel_set_threads(1);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
