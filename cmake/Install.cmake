@@ -8,6 +8,8 @@ configure_file(cmake/clastConfig.cmake.in ${CMAKE_BINARY_DIR}/clastConfig.cmake 
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/clastConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/clastConfig.cmake ${CMAKE_BINARY_DIR}/clastConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/clast)
+# the .pc files find their prefix from where they lie, so that cmake --install --prefix works
+file(RELATIVE_PATH CLAST_PC_UP /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(cmake/clast.pc.in ${CMAKE_BINARY_DIR}/clast.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/clast.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(TARGET clast_mpi)
