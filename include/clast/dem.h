@@ -19,7 +19,8 @@ typedef enum {
     CLAST_DEM_DRY,
     CLAST_DEM_AREA, ///< cohesion times Hertz's contact area, pi R* overlap
     CLAST_DEM_DMT,  ///< constant pull 2 pi w R*
-    CLAST_DEM_JKR   ///< constant pull 3/2 pi w R*, JKR's pull-off force
+    CLAST_DEM_JKR   ///< Hertz's law: JKR's curve with its neck; linear law: its pull-off force
+                    ///< 3/2 pi w R* as a constant
 } clast_dem_cohesion;
 
 typedef enum {

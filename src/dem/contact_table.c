@@ -19,7 +19,7 @@ static void measure(const clast_dem *dem, const clx_link *link, double out[N_COL
     clx_load on_b = {0};
     const int32_t a = clx_item_grain(dem, link->a);
     clx_find_again(dem, link, &t);
-    if (t.distance < 0.0) {
+    if (t.distance < 0.0 || t.distance < clx_link_neck(dem, link)) {
         clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
         if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
             bool is_first = true;

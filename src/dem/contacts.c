@@ -143,7 +143,7 @@ static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
     find_all(dem, p, kind);
     for (int k = 0; k < p->n; ++k) {
-        if (p->distance[k] >= 0.0) {
+        if (p->distance[k] >= 0.0 && !(p->distance[k] < clx_link_neck(dem, p->link[k]))) {
             part(dem, p, k);
         } else {
             p->link[k]->touches = 1;

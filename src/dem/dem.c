@@ -208,6 +208,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         if (dem->near.is_due) {
             CLX_TRY(clx_near_find(dem));
         }
+        if (dem->n_started < dem->n_grain) {
+            CLX_TRY(clx_check_starts(dem));
+        }
         clx_contacts(dem);
         if (dem->config.verify > 0 && dem->step % dem->config.verify == 0) {
             clx_verify(dem);

@@ -177,6 +177,7 @@ struct clast_dem {
     bool has_items;     ///< some shape is a clump: items are not grains
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
+    int32_t n_started; ///< grains that have been looked at for overlaps among those added with them
     int64_t grain_capacity;
     clx_grain *grain;   ///< [n_grain]
     clx_motion *motion; ///< [n_grain]
@@ -293,6 +294,10 @@ int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_fi
 
 /// A kernel over grains: sub-contacts of clumps share their pair's stiffness.
 void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context);
+
+/// Refuses grains that overlap others added since the last step by so much that
+/// they would fly apart faster than a run may go.
+clast_status clx_check_starts(clast_dem *dem);
 
 /// Says what exploded. Returns CLAST_E_CONVERGE.
 clast_status clx_explain_explosion(const clast_dem *dem);

@@ -49,7 +49,8 @@
          0,                                                                                        \
          0,                                                                                        \
          "-",                                                                                      \
-         "attraction of touching grains: none, with the contact area, or a constant pull-off",     \
+         "attraction of touching grains: none, with the contact area, DMT's pull-off, or JKR's "   \
+         "(its neck with law hertz)",                                                              \
          "none|area|dmt|jkr"},                                                                     \
         {CLX_DEM_AT(TYPE, IN, cohesion_energy, F64),    0,   0, 1e12, "J/m^3",                     \
          "attraction per contact area, cohesion: area", NULL},                                     \

@@ -21,7 +21,21 @@ clx_law clx_law_make(const clast_dem_config *c)
     law.friction[0] = c->friction;
     law.friction[1] = c->wall_friction >= 0.0 ? c->wall_friction : c->friction;
     law.pull = (c->cohesion == CLAST_DEM_DMT ? 2.0 : 1.5) * CLAST_PI * c->surface_energy;
+    law.has_neck = c->law == CLAST_DEM_HERTZ && c->cohesion == CLAST_DEM_JKR;
+    law.adhesion = sqrt(2.0 * CLAST_PI * c->surface_energy / law.young);
     return law;
+}
+
+/// Integral of JKR's force over the overlap along its curve, from a = 0.
+static double jkr_energy(const clx_law *law, double overlap, double radius)
+{
+    const double a = clx_jkr_radius(law, overlap, radius);
+    const double stiff = 4.0 / 3.0 * law->young / radius;
+    const double sticky = 2.0 * law->young * law->adhesion;
+    const double root = a * a * a * sqrt(a);
+    return 0.4 * stiff / radius * a * a * a * a * a -
+           2.0 / 7.0 * (0.5 * stiff * law->adhesion + 2.0 * sticky / radius) * root +
+           0.25 * sticky * law->adhesion * a * a;
 }
 
 /// Half swing of a mass on Hertz's spring, linearised at an overlap of 1 % of R*.
@@ -42,5 +56,8 @@ double clx_law_energy(const clx_law *law, double overlap, double slide, double m
     const clx_meeting c = {.overlap = overlap, .mass = mass, .radius = radius};
     const clx_springs s = clx_law_springs(law, &c);
     const double share = law->kind == CLAST_DEM_LINEAR ? 0.5 : 0.4; // integrals of d, d^(3/2)
+    if (law->has_neck) {
+        return jkr_energy(law, overlap, radius) + 0.5 * s.tangential * slide * slide;
+    }
     return share * s.elastic * overlap + 0.5 * s.tangential * slide * slide;
 }

@@ -18,6 +18,8 @@ typedef struct clx_law {
     double rolling;
     double cohesion_energy; ///< [J/m3]
     double pull;            ///< DMT, JKR: force over R* [N/m]
+    bool has_neck;          ///< JKR's whole curve: with Hertz's law
+    double adhesion;        ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
 } clx_law;
 
 /// One contact as the law sees it.
@@ -57,6 +59,47 @@ typedef struct clx_springs {
     double tangential_damping;
 } clx_springs;
 
+/// Contact radius of JKR's stable branch at this overlap, which is above the tearing one.
+///
+///     d = a^2/R - C a^1/2,  C = sqrt(2 pi w / E*)                                 [Johnson1971]
+///
+/// Convex in a, so Newton's steps come down to the root from any start above it.
+static inline double clx_jkr_radius(const clx_law *law, double overlap, double radius)
+{
+    const double c = law->adhesion;
+    double a = sqrt(radius * fmax(overlap, 0.0)) + cbrt(c * c * radius * radius);
+    for (int i = 0; i < 60; ++i) {
+        const double root = sqrt(a);
+        const double step =
+            (a * a / radius - c * root - overlap) / (2.0 * a / radius - 0.5 * c / root);
+        if (!(step > 1e-15 * a)) {
+            break;
+        }
+        a -= step;
+    }
+    return a;
+}
+
+/// Overlap at which a neck tears, below 0: -3/4 (pi^2 w^2 R / E*^2)^1/3 = -3 (C^4 R / 256)^1/3.
+static inline double clx_jkr_tear(const clx_law *law, double radius)
+{
+    const double c2 = law->adhesion * law->adhesion;
+    return -3.0 * cbrt(c2 * c2 * radius / 256.0);
+}
+
+/// F = 4 E* a^3 / 3R - sqrt(8 pi w E*) a^3/2; dashpot and tangential spring of the contact radius.
+static inline clx_springs clx_jkr_springs(const clx_law *law, const clx_meeting *c)
+{
+    clx_springs s;
+    const double a = clx_jkr_radius(law, c->overlap, c->radius);
+    s.elastic = 4.0 / 3.0 * law->young * a * a * a / c->radius -
+                2.0 * law->young * law->adhesion * a * sqrt(a);
+    s.normal_damping = law->alpha * sqrt(4.0 / 3.0 * c->mass * law->young * a);
+    s.tangential = 8.0 * law->shear * a;
+    s.tangential_damping = s.normal_damping * sqrt(s.tangential / (2.0 * law->young * a));
+    return s;
+}
+
 static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting *c)
 {
     clx_springs s;
@@ -67,6 +110,9 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
         s.tangential = law->kappa * k;
         s.tangential_damping = law->root_kappa * s.normal_damping;
         return s;
+    }
+    if (law->has_neck) {
+        return clx_jkr_springs(law, c);
     }
     // F = k d^(3/2) + alpha sqrt(m k) d^(1/4) d', k = 4/3 E* sqrt(R*) [Antypov2011]; k_t = 8 G* a
     const double root = sqrt(c->radius * c->overlap);
@@ -81,7 +127,7 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
 
 static inline double clx_law_pull(const clx_law *law, const clx_meeting *c)
 {
-    return law->cohesion == CLAST_DEM_DRY ? 0.0
+    return law->cohesion == CLAST_DEM_DRY || law->has_neck ? 0.0
            : law->cohesion == CLAST_DEM_AREA
                ? law->cohesion_energy * CLAST_PI * c->radius * c->overlap
                : law->pull * c->radius;
@@ -111,11 +157,13 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
     double along[3];
     v3_axpy(along, c->velocity, -apart, c->normal);
     push->normal = s.elastic - s.normal_damping * apart;
-    if (law->clip && push->normal < 0.0) {
-        push->normal = 0.0;
+    if (law->clip && push->normal < fmin(s.elastic, 0.0)) {
+        push->normal = fmin(s.elastic, 0.0);
     }
-    // Coulomb's limit takes the pressed force: attraction presses too, so it is left out of it
-    const double limit = c->friction * fabs(push->normal);
+    // Coulomb's limit takes the pressed force: attraction presses too, so it is left out of it; for
+    // JKR that is F + 2 F_pull-off [Thornton1991]
+    const double pressed = law->has_neck ? 2.0 * law->pull * c->radius : 0.0;
+    const double limit = c->friction * fabs(push->normal + pressed);
     push->normal -= clx_law_pull(law, c);
     clx_law_turn(c, dt, slide);
     v3_axpy(slide, slide, dt, along);

@@ -52,6 +52,18 @@ static inline double clx_item_curve(const clast_dem *dem, int32_t item)
                : dem->grain[clx_item_grain(dem, item)].round_radius;
 }
 
+/// Length of the neck that still holds a pair apart; 0 for laws that have none, and pairs that did
+/// not touch.
+static inline double clx_link_neck(const clast_dem *dem, const clx_link *link)
+{
+    if (!dem->law.has_neck || link->touches == 0) {
+        return 0.0;
+    }
+    const double ra = clx_item_curve(dem, link->a);
+    const double rb = link->b >= 0 ? clx_item_curve(dem, link->b) : 0.0;
+    return -clx_jkr_tear(&dem->law, link->b >= 0 ? ra * rb / (ra + rb) : ra);
+}
+
 /// A pair that touches.
 static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_link *p,
                                  const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)

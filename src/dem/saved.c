@@ -202,6 +202,7 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     dem->list.is_due = s->is_due;
     dem->list.n_refresh = s->n_refresh;
     dem->step = s->step;
+    dem->n_started = dem->n_grain;
 done:
     return status;
 }

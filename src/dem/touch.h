@@ -41,7 +41,7 @@ static inline void clx_touch_spheres(const clast_dem *dem, const clx_link *link,
     clx_link_offset(dem, link, r);
     const double d = sqrt(v3_norm2(r));
     t->distance = d - (ra + rb);
-    if (t->distance >= 0.0) {
+    if (t->distance >= 0.0 && !dem->law.has_neck) {
         return;
     }
     v3_scale(t->normal, d > 0.0 ? 1.0 / d : 0.0, r);
@@ -100,7 +100,7 @@ static inline void clx_dem_touch_find(const clast_dem *dem, const clx_link *link
     } else {
         clx_touch_convex_wall(dem, link, memory, t);
     }
-    if (dem->item != NULL && t->distance < 0.0) {
+    if (dem->item != NULL && (t->distance < 0.0 || dem->law.has_neck)) {
         clx_touch_lever(dem, link, t);
     }
 }

@@ -225,7 +225,8 @@ typedef struct {
     double x, y, z;   ///< shelf: where the next sphere may begin
     double row, layer;
     int32_t n;
-    int32_t n_wide;         ///< spheres wider than the spacing
+    int32_t n_wide; ///< spheres wider than the spacing
+    int32_t n_old;  ///< the first of `grain`: of earlier fills, still reaching into the region
     clast_dem_grain *grain; ///< [n] of this fill
     double *radius;         ///< [n]
     int64_t capacity, radius_capacity;
@@ -281,6 +282,9 @@ static bool is_clear(const clast_pack *p, const filling *f, const double x[3], d
         for (int k = 0; k < 2 && d->domain == CLAST_DEM_PERIODIC; ++k) {
             r[k] -= period[k] * floor(r[k] / period[k] + 0.5);
         }
+        if (i < f->n_old && reach <= p->spacing) {
+            continue; // the published lattice takes no notice
+        }
         if (v3_norm2(r) < reach * reach) {
             return false;
         }
@@ -293,7 +297,7 @@ static bool is_clear(const clast_pack *p, const filling *f, const double x[3], d
 static bool place_on_lattice(const clast_pack *p, filling *f, double radius, double x[3])
 {
     const double room = fmax(radius, 0.5 * p->spacing);
-    const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0;
+    const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0 || f->n_old > 0;
     double spare[3];
     for (int64_t k = f->first; lattice_point(p, f, k, x); ++k) {
         if (f->taken[k] != 0) {
@@ -314,7 +318,8 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
     }
     // a wide grain may fit between walls where the lattice has no point: on the axis
     v3_set(x, p->middle[0], p->middle[1], f->low + room);
-    if (f->n == 0 && is_inside(p, x, radius) && x[2] + radius <= f->high) {
+    if (f->n == f->n_old && is_clear(p, f, x, radius) && is_inside(p, x, radius) &&
+        x[2] + radius <= f->high) {
         f->n_wide = 1;
         return true;
     }
@@ -367,6 +372,24 @@ done:
     return status;
 }
 
+/// Grains of earlier fills that still reach into the region.
+static clast_status keep_old(const clast_pack *p, filling *f)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < clast_dem_n_grain(p->dem); ++i) {
+        clast_dem_grain g;
+        double measures[2];
+        clast_dem_read_grain(p->dem, i, &g);
+        clast_dem_shape_measures(p->dem, g.shape, measures);
+        if (g.position[2] + g.scale * measures[0] > f->low) {
+            CLX_TRY(keep(f, &g, g.scale * measures[0]));
+        }
+    }
+    f->n_old = f->n;
+done:
+    return status;
+}
+
 /// Draws grains and places them until the region or the mass is full.
 static clast_status fill_region(clast_pack *p, filling *f)
 {
@@ -387,7 +410,7 @@ static clast_status fill_region(clast_pack *p, filling *f)
         ++p->n_made;
         p->mass += p->config.density * measures[1] * g.scale * g.scale * g.scale;
     }
-    CLX_CHECK(f->n > 0, CLAST_E_CONFIG,
+    CLX_CHECK(f->n > f->n_old || f->n_old > 0, CLAST_E_CONFIG,
               "no grain fits between %g and %g m: grain %lld needs more room than the domain has "
               "(spacing %g m)",
               f->low, f->high, (long long)p->n_made, p->spacing);
@@ -409,8 +432,9 @@ clast_status clx_pack_fill(clast_pack *p)
         ++n_point;
     }
     CLX_TRY(clx_alloc(&f.taken, n_point + 1, sizeof *f.taken));
+    CLX_TRY(keep_old(p, &f));
     CLX_TRY(fill_region(p, &f));
-    CLX_TRY(clast_dem_add_grains(p->dem, f.n, f.grain));
+    CLX_TRY(clast_dem_add_grains(p->dem, f.n - f.n_old, f.grain + f.n_old));
     ++p->n_fill;
     p->fill_step = clast_dem_n_step(p->dem);
 done:

@@ -37,24 +37,37 @@ done:
     return status;
 }
 
+static bool are_same(int64_t n, const double *a, const double *b)
+{
+    for (int64_t i = 0; i < n; ++i) {
+        if (!(a[i] == b[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_same_surface(const clast_mesh *a, const clast_mesh *b)
+{
+    if (a->n_vert != b->n_vert || a->n_tri != b->n_tri) {
+        return false;
+    }
+    return a->n_tri == 0 || (are_same(3LL * a->n_vert, a->vert[0], b->vert[0]) &&
+                             memcmp(a->tri, b->tri, (size_t)a->n_tri * sizeof *a->tri) == 0);
+}
+
+static bool is_same_clump(const clast_spheres *a, const clast_spheres *b)
+{
+    return a->n == b->n && (a->n == 0 || (are_same(3LL * a->n, a->centre[0], b->centre[0]) &&
+                                          are_same(a->n, a->radius, b->radius)));
+}
+
 static bool is_same_shape(const clast_shape *a, const clast_shape *b)
 {
-    const int32_t n_vert = a->mesh.n_vert;
-    const int32_t n_tri = a->mesh.n_tri;
-    const int32_t n = a->spheres.n;
     return a->kind == b->kind && strcmp(a->name, b->name) == 0 && a->volume == b->volume &&
-           a->bounding_radius == b->bounding_radius && n_vert == b->mesh.n_vert &&
-           n_tri == b->mesh.n_tri && n == b->spheres.n &&
-           memcmp(a->inertia, b->inertia, sizeof a->inertia) == 0 &&
-           memcmp(a->semi_axes, b->semi_axes, sizeof a->semi_axes) == 0 &&
-           (n_vert == 0 ||
-            memcmp(a->mesh.vert, b->mesh.vert, (size_t)n_vert * sizeof *a->mesh.vert) == 0) &&
-           (n_tri == 0 ||
-            memcmp(a->mesh.tri, b->mesh.tri, (size_t)n_tri * sizeof *a->mesh.tri) == 0) &&
-           (n == 0 || (memcmp(a->spheres.centre, b->spheres.centre,
-                              (size_t)n * sizeof *a->spheres.centre) == 0 &&
-                       memcmp(a->spheres.radius, b->spheres.radius,
-                              (size_t)n * sizeof *a->spheres.radius) == 0));
+           a->bounding_radius == b->bounding_radius && are_same(9, a->inertia[0], b->inertia[0]) &&
+           are_same(3, a->semi_axes, b->semi_axes) && is_same_surface(&a->mesh, &b->mesh) &&
+           is_same_clump(&a->spheres, &b->spheres);
 }
 
 /// The files of shapes may have changed since.
