@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
 all: dev
 
 dev release tsan coverage minimal:
@@ -18,6 +18,9 @@ install: release
 	@cmake --install build/release
 fuzz:
 	@tools/fuzz.sh
+afl:
+	@tools/setup.sh build
+	@tools/afl.sh
 docs:
 	@tools/docs.sh
 bench:

@@ -11,6 +11,8 @@
 
 clast_status cli_scene_fill_scan(cli_lap *b);
 clast_status cli_scene_fill_ellipse(cli_lap *b);
+clast_status cli_scene_fill_t_rex(cli_lap *b);
+clast_status cli_scene_fill_snowflake(cli_lap *b);
 clast_status cli_scene_read_stl(cli_lap *b);
 clast_status cli_scene_read_stl_ascii(cli_lap *b);
 clast_status cli_scene_read_ply(cli_lap *b);
@@ -53,6 +55,16 @@ clast_status cli_scene_fill_scan(cli_lap *b)
 clast_status cli_scene_fill_ellipse(cli_lap *b)
 {
     return fill(b, "ellipse");
+}
+
+clast_status cli_scene_fill_t_rex(cli_lap *b)
+{
+    return fill(b, "t_rex");
+}
+
+clast_status cli_scene_fill_snowflake(cli_lap *b)
+{
+    return fill(b, "snowflake");
 }
 
 /// A growing text or file image.
