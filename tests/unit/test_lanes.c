@@ -4,6 +4,7 @@
 #include "contact/facet.h"
 #include "contact/facet_lanes.h"
 #include "dem/batch.h"
+#include "dem_scenes.h"
 #include "gravel.h"
 #include "math/vec3.h"
 #include <string.h>
@@ -219,11 +220,69 @@ static void law_in_lanes_is_the_law_alone(void **state)
     clast_dem_destroy(dem);
 }
 
+/* Where grains 0 .. n - 1 of these are after a while, alone or together; they never meet. */
+static void fly(const clast_shape *shape, int32_t n, const clast_dem_grain *grain,
+                clast_dem_grain *out)
+{
+    clast_dem_config config = scene_space();
+    clast_dem *dem = NULL;
+    int32_t id = 0;
+    config.gravity = 9.81;
+    CHECK_OK(clast_dem_create(&config, &dem));
+    CHECK_OK(clast_dem_add_shape(dem, shape, &id));
+    CHECK_OK(clast_dem_add_grains(dem, n, grain));
+    clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 0.5});
+    CHECK_OK(clast_dem_step(dem, 300));
+    for (int32_t i = 0; i < n; ++i) {
+        clast_dem_read_grain(dem, i, &out[i]);
+    }
+    clast_dem_destroy(dem);
+}
+
+static void fly_both_ways(const clast_shape *shape, double spin)
+{
+    clast_dem_grain grain[CLX_LANES], together[CLX_LANES], alone;
+    for (int i = 0; i < CLX_LANES; ++i) {
+        clx_rng rng = clx_rng_at(42, CLX_STREAM_TEST, (uint64_t)i);
+        grain[i] = (clast_dem_grain){.scale = 1.0 + 0.2 * i, .density = 2650.0};
+        clx_rng_orientation(&rng, grain[i].orientation);
+        fill3(&rng, 0.1, grain[i].velocity);
+        fill3(&rng, spin, grain[i].spin);
+        v3_set(grain[i].position, 0.1 * i, 0.3, 0.5);
+    }
+    fly(shape, CLX_LANES, grain, together); /* in lanes */
+    for (int i = 0; i < CLX_LANES; ++i) {
+        fly(shape, 1, &grain[i], &alone); /* fewer than four: one by one */
+        for (int c = 0; c < 3; ++c) {
+            assert_true(same(alone.position[c], together[i].position[c]));
+            assert_true(same(alone.velocity[c], together[i].velocity[c]));
+            assert_true(same(alone.spin[c], together[i].spin[c]));
+        }
+        for (int c = 0; c < 4; ++c) {
+            assert_true(same(alone.orientation[c], together[i].orientation[c]));
+        }
+    }
+}
+
+static void grains_in_lanes_move_as_alone(void **state)
+{
+    (void)state;
+    clast_shape shape = {0};
+    CHECK_OK(clast_shape_ellipsoid("egg", (const double[3]){4e-3, 3e-3, 2e-3}, &shape));
+    fly_both_ways(&shape, 3e3);
+    fly_both_ways(&shape, 3e4); /* some turn too fast for the series: all four go one by one */
+    clast_shape_free(&shape);
+    CHECK_OK(clast_shape_sphere("ball", 3e-3, &shape));
+    fly_both_ways(&shape, 3e3);
+    clast_shape_free(&shape);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(facets_in_lanes_are_facets_alone, make_cores, free_cores),
         cmocka_unit_test(law_in_lanes_is_the_law_alone),
+        cmocka_unit_test(grains_in_lanes_move_as_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
