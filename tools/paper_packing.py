@@ -384,7 +384,7 @@ def draw_forms(record, library):
                series)
 
 
-def page(record, command):
+def page(record, command, timed):
     return f"""# Packings: the paper beside ours
 
 Made by `tools/paper_packing.py` (`make paper-packing`); every bed is a row of `packing.csv`. Paper: Rettinger, Rüde, Vollmer and Frings,
@@ -458,7 +458,7 @@ The reference's times are of another machine. Its beds are 3 to 4 grains deep an
 validation; its fill is all or nothing, so we ask for the mass that it reached; but our lattice
 leaves points empty where two grains' spheres would cross, so a fill of long grains holds fewer. Seeds 41, 42, 43, one thread.
 
-{cases(command)}
+{timed}
 
 ## U1 at full size: what it takes
 
@@ -481,12 +481,13 @@ def main():
     args = parser.parse_args()
     for study in (args.run or SMALL) if args.run is not None else ():
         subprocess.run([args.clast, "study", f"examples/packing/{study}.yaml", "-o", str(args.runs / study)], check=True, cwd=ROOT)
+    timed = cases(args.clast)
     record = Record(args.runs)
     record.write()
     library = pathlib.Path(args.clast).resolve().parent / "libclast.so"
     draw_curves(record, library)
     draw_forms(record, library)
-    text = page(record, args.clast)
+    text = page(record, args.clast, timed)
     (ROOT / "docs/validation/packing.md").write_text(text, encoding="utf-8")
     print(f"packing: {len(record.beds)} beds in docs/validation/packing.csv, page docs/validation/packing.md")
 
