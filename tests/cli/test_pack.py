@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import resource
 import signal
 import subprocess
 import time
@@ -167,6 +168,22 @@ class Pack(Case):
             resumed = clast("pack", "--resume", run, "--quiet", "-j", "1")
             self.assertEqual(resumed.code, 0, resumed.err)
             self.assertEqual((whole / "state.h5").read_bytes(), (run / "state.h5").read_bytes(), kind)
+
+    def test_full_disk_leaves_the_last_good_checkpoint(self):
+        def limit():  # files of at most 40 kB: what a full disk answers, without the rights to mount one
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
+
+        whole = self.run_small("--json")
+        run = self.folder / "full"
+        full = subprocess.run([os.environ["CLAST"], *SMALL, "--checkpoint-time", "0.02s", "-o", str(run)], cwd=ROOT,
+                              preexec_fn=limit, capture_output=True, text=True, check=False)
+        self.assertEqual(full.returncode, 4, full.stderr)
+        self.assertIn("cannot write", full.stderr)
+        self.assertFalse((run / "state.h5").exists())
+        resumed = clast("pack", "--resume", run, "--quiet", "-j", "1", "--json")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertEqual(json.loads(resumed.out)["state_hash"], json.loads(whole.out)["state_hash"])
 
     def test_changed_shape_is_refused_at_resume(self):
         spheres = self.folder / "clump.csv"
