@@ -449,6 +449,7 @@ Scaled down: `table11-small` (1.1 kg), else the exact beds of `rounding-small` (
 ## Rounded edges
 
 `rounding-small`: the same seeds, so the same grains, at four radii; 10 um is 1.5e-3 of a grain. Chaos makes each bed another realisation.
+Fewer than three beds a side settle nothing: their own spread is then a poor estimate of the scatter, and the interval with it.
 
 {rounding(record)}
 

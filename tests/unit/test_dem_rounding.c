@@ -78,6 +78,45 @@ static void faces_move_and_mass_stays(void **state)
     }
 }
 
+/* A corner on a face: both grow by m, both shrink by f. */
+static void pairs_meet_where_they_should(void **state)
+{
+    (void)state;
+    const double m = 2e-4;
+    const double deep = 1e-6;
+    clast_dem *dem = with_box(m);
+    const double f = clx_rounding_factor(&dem->body[0], m);
+    clast_dem_grain g[2] = {at(1.0, 0.1), at(1.0, 0.1)};
+    double q[4] = {1.0, 0.5, 0.3, 0.1};
+    double turn[3][3];
+    double n = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        n += q[k] * q[k];
+    }
+    for (int k = 0; k < 4; ++k) {
+        g[1].orientation[k] = q[k] / sqrt(n);
+    }
+    q_matrix(turn, g[1].orientation);
+    const double reach =
+        0.5 * f * (fabs(turn[2][0]) * A + fabs(turn[2][1]) * B + fabs(turn[2][2]) * C);
+    g[1].position[2] += 0.5 * f * C + m + reach + m - deep;
+    for (int c = 0; c < 2; ++c) { /* the lowest corner over the middle of the face */
+        const double size[3] = {A, B, C};
+        for (int k = 0; k < 3; ++k) {
+            g[1].position[c] += 0.5 * f * copysign(size[k], turn[2][k]) * turn[c][k];
+        }
+    }
+    clast_dem_measures found;
+    CHECK_OK(clast_dem_add_grains(dem, 2, g));
+    for (int step = 0; step < 3; ++step) { /* found by a search, then remembered */
+        CHECK_OK(clast_dem_step(dem, 1));
+        clast_dem_measure(dem, &found);
+        assert_int_equal(found.n_contact, 1);
+        CHECK_ABS(found.max_overlap, deep, 1e-5 * deep);
+    }
+    clast_dem_destroy(dem);
+}
+
 static void too_round_is_refused(void **state)
 {
     (void)state;
@@ -93,6 +132,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steiner_of_a_brick),
         cmocka_unit_test(faces_move_and_mass_stays),
+        cmocka_unit_test(pairs_meet_where_they_should),
         cmocka_unit_test(too_round_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
