@@ -21,7 +21,8 @@ static void print_hull(const clast_pack_hull *hull)
         (void)printf("%-26s its hull adds %.3f %% of volume\n", hull->shape,
                      100.0 * fmax(hull->volume_added, 0.0));
     } else {
-        (void)printf("%-26s hull of an open surface\n", hull->shape);
+        (void)printf("%-26s hull of a surface without a volume (open or inside out)\n",
+                     hull->shape);
     }
 }
 
@@ -50,7 +51,8 @@ static void print_hulls(const clast_pack_result *r)
                      100.0 * fmax(r->hull[most].volume_added, 0.0), r->hull[most].shape);
     }
     if (r->n_hull > MOST_LINES && n < r->n_hull) {
-        (void)printf("%-26s %d of open surfaces\n", "convex hulls", r->n_hull - n);
+        (void)printf("%-26s %d of surfaces without a volume (open or inside out)\n", "convex hulls",
+                     r->n_hull - n);
     }
 }
 

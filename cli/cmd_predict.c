@@ -207,6 +207,9 @@ static void print_formula(const clast_porosity_model *m)
     (void)printf("model      %s (%s)\n           porosity = %.6g", m->name, m->source,
                  m->intercept);
     for (int32_t k = 0; k < m->n_term; ++k) {
+        if (m->term[k].coefficient == 0.0) {
+            continue; // of eq. 23, which has no fourth term
+        }
         (void)printf(" %c %.6g %s", m->term[k].coefficient < 0.0 ? '-' : '+',
                      fabs(m->term[k].coefficient), m->term[k].feature);
     }

@@ -57,7 +57,7 @@ clast_status cli_study_grains(const char *folder, const clast_table *beds, const
     }
     for (int64_t i = 0; i < beds->n_row && status == CLAST_OK; ++i) {
         char path[4096];
-        (void)snprintf(path, sizeof path, "%s/runs/%06.0f/grains.csv", folder, run[i]);
+        (void)snprintf(path, sizeof path, "%s/runs/%06.0f/out/grains.csv", folder, run[i]);
         if (code == NULL || code[i] == 0.0) { // a failed run has no bed either
             status = add_run(path, run[i], group, grains);
         }

@@ -49,7 +49,8 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
                                      .y = set->elongation,
                                      .value = set->size,
                                      .n = set->n}};
-    (void)snprintf(title, sizeof title, "Zingg diagram of %lld grains", (long long)set->n);
+    (void)snprintf(title, sizeof title, "Zingg diagram of %lld grain%s", (long long)set->n,
+                   set->n == 1 ? "" : "s");
     if (set->size != NULL) {
         bounds(set->size, set->n, &low, &high);
     }

@@ -292,8 +292,9 @@ clast_status clast_grain_measure_hull(const clast_mesh *mesh, clast_grain *grain
     CLX_TRY(measure_solid(&hull, &made));
     v3_add(made.centroid, made.centroid, body.middle);
     made.hull_volume_added = NAN;
-    if (mesh->n_tri > 0 && check_closed(mesh) == CLAST_OK) {
-        made.hull_volume_added = made.volume / clast_mesh_volume(mesh) - 1.0;
+    const double volume = fabs(clast_mesh_volume(mesh)); // of a surface turned inside out, too
+    if (mesh->n_tri > 0 && volume > 0.0 && check_closed(mesh) == CLAST_OK) {
+        made.hull_volume_added = made.volume / volume - 1.0;
     }
     *grain = made;
 done:

@@ -71,7 +71,7 @@ class Fit(Case):
         study = self.folder / "study"
         for run in range(1, 25):
             forms = [(0.3 + 0.02 * run + 0.01 * k, 0.55 + 0.012 * ((7 * run) % 11) + 0.015 * k) for k in range(5)]
-            folder = study / f"runs/{run:06d}"
+            folder = study / f"runs/{run:06d}/out"
             folder.mkdir(parents=True)
             (folder / "grains.csv").write_text(
                 "shape,flatness,elongation,sieve_size_m\n" + "".join(f"a,{f!r},{e!r},0.006\n" for f, e in forms))

@@ -168,5 +168,14 @@ class Shape(Case):
         self.assertAlmostEqual(grain["sphericity"], 0.7251, delta=1e-4)
 
 
+class InsideOut(Case):
+    def test_hull_of_an_inside_out_tetrahedron_adds_nothing(self):
+        path = self.folder / "inside.obj"
+        path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n")
+        self.assert_fails(3, "shape", path, says=("inside out",))
+        (grain,) = clast("shape", path, "--hull", "--json").json["grains"]
+        self.assertAlmostEqual(grain["hull_volume_added"], 0.0, 12)  # it was -2
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -37,6 +37,15 @@ class Study(Case):
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual((self.folder / "other/results.csv").read_bytes(), first)
 
+    def test_wanted_and_achieved_values_of_one_name_stand_side_by_side(self):
+        plan = self.plan("run: pack\nfix: [form_law=true, curve=6 mm, mass=1e-6, max_steps=1, height=0.3m, width=0.1m]\n"
+                         "vary: [flatness_mean = 0.5 | 0.7]\n")
+        done = clast("study", plan, "-o", self.folder / "out", "--json")
+        self.assertEqual(done.code, 0, done.err)
+        rows = self.rows()
+        self.assertEqual([row["flatness_mean"] for row in rows], ["0.5", "0.7"])
+        self.assertNotEqual(float(rows[0]["result.flatness_mean"]), 0.5)  # one grain, drawn
+
     def test_runs_with_folders_keep_them(self):
         plan = self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=10g, max_steps=20]\n"
                          "vary:\n  - shapes = sphere | ellipsoid:3,2,1\n")
