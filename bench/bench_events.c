@@ -336,7 +336,7 @@ int main(int argc, char **argv)
     const uint64_t first = argc > 3 ? strtoull(argv[3], NULL, 10) : 1000;
     const int n_way = argc > 5 ? (int)strtol(argv[5], NULL, 10) : N_WAY;
     clast_status status = CLAST_OK;
-    (void)printf("scene,n,way,bias,standard_error,rms,worst,bias_without_luck,standard_error,"
+    (void)printf("scene,n,way,bias,standard_error,rms,worst,bias_without_luck,error_without_luck,"
                  "covered,cells\n");
     for (int s = 0; s < N_SCENE && status == CLAST_OK; ++s) {
         if (argc < 5 || strcmp(argv[4], "all") == 0 || strcmp(argv[4], scenes[s].name) == 0) {
