@@ -75,6 +75,7 @@ typedef struct clast_structure_options {
     clast_fluid fluid;
     int32_t n_line, n_direction; ///< of projected areas
     int32_t n_first;             ///< first grain of the growth fit; 0: a tenth of them, 5 at least
+    bool alpha;                  ///< the alpha shape too, which takes a length and time
 } clast_structure_options;
 
 /// Options of the parts, air, 512 lines, 24 directions.

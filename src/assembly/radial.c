@@ -1,5 +1,6 @@
 // Solid volume by distance from a centre: spheres cut by spheres in closed form, other grains by
-// lattice points.
+// lattice points: in the grain, and for shells that are smaller than the grain (those about the
+// centre of a core), where few of its points would lie, in the shell.
 #include <clast/structure.h>
 
 #include "assembly/grain_points.h"
@@ -46,8 +47,50 @@ static void add_ball(profile *p, double r, double d, double density)
     }
 }
 
+static double shell_volume(const profile *p, int32_t k)
+{
+    const double low = k * p->step;
+    const double high = (k + 1) * p->step;
+    return 4.0 / 3.0 * CLAST_PI * (high * high * high - low * low * low);
+}
+
+/// Volume of the grain in shell k by points even in the shell; the variance is at most that of
+/// random points.
+static double within_shell(const profile *p, int32_t k, const clx_touch_body *body,
+                           const double centre[3], double *variance)
+{
+    const double low = pow(k * p->step, 3.0);
+    const double high = pow((k + 1) * p->step, 3.0);
+    const double shell = shell_volume(p, k);
+    double c[3] = {0.5, 0.5, 0.5};
+    int32_t hits = 0;
+    for (int32_t i = 0; i < POINTS_A_GRAIN; ++i) {
+        double x[3];
+        clx_lattice_step(c);
+        const double r = cbrt(low + c[0] * (high - low));
+        const double z = 2.0 * c[1] - 1.0;
+        const double across = sqrt(fmax(0.0, 1.0 - z * z));
+        const double turn = 2.0 * CLAST_PI * c[2];
+        const double u[3] = {across * cos(turn), across * sin(turn), z};
+        v3_axpy(x, centre, r, u);
+        hits += clx_body_holds(body, x);
+    }
+    const double share = (double)hits / POINTS_A_GRAIN;
+    *variance = shell * shell * share * (1.0 - share) / POINTS_A_GRAIN;
+    return shell * share;
+}
+
+static void add_share(profile *p, int32_t k, double volume, double variance, double density)
+{
+    p->solid[k] += volume;
+    p->mass[k] += density * volume;
+    p->error[k] += variance;
+}
+
+/// Points even in the grain; the shells below `first` are known, the others share what is left (of
+/// a grain that ends within them nothing is left but the error of their sum).
 static void add_points(profile *p, const clx_touch_body *body, const double centre[3],
-                       double volume, double density)
+                       int32_t first, double left, double density)
 {
     double c[3] = {0.5, 0.5, 0.5};
     int32_t bin[POINTS_A_GRAIN];
@@ -57,15 +100,31 @@ static void add_points(profile *p, const clx_touch_body *body, const double cent
         clx_lattice_step(c);
         if (clx_body_draw(body, c, x)) {
             const int32_t k = (int32_t)(v3_distance(x, centre) / p->step);
-            bin[n++] = k < p->n_bin ? k : p->n_bin - 1;
+            bin[n] = k < p->n_bin ? k : p->n_bin - 1;
+            n += bin[n] >= first;
         }
     }
     for (int32_t i = 0; i < n; ++i) { // 1 / n each; variance at most that of random points
-        p->solid[bin[i]] += volume / n;
-        p->mass[bin[i]] += density * volume / n;
+        add_share(p, bin[i], left / n, left / n * (left / n), density);
     }
-    for (int32_t i = 0; i < n; ++i) {
-        p->error[bin[i]] += volume / n * (volume / n);
+}
+
+static void add_grain(profile *p, const clx_touch_body *body, const double centre[3], double volume,
+                      double density)
+{
+    double left = volume;
+    int32_t k = 0;
+    for (; k < p->n_bin && shell_volume(p, k) < volume && left > 0.0; ++k) {
+        double variance = 0.0;
+        if (v3_distance(body->position, centre) > (k + 1) * p->step + body->radius) {
+            continue; // the shell ends before the grain begins
+        }
+        const double part = within_shell(p, k, body, centre, &variance);
+        add_share(p, k, fmin(part, left), variance, density);
+        left -= fmin(part, left);
+    }
+    if (left > 0.0) {
+        add_points(p, body, centre, k, left, density);
     }
 }
 
@@ -79,8 +138,8 @@ static void add_grains(const clast_assembly *a, const clx_touch_set *set, const 
             add_ball(p, s * shape->semi_axes[0], v3_distance(a->position[i], centre),
                      a->density[i]);
         } else {
-            add_points(p, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
-                       a->density[i]);
+            add_grain(p, clx_touch_scene_body(set->scene, i), centre, s * s * s * shape->volume,
+                      a->density[i]);
         }
     }
 }
@@ -132,11 +191,9 @@ clast_status clast_assembly_radial_profile(const clast_assembly *assembly, const
                  .mass = clast_table_numbers(&made, "density_kg_m3")};
     add_grains(assembly, &set, c, &p);
     for (int32_t k = 0; k < n_bin; ++k) {
-        const double low = k * p.step;
-        const double high = (k + 1) * p.step;
-        const double shell = 4.0 / 3.0 * CLAST_PI * (high * high * high - low * low * low);
-        made.column[0].number[k] = low;
-        made.column[1].number[k] = high;
+        const double shell = shell_volume(&p, k);
+        made.column[0].number[k] = k * p.step;
+        made.column[1].number[k] = (k + 1) * p.step;
         p.error[k] = sqrt(p.error[k]);
         made.column[4].number[k] = p.solid[k] / shell;
         p.mass[k] /= shell;

@@ -241,8 +241,7 @@ static clast_status fill_rows(const clast_assembly *a, const clast_structure_opt
         clast_envelope envelope;
         const bool of_spheres =
             kind == CLAST_ENVELOPE_SPHERE_HULL || kind == CLAST_ENVELOPE_SPHERE_RAYS;
-        if ((of_spheres && !spheres) ||
-            kind == CLAST_ENVELOPE_ALPHA || // slow: for who asks by name
+        if ((of_spheres && !spheres) || (kind == CLAST_ENVELOPE_ALPHA && !options->alpha) ||
             (kind == CLAST_ENVELOPE_WRAP && !(options->envelope.length > 0.0))) {
             continue;
         }

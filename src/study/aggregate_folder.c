@@ -86,6 +86,10 @@ static clast_status write_structure(const char *folder, const clx_folder_results
     options.envelope.n_ray = r->config->envelope_rays;
     options.envelope.length = r->config->envelope_length;
     options.solid.seed = r->config->seed;
+    for (int32_t k = 0; k < r->config->envelope.n; ++k) {
+        const char *alpha = clast_envelope_name(CLAST_ENVELOPE_ALPHA);
+        options.alpha = options.alpha || strcmp(r->config->envelope.item[k], alpha) == 0;
+    }
     CLX_TRY(clast_structure(r->first, &options, &table));
     CLX_TRY(write_table(folder, "structure.csv", &table));
     clast_table_free(&table);
