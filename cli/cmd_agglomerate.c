@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 typedef struct {
     clast_agglomerate_config agglomerate; // first: the tables share offsets
@@ -270,20 +269,13 @@ static clast_status write_folder(const clast_agglomeration *r, json_t *out, cons
     return status == CLAST_OK ? write_summary(out, folder) : status;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};
-    const double begun = now();
+    const double begun = cli_clock();
     clast_status status = cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain);
     if (status == CLAST_OK) {
         status = load(common, c, &l);
@@ -293,7 +285,7 @@ static clast_status run(const cli_common *common, void *values)
         status = clast_agglomerate(&l.input, &c->agglomerate, &result);
     }
     if (status == CLAST_OK) {
-        json_t *out = summary(c, &result, now() - begun);
+        json_t *out = summary(c, &result, cli_clock() - begun);
         if (common->output != NULL) {
             status = write_folder(&result, out, chart_end[c->charts], common->output);
         }

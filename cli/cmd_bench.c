@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 typedef struct {
     char *data;
@@ -44,13 +43,6 @@ const cli_scene *cli_scene_at(int32_t i)
     return i >= 0 && i < N_SCENE ? &scenes[i] : NULL;
 }
 
-static double seconds(clockid_t clock)
-{
-    struct timespec t;
-    (void)clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 bool cli_lap_again(cli_lap *b)
 {
     return b->left-- > 0;
@@ -58,14 +50,14 @@ bool cli_lap_again(cli_lap *b)
 
 void cli_lap_start(cli_lap *b)
 {
-    b->wall0 = seconds(CLOCK_MONOTONIC);
-    b->cpu0 = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    b->wall0 = cli_clock();
+    b->cpu0 = cli_clock_cpu();
 }
 
 void cli_lap_stop(cli_lap *b)
 {
-    b->wall = fmin(b->wall, seconds(CLOCK_MONOTONIC) - b->wall0);
-    b->cpu = fmin(b->cpu, seconds(CLOCK_PROCESS_CPUTIME_ID) - b->cpu0);
+    b->wall = fmin(b->wall, cli_clock() - b->wall0);
+    b->cpu = fmin(b->cpu, cli_clock_cpu() - b->cpu0);
 }
 
 static const cli_scene *find(const char *name)

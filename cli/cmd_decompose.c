@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 typedef struct {
     clast_decompose_config decompose; // first: the two tables share offsets
@@ -316,13 +315,6 @@ static clast_status write_sizes(const clast_domain *domain, const clast_cloud *c
     return status;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
@@ -330,7 +322,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_cloud cloud = {0};
     clast_decomposition result = {0};
     clast_domain domain = {0};
-    const double begun = now();
+    const double begun = cli_clock();
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
@@ -351,7 +343,7 @@ static clast_status run(const cli_common *common, void *values)
         status = write_sizes(&domain, &cloud, c, common->output);
     }
     if (status == CLAST_OK) {
-        json_t *summary = summary_of(&result, now() - begun);
+        json_t *summary = summary_of(&result, cli_clock() - begun);
         if (common->output != NULL) {
             status = write_folder(&result, &cloud, &domain, c, summary, common->output);
         }

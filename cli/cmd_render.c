@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 /// Last part of a path without its extension, made unique among the assembly's shapes.
 static void name_of(const char *path, const clast_assembly *assembly, char *name, size_t size)
@@ -144,13 +143,6 @@ static int64_t count_triangles(const clast_assembly *assembly)
     return n;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static clast_status report(const cli_common *common, const clast_assembly *assembly,
                            const clast_image *image, double wall)
 {
@@ -176,7 +168,7 @@ static clast_status run(const cli_common *common, void *config)
 {
     clast_assembly assembly = {0};
     clast_image image = {0};
-    const double start = now();
+    const double start = cli_clock();
     const clast_monitor monitor = cli_monitor(common);
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
@@ -189,7 +181,7 @@ static clast_status run(const cli_common *common, void *config)
         status = clast_image_write_png(&image, common->output);
     }
     if (status == CLAST_OK) {
-        status = report(common, &assembly, &image, now() - start);
+        status = report(common, &assembly, &image, cli_clock() - start);
     }
     clast_image_free(&image);
     clast_assembly_free(&assembly);

@@ -56,5 +56,11 @@ const cli_command *cli_command_at(int32_t index);
 /// stop() is true after SIGINT or SIGTERM.
 clast_monitor cli_monitor(const cli_common *common);
 
+/// Seconds since some fixed moment; never goes back.
+double cli_clock(void);
+
+/// Seconds of processor time of the whole process, all threads added.
+double cli_clock_cpu(void);
+
 /// 130 after SIGINT, 143 after SIGTERM, 0 when neither came.
 int cli_signal_code(void);

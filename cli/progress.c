@@ -4,7 +4,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t caught;
@@ -35,17 +34,10 @@ typedef struct {
 
 static state now_state;
 
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void report(void *context, const char *phase, int64_t done, int64_t total)
 {
     state *s = context;
-    const double t = now();
+    const double t = cli_clock();
     const bool terminal = isatty(STDERR_FILENO) != 0;
     if (strcmp(s->phase, phase) != 0) {
         (void)snprintf(s->phase, sizeof s->phase, "%s", phase);

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 clast_status cli_scene_sk21(cli_lap *b);
 clast_status cli_scene_sk21_ellipsoids(cli_lap *b);
@@ -128,13 +127,6 @@ clast_status cli_scene_spheres(cli_lap *b)
     return grow_options(b, EQUAL_SPHERES "n_particle=1000;replicate=1000;cone=90 deg;rays=100");
 }
 
-static double cpu_seconds(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /// Seconds of processor time a particle of the second half of n takes, porosity after each.
 static clast_status grow_half(const clast_aggregate_config *config,
                               const clast_aggregate_input *input, int32_t n, double *each)
@@ -146,9 +138,9 @@ static clast_status grow_half(const clast_aggregate_config *config,
         status = clast_aggregate_grow(a, n - half, NULL);
     }
     if (status == CLAST_OK) {
-        const double begun = cpu_seconds();
+        const double begun = cli_clock_cpu();
         status = clast_aggregate_grow(a, half, NULL);
-        *each = (cpu_seconds() - begun) / half;
+        *each = (cli_clock_cpu() - begun) / half;
     }
     clast_aggregate_destroy(a);
     return status;

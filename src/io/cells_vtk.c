@@ -8,20 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static void put_head(clx_file *file, const char *type)
-{
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    static const char order[] = "LittleEndian";
-#else
-    static const char order[] = "BigEndian";
-#endif
-    (void)clx_file_print(file,
-                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"1.0\" "
-                         "byte_order=\"%s\" header_type=\"UInt64\" "
-                         "compressor=\"vtkZLibDataCompressor\">\n<%s>\n",
-                         type, order, type);
-}
-
 /// Boxes of the unit cube, each with its cell.
 typedef struct {
     int64_t n, capacity;
@@ -212,7 +198,7 @@ clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *
               "%" PRId64 " cells are beyond a VTU file's 2^31 corners", b.n);
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&file, "UnstructuredGrid");
+    clx_vtk_head(&file, "UnstructuredGrid");
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
                          b.n * n_corner, b.n);
@@ -304,7 +290,7 @@ clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
     clx_vtk_array array = {0};
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&file, "PolyData");
+    clx_vtk_head(&file, "PolyData");
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfVerts=\"%" PRId64
                          "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",

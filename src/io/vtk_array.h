@@ -1,5 +1,6 @@
 #pragma once
-// One DataArray of VTK's XML formats: inline, binary, zlib-compressed in blocks, base64.
+// VTK's XML formats: the head of a file, and one DataArray: inline, binary, zlib-compressed in
+// blocks, base64.
 #include "base/file.h"
 
 /// An array being gathered block by block. {0} is empty.
@@ -12,6 +13,9 @@ typedef struct clx_vtk_array {
     int64_t n_block, size_capacity;
     int64_t last; ///< bytes of the last block before compression
 } clx_vtk_array;
+
+/// Writes the file's opening lines, down to <TYPE>, with this machine's byte order.
+void clx_vtk_head(clx_file *file, const char *type);
 
 enum { CLX_VTK_BLOCK = 1 << 18 };
 

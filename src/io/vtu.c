@@ -7,18 +7,10 @@
 
 static void put_head(clx_file *file, int64_t n_point, int64_t n_cell)
 {
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    static const char order[] = "LittleEndian";
-#else
-    static const char order[] = "BigEndian";
-#endif
+    clx_vtk_head(file, "UnstructuredGrid");
     (void)clx_file_print(file,
-                         "<?xml version=\"1.0\"?>\n"
-                         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"%s\" "
-                         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-                         "<UnstructuredGrid>\n"
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
-                         order, n_point, n_cell);
+                         n_point, n_cell);
 }
 
 static void put_tail(clx_file *file)

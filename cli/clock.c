@@ -1,0 +1,21 @@
+// Time for reports of the commands; no result depends on it.
+#include "command.h"
+
+#include <time.h>
+
+static double seconds(clockid_t clock)
+{
+    struct timespec t;
+    (void)clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double cli_clock(void)
+{
+    return seconds(CLOCK_MONOTONIC);
+}
+
+double cli_clock_cpu(void)
+{
+    return seconds(CLOCK_PROCESS_CPUTIME_ID);
+}
