@@ -15,7 +15,7 @@ test:
 demo:
 	@tools/demo.sh
 install: release
-	@cmake --install build/release
+	@cmake --install build/release $(if $(PREFIX),--prefix $(PREFIX))
 fuzz:
 	@tools/fuzz.sh
 afl:

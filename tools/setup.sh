@@ -6,7 +6,7 @@ group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core python3)
 test=(libcmocka-dev clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 codespell doxygen
-      python3-sphinx python3-myst-parser python3-breathe git ccache)
+      python3-sphinx python3-myst-parser python3-breathe git ccache groff-base)
 mpi=(libopenmpi-dev openmpi-bin)
 case $group in
 build) wanted=("${build[@]}") ;;

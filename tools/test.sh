@@ -22,6 +22,7 @@ say "release build and exported symbols"
 tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log; exit 1; }
 rm -f build-release.log
 tools/check_symbols.sh
+tools/check_install.sh
 say "ranks (mpirun)"
 ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
