@@ -7,6 +7,7 @@ typedef enum {
     CLX_BATCH_FACES,   ///< hulls whose memory is a face with a vertex
     CLX_BATCH_EDGES,   ///< hulls whose memory is a pair of edges
     CLX_BATCH_SPHERES, ///< whole grains
+    CLX_BATCH_ELLIPSOIDS,
     CLX_BATCH_ANY,     ///< all others, one by one
     CLX_N_BATCH
 } clx_batch_kind;

@@ -6,6 +6,7 @@
 #include "dem/batch.h"
 
 #include "base/parallel.h"
+#include "contact/ellipsoid_lanes.h"
 #include "contact/facet.h"
 #include "dem/container.h"
 #include <string.h>
@@ -20,10 +21,17 @@ static clx_batch_kind kind_of(const clast_dem *dem, const clx_link *link)
     if (link->slot == 0) {
         return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
     }
-    const uint16_t kind = dem->list.memory[link->slot].kind;
-    return kind == CLX_FACET_EDGE_EDGE ? CLX_BATCH_EDGES
-           : kind == CLX_FACET_NONE    ? CLX_BATCH_ANY
-                                       : CLX_BATCH_FACES;
+    switch (dem->list.memory[link->slot].kind) {
+    case CLX_FACET_EDGE_EDGE:
+        return CLX_BATCH_EDGES;
+    case CLX_FACET_NONE:
+        return dem->grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
+                       dem->grain[link->b].kind == CLAST_SHAPE_ELLIPSOID
+                   ? CLX_BATCH_ELLIPSOIDS
+                   : CLX_BATCH_ANY;
+    default:
+        return CLX_BATCH_FACES;
+    }
 }
 
 /// Lane k alone, by the plain way.
@@ -80,6 +88,37 @@ static int ask_facets(const clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     return answered;
 }
 
+/// Remembered common normals; returns which lanes are answered.
+static int ask_normals(const clast_dem *dem, clx_batch *p)
+{
+    clx_ellipsoid_batch e;
+    clx_batch_offsets(dem, p);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        e.turn_a[k] = p->a[k]->turn[0];
+        e.turn_b[k] = p->b[k]->turn[0];
+        e.a[k] = &dem->convex[p->link[k]->a];
+        e.b[k] = &dem->convex[p->link[k]->b];
+        e.memory[k] = &dem->list.memory[p->link[k]->slot];
+    }
+    memcpy(e.offset, p->offset, sizeof e.offset);
+    const int answered = clx_ellipsoids_again(&e);
+    memcpy(p->distance, e.gap, sizeof e.gap);
+    memcpy(p->arm_a, e.point, sizeof e.point);
+    for (int k = 0; k < p->n; ++k) {
+        clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot];
+        for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
+            memory->seen[0][c] = (float)e.normal[c][k];
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < CLX_LANES; ++k) {
+            p->normal[c][k] = -1.0 * e.normal[c][k];
+            p->arm_b[c][k] = e.point[c][k] - p->offset[c][k];
+        }
+    }
+    return answered;
+}
+
 /// Where the pairs of a batch meet.
 static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
@@ -89,7 +128,9 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
         clx_batch_spheres(p);
         return;
     }
-    if (kind != CLX_BATCH_ANY) {
+    if (kind == CLX_BATCH_ELLIPSOIDS) {
+        answered = ask_normals(dem, p);
+    } else if (kind != CLX_BATCH_ANY) {
         answered = ask_facets(dem, p, kind);
     }
     for (int k = 0; k < p->n; ++k) {
@@ -192,11 +233,12 @@ static inline void fetch_ahead(const clast_dem *dem, int64_t at)
     }
 }
 
-static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
+void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base)
 {
-    clast_dem *dem = context;
-    clx_batch batch[CLX_N_BATCH] = {0};
-    (void)worker;
+    clx_batch batch[CLX_N_BATCH];
+    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        batch[kind].n = 0;
+    }
     for (int64_t at = begin; at < end; ++at) {
         clx_link *link = &dem->list.link[dem->near.link[at]];
         fetch_ahead(dem, at);
@@ -208,7 +250,7 @@ static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context
         }
         const clx_batch_kind kind = kind_of(dem, link);
         clx_batch *p = &batch[kind];
-        p->at[p->n] = (int32_t)at;
+        p->at[p->n] = (int32_t)(at - base);
         p->link[p->n] = link;
         p->travel[p->n] = travel;
         p->a[p->n] = &dem->grain[a];
@@ -222,6 +264,12 @@ static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context
             finish(dem, &batch[kind], (clx_batch_kind)kind);
         }
     }
+}
+
+static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    (void)worker;
+    clx_contacts_among(context, begin, end, 0);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.

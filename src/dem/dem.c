@@ -198,10 +198,34 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
     dem->drive = *drive;
 }
 
+/// Contacts and motion of a step. In one sweep where a thread works alone: a grain moves as soon as
+/// it has met those of lower number and its own, while all of it is still in the cache.
+static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
+{
+    clast_status status = CLAST_OK;
+    const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
+    if (!verifies && dem->item == NULL && dem->container == NULL && clx_dem_is_serial(dem)) {
+        dem->near.is_gathered = false;
+        *is_fine = clx_meet_and_move(dem);
+        return CLAST_OK;
+    }
+    if (!dem->near.is_gathered) {
+        CLX_TRY(clx_near_gather(dem));
+    }
+    clx_contacts(dem);
+    if (verifies) {
+        clx_verify(dem);
+    }
+    *is_fine = clx_move(dem);
+done:
+    return status;
+}
+
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
+        bool is_fine = true;
         if (dem->list.is_due) {
             CLX_TRY(clx_list_refresh(dem));
         }
@@ -211,11 +235,7 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         if (dem->n_started < dem->n_grain) {
             CLX_TRY(clx_check_starts(dem));
         }
-        clx_contacts(dem);
-        if (dem->config.verify > 0 && dem->step % dem->config.verify == 0) {
-            clx_verify(dem);
-        }
-        const bool is_fine = clx_move(dem);
+        CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
             return clx_explain_explosion(dem);

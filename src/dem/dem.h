@@ -82,13 +82,16 @@ typedef struct clx_pushed {
 typedef struct clx_near {
     int32_t n;
     int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches
+    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches; or those of one sweep
     int32_t *begin;    ///< [n_item + 1] first of each item's own
     int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
     int32_t *in;       ///< [n] their numbers, rising
     double *until;     ///< [n_grain]
+    clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
+    int64_t load_capacity;
     bool is_due;
+    bool is_gathered; ///< `in` and `push` are there for all links
 } clx_near;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
@@ -269,6 +272,9 @@ clast_status clx_list_reserve(clx_list *list, int64_t n_item);
 clast_status clx_near_find(clast_dem *dem);
 void clx_near_free(clx_near *near);
 
+/// What clx_contacts and clx_move need of the near list beyond that.
+clast_status clx_near_gather(clast_dem *dem);
+
 /// Whether one thread does all the work: there is no other, or too few grains for the threads'
 /// meetings to pay.
 bool clx_dem_is_serial(const clast_dem *dem);
@@ -279,12 +285,18 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 /// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
+/// The same for some links of the near list; what link k does goes to near.push[k - base].
+void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base);
+
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);
 
 /// Sums what contacts do; velocities, positions and turns one step on. True when all grains moved
 /// less than a twentieth of their radius.
 bool clx_move(clast_dem *dem);
+
+/// Contacts and motion of whole grains in one sweep: the bits of clx_contacts and clx_move.
+bool clx_meet_and_move(clast_dem *dem);
 
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);

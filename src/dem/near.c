@@ -21,6 +21,7 @@ void clx_near_free(clx_near *near)
     clx_free(near->in_begin);
     clx_free(near->in);
     clx_free(near->until);
+    clx_free(near->load);
     *near = (clx_near){0};
 }
 
@@ -86,6 +87,20 @@ static void gather(clast_dem *dem)
     }
 }
 
+clast_status clx_near_gather(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_near *near = &dem->near;
+    CLX_TRY(clx_grow(&near->in_begin, &near->grain_capacity, (int64_t)dem->n_grain + 2,
+                     sizeof *near->in_begin));
+    CLX_TRY(clx_grow(&near->in, &near->in_capacity, (int64_t)near->n + 1, sizeof *near->in));
+    memset(near->push, 0, (size_t)near->n * sizeof *near->push);
+    gather(dem);
+    near->is_gathered = true;
+done:
+    return status;
+}
+
 /// A place for the memory of every link that may be asked.
 static clast_status give_slots(clast_dem *dem)
 {
@@ -106,20 +121,18 @@ clast_status clx_near_find(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
+    const int64_t n_grain = dem->n_grain;
     CLX_TRY(clx_grow(&near->begin, &near->item_capacity, (int64_t)dem->n_item + 1,
                      sizeof *near->begin));
-    CLX_TRY(clx_grow(&near->in_begin, &near->grain_capacity, (int64_t)dem->n_grain + 2,
-                     sizeof *near->in_begin));
-    CLX_TRY(clx_grow(&near->until, &near->until_capacity, (int64_t)dem->n_grain + 1,
-                     sizeof *near->until));
+    CLX_TRY(clx_grow(&near->until, &near->until_capacity, n_grain + 1, sizeof *near->until));
+    CLX_TRY(clx_grow(&near->load, &near->load_capacity, n_grain + 1, sizeof *near->load));
+    memset(near->load, 0, (size_t)n_grain * sizeof *near->load);
     advance(dem);
     CLX_TRY(pick(dem));
     CLX_TRY(clx_grow(&near->push, &near->push_capacity, (int64_t)near->n + 1, sizeof *near->push));
-    CLX_TRY(clx_grow(&near->in, &near->in_capacity, (int64_t)near->n + 1, sizeof *near->in));
-    memset(near->push, 0, (size_t)near->n * sizeof *near->push);
-    gather(dem);
     CLX_TRY(give_slots(dem));
     near->is_due = false;
+    near->is_gathered = false;
 done:
     return status;
 }

@@ -1,6 +1,7 @@
 /* Unit: four contacts side by side give the bits of one by one. */
 #include "support.h"
 
+#include "contact/ellipsoid_lanes.h"
 #include "contact/facet.h"
 #include "contact/facet_lanes.h"
 #include "dem/batch.h"
@@ -123,6 +124,71 @@ static void facets_in_lanes_are_facets_alone(void **state)
         assert_true(n_answered[kind] > 50);
         assert_true(n_asked[kind] - n_answered[kind] > 50);
     }
+}
+
+/* A pair of eggs whose normal is known from a place nearby, now apart, in touch or deep. */
+static void make_eggs(clx_rng *rng, meeting *m)
+{
+    clx_contact c;
+    double q[4], side[3], axes[2][3];
+    memset(m, 0, sizeof *m);
+    for (int k = 0; k < 2; ++k) {
+        v3_set(axes[k], 1.0, 0.4 + 0.6 * clx_rng_uniform(rng), 0.3 + 0.7 * clx_rng_uniform(rng));
+        clx_rng_orientation(rng, q);
+        q_matrix(m->turn[k], q);
+    }
+    m->a = clx_convex_ellipsoid(axes[0]);
+    m->b = clx_convex_ellipsoid(axes[1]);
+    m->pair = (clx_pair){&m->a, &m->b, m->turn[0][0], m->turn[1][0], {0.0, 0.0, 0.0}};
+    clx_rng_direction(rng, m->pair.offset);
+    v3_scale(m->pair.offset, 2.5, m->pair.offset);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    const double depth = clx_rng_below(rng, 5) == 0 ? 0.7 : 1e-4 * clx_rng_normal(rng);
+    v3_axpy(m->pair.offset, m->pair.offset, c.gap + depth, c.normal);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    clx_rng_direction(rng, side);
+    v3_axpy(m->pair.offset, m->pair.offset, pow(10.0, -3.0 - 4.0 * clx_rng_uniform(rng)), side);
+}
+
+static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
+{
+    (void)state;
+    int n_answered = 0;
+    int n_left = 0;
+    for (uint64_t i = 0; i < 500; ++i) {
+        clx_rng rng = clx_rng_at(43, CLX_STREAM_TEST, i);
+        meeting m[CLX_LANES];
+        clx_ellipsoid_batch batch;
+        for (int k = 0; k < CLX_LANES; ++k) {
+            make_eggs(&rng, &m[k]);
+            batch.a[k] = &m[k].a;
+            batch.b[k] = &m[k].b;
+            batch.turn_a[k] = m[k].turn[0][0];
+            batch.turn_b[k] = m[k].turn[1][0];
+            batch.memory[k] = &m[k].memory;
+            for (int c = 0; c < 3; ++c) {
+                batch.offset[c][k] = m[k].pair.offset[c];
+            }
+        }
+        const int answered = clx_ellipsoids_again(&batch);
+        for (int k = 0; k < CLX_LANES; ++k) {
+            clx_contact one;
+            (void)clx_pair_contact(&m[k].pair, INFINITY, &m[k].memory, &one);
+            if ((answered >> k & 1) == 0) {
+                ++n_left;
+                continue;
+            }
+            ++n_answered;
+            assert_true(same(one.gap, batch.gap[k]));
+            for (int c = 0; c < 3; ++c) {
+                assert_true(same(one.normal[c], batch.normal[c][k]));
+                assert_true(same(one.point[c], batch.point[c][k]));
+                assert_true((float)batch.normal[c][k] == m[k].memory.seen[0][c]);
+            }
+        }
+    }
+    assert_true(n_answered > 200);
+    assert_true(n_left > 200);
 }
 
 static void fill3(clx_rng *rng, double size, double x[3])
@@ -281,6 +347,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(facets_in_lanes_are_facets_alone, make_cores, free_cores),
+        cmocka_unit_test(ellipsoids_in_lanes_are_ellipsoids_alone),
         cmocka_unit_test(law_in_lanes_is_the_law_alone),
         cmocka_unit_test(grains_in_lanes_move_as_alone),
     };

@@ -1,0 +1,191 @@
+// One short Newton step of four common normals; reasons and equations are in ellipsoid_pair.c, whose
+// `follow` is also the twin that tests compare bit by bit.
+#include "contact/ellipsoid_lanes.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+typedef float floats __attribute__((vector_size(16)));
+typedef float floats_at __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// A load of four takes `round` along, which is 0 for ellipsoids.
+static_assert(offsetof(clx_convex, round) == offsetof(clx_convex, semi_axes) + 24,
+              "semi-axes and rounding of a shape stand in a row");
+
+/// As in ellipsoid_pair.c.
+static const double SHORT_STEP = 1e-5;
+
+CLX_INLINE void gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
+{
+    lanes_gather(out, p[0], p[1], p[2], p[3]);
+    lanes_gather(out + 4, p[0] + 4, p[1] + 4, p[2] + 4, p[3] + 4);
+    out[8] = (clx_lanes){p[0][8], p[1][8], p[2][8], p[3][8]};
+}
+
+/// clx_ellipsoid_matrix
+CLX_INLINE void matrix(const clx_lanes r[9], const clx_lanes axes[3], clx_lanes m[6])
+{
+    const clx_lanes x = axes[0] * axes[0];
+    const clx_lanes y = axes[1] * axes[1];
+    const clx_lanes z = axes[2] * axes[2];
+    m[0] = x * r[0] * r[0] + y * r[1] * r[1] + z * r[2] * r[2];
+    m[1] = x * r[3] * r[3] + y * r[4] * r[4] + z * r[5] * r[5];
+    m[2] = x * r[6] * r[6] + y * r[7] * r[7] + z * r[8] * r[8];
+    m[3] = x * r[3] * r[6] + y * r[4] * r[7] + z * r[5] * r[8];
+    m[4] = x * r[0] * r[6] + y * r[1] * r[7] + z * r[2] * r[8];
+    m[5] = x * r[0] * r[3] + y * r[1] * r[4] + z * r[2] * r[5];
+}
+
+/// Least radius of curvature: the least semi-axis squared over the greatest.
+CLX_INLINE clx_lanes roundness(const clx_lanes s[3])
+{
+    const clx_lanes least = lanes_lesser(s[0], lanes_lesser(s[1], s[2]));
+    const clx_lanes yz = lanes_pick(s[1] > s[2], s[1], s[2]);
+    const clx_lanes most = lanes_pick(s[0] > yz, s[0], yz);
+    return least * least / most;
+}
+
+/// The four ellipsoids of one side.
+typedef struct {
+    clx_lanes matrix[6];
+    clx_lanes roundness;
+    clx_lanes size;
+} side;
+
+CLX_INLINE void read_side(const double *const turn[CLX_LANES], const clx_convex *const shape[4],
+                          side *out)
+{
+    clx_lanes r[9], axes[4];
+    gather_nine(turn, r);
+    lanes_gather(axes, shape[0]->semi_axes, shape[1]->semi_axes, shape[2]->semi_axes,
+                 shape[3]->semi_axes);
+    matrix(r, axes, out->matrix);
+    out->roundness = roundness(axes);
+    out->size = lanes_root(out->matrix[0] + out->matrix[1] + out->matrix[2]);
+}
+
+CLX_INLINE void sym_mul(const clx_lanes m[6], const clx_lanes x[3], clx_lanes out[3])
+{
+    out[0] = m[0] * x[0] + m[5] * x[1] + m[4] * x[2];
+    out[1] = m[5] * x[0] + m[1] * x[1] + m[3] * x[2];
+    out[2] = m[4] * x[0] + m[3] * x[1] + m[2] * x[2];
+}
+
+/// Support value along m, and the tip.
+CLX_INLINE clx_lanes support(const clx_lanes mat[6], const clx_lanes m[3], clx_lanes tip[3])
+{
+    sym_mul(mat, m, tip);
+    const clx_lanes h = lanes_root(lanes_dot(m, tip));
+    const clx_lanes inverse = 1.0 / h;
+    for (int c = 0; c < 3; ++c) {
+        tip[c] = inverse * tip[c];
+    }
+    return h;
+}
+
+/// What ellipsoid_pair.c knows at one m.
+typedef struct {
+    clx_lanes s, tangent[2][3], g[2], k[3];
+} local;
+
+CLX_INLINE void add_curvature(const clx_lanes mat[6], clx_lanes h, const clx_lanes tip[3],
+                              local *at)
+{
+    clx_lanes mu[3], mv[3];
+    sym_mul(mat, at->tangent[0], mu);
+    sym_mul(mat, at->tangent[1], mv);
+    const clx_lanes tu = lanes_dot(tip, at->tangent[0]);
+    const clx_lanes tv = lanes_dot(tip, at->tangent[1]);
+    at->k[0] += (lanes_dot(at->tangent[0], mu) - tu * tu) / h;
+    at->k[1] += (lanes_dot(at->tangent[0], mv) - tu * tv) / h;
+    at->k[2] += (lanes_dot(at->tangent[1], mv) - tv * tv) / h;
+}
+
+/// v3_frame
+CLX_INLINE void frame(const clx_lanes n[3], clx_lanes a[3], clx_lanes b[3])
+{
+    const clx_lanes sign = lanes_pick(n[2] >= 0.0, lanes_all(1.0), lanes_all(-1.0));
+    const clx_lanes p = -1.0 / (sign + n[2]);
+    const clx_lanes q = n[0] * n[1] * p;
+    a[0] = 1.0 + sign * n[0] * n[0] * p;
+    a[1] = sign * q;
+    a[2] = -sign * n[0];
+    b[0] = q;
+    b[1] = sign + n[1] * n[1] * p;
+    b[2] = -n[1];
+}
+
+CLX_INLINE void expand(const side *a, const side *b, const clx_lanes offset[3],
+                       const clx_lanes m[3], local *at)
+{
+    clx_lanes tip_a[3], tip_b[3], r[3];
+    frame(m, at->tangent[0], at->tangent[1]);
+    const clx_lanes h_a = support(a->matrix, m, tip_a);
+    const clx_lanes h_b = support(b->matrix, m, tip_b);
+    for (int c = 0; c < 3; ++c) {
+        r[c] = offset[c] - tip_a[c] - tip_b[c];
+    }
+    at->s = lanes_dot(m, offset) - h_a - h_b;
+    at->g[0] = lanes_dot(r, at->tangent[0]);
+    at->g[1] = lanes_dot(r, at->tangent[1]);
+    at->k[0] = at->k[2] = at->s;
+    at->k[1] = lanes_all(0.0);
+    add_curvature(a->matrix, h_a, tip_a, at);
+    add_curvature(b->matrix, h_b, tip_b, at);
+}
+
+/// `follow`: the normal, the gap, and which lanes may be taken.
+CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset[3], clx_lanes m[3],
+                            clx_lanes *s)
+{
+    local at;
+    clx_lanes start[3];
+    const clx_lanes size = a->size + b->size;
+    const clx_lanes e = lanes_dot(m, m) - 1.0;
+    const clx_lanes unit = 1.0 - 0.5 * e + 0.375 * e * e;
+    for (int c = 0; c < 3; ++c) {
+        start[c] = unit * m[c];
+    }
+    expand(a, b, offset, start, &at);
+    const clx_lanes trace = at.k[0] + at.k[2];
+    const clx_lanes det = at.k[0] * at.k[2] - at.k[1] * at.k[1];
+    const clx_lanes inverse = 1.0 / det;
+    const clx_lanes u = (at.k[2] * at.g[0] - at.k[1] * at.g[1]) * inverse;
+    const clx_lanes v = (at.k[0] * at.g[1] - at.k[1] * at.g[0]) * inverse;
+    const clx_lanes step2 = u * u + v * v;
+    const clx_lanes shrink = 1.0 - 0.5 * step2;
+    *s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
+    lanes_axpy(m, start, u, at.tangent[0]);
+    lanes_axpy(m, m, v, at.tangent[1]);
+    for (int c = 0; c < 3; ++c) {
+        m[c] = shrink * m[c];
+    }
+    return (lanes_size(e) < 1e-5) & (trace > 0.0) & (det > 1e-3 * size * trace) &
+           (step2 <= SHORT_STEP * SHORT_STEP);
+}
+
+CLX_FOR_EACH_MACHINE
+int clx_ellipsoids_again(clx_ellipsoid_batch *batch)
+{
+    side a, b;
+    clx_lanes offset[3], m[4], n[3], tip[3], s;
+    read_side(batch->turn_a, batch->a, &a);
+    read_side(batch->turn_b, batch->b, &b);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        m[k] = __builtin_convertvector(*(const floats_at *)batch->memory[k]->seen[0], clx_lanes);
+    }
+    lanes_transpose(m);
+    for (int c = 0; c < 3; ++c) {
+        offset[c] = lanes_load(batch->offset[c]);
+        m[c] = -m[c];
+    }
+    const clx_marks is_short = follow(&a, &b, offset, m, &s);
+    (void)support(a.matrix, m, tip);
+    lanes_store(batch->gap, s);
+    for (int c = 0; c < 3; ++c) {
+        n[c] = -1.0 * m[c];
+        lanes_store(batch->normal[c], n[c]);
+        lanes_store(batch->point[c], tip[c] + -0.5 * s * n[c]);
+    }
+    return lanes_bits(is_short & (s > -(a.roundness + b.roundness)));
+}
