@@ -1,5 +1,5 @@
-// One short Newton step of four common normals; reasons and equations are in ellipsoid_pair.c, whose
-// `follow` is also the twin that tests compare bit by bit.
+// One short Newton step of four common normals; reasons and equations are in ellipsoid_pair.c,
+// whose `follow` is also the twin that tests compare bit by bit.
 #include "contact/ellipsoid_lanes.h"
 
 #include <assert.h>
@@ -165,12 +165,13 @@ CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset
 }
 
 CLX_FOR_EACH_MACHINE
-int clx_ellipsoids_again(clx_ellipsoid_batch *batch)
+int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[CLX_LANES],
+                         const clx_convex *const shape_b[CLX_LANES])
 {
     side a, b;
     clx_lanes offset[3], m[4], n[3], tip[3], s;
-    read_side(batch->turn_a, batch->a, &a);
-    read_side(batch->turn_b, batch->b, &b);
+    read_side(batch->turn_a, shape_a, &a);
+    read_side(batch->turn_b, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
         m[k] = __builtin_convertvector(*(const floats_at *)batch->memory[k]->seen[0], clx_lanes);
     }

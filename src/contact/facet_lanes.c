@@ -28,7 +28,7 @@ CLX_INLINE clx_lanes widened(const float *p)
 }
 
 /// sure, seen[0] (3), seen[1] (3), limit[0]; limit[1].
-CLX_INLINE void gather_floats(const clx_facet_batch *batch, clx_lanes out[9])
+CLX_INLINE void gather_floats(const clx_pair_batch *batch, clx_lanes out[9])
 {
     for (int k = 0; k < CLX_LANES; ++k) {
         out[k] = widened(&batch->memory[k]->sure);
@@ -39,7 +39,7 @@ CLX_INLINE void gather_floats(const clx_facet_batch *batch, clx_lanes out[9])
     lanes_transpose(out + 4);
 }
 
-CLX_INLINE void gather_data(const clx_facet_batch *batch, int from, clx_lanes out[4])
+CLX_INLINE void gather_data(const clx_pair_batch *batch, int from, clx_lanes out[4])
 {
     lanes_gather(out, batch->memory[0]->data + from, batch->memory[1]->data + from,
                  batch->memory[2]->data + from, batch->memory[3]->data + from);
@@ -52,7 +52,7 @@ CLX_INLINE clx_lanes drift2(const clx_lanes x[3], const clx_lanes seen[3])
 }
 
 CLX_FOR_EACH_MACHINE
-int clx_facet_faces_again(clx_facet_batch *batch)
+int clx_facet_faces_again(clx_pair_batch *batch)
 {
     const double *own[CLX_LANES];
     const double *other[CLX_LANES];
@@ -94,7 +94,7 @@ int clx_facet_faces_again(clx_facet_batch *batch)
 }
 
 CLX_FOR_EACH_MACHINE
-int clx_facet_edges_again(clx_facet_batch *batch)
+int clx_facet_edges_again(clx_pair_batch *batch)
 {
     clx_lanes turn_a[9], turn_b[9], data[12], seen[9];
     clx_lanes a[3], e[3], b[3], f[3], n[3], w[3], c[3], m[3], ma[3], mb[3], point[3], sign;

@@ -16,55 +16,74 @@ CLX_INLINE void store3(double *out, const clx_lanes x[3])
     }
 }
 
+typedef int32_t ints __attribute__((vector_size(16)));
+typedef uint32_t words __attribute__((vector_size(16)));
+
+/// Images of b, along x and y, as numbers of periods.
+CLX_INLINE void read_periods(const clx_batch *p, clx_lanes period[2])
+{
+    words both;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        const int16_t *n = p->link[k]->period;
+        both[k] = (uint32_t)(uint16_t)n[0] | (uint32_t)(uint16_t)n[1] << 16;
+    }
+    period[0] = __builtin_convertvector((ints)(both << 16) >> 16, clx_lanes);
+    period[1] = __builtin_convertvector((ints)both >> 16, clx_lanes);
+}
+
 CLX_FOR_EACH_MACHINE
 void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
 {
     clx_lanes a[4], b[4], period[2], r[3];
     lanes_gather(a, p->a[0]->position, p->a[1]->position, p->a[2]->position, p->a[3]->position);
     lanes_gather(b, p->b[0]->position, p->b[1]->position, p->b[2]->position, p->b[3]->position);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        period[0][k] = p->link[k]->period[0];
-        period[1][k] = p->link[k]->period[1];
-    }
+    read_periods(p, period);
     for (int c = 0; c < 3; ++c) {
         r[c] = b[c] - a[c];
     }
     r[0] = r[0] + dem->period[0] * period[0];
     r[1] = r[1] + dem->period[1] * period[1];
-    store3(p->offset[0], r);
+    store3(p->meet.offset[0], r);
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_arms(clx_batch *p)
+{
+    clx_lanes offset[3], arm[3];
+    load3(p->meet.offset[0], offset);
+    load3(p->meet.point[0], arm);
+    for (int c = 0; c < 3; ++c) {
+        arm[c] = arm[c] - offset[c];
+    }
+    store3(p->arm_b[0], arm);
 }
 
 CLX_FOR_EACH_MACHINE
 void clx_batch_spheres(clx_batch *p)
 {
-    clx_lanes r[3], normal[3], arm[3], ra, rb;
+    clx_lanes r[3], n[3], arm[3], ra, rb;
     const clx_lanes zero = lanes_all(0.0);
     for (int k = 0; k < CLX_LANES; ++k) {
         ra[k] = p->a[k]->radius;
         rb[k] = p->b[k]->radius;
     }
-    load3(p->offset[0], r);
+    load3(p->meet.offset[0], r);
     const clx_lanes d = lanes_root(lanes_dot(r, r));
     const clx_lanes distance = d - (ra + rb);
     const clx_lanes inverse = lanes_pick(d > 0.0, 1.0 / d, zero);
     const clx_lanes lever_a = ra + 0.5 * distance;
     const clx_lanes lever_b = -(rb + 0.5 * distance);
-    lanes_store(p->distance, distance);
+    lanes_store(p->meet.gap, distance);
     for (int c = 0; c < 3; ++c) {
-        normal[c] = inverse * r[c];
-        arm[c] = lever_a * normal[c];
+        n[c] = inverse * r[c];
+        arm[c] = lever_a * n[c];
+        lanes_store(p->meet.normal[c], -n[c]);
     }
-    store3(p->normal[0], normal);
-    store3(p->arm_a[0], arm);
+    store3(p->meet.point[0], arm);
     for (int c = 0; c < 3; ++c) {
-        arm[c] = lever_b * normal[c];
+        arm[c] = lever_b * n[c];
     }
     store3(p->arm_b[0], arm);
-}
-
-bool clx_batch_has_law(const clx_law *law)
-{
-    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
 }
 
 /// Four contacts and what the law works out for them.
@@ -74,27 +93,29 @@ typedef struct {
 } meetings;
 
 /// Velocity of b's surface relative to a's at the contact point; reduced mass and friction.
-CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, meetings *m)
+CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, bool has_walls, meetings *m)
 {
-    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3], mass_a, mass_b, is_wall;
+    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb with masses
     lanes_gather(va, p->a[0]->velocity, p->a[1]->velocity, p->a[2]->velocity, p->a[3]->velocity);
     lanes_gather(vb, p->b[0]->velocity, p->b[1]->velocity, p->b[2]->velocity, p->b[3]->velocity);
     lanes_gather(wa, p->a[0]->spin, p->a[1]->spin, p->a[2]->spin, p->a[3]->spin);
     lanes_gather(wb, p->b[0]->spin, p->b[1]->spin, p->b[2]->spin, p->b[3]->spin);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        mass_a[k] = p->a[k]->mass;
-        mass_b[k] = p->b[k]->mass;
-        is_wall[k] = p->link[k]->b < 0 ? 1.0 : 0.0;
-    }
     lanes_cross(u, wa, m->arm_a);
     lanes_cross(w, wb, m->arm_b);
     for (int c = 0; c < 3; ++c) {
         m->velocity[c] = (w[c] + vb[c]) - (u[c] + va[c]);
     }
     m->twirl = 0.5 * (lanes_dot(wa, m->normal) + lanes_dot(wb, m->normal));
-    m->mass = lanes_pick(is_wall > 0.0, mass_a, mass_a * mass_b / (mass_a + mass_b));
-    m->friction =
-        lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), lanes_all(dem->law.friction[0]));
+    m->mass = va[3] * vb[3] / (va[3] + vb[3]);
+    m->friction = lanes_all(dem->law.friction[0]);
+    if (has_walls) {
+        clx_lanes is_wall;
+        for (int k = 0; k < CLX_LANES; ++k) {
+            is_wall[k] = p->link[k]->b < 0 ? 1.0 : 0.0;
+        }
+        m->mass = lanes_pick(is_wall > 0.0, va[3], m->mass);
+        m->friction = lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), m->friction);
+    }
 }
 
 /// clx_law_turn
@@ -143,47 +164,58 @@ CLX_INLINE void force(const clx_law *law, clx_lanes overlap, double dt, meetings
     }
 }
 
+/// Forces, torques and the links' displacements of the marked lanes.
 CLX_INLINE void write(clast_dem *dem, const clx_batch *p, int lanes, const clx_lanes f[4],
-                      const clx_lanes torque_b[4], const clx_lanes torque_a[4])
+                      const clx_lanes torque_b[4], const clx_lanes torque_a[4],
+                      const clx_lanes wake_slide[4])
 {
     clx_pushed spare;
+    double unused[4];
     clx_pushed *to[CLX_LANES];
+    double *link[CLX_LANES];
     for (int k = 0; k < CLX_LANES; ++k) {
-        to[k] = (lanes >> k & 1) != 0 ? &dem->near.push[p->at[k]] : &spare;
+        const bool is_on = (lanes >> k & 1) != 0;
+        to[k] = is_on ? &dem->near.push[p->at[k]] : &spare;
+        link[k] = is_on ? &p->link[k]->wake : unused;
     }
     lanes_scatter(f, to[0]->force, to[1]->force, to[2]->force, to[3]->force);
     lanes_scatter(torque_b, to[0]->torque_b, to[1]->torque_b, to[2]->torque_b, to[3]->torque_b);
     lanes_scatter(torque_a, to[0]->torque_a, to[1]->torque_a, to[2]->torque_a, to[3]->torque_a);
+    lanes_scatter(wake_slide, link[0], link[1], link[2], link[3]);
 }
 
-CLX_FOR_EACH_MACHINE
-void clx_batch_push(clast_dem *dem, const clx_batch *p, int lanes)
+CLX_INLINE void push_all(clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
 {
     meetings m;
     clx_lanes f[4], torque_a[4], torque_b[4], slide[4];
     lanes_gather(slide, &p->link[0]->wake, &p->link[1]->wake, &p->link[2]->wake,
                  &p->link[3]->wake); // wake, then slide
-    load3(p->normal[0], m.normal);
-    load3(p->arm_a[0], m.arm_a);
+    load3(p->meet.normal[0], m.normal);
+    load3(p->meet.point[0], m.arm_a);
     load3(p->arm_b[0], m.arm_b);
     for (int c = 0; c < 3; ++c) {
+        m.normal[c] = -m.normal[c]; // from a to b
         m.slide[c] = slide[c + 1];
     }
-    approach(dem, p, &m);
-    force(&dem->law, -lanes_load(p->distance), dem->config.time_step, &m);
+    approach(dem, p, has_walls, &m);
+    force(&dem->law, -lanes_load(p->meet.gap), dem->config.time_step, &m);
     for (int c = 0; c < 3; ++c) {
         f[c] = m.tangential[c] + m.push * m.normal[c];
+        slide[c + 1] = m.slide[c];
     }
     const clx_lanes *turning = dem->config.normal_torque ? f : m.tangential;
     lanes_cross(torque_b, m.arm_b, turning);
     lanes_cross(torque_a, m.arm_a, turning);
     f[3] = torque_a[3] = torque_b[3] = lanes_all(0.0);
-    write(dem, p, lanes, f, torque_b, torque_a);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        if ((lanes >> k & 1) != 0) {
-            for (int c = 0; c < 3; ++c) {
-                p->link[k]->slide[c] = m.slide[c][k];
-            }
-        }
+    write(dem, p, lanes, f, torque_b, torque_a, slide);
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_push(clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
+{
+    if (has_walls) {
+        push_all(dem, p, lanes, true);
+    } else {
+        push_all(dem, p, lanes, false);
     }
 }

@@ -8,7 +8,7 @@ typedef enum {
     CLX_BATCH_EDGES,   ///< hulls whose memory is a pair of edges
     CLX_BATCH_SPHERES, ///< whole grains
     CLX_BATCH_ELLIPSOIDS,
-    CLX_BATCH_ANY,     ///< all others, one by one
+    CLX_BATCH_ANY, ///< all others, one by one
     CLX_N_BATCH
 } clx_batch_kind;
 
@@ -18,10 +18,8 @@ typedef struct clx_batch {
     clx_link *link[CLX_LANES]; ///< may wake now
     double travel[CLX_LANES];  ///< of both grains
     const clx_grain *a[CLX_LANES], *b[CLX_LANES];
-    double offset[3][CLX_LANES]; ///< position of b's image less that of a; pairs of whole grains
-    double distance[CLX_LANES];  ///< from here on as clx_dem_touch
-    double normal[3][CLX_LANES];
-    double arm_a[3][CLX_LANES], arm_b[3][CLX_LANES];
+    clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
+    double arm_b[3][CLX_LANES]; ///< from b's centre to the contact point
 } clx_batch;
 
 /// Offsets of whole grains.
@@ -30,9 +28,15 @@ void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
 /// Pairs of spheres; offsets are known.
 void clx_batch_spheres(clx_batch *batch);
 
+/// Arms on b of pairs whose contact points and offsets are known.
+void clx_batch_arms(clx_batch *batch);
+
 /// Whether clx_batch_push can do this law.
-bool clx_batch_has_law(const clx_law *law);
+static inline bool clx_batch_has_law(const clx_law *law)
+{
+    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
+}
 
 /// Forces of four contacts by the linear law: the twin of clx_law_force, with its bits. Writes what
-/// the marked lanes (bits) push, and their displacements.
-void clx_batch_push(clast_dem *dem, const clx_batch *batch, int lanes);
+/// the marked lanes (bits) push, and their displacements. Walls are looked for if there may be any.
+void clx_batch_push(clast_dem *dem, const clx_batch *batch, int lanes, bool has_walls);

@@ -2,7 +2,7 @@
 //
 // Awake pairs are sorted by how they are answered and go on four at a time (batch.h); what lanes
 // cannot answer goes one by one. A contact writes its own slots only, so blocks run in any order.
-// Loads are summed afterwards, in motion.c.
+// Loads are summed afterwards, in motion.c, block by block where one thread sweeps over all.
 #include "dem/batch.h"
 
 #include "base/parallel.h"
@@ -13,25 +13,17 @@
 
 enum { BLOCK = 256 };
 
-static clx_batch_kind kind_of(const clast_dem *dem, const clx_link *link)
+static inline clx_batch_kind kind_of(const clx_link *link, const clx_grain *a, const clx_grain *b)
 {
-    if (dem->item != NULL || link->b < 0) {
-        return CLX_BATCH_ANY;
+    if (link->kind != CLX_FACET_NONE) {
+        return link->kind == CLX_FACET_EDGE_EDGE ? CLX_BATCH_EDGES : CLX_BATCH_FACES;
     }
     if (link->slot == 0) {
         return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
     }
-    switch (dem->list.memory[link->slot].kind) {
-    case CLX_FACET_EDGE_EDGE:
-        return CLX_BATCH_EDGES;
-    case CLX_FACET_NONE:
-        return dem->grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
-                       dem->grain[link->b].kind == CLAST_SHAPE_ELLIPSOID
-                   ? CLX_BATCH_ELLIPSOIDS
-                   : CLX_BATCH_ANY;
-    default:
-        return CLX_BATCH_FACES;
-    }
+    return a->kind == CLAST_SHAPE_ELLIPSOID && b->kind == CLAST_SHAPE_ELLIPSOID
+               ? CLX_BATCH_ELLIPSOIDS
+               : CLX_BATCH_ANY;
 }
 
 /// Lane k alone, by the plain way.
@@ -39,18 +31,23 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
     clx_link *link = p->link[k];
-    clx_dem_touch_find(dem, link, clx_link_memory(dem, link), &t);
-    p->distance[k] = t.distance;
+    clx_contact_memory *memory = clx_link_memory(dem, link);
+    clx_dem_touch_find(dem, link, memory, &t);
+    if (memory != NULL) {
+        link->kind = memory->kind & 3U;
+    }
+    p->meet.gap[k] = t.distance;
     for (int c = 0; c < 3; ++c) {
-        p->normal[c][k] = t.normal[c];
-        p->arm_a[c][k] = t.arm_a[c];
+        p->meet.normal[c][k] = -t.normal[c];
+        p->meet.point[c][k] = t.arm_a[c];
         p->arm_b[c][k] = t.arm_b[c];
     }
 }
 
 /// As clx_pair_contact does for one.
-static void add_rounding(const clast_dem *dem, const clx_batch *p, clx_facet_batch *f)
+static void add_rounding(const clast_dem *dem, clx_batch *p)
 {
+    clx_pair_batch *f = &p->meet;
     for (int k = 0; k < CLX_LANES; ++k) {
         const double round_a = dem->convex[p->link[k]->a].round;
         const double round_b = dem->convex[p->link[k]->b].round;
@@ -61,29 +58,23 @@ static void add_rounding(const clast_dem *dem, const clx_batch *p, clx_facet_bat
     }
 }
 
+static void take_poses(const clast_dem *dem, clx_batch *p)
+{
+    for (int k = 0; k < CLX_LANES; ++k) {
+        p->meet.turn_a[k] = p->a[k]->turn[0];
+        p->meet.turn_b[k] = p->b[k]->turn[0];
+        p->meet.memory[k] = &dem->list.memory[p->link[k]->slot];
+    }
+}
+
 /// Remembered facets; returns which lanes are answered.
 static int ask_facets(const clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
-    clx_facet_batch f;
-    clx_batch_offsets(dem, p);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        f.turn_a[k] = p->a[k]->turn[0];
-        f.turn_b[k] = p->b[k]->turn[0];
-        f.memory[k] = &dem->list.memory[p->link[k]->slot];
-    }
-    memcpy(f.offset, p->offset, sizeof f.offset);
+    take_poses(dem, p);
     const int answered =
-        kind == CLX_BATCH_FACES ? clx_facet_faces_again(&f) : clx_facet_edges_again(&f);
+        kind == CLX_BATCH_FACES ? clx_facet_faces_again(&p->meet) : clx_facet_edges_again(&p->meet);
     if (dem->config.rounding > 0.0) {
-        add_rounding(dem, p, &f);
-    }
-    memcpy(p->distance, f.gap, sizeof f.gap);
-    memcpy(p->arm_a, f.point, sizeof f.point);
-    for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < CLX_LANES; ++k) {
-            p->normal[c][k] = -1.0 * f.normal[c][k];
-            p->arm_b[c][k] = f.point[c][k] - p->offset[c][k];
-        }
+        add_rounding(dem, p);
     }
     return answered;
 }
@@ -91,29 +82,18 @@ static int ask_facets(const clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 /// Remembered common normals; returns which lanes are answered.
 static int ask_normals(const clast_dem *dem, clx_batch *p)
 {
-    clx_ellipsoid_batch e;
-    clx_batch_offsets(dem, p);
+    const clx_convex *a[CLX_LANES];
+    const clx_convex *b[CLX_LANES];
+    take_poses(dem, p);
     for (int k = 0; k < CLX_LANES; ++k) {
-        e.turn_a[k] = p->a[k]->turn[0];
-        e.turn_b[k] = p->b[k]->turn[0];
-        e.a[k] = &dem->convex[p->link[k]->a];
-        e.b[k] = &dem->convex[p->link[k]->b];
-        e.memory[k] = &dem->list.memory[p->link[k]->slot];
+        a[k] = &dem->convex[p->link[k]->a];
+        b[k] = &dem->convex[p->link[k]->b];
     }
-    memcpy(e.offset, p->offset, sizeof e.offset);
-    const int answered = clx_ellipsoids_again(&e);
-    memcpy(p->distance, e.gap, sizeof e.gap);
-    memcpy(p->arm_a, e.point, sizeof e.point);
+    const int answered = clx_ellipsoids_again(&p->meet, a, b);
     for (int k = 0; k < p->n; ++k) {
         clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot];
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
-            memory->seen[0][c] = (float)e.normal[c][k];
-        }
-    }
-    for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < CLX_LANES; ++k) {
-            p->normal[c][k] = -1.0 * e.normal[c][k];
-            p->arm_b[c][k] = e.point[c][k] - p->offset[c][k];
+            memory->seen[0][c] = (float)p->meet.normal[c][k];
         }
     }
     return answered;
@@ -123,15 +103,14 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
 static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
     int answered = 0;
-    if (kind == CLX_BATCH_SPHERES) {
+    if (kind != CLX_BATCH_ANY) {
         clx_batch_offsets(dem, p);
-        clx_batch_spheres(p);
-        return;
-    }
-    if (kind == CLX_BATCH_ELLIPSOIDS) {
-        answered = ask_normals(dem, p);
-    } else if (kind != CLX_BATCH_ANY) {
-        answered = ask_facets(dem, p, kind);
+        if (kind == CLX_BATCH_SPHERES) {
+            clx_batch_spheres(p);
+            return;
+        }
+        answered = kind == CLX_BATCH_ELLIPSOIDS ? ask_normals(dem, p) : ask_facets(dem, p, kind);
+        clx_batch_arms(p);
     }
     for (int k = 0; k < p->n; ++k) {
         if ((answered >> k & 1) == 0) {
@@ -143,7 +122,7 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 static void part(clast_dem *dem, const clx_batch *p, int k)
 {
     clx_link *link = p->link[k];
-    link->wake = p->travel[k] + p->distance[k];
+    link->wake = p->travel[k] + p->meet.gap[k];
     link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
     dem->near.push[p->at[k]] = (clx_pushed){0};
@@ -164,10 +143,10 @@ static void push_alone(clast_dem *dem, clx_link *link, const clx_dem_touch *t, i
 
 static void push_one(clast_dem *dem, const clx_batch *p, int k)
 {
-    clx_dem_touch t = {.distance = p->distance[k]};
+    clx_dem_touch t = {.distance = p->meet.gap[k]};
     for (int c = 0; c < 3; ++c) {
-        t.normal[c] = p->normal[c][k];
-        t.arm_a[c] = p->arm_a[c][k];
+        t.normal[c] = -p->meet.normal[c][k];
+        t.arm_a[c] = p->meet.point[c][k];
         t.arm_b[c] = p->arm_b[c][k];
     }
     push_alone(dem, p->link[k], &t, p->at[k]);
@@ -184,7 +163,7 @@ static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
     find_all(dem, p, kind);
     for (int k = 0; k < p->n; ++k) {
-        if (p->distance[k] >= 0.0 && !(p->distance[k] < clx_link_neck(dem, p->link[k]))) {
+        if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
             part(dem, p, k);
         } else {
             p->link[k]->touches = 1;
@@ -192,7 +171,7 @@ static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
         }
     }
     if (touching != 0 && clx_batch_has_law(&dem->law)) {
-        clx_batch_push(dem, p, touching);
+        clx_batch_push(dem, p, touching, kind == CLX_BATCH_ANY);
     } else {
         for (int k = 0; k < p->n; ++k) {
             if ((touching >> k & 1) != 0) {
@@ -205,30 +184,46 @@ static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 
 /// Contacts ahead whose link, and whose memory and grains, are asked for in advance: a bed of 4000
 /// hulls does not stay in a second-level cache.
-enum { LINK_AHEAD = 16, REST_AHEAD = 8 };
+enum { LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
 
-static inline void fetch_ahead(const clast_dem *dem, int64_t at)
+// Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
+// of it is dropped. `objdump -d` shows eight prefetches in clx_contacts_among.
+CLX_INLINE void fetch(const void *record, size_t bytes)
 {
-    const int64_t n = dem->near.n;
-    if (at + LINK_AHEAD < n) {
-        __builtin_prefetch(&dem->list.link[dem->near.link[at + LINK_AHEAD]], 1);
+    for (size_t at = 0; at < bytes; at += LINE) {
+        __builtin_prefetch((const char *)record + at, 1);
     }
-    if (at + REST_AHEAD < n) {
-        const clx_link *link = &dem->list.link[dem->near.link[at + REST_AHEAD]];
-        const char *push = (const char *)&dem->near.push[at + REST_AHEAD];
-        __builtin_prefetch(push, 1);
-        __builtin_prefetch(push + 64, 1);
+}
+
+/// The arrays that the loop over contacts reads: what is written there moves none of them.
+typedef struct {
+    const int32_t *near;
+    clx_link *link;
+    const clx_contact_memory *memory;
+    const clx_grain *grain;
+    const clx_item *item;
+    const double *travel;
+    clx_load *load;
+    int64_t n;
+} arrays;
+
+static inline int32_t grain_of(const arrays *s, int32_t item)
+{
+    return s->item != NULL ? s->item[item].grain : item;
+}
+
+CLX_INLINE void fetch_ahead(const arrays *s, int64_t at)
+{
+    if (at + LINK_AHEAD < s->n) {
+        const clx_link *link = &s->link[s->near[at + REST_AHEAD]];
+        __builtin_prefetch(&s->link[s->near[at + LINK_AHEAD]], 1);
         if (link->slot != 0) {
-            const char *memory = (const char *)&dem->list.memory[link->slot];
-            __builtin_prefetch(memory);
-            __builtin_prefetch(memory + 64);
-            __builtin_prefetch(memory + 128);
+            fetch(&s->memory[link->slot], sizeof *s->memory + LINE / 2);
         }
         if (link->b >= 0) {
-            const char *b = (const char *)&dem->grain[clx_item_grain(dem, link->b)];
-            __builtin_prefetch(b);
-            __builtin_prefetch(b + 64);
-            __builtin_prefetch(b + 128);
+            const int32_t b = grain_of(s, link->b);
+            fetch(&s->grain[b], sizeof *s->grain);
+            fetch(&s->load[b], sizeof *s->load);
         }
     }
 }
@@ -236,25 +231,29 @@ static inline void fetch_ahead(const clast_dem *dem, int64_t at)
 void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base)
 {
     clx_batch batch[CLX_N_BATCH];
+    const arrays s = {dem->near.link, dem->list.link, dem->list.memory, dem->grain,
+                      dem->item,      dem->travel,    dem->near.load,   dem->near.n};
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         batch[kind].n = 0;
     }
     for (int64_t at = begin; at < end; ++at) {
-        clx_link *link = &dem->list.link[dem->near.link[at]];
-        fetch_ahead(dem, at);
-        const int32_t a = clx_item_grain(dem, link->a);
-        const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;
-        const double travel = dem->travel[a] + (b >= 0 ? dem->travel[b] : 0.0);
+        clx_link *link = &s.link[s.near[at]];
+        fetch_ahead(&s, at);
+        const int32_t a = grain_of(&s, link->a);
+        const int32_t b = link->b >= 0 ? grain_of(&s, link->b) : -1;
+        const double travel = s.travel[a] + (b >= 0 ? s.travel[b] : 0.0);
         if (travel < link->wake || clx_link_is_container(dem, link)) {
             continue;
         }
-        const clx_batch_kind kind = kind_of(dem, link);
+        const clx_grain *on_b = b >= 0 ? &s.grain[b] : &clx_immovable;
+        const clx_batch_kind kind =
+            s.item != NULL || b < 0 ? CLX_BATCH_ANY : kind_of(link, &s.grain[a], on_b);
         clx_batch *p = &batch[kind];
         p->at[p->n] = (int32_t)(at - base);
         p->link[p->n] = link;
         p->travel[p->n] = travel;
-        p->a[p->n] = &dem->grain[a];
-        p->b[p->n] = b >= 0 ? &dem->grain[b] : &clx_immovable;
+        p->a[p->n] = &s.grain[a];
+        p->b[p->n] = on_b;
         if (++p->n == CLX_LANES) {
             finish(dem, p, kind);
         }

@@ -18,9 +18,9 @@
 /// What contacts read of a grain: 192 bytes, in fours of doubles that lanes load at once.
 typedef struct clx_grain {
     double position[3];
-    double mass;
+    double radius; ///< of the bounding sphere
     double velocity[3];
-    double radius;  ///< of the bounding sphere
+    double mass;
     double spin[3]; ///< angular velocity, world axes
     double scale;
     double turn[3][3];   ///< rotation matrix, world = turn body
@@ -62,10 +62,13 @@ typedef struct clx_link {
     int32_t a, b;         ///< b > a, or -1 - wall
     int16_t period[2];    ///< b's image: position + period * width
     uint32_t touches : 1; ///< in the last step
-    uint32_t slot : 31;   ///< its memory's place in the list's `memory`; 0: it has none
+    uint32_t kind : 2;    ///< clx_facet_kind of its memory
+    uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
     double wake;          ///< no touch before travel a + travel b gets here
     double slide[3];      ///< tangential displacement of b over a
 } clx_link;
+
+enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 
 /// Force and torque on a grain, in fours.
 typedef struct clx_load {

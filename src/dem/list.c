@@ -8,6 +8,7 @@
 #include "dem/list.h"
 
 #include "base/alloc.h"
+#include "contact/facet.h"
 #include "dem/container.h"
 #include <math.h>
 #include <stdlib.h>
@@ -240,15 +241,16 @@ clast_status clx_list_give_slot(clx_list *l, clx_link *link)
 {
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
-        link->slot = (uint32_t)l->free_slot[--l->n_free] & INT32_MAX;
+        link->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
     } else {
         const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
-        CLX_CHECK(n < INT32_MAX, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
+        CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
         CLX_TRY(clx_grow(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
         CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
         l->n_slot = n + 1;
-        link->slot = (uint32_t)n & INT32_MAX;
+        link->slot = (uint32_t)n & CLX_MOST_SLOTS;
     }
+    link->kind = CLX_FACET_NONE;
     l->memory[link->slot] = (clx_contact_memory){0};
 done:
     return status;

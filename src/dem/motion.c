@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = CLX_MOVE_BLOCK, SWEEP = 64 };
+enum { BLOCK = CLX_MOVE_BLOCK, SWEEP = 48 };
 
 /// q = exp(w dt / 2) q, by the series to the sixth power of the angle (below rounding for 0.1 rad).
 static void turn_by(const double w[3], double dt, double q[4])

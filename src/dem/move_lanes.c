@@ -48,7 +48,7 @@ CLX_INLINE bool turn_by(const clx_lanes w[3], double dt, const clx_lanes q[4], c
 
 /// Four grains, read.
 typedef struct {
-    clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with mass, radius, scale
+    clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
     clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
     clx_lanes inverse[9];                                 ///< of the shapes' inertia
 } grains;
@@ -106,7 +106,7 @@ CLX_INLINE bool turn_bodies(clast_dem *dem, int64_t i, double factor, const clx_
 CLX_INLINE bool turn_spheres(double dt, double factor, const clx_lanes torque[3], grains *g)
 {
     clx_lanes q[4];
-    const clx_lanes scale = 2.5 * dt / (g->position[3] * g->velocity[3] * g->velocity[3]);
+    const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
     for (int c = 0; c < 3; ++c) {
         g->spin[c] = factor * (g->spin[c] + scale * torque[c]);
     }
@@ -127,8 +127,8 @@ CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_lanes force[
     const double dt = dem->config.time_step;
     const clx_lanes volume = {m[0].volume, m[1].volume, m[2].volume, m[3].volume};
     const clx_lanes weight =
-        dem->config.gravity * (g->position[3] - dem->config.fluid_density * volume);
-    const clx_lanes scale = dt / g->position[3];
+        dem->config.gravity * (g->velocity[3] - dem->config.fluid_density * volume);
+    const clx_lanes scale = dt / g->velocity[3];
     g->velocity[0] += scale * force[0] + dt * c->shake;
     g->velocity[1] += scale * force[1];
     g->velocity[2] += scale * (force[2] - weight);
@@ -195,9 +195,9 @@ bool clx_move_lanes(const clx_moving *c, int64_t i, const clx_load load[CLX_LANE
         return false;
     }
     clx_lanes speed = lanes_root(lanes_dot(g.velocity, g.velocity));
-    *is_lost = lanes_bits(speed * dt <= CLX_STRIDE * g.velocity[3]) != 15;
+    *is_lost = lanes_bits(speed * dt <= CLX_STRIDE * g.position[3]) != 15;
     if (!is_round) {
-        speed += lanes_root(lanes_dot(g.spin, g.spin)) * g.velocity[3] * (1.0 + 1e-6);
+        speed += lanes_root(lanes_dot(g.spin, g.spin)) * g.position[3] * (1.0 + 1e-6);
     }
     lanes_store(&dem->travel[i], lanes_load(&dem->travel[i]) + dt * speed);
     write_back(dem, i, is_round, &g);

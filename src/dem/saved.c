@@ -147,6 +147,7 @@ static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
         if (!is_empty) {
             CLX_TRY(clx_list_give_slot(l, &l->link[k]));
             memcpy(&l->memory[l->link[k].slot], bytes, MEMORY);
+            l->link[k].kind = l->memory[l->link[k].slot].kind & 3U;
         }
     }
 done:

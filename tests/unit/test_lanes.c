@@ -66,7 +66,7 @@ static bool same(double a, double b)
 /* Compares a batch with its pairs one by one; how many of them are answered. */
 static int compare_facets(meeting m[CLX_LANES], bool edges)
 {
-    clx_facet_batch batch;
+    clx_pair_batch batch;
     int n = 0;
     for (int k = 0; k < CLX_LANES; ++k) {
         batch.turn_a[k] = m[k].pair.turn_a;
@@ -158,11 +158,13 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
     for (uint64_t i = 0; i < 500; ++i) {
         clx_rng rng = clx_rng_at(43, CLX_STREAM_TEST, i);
         meeting m[CLX_LANES];
-        clx_ellipsoid_batch batch;
+        clx_pair_batch batch;
+        const clx_convex *a[CLX_LANES];
+        const clx_convex *b[CLX_LANES];
         for (int k = 0; k < CLX_LANES; ++k) {
             make_eggs(&rng, &m[k]);
-            batch.a[k] = &m[k].a;
-            batch.b[k] = &m[k].b;
+            a[k] = &m[k].a;
+            b[k] = &m[k].b;
             batch.turn_a[k] = m[k].turn[0][0];
             batch.turn_b[k] = m[k].turn[1][0];
             batch.memory[k] = &m[k].memory;
@@ -170,7 +172,7 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
                 batch.offset[c][k] = m[k].pair.offset[c];
             }
         }
-        const int answered = clx_ellipsoids_again(&batch);
+        const int answered = clx_ellipsoids_again(&batch, a, b);
         for (int k = 0; k < CLX_LANES; ++k) {
             clx_contact one;
             (void)clx_pair_contact(&m[k].pair, INFINITY, &m[k].memory, &one);
@@ -215,11 +217,11 @@ static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double s
     double n[3], arm_a[3], arm_b[3], u[3], w[3];
     clx_push push;
     for (int c = 0; c < 3; ++c) {
-        n[c] = p->normal[c][k];
-        arm_a[c] = p->arm_a[c][k];
+        n[c] = -p->meet.normal[c][k];
+        arm_a[c] = p->meet.point[c][k];
         arm_b[c] = p->arm_b[c][k];
     }
-    clx_meeting m = {.overlap = -p->distance[k],
+    clx_meeting m = {.overlap = -p->meet.gap[k],
                      .mass = p->link[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
                      .friction = dem->law.friction[p->link[k]->b < 0]};
     v3_copy(m.normal, n);
@@ -264,15 +266,15 @@ static void law_in_lanes_is_the_law_alone(void **state)
             p.link[k] = &link[k];
             p.a[k] = &grain[2 * k];
             p.b[k] = link[k].b < 0 ? &clx_immovable : &grain[2 * k + 1];
-            p.distance[k] = -1e-6 * clx_rng_uniform(&rng);
+            p.meet.gap[k] = -1e-6 * clx_rng_uniform(&rng);
             for (int c = 0; c < 3; ++c) {
-                p.normal[c][k] = n[c];
-                p.arm_a[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
+                p.meet.normal[c][k] = -n[c];
+                p.meet.point[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
                 p.arm_b[c][k] = link[k].b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
             }
             push_alone(dem, &p, k, slide[k], &alone[k]);
         }
-        clx_batch_push(dem, &p, 15);
+        clx_batch_push(dem, &p, 15, true);
         for (int k = 0; k < CLX_LANES; ++k) {
             for (int c = 0; c < 3; ++c) {
                 assert_true(same(room[k].force[c], alone[k].force[c]));
