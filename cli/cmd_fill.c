@@ -3,6 +3,7 @@
 #include "json.h"
 
 #include <clast/fill.h>
+#include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
 #include <clast/spheres_file.h>
 #include <clast/table_file.h>
@@ -26,7 +27,8 @@ static void stem(const char *path, char *name, size_t size)
     }
 }
 
-static json_t *report_json(const char *file, const char *name, const clast_fill_report *r)
+static json_t *report_json(const char *file, const char *name, int64_t n_intersection,
+                           const clast_fill_report *r)
 {
     json_t *o = json_object();
     cli_json_text(o, "file", file);
@@ -37,6 +39,7 @@ static json_t *report_json(const char *file, const char *name, const clast_fill_
     cli_json_text(o, "end", end_names[r->end]);
     cli_json_count(o, "n_open_edge", r->n_open_edge);
     cli_json_number(o, "open_share", r->open_share);
+    cli_json_count(o, "n_intersection", n_intersection);
     cli_json_number(o, "solid_volume", r->solid_volume);
     cli_json_number(o, "sphere_volume", r->sphere_volume);
     cli_json_number(o, "filled_fraction", r->filled_fraction);
@@ -101,10 +104,16 @@ static clast_status save(const cli_common *common, const clast_fill_config *conf
     return status;
 }
 
-static clast_status show(const cli_common *common, const char *name,
+static clast_status show(const cli_common *common, const char *name, int64_t n_intersection,
                          const clast_fill_report *report)
 {
     const char *file = common->argument[0];
+    if (n_intersection > 0 && !common->quiet) {
+        (void)fprintf(stderr,
+                      "clast fill: note: %s cuts itself at %lld pairs of triangles; its volume "
+                      "counts overlaps twice, so shares of it come out low (clast mesh check)\n",
+                      file, (long long)n_intersection);
+    }
     if (report->open_share > 1e-6 && !common->quiet) {
         (void)fprintf(stderr,
                       "clast fill: note: %s has %d open edges; their holes were capped, which "
@@ -112,7 +121,7 @@ static clast_status show(const cli_common *common, const char *name,
                       file, report->n_open_edge, report->open_share);
     }
     if (common->json) {
-        return cli_print_json(report_json(file, name, report));
+        return cli_print_json(report_json(file, name, n_intersection, report));
     }
     print_words(file, report);
     return CLAST_OK;
@@ -125,6 +134,7 @@ static clast_status run(const cli_common *common, void *context)
     clast_mesh mesh = {0};
     clast_spheres spheres = {0};
     clast_fill_report report;
+    clast_mesh_check_result found = {0};
     char name[256];
     stem(common->argument[0], name, sizeof name);
     if (config->name[0] != '\0') {
@@ -138,8 +148,12 @@ static clast_status run(const cli_common *common, void *context)
         status = save(common, config, name, &mesh, &spheres);
     }
     if (status == CLAST_OK) {
-        status = show(common, name, &report);
+        status = clast_mesh_check(&mesh, &found);
     }
+    if (status == CLAST_OK) {
+        status = show(common, name, found.n_intersection, &report);
+    }
+    clast_mesh_check_free(&found);
     clast_spheres_free(&spheres);
     clast_mesh_free(&mesh);
     return status;

@@ -107,6 +107,20 @@ class Fill(Case):
         inside_out.write_text("\n".join(CUBE.splitlines()[:10] + [f"3 {a} {c} {b}" for _, a, b, c in faces]) + "\n")
         self.assert_fails(3, "fill", inside_out, says=["inside out"])
 
+    def test_a_surface_that_cuts_itself_is_named(self):
+        """Two unit cubes, the second moved by (0.5, 0.4, 0.3): volume 2 as facets add up, 1.79 as a union."""
+        lines = CUBE.splitlines()
+        moved = [tuple(float(v) + d for v, d in zip(line.split(), (0.5, 0.4, 0.3))) for line in lines[2:10]]
+        faces = [[int(v) for v in line.split()[1:]] for line in lines[10:]]
+        two = self.folder / "two.off"
+        two.write_text("\n".join(["OFF", "16 24 0"] + lines[2:10] + ["%g %g %g" % v for v in moved] + lines[10:]
+                                 + ["3 %d %d %d" % tuple(k + 8 for k in face) for face in faces]) + "\n")
+        result = clast("fill", two, "--spheres", 3, "--json")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertGreater(result.json["n_intersection"], 0)
+        self.assertIn("cuts itself at %d pairs of triangles" % result.json["n_intersection"], result.err)
+        self.assertNotIn("cuts itself", clast("fill", self.cube, "--spheres", 3).err)
+
     def test_impossible_bounds_end_in_code_5(self):
         self.assert_fails(5, "fill", self.cube, "--spheres", 5, "--filled", 0.9, "-q", says=["wanted 0.9"])
         self.assert_fails(5, "fill", self.cube, "--min-radius", 0.6, "-q", says=["no sphere of radius 0.6"])
