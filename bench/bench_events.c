@@ -1,8 +1,9 @@
 // Error of the event count on clouds whose density f is known, over seeds: mean error (bias), its
-// standard error, root mean square, share of intervals that cover, and the error that is left when
-// the sample's own luck, 2 (mean of f at the points / integral of f^2 - 1), is taken off.
+// standard error, root mean square, share of intervals that cover, share of clouds in more than one
+// cell, and the error that is left when the sample's own luck, 2 (mean of f at the points / integral
+// of f^2 - 1), is taken off.
 //
-//     bench_events [n = 10000] [repeats = 20] [first seed = 1000] [scene, or all] [ways = 1..5]
+//     bench_events [n = 10000] [repeats = 20] [first seed = 1000] [scene, or all] [ways = 1..6]
 //
 // Clouds have a Poisson number of points, as the interval supposes: it shall cover beta dt / 2
 // times the squared mean number times the integral. Errors are against n (n - 1) in place of that
@@ -242,6 +243,7 @@ enum { N_SCENE = sizeof scenes / sizeof scenes[0] };
 static const struct {
     const char *name, *key[2], *value[2];
 } ways[] = {{"default", {"mesh", "crossfit"}, {"auto", "false"}},
+            {"plain_tree", {"mesh", "extrapolate"}, {"tree", "false"}},
             {"tree_unrefined", {"mesh", "tree_refine"}, {"tree", "false"}},
             {"boxes", {"mesh", "tree_refine"}, {"boxes", "true"}},
             {"bins", {"mesh", "tree_refine"}, {"bins", "true"}},
@@ -250,7 +252,7 @@ enum { N_WAY = sizeof ways / sizeof ways[0] };
 
 typedef struct {
     double sum, squares, worst, cells, left, left2;
-    int covered;
+    int covered, split;
 } tally;
 
 static clast_status set(clast_decompose_config *c, const char *key, const char *value)
@@ -284,6 +286,7 @@ static clast_status measure(const clast_cloud *cloud, const char *domain, int wa
     t->left += error - truth[2];
     t->left2 += (error - truth[2]) * (error - truth[2]);
     t->cells += r.cells.n;
+    t->split += r.cells.n > 1 ? 1 : 0;
     t->covered += r.events_low <= twice * truth[1] && twice * truth[1] <= r.events_high ? 1 : 0;
     clast_decomposition_free(&r);
     clast_fields_free(clast_decompose_fields, &c);
@@ -318,12 +321,13 @@ static clast_status run(int scene, double mean_n, int n_repeat, uint64_t first, 
     for (int way = 0; way < n_way && status == CLAST_OK; ++way) {
         const double mean = t[way].sum / n_repeat;
         const double left = t[way].left / n_repeat;
-        (void)printf("%s,%.0f,%s,%+.4f,%.4f,%.4f,%.4f,%+.5f,%.5f,%.3f,%.0f\n", scenes[scene].name,
+        (void)printf("%s,%.0f,%s,%+.4f,%.4f,%.4f,%.4f,%+.5f,%.5f,%.4f,%.0f,%.4f\n", scenes[scene].name,
                      mean_n, ways[way].name, mean,
                      sqrt(fmax(0.0, t[way].squares / n_repeat - mean * mean) / n_repeat),
                      sqrt(t[way].squares / n_repeat), t[way].worst, left,
                      sqrt(fmax(0.0, t[way].left2 / n_repeat - left * left) / n_repeat),
-                     (double)t[way].covered / n_repeat, t[way].cells / n_repeat);
+                     (double)t[way].covered / n_repeat, t[way].cells / n_repeat,
+                     (double)t[way].split / n_repeat);
     }
     (void)fflush(stdout);
     return status;
@@ -337,7 +341,7 @@ int main(int argc, char **argv)
     const int n_way = argc > 5 ? (int)strtol(argv[5], NULL, 10) : N_WAY;
     clast_status status = CLAST_OK;
     (void)printf("scene,n,way,bias,standard_error,rms,worst,bias_without_luck,error_without_luck,"
-                 "covered,cells\n");
+                 "covered,cells,split\n");
     for (int s = 0; s < N_SCENE && status == CLAST_OK; ++s) {
         if (argc < 5 || strcmp(argv[4], "all") == 0 || strcmp(argv[4], scenes[s].name) == 0) {
             status = run(s, mean_n, n_repeat, first, n_way);

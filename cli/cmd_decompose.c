@@ -131,6 +131,7 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_count(out, "n_capped", r->n_capped);
     cli_json_number(out, "points_per_bin", r->points_per_bin);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
+    cli_json_number(out, "smoothing_bias", r->smoothing_bias);
     cli_json_number(out, "wall_s", wall);
     return out;
 }
@@ -168,6 +169,11 @@ static void print_words(const clast_decomposition *r, bool test_only)
     (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g], %d cells at the cap\n",
                  stop_text(r->stop), r->cells.n, r->events, r->events_low, r->events_high,
                  r->n_capped);
+    if (r->smoothing_bias != 0.0) {
+        (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
+                     "taken off\n",
+                     100.0 * r->smoothing_bias);
+    }
     if (isfinite(r->events_cross)) {
         (void)printf("events by cross-fitting %.6g\n", r->events_cross);
     }

@@ -31,8 +31,10 @@ typedef enum {
 
 /// Where bins count as under-populated.
 typedef enum {
-    CLAST_LOWER_Q20,   ///< up to the 20th percentile, as published
-    CLAST_LOWER_SEARCH ///< up to a threshold in [Q20, Q40) that is searched like the upper one
+    CLAST_LOWER_Q20,    ///< up to the 20th percentile, as published
+    CLAST_LOWER_SEARCH, ///< up to a threshold in [Q20, Q40) that is searched like the upper one,
+                        ///< with that one found
+    CLAST_LOWER_JOINT   ///< both thresholds at once: every pair of them is tried
 } clast_lower;
 
 /// Which statistic of the discrepancies votes.
@@ -56,9 +58,11 @@ typedef struct clast_decompose_config {
     bool strict;    ///< bins at a threshold are ambient: > lambda and < lower, as the prose has it
     double beta_dt; ///< kernel times time step [m^d]
     double tree_level;         ///< of the chi-square test of a tree cell
+    double tree_root_level;    ///< of the test of the whole cloud: one cell, or a tree
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
     bool tree_refine; ///< cells below the root are given as the blocks that their last test saw
+    bool extrapolate; ///< add the pairs that tree cells hide by being taken as uniform
     uint64_t seed;
 } clast_decompose_config;
 
@@ -132,7 +136,7 @@ typedef struct clast_cells {
     int64_t *count;        ///< [n] real points
     uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
     double *weight;        ///< [n] sum of the points' weights: count without weights
-    double *events;        ///< [n] after the cap
+    double *events;        ///< [n] after the cap; with extrapolate all by one factor
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
     bool is_box;           ///< cells are boxes low .. high, not unions of bins
     int32_t nb[3];         ///< bins an axis
@@ -140,6 +144,8 @@ typedef struct clast_cells {
     int32_t *of_bin;       ///< [nb[0] nb[1] nb[2]] cell of each bin of the unit cube, -1 outside a
                            ///< mesh domain; NULL: no bins
     uint64_t *key;         ///< [n] Morton code of a tree cell's low corner, ascending, or NULL
+    int32_t *group;        ///< [n] of tree cells, or NULL: >= 0 halves of one box share a number;
+                           ///< -1 found uniform; -2, -3 .. too few points to be tested
 } clast_cells;
 
 typedef struct clast_decomposition {
@@ -153,7 +159,7 @@ typedef struct clast_decomposition {
     clast_decompose_stop stop;
     clast_cells cells;
     double events, events_low,
-        events_high;       ///< with the 95 % interval of Poisson counts in given cells
+        events_high;       ///< with the 95 % interval of Poisson points
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
     int32_t n_capped;      ///< cells at n/2
@@ -161,6 +167,8 @@ typedef struct clast_decomposition {
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
+    double smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
+                           ///< off events and all cells' events. 0 where nothing is extrapolated
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

@@ -93,6 +93,9 @@ static void move_cell(clast_cells *cells, int32_t from, int32_t to)
     if (cells->key != NULL) {
         cells->key[to] = cells->key[from];
     }
+    if (cells->group != NULL) {
+        cells->group[to] = cells->group[from];
+    }
     cells->label[to] = cells->label[from];
     cells->pass[to] = cells->pass[from];
 }

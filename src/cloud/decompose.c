@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "cloud/cells.h"
 #include "cloud/cut_cells.h"
+#include "cloud/events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"
@@ -40,8 +41,9 @@ const clast_field clast_decompose_fields[] = {
      "count events also with the cells of one half of the points and the counts of the other",
      NULL},
     {FIELD(CLAST_FIELD_CHOICE, lower), 0, 0, 0, "-",
-     "lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one",
-     "q20|search"},
+     "lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one, after it "
+     "or jointly",
+     "q20|search|joint"},
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
@@ -49,12 +51,19 @@ const clast_field clast_decompose_fields[] = {
      "collision kernel times time step [m^d]", NULL},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL},
+    {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
+     "level of the test that splits the whole cloud into a tree: uniform clouds split by chance",
+     NULL},
     {FIELD(CLAST_FIELD_F64, variable_tolerance), 0.0, 0.0, 1e300, "-",
      "standard deviation that a tree cell may keep of the variable (its column's unit)", NULL},
     {FIELD(CLAST_FIELD_I32, tree_least), 16, 2, 1000000, "-",
      "points below which a tree cell is not split", NULL},
     {FIELD(CLAST_FIELD_BOOL, tree_refine), 1, 0, 0, "-",
      "give each cell of a tree that was split as the blocks its last test looked at", NULL},
+    {FIELD(CLAST_FIELD_BOOL, extrapolate), 1, 0, 0, "-",
+     "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
+     "cells",
+     NULL},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL},
     {0}};
 #undef FIELD
@@ -73,6 +82,7 @@ static void free_cells(clast_cells *cells)
     clx_free(cells->of_bin);
     clx_free(cells->bin_count);
     clx_free(cells->key);
+    clx_free(cells->group);
     *cells = (clast_cells){0};
 }
 
@@ -140,18 +150,31 @@ done:
     return status;
 }
 
+/// Whether the tests of step 1 reject at the level of the tree's root too.
+static bool is_uneven(const clast_uniformity *tests, const clast_decompose_config *config)
+{
+    int32_t n_reject = 0;
+    for (int32_t k = 0; k < tests->n_test; ++k) {
+        n_reject += tests->vote[k].p < config->tree_root_level ? 1 : 0;
+    }
+    return n_reject >= config->votes;
+}
+
 static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
-                               const clast_decompose_config *config, clast_cells *cells)
+                               const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clx_uniformity_tree_cells tree = {0};
     int32_t *of_sample = NULL;
     double *variable = NULL;
+    clast_cells *cells = &result->cells;
     const int32_t d = m->domain->dimension;
-    const clx_uniformity_tree_config limits = {config->tree_level, config->tree_least,
-                                               config->variable_tolerance, config->tree_refine};
+    const clx_uniformity_tree_config limits = {config->tree_level, config->tree_root_level,
+                                               config->tree_least, config->variable_tolerance,
+                                               config->tree_refine};
     CLX_TRY(take_variable(cloud, m, &variable));
-    const clx_uniformity_tree_points points = {m->u, m->n_test, m->n, d, variable};
+    const clx_uniformity_tree_points points = {
+        m->u, m->n_test, m->n, d, variable, is_uneven(&result->before, config)};
     CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
     CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_sample));
     CLX_TRY(alloc_cells(cells, tree.n));
@@ -165,7 +188,9 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
     }
     tell_points(m, of_sample, cells);
     cells->key = tree.key;
+    cells->group = tree.group;
     tree.key = NULL;
+    tree.group = NULL;
 done:
     clx_uniformity_tree_free(&tree);
     clx_free(of_sample);
@@ -269,70 +294,6 @@ static void to_domain(const clast_domain *domain, clast_cells *cells)
     }
 }
 
-/// Sums of powers 1 to 4 of the weights in each cell.
-static clast_status weight_powers(const clast_cloud *cloud, const clast_cells *cells,
-                                  double (**power)[4])
-{
-    clast_status status = CLAST_OK;
-    double(*made)[4] = NULL;
-    CLX_TRY(clx_alloc(&made, cells->n, sizeof *made));
-    for (int32_t c = 0; c < cells->n && cloud->weight == NULL; ++c) {
-        for (int k = 0; k < 4; ++k) {
-            made[c][k] = (double)cells->count[c];
-        }
-    }
-    for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
-        const int32_t c = cells->of_point[i];
-        const double w = cloud->weight[i];
-        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
-                  "the weight of point %lld is %g; it must be a number > 0", (long long)i + 1, w);
-        for (int k = 0; k < 4 && c >= 0; ++k) {
-            made[c][k] += pow(w, k + 1);
-        }
-    }
-    *power = made;
-    made = NULL;
-done:
-    clx_free(made);
-    return status;
-}
-
-/// Events of each cell with the cap W/2, their sum and its interval. For Poisson points of weights
-/// w, sum over i != j of w_i w_j has the unbiased variance 4 S(2,1,1) + 2 S(2,2), sums over
-/// distinct points of w_i^2 w_j w_k and w_i^2 w_j^2; with unit weights 4 n (n-1)(n-2) + 2 n (n-1).
-static clast_status count_events(const clast_cloud *cloud, const clast_decompose_config *config,
-                                 clast_decomposition *r)
-{
-    clast_status status = CLAST_OK;
-    double(*power)[4] = NULL;
-    double variance = 0.0;
-    const bool is_printed = config->paper || config->events == CLAST_EVENTS_PAPER;
-    CLX_TRY(weight_powers(cloud, &r->cells, &power));
-    for (int32_t c = 0; c < r->cells.n; ++c) {
-        const double *p = power[c];
-        const double rate = config->beta_dt / r->cells.volume[c];
-        const double pairs = fmax(0.0, p[0] * p[0] - p[1]);
-        const double wanted = is_printed ? rate * p[0] * p[0] : 0.5 * rate * pairs;
-        const bool capped = wanted > 0.5 * p[0];
-        const double triples =
-            fmax(0.0, p[1] * p[0] * p[0] - 2.0 * p[2] * p[0] - p[1] * p[1] + 2.0 * p[3]);
-        const double scale = is_printed ? rate : 0.5 * rate;
-        r->cells.weight[c] = p[0];
-        r->cells.events[c] = capped ? 0.5 * p[0] : wanted;
-        r->events += r->cells.events[c];
-        r->n_capped += capped ? 1 : 0;
-        variance += capped ? 0.25 * p[1]
-                           : scale * scale * (4.0 * triples + 2.0 * fmax(0.0, p[1] * p[1] - p[3]));
-    }
-    const double reach = 1.959963984540054 * sqrt(variance); // 97.5 % of the normal law
-    r->events_low = fmax(0.0, r->events - reach);
-    r->events_high = r->events + reach;
-    r->bias_estimate = r->n > 0 ? (double)r->cells.n / (double)r->n : 0.0;
-done:
-    clx_free(power);
-    return status;
-}
-
 /// Every second point, from `first` on.
 static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *half)
 {
@@ -374,7 +335,7 @@ static clast_status cross_events(const clast_cloud *half, const clast_decompose_
         sum += fmin(2.0 * config->beta_dt * a.cells.weight[c] * weight[c] / a.cells.volume[c],
                     0.5 * both);
     }
-    *events = sum;
+    *events = sum / (1.0 + a.smoothing_bias);
 done:
     clast_decomposition_free(&a);
     clx_free(weight);
@@ -420,7 +381,7 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
         result->stop = CLAST_STOP_UNIFORM;
         return one_cell(m, &result->cells);
     }
-    return is_tree ? tree_cells(cloud, m, config, &result->cells) : bin_cells(m, config, result);
+    return is_tree ? tree_cells(cloud, m, config, result) : bin_cells(m, config, result);
 }
 
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
@@ -446,8 +407,8 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
     if (domain->kind == CLAST_DOMAIN_MESH) {
         CLX_TRY(clx_cells_cut(&m, &made.cells));
     }
+    CLX_TRY(clx_events_count(cloud, config, &m, &made));
     to_domain(domain, &made.cells);
-    CLX_TRY(count_events(cloud, config, &made));
     made.events_cross = (double)NAN;
     if (config->crossfit) {
         CLX_TRY(crossfit(cloud, config, domain, &made.events_cross));

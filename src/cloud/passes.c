@@ -231,23 +231,27 @@ done:
     return status;
 }
 
-/// The threshold whose expected score is nearest to the ideal one of its synthetic sample, then, if
-/// wanted, the lower threshold in the same way with that one.
+/// The threshold whose expected score is nearest to the ideal one of its synthetic sample; then, if
+/// wanted, lower thresholds in the same way: with that one, or with each (joint).
 static clast_status search(work *w, const clx_levels *levels, int32_t number, clast_pass *pass,
                            clx_ghost_plan *plan)
 {
     clast_status status = CLAST_OK;
     best_cut best = {.nearest = INFINITY};
     clx_label_cut cut = {.under = levels->q20, .is_strict = w->config->strict};
+    const bool is_joint = w->config->lower == CLAST_LOWER_JOINT;
     for (int32_t t = 0; t < levels->n_lambda; ++t) {
         cut.lambda = levels->lambda[t];
         CLX_TRY(try_cut(w, &cut, false, number, pass, &best));
     }
-    cut.lambda = best.cut.lambda;
-    pass->n_lower = w->config->lower == CLAST_LOWER_SEARCH && cut.lambda > 0 ? levels->n_lower : 0;
-    for (int32_t t = 0; t < pass->n_lower; ++t) {
-        cut.under = levels->lower[t];
-        CLX_TRY(try_cut(w, &cut, true, number, pass, &best));
+    const int32_t found = best.cut.lambda;
+    pass->n_lower = w->config->lower != CLAST_LOWER_Q20 && found > 0 ? levels->n_lower : 0;
+    for (int32_t t = 0; t < levels->n_lambda * pass->n_lower; ++t) {
+        cut.lambda = levels->lambda[t / pass->n_lower];
+        cut.under = levels->lower[t % pass->n_lower];
+        if (is_joint || cut.lambda == found) {
+            CLX_TRY(try_cut(w, &cut, true, number, pass, &best));
+        }
     }
     pass->lambda_count = best.plan.n_replaced > 0 ? best.cut.lambda : 0;
     pass->lower = best.cut.under * (double)w->passes->bins.n_bin / (double)w->n;

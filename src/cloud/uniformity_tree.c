@@ -10,7 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { EXPECTED_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
+// Of 64 blocks the chi-square law holds its level of 0.005 to a factor of 1.5 with one point a block
+// (1.5e6 samples), so those are tested; as cells they are given with 5.
+enum { TESTED_LEAST = 1, GIVEN_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
 
 typedef struct {
     const clx_uniformity_tree_points *points;
@@ -19,14 +21,16 @@ typedef struct {
     clx_keyed *point; ///< [n] by Morton code
     clx_uniformity_tree_cells *cells;
     int32_t *of_point;
-    int64_t *begin;  ///< of each cell in point; made at the end
-    double limit[3]; ///< chi-square over this rejects, for blocks 1 and 2 halvings down
+    int64_t *begin;     ///< of each cell in point; made at the end
+    double limit[2][3]; ///< [is root] chi-square over this rejects, for blocks 1, 2 halvings down
+    int32_t n_group, n_untested;
 } growth;
 
 typedef struct {
     uint64_t key;       ///< Morton code of the low corner
     int64_t begin, end; ///< in growth.point
     int depth;
+    int32_t group;
     bool is_of_uneven; ///< some cell above was split for its counts
 } node;
 
@@ -170,32 +174,34 @@ static bool is_varied(const growth *g, const node *cell)
                                                      n_filled - 1, freedom) < g->config->level;
 }
 
-/// Halvings that the tests look down in a cell of n tested points; 0: it is not tested.
-static int levels_tested(const growth *g, const node *cell, int64_t n)
+/// Halvings down to blocks in which n points leave at least so many.
+static int levels_with(const growth *g, const node *cell, int64_t n, int64_t least)
 {
     const int quarters = 1 << (2 * g->d);
-    if (n < g->config->least || cell->depth >= CLX_MORTON_LEVELS) {
-        return 0;
-    }
-    return n >= (int64_t)EXPECTED_LEAST * quarters && cell->depth + 2 <= CLX_MORTON_LEVELS ? 2 : 1;
+    return n >= least * quarters && cell->depth + 2 <= CLX_MORTON_LEVELS ? 2 : 1;
 }
 
-/// Whether the cell's counts are uneven; *levels: the halvings that the tests looked down.
+/// Whether the cell's counts are uneven; *levels: halvings to the blocks that it is given as when
+/// they are not, 0 for a cell of too few points to be tested.
 static bool is_uneven(const growth *g, const node *cell, int *levels)
 {
     int64_t count[MAX_BLOCK];
+    const double *limit = g->limit[cell->depth == 0 ? 1 : 0];
     *levels = 0;
     if (cell->depth >= CLX_MORTON_LEVELS) {
         return false;
     }
     const int64_t n = count_tested(g, cell, 1, count);
-    *levels = levels_tested(g, cell, n);
-    if (*levels > 0 && unevenness(count, 1 << g->d, n) > g->limit[1]) {
+    if (n < g->config->least) {
+        return false;
+    }
+    *levels = levels_with(g, cell, n, GIVEN_LEAST);
+    if ((cell->depth == 0 && g->points->is_uneven) || unevenness(count, 1 << g->d, n) > limit[1]) {
         return true;
     }
-    if (*levels > 1) {
+    if (levels_with(g, cell, n, TESTED_LEAST) > 1) {
         (void)count_tested(g, cell, 2, count);
-        return unevenness(count, 1 << (2 * g->d), n) > g->limit[2];
+        return unevenness(count, 1 << (2 * g->d), n) > limit[2];
     }
     return false;
 }
@@ -209,6 +215,7 @@ static clast_status make_room(clx_uniformity_tree_cells *c)
         CLX_TRY(clx_realloc(&c->high, capacity, sizeof *c->high));
         CLX_TRY(clx_realloc(&c->count, capacity, sizeof *c->count));
         CLX_TRY(clx_realloc(&c->key, capacity, sizeof *c->key));
+        CLX_TRY(clx_realloc(&c->group, capacity, sizeof *c->group));
         c->capacity = capacity;
     }
 done:
@@ -233,6 +240,7 @@ static clast_status add_cell(growth *g, const node *cell)
         c->high[c->n][j] = j < g->d ? (double)(at + 1) * width : 1.0;
     }
     c->count[c->n] = cell->end - cell->begin;
+    c->group[c->n] = cell->group;
     c->key[c->n++] = cell->key;
     return CLAST_OK;
 }
@@ -253,6 +261,7 @@ static clast_status each_block(growth *g, const node *cell, int levels,
                             .begin = start[b],
                             .end = start[b + 1],
                             .depth = cell->depth + levels,
+                            .group = g->n_group + (b >> g->d), // blocks come half by half
                             .is_of_uneven = cell->is_of_uneven};
         CLX_TRY(take(g, &block));
     }
@@ -271,9 +280,14 @@ static clast_status grow(growth *g, const node *cell)
     if (g->points->variable != NULL && cell->depth < CLX_MORTON_LEVELS && is_varied(g, cell)) {
         return each_block(g, cell, 1, grow);
     }
-    return g->config->refine && cell->is_of_uneven && levels > 0
-               ? each_block(g, cell, levels, add_cell)
-               : add_cell(g, cell);
+    if (g->config->refine && cell->is_of_uneven && levels > 0) {
+        const clast_status status = each_block(g, cell, levels, add_cell);
+        g->n_group += 1 << (g->d * (levels - 1));
+        return status;
+    }
+    node whole = *cell;
+    whole.group = cell->is_of_uneven ? -2 - g->n_untested++ : -1;
+    return add_cell(g, &whole);
 }
 
 static void number_points(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -301,7 +315,9 @@ clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
               (long long)n);
     CLX_TRY(clx_alloc(&g.point, n, sizeof *g.point));
     for (int levels = 1; levels <= 2; ++levels) {
-        g.limit[levels] = critical(0.5 * config->level, (double)((1 << (d * levels)) - 1));
+        const double freedom = (double)((1 << (d * levels)) - 1);
+        g.limit[0][levels] = critical(0.5 * config->level, freedom);
+        g.limit[1][levels] = critical(0.5 * config->root_level, freedom);
     }
     clx_parallel_for(n, POINTS_A_BLOCK, take_keys, &g);
     CLX_TRY(clx_sort_keyed(g.point, n));
@@ -342,5 +358,6 @@ void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells)
     clx_free(cells->high);
     clx_free(cells->count);
     clx_free(cells->key);
+    clx_free(cells->group);
     *cells = (clx_uniformity_tree_cells){0};
 }

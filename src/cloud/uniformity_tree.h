@@ -8,11 +8,14 @@ typedef struct clx_uniformity_tree_cells {
     int64_t capacity;
     double (*low)[3], (*high)[3];
     int64_t *count;
-    uint64_t *key; ///< [n] Morton code of the low corner, ascending
+    uint64_t *key;  ///< [n] Morton code of the low corner, ascending
+    int32_t *group; ///< [n] >= 0: the 2^d halves of one box share a number; -1: a whole that was
+                    ///< found uniform; -2, -3 ..: parts that had too few points for a test
 } clx_uniformity_tree_cells;
 
 typedef struct clx_uniformity_tree_config {
-    double level;     ///< of the test in each cell
+    double level;      ///< of the test in each cell
+    double root_level; ///< of that of all points
     int64_t least;    ///< points below which a cell is not tested
     double tolerance; ///< standard deviation of the variable that a cell may keep
     bool refine; ///< below the root, a cell is given as the blocks that its last test looked at
@@ -25,10 +28,11 @@ typedef struct clx_uniformity_tree_points {
     int64_t n;
     int32_t d;
     const double *variable; ///< [n] cells shall be uniform in it too; NAN: not known; or NULL
+    bool is_uneven;         ///< all points together are known to be
 } clx_uniformity_tree_points;
 
-/// Splits [0, 1]^d while the counts of the 2^d halves, or of the 4^d quarters where at least 5
-/// points a block are expected, reject evenness at level / 2; and while the variable's means in the
+/// Splits [0, 1]^d while the counts of the 2^d halves, or of the 4^d quarters where at least a
+/// point a block is expected, reject evenness at level / 2; and while the variable's means in the
 /// halves differ (analysis of variance at level) and it scatters by more than the tolerance.
 ///
 /// @param of_point  [n] cell of each point

@@ -171,10 +171,12 @@ static int64_t search_series(const clast_table *search, const double *ratio, int
          "pass 6, lower"}};
     const double *pass = clast_table_numbers(search, "pass");
     const double *is_lower = clast_table_numbers(search, "is_lower_search");
-    const double *x = clast_table_numbers(search, is_lower[begin] > 0.0 ? "lower" : "lambda");
+    const double *lambda = clast_table_numbers(search, "lambda");
+    const double *x = is_lower[begin] > 0.0 ? clast_table_numbers(search, "lower") : lambda;
     const int k = (int)pass[begin] - 1;
     int64_t end = begin;
-    while (end < search->n_row && pass[end] == pass[begin] && is_lower[end] == is_lower[begin]) {
+    while (end < search->n_row && pass[end] == pass[begin] && is_lower[end] == is_lower[begin] &&
+           (is_lower[end] == 0.0 || lambda[end] == lambda[begin])) {
         ++end;
     }
     series[0] = (clast_series){.kind = CLAST_SERIES_LINE,
@@ -198,7 +200,9 @@ static clast_status draw_score(const clast_decomposition *r, const char *path)
     const double *pass = clast_table_numbers(&r->search, "pass");
     const double *score = clast_table_numbers(&r->search, "score");
     const double *ideal = clast_table_numbers(&r->search, "ideal_score");
-    clast_series series[4 * MAX_PASS_DRAWN];
+    const double *is_lower = clast_table_numbers(&r->search, "is_lower_search");
+    const double *lambda = clast_table_numbers(&r->search, "lambda");
+    clast_series series[4 * MAX_PASS_DRAWN + 2]; // and one that is not kept
     int32_t n_series = 0;
     double *ratio = NULL;
     CLX_TRY(clx_alloc(&ratio, r->search.n_row, sizeof *ratio));
@@ -206,8 +210,11 @@ static clast_status draw_score(const clast_decomposition *r, const char *path)
         ratio[i] = score[i] / ideal[i];
     }
     for (int64_t begin = 0; begin < r->search.n_row && pass[begin] <= MAX_PASS_DRAWN;) {
+        // of a joint search, the lower thresholds beside the upper one that was chosen
+        const bool is_drawn =
+            is_lower[begin] == 0.0 || lambda[begin] == r->pass[(int)pass[begin] - 1].lambda;
         begin = search_series(&r->search, ratio, begin, &series[n_series]);
-        n_series += 2;
+        n_series += is_drawn ? 2 : 0;
     }
     const clast_chart chart = {.x = {.label = "threshold: density over the mean (-)"},
                                .y = {.label = "expected score over the ideal (-)"},

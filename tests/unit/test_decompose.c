@@ -257,6 +257,44 @@ static void a_lower_threshold_is_searched_like_the_upper_one(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
+/* Both thresholds at once: the pair found is the nearest of all pairs to its ideal score, so never
+ * farther than the one found one after the other; on one of these sets another pair is nearer. */
+static void both_thresholds_are_searched_jointly(void **state)
+{
+    (void)state;
+    static const char *const set_name[3] = {"s2_n500", "f2_n500", "h2_n5000"};
+    int n_nearer = 0;
+    for (int k = 0; k < 3; ++k) {
+        const clast_cloud cloud = cloud_of(set_name[k]);
+        double off[2];
+        int64_t n_row[2];
+        for (int way = 0; way < 2; ++way) {
+            clast_decompose_config c = config_of(square);
+            clast_decomposition r = {0};
+            double nearest = INFINITY;
+            set(&c, "variant", "fast");
+            set(&c, "lower", way == 0 ? "search" : "joint");
+            CHECK_OK(clast_decompose(&cloud, &c, &r));
+            off[way] = fabs(r.pass[0].score / r.pass[0].ideal - 1.0);
+            n_row[way] = r.search.n_row;
+            for (int64_t i = 0; i < r.search.n_row; ++i) {
+                nearest = fmin(nearest, fabs(clast_table_numbers(&r.search, "score")[i] /
+                                                 clast_table_numbers(&r.search, "ideal_score")[i] -
+                                             1.0));
+            }
+            CHECK_REL(off[way], nearest, 1e-14);
+            if (way == 1) {
+                assert_int_equal(n_row[1], r.pass[0].n_lambda * (1 + r.pass[0].n_lower));
+            }
+            clast_decomposition_free(&r);
+            clast_fields_free(clast_decompose_fields, &c);
+        }
+        assert_true(off[1] <= off[0] && n_row[1] >= n_row[0]);
+        n_nearer += off[1] < off[0] ? 1 : 0;
+    }
+    assert_true(n_nearer >= 1);
+}
+
 /* Bins with exactly the threshold's count change sides, no others. */
 static void strict_thresholds_leave_ties_ambient(void **state)
 {
@@ -351,6 +389,7 @@ int main(void)
         cmocka_unit_test(paper_prints_what_the_paper_printed),
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
         cmocka_unit_test(a_lower_threshold_is_searched_like_the_upper_one),
+        cmocka_unit_test(both_thresholds_are_searched_jointly),
         cmocka_unit_test(strict_thresholds_leave_ties_ambient),
         cmocka_unit_test(the_inverse_map_leads_back),
         cmocka_unit_test(every_refused_allocation_is_told),

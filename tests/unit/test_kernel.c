@@ -114,6 +114,40 @@ static void model_kernels_depend_on_monomers_alone(void **state)
     CHECK_REL(clast_kernel_value(mask_of("constant+additive,product"), &m, &a, &b), 152.0, 0.0);
 }
 
+/* A sum of kernels is the sum of the table's rows: radii 1 and 5 um, all six kernels that need no
+ * speeds of the particles, in every combination. */
+static void sums_of_kernels_are_sums_of_the_table(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double row;
+    } row[] = {{"brownian", 1.9388610986826347e-17},        {"shear_laminar", 2.88e-14},
+               {"shear_turbulent", 2.7959413140802069e-14}, {"settling", 9.4487067383464229e-15},
+               {"inertial", 2.0177968379032543e-11},        {"ballistic", 3.3929200658769767e-11}};
+    enum { N_ROW = sizeof row / sizeof row[0] };
+    clast_medium m = water;
+    clast_collider a = sphere(1e-6, 2600.0);
+    clast_collider b = sphere(5e-6, 2600.0);
+    a.speed_rms = 0.1;
+    b.speed_rms = 0.05;
+    a.velocity[1] = 0.3;
+    m.viscosity = 1.002e-3;
+    for (unsigned chosen = 1; chosen < 1U << N_ROW; ++chosen) {
+        char text[200] = "";
+        double sum = 0.0;
+        for (unsigned k = 0; k < N_ROW; ++k) {
+            if ((chosen >> k & 1U) != 0) {
+                (void)snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s",
+                               text[0] != '\0' ? "+" : "", row[k].name);
+                // the table's row takes nu = 1e-6, water here 1.002e-6
+                sum += row[k].row * (k == 2 ? sqrt(1.0 / 1.002) : 1.0);
+            }
+        }
+        CHECK_REL(clast_kernel_value(mask_of(text), &m, &a, &b), sum, 1e-13);
+    }
+}
+
 /* Dahneke's bridge has the continuum and the free-molecular kernel as its ends. */
 static void transition_joins_both_ends(void **state)
 {
@@ -207,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kernels_equal_the_reference_table),
         cmocka_unit_test(model_kernels_depend_on_monomers_alone),
+        cmocka_unit_test(sums_of_kernels_are_sums_of_the_table),
         cmocka_unit_test(transition_joins_both_ends),
         cmocka_unit_test(cloud_turbulence_is_near_saffman_and_turner_for_small_equal_droplets),
         cmocka_unit_test(cloud_turbulence_tends_to_settling),

@@ -1,0 +1,267 @@
+// Events: pairs in each cell, with a cap; in the tree also what its cells hide by being taken as
+// uniform, extrapolated from pairs at two sizes of cells. [docs/theory/decompose.md section 8]
+#include "cloud/events.h"
+
+#include "base/alloc.h"
+#include "cloud/surface.h"
+#include "geom/cut_volume.h"
+#include <math.h>
+
+enum { MOST_PARTS = 8, N_POWER = 4 };
+
+/// A volume whose density is taken as uniform.
+typedef struct {
+    double volume;
+    double power[N_POWER]; ///< sums of powers 1 to 4 of its points' weights
+} part;
+
+typedef struct {
+    const clast_cloud *cloud;
+    const clast_decompose_config *config;
+    const clx_sample *sample;
+    clast_cells *cells;
+    double scale; ///< volume of the domain over the sum of the cells' volumes
+    bool is_printed;
+    bool is_plain;   ///< nothing is extrapolated
+    part *cell;      ///< [cells->n]
+    part *half;      ///< [n_half][2^d] halves of the cells of group -2, -3 ..
+    bool *capped;    ///< [cells->n]
+    double pairs;    ///< sum of K_ij w_i w_j over i != j where no cell is capped
+    double variance; ///< of that sum
+} count;
+
+static void add_weight(part *p, double w)
+{
+    double power = w;
+    for (int k = 0; k < N_POWER; ++k) {
+        p->power[k] += power;
+        power *= w;
+    }
+}
+
+/// Index among the halved cells, -1 for the others.
+static int32_t halved(const clast_cells *cells, int32_t c)
+{
+    return cells->group != NULL && cells->group[c] < -1 ? -2 - cells->group[c] : -1;
+}
+
+/// Which of the cell's 2^d halves holds the point u.
+static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t d)
+{
+    int half = 0;
+    for (int32_t j = 0; j < d; ++j) {
+        half |= u[j] >= 0.5 * (cells->low[c][j] + cells->high[c][j]) ? 1 << j : 0;
+    }
+    return half;
+}
+
+static clast_status fill_parts(count *n)
+{
+    clast_status status = CLAST_OK;
+    const clx_sample *m = n->sample;
+    const int32_t d = n->cloud->dimension;
+    for (int64_t i = 0; i < m->n; ++i) {
+        if (m->number[i] < 0) {
+            continue;
+        }
+        const int32_t c = n->cells->of_point[m->number[i]];
+        const double w = n->cloud->weight != NULL ? n->cloud->weight[m->number[i]] : 1.0;
+        CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,
+                  "the weight of point %lld is %g; it must be a number > 0",
+                  (long long)m->number[i] + 1, w);
+        const int32_t k = halved(n->cells, c);
+        if (k >= 0) {
+            add_weight(&n->half[k << d | half_of(n->cells, c, m->u + i * d, d)], w);
+        }
+        if (n->cloud->weight != NULL) {
+            add_weight(&n->cell[c], w);
+        }
+    }
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        n->cell[c].volume = n->scale * n->cells->volume[c];
+        for (int k = 0; k < N_POWER && n->cloud->weight == NULL; ++k) {
+            n->cell[c].power[k] = (double)n->cells->count[c];
+        }
+        n->cells->weight[c] = n->cell[c].power[0];
+    }
+done:
+    return status;
+}
+
+/// Real volume of half h of a cell of a mesh domain.
+static double cut_half(const clast_domain *domain, const clast_cells *cells, int32_t c, int h)
+{
+    double u[2][3];
+    double corner[2][3];
+    double volume = 1.0;
+    for (int j = 0; j < 3; ++j) {
+        const double middle = 0.5 * (cells->low[c][j] + cells->high[c][j]);
+        u[0][j] = (h >> j & 1) == 0 ? cells->low[c][j] : middle;
+        u[1][j] = (h >> j & 1) == 0 ? middle : cells->high[c][j];
+        volume *= (u[1][j] - u[0][j]) * (domain->high[j] - domain->low[j]);
+    }
+    clast_domain_unmap(domain, u[0], corner[0]);
+    clast_domain_unmap(domain, u[1], corner[1]);
+    return volume * clx_cut_box_share(domain->surface->bvh, corner[0], corner[1]);
+}
+
+static void measure_halves(count *n)
+{
+    const int32_t d = n->cloud->dimension;
+    const clast_domain *domain = n->sample->domain;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        const int32_t k = halved(n->cells, c);
+        for (int h = 0; h < 1 << d && k >= 0; ++h) {
+            n->half[k << d | h].volume = domain->kind == CLAST_DOMAIN_MESH
+                                             ? cut_half(domain, n->cells, c, h)
+                                             : n->cell[c].volume / (1 << d);
+        }
+    }
+}
+
+/// Adds T = sum over i != j of w_i w_j K_ij, K = (4 / V_s - 1 / V) / 3 in the same part s of V and
+/// -1 / (3 V) in different ones: 4/3 of the pairs by parts less 1/3 of those by the whole. Poisson
+/// points: variance 4 sum K_ij K_ik w_i^2 w_j w_k + 2 sum K_ij^2 w_i^2 w_j^2 over distinct points,
+/// without bias. One part: K = 1 / V.
+static void add_pairs(count *n, const part *p, int n_part)
+{
+    part whole = {0};
+    for (int s = 0; s < n_part; ++s) {
+        whole.volume += p[s].volume;
+        for (int k = 0; k < N_POWER; ++k) {
+            whole.power[k] += p[s].power[k];
+        }
+    }
+    const double apart = n_part > 1 ? -1.0 / (3.0 * whole.volume) : 0.0;
+    for (int s = 0; s < n_part; ++s) {
+        if (p[s].power[0] == 0.0) {
+            continue;
+        }
+        const double *w = p[s].power;
+        const double same =
+            n_part > 1 ? (4.0 / p[s].volume - 1.0 / whole.volume) / 3.0 : 1.0 / p[s].volume;
+        const double met = same * w[0] + apart * (whole.power[0] - w[0]);
+        const double met2 = same * same * w[1] + apart * apart * (whole.power[1] - w[1]);
+        const double twice = met2 * w[1] - same * same * w[3];
+        const double thrice = met * met * w[1] - 2.0 * same * met * w[2] + same * same * w[3];
+        n->pairs += met * w[0] - same * w[1];
+        n->variance += 4.0 * (thrice - twice) + 2.0 * twice;
+    }
+}
+
+/// Each cell's events by its own count, uncapped; returns their sum where no cap binds.
+static double count_plain(const count *n)
+{
+    double sum = 0.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        const double *w = n->cell[c].power;
+        const double rate = n->config->beta_dt / n->cell[c].volume;
+        const double wanted =
+            n->is_printed ? rate * w[0] * w[0] : 0.5 * rate * fmax(0.0, w[0] * w[0] - w[1]);
+        n->capped[c] = wanted > 0.5 * w[0];
+        n->cells->events[c] = wanted;
+        sum += n->capped[c] ? 0.0 : wanted;
+    }
+    return sum;
+}
+
+/// Pairs of all cells without a cap: groups and halved cells extrapolated, others as they are.
+static void count_pairs(count *n)
+{
+    const clast_cells *cells = n->cells;
+    const int n_half = 1 << n->cloud->dimension;
+    int size = 1;
+    for (int32_t c = 0; c < cells->n; c += size) {
+        bool any_capped = n->capped[c];
+        size = 1;
+        while (!n->is_plain && cells->group[c] >= 0 && c + size < cells->n && size < MOST_PARTS &&
+               cells->group[c + size] == cells->group[c]) {
+            any_capped = any_capped || n->capped[c + size];
+            ++size;
+        }
+        if (size > 1 && !any_capped) {
+            add_pairs(n, &n->cell[c], size);
+        } else if (!n->is_plain && halved(cells, c) >= 0 && !any_capped) {
+            add_pairs(n, &n->half[(int64_t)halved(cells, c) * n_half], n_half);
+        } else {
+            for (int k = 0; k < size; ++k) {
+                if (!n->capped[c + k]) {
+                    add_pairs(n, &n->cell[c + k], 1);
+                }
+            }
+        }
+    }
+}
+
+/// Shares the extrapolated sum out over the cells whose cap does not bind, in proportion.
+static void share_out(const count *n, double plain, clast_decomposition *r)
+{
+    const double wanted = 0.5 * n->config->beta_dt * n->pairs;
+    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.0, wanted / plain) : 1.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        const double cap = 0.5 * n->cells->weight[c];
+        const double shared = factor * n->cells->events[c];
+        r->n_capped += n->capped[c] || shared > cap ? 1 : 0;
+        n->cells->events[c] = n->capped[c] ? cap : fmin(cap, shared);
+        r->events += n->cells->events[c];
+    }
+    r->smoothing_bias = factor > 0.0 ? 1.0 / factor - 1.0 : 0.0;
+}
+
+/// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the extrapolation
+/// is an assumption: a third of what it adds counts as a standard error.
+static void set_interval(const count *n, clast_decomposition *r)
+{
+    const double rate = n->is_printed ? n->config->beta_dt : 0.5 * n->config->beta_dt;
+    const double added = r->events * r->smoothing_bias;
+    double variance = rate * rate * fmax(0.0, n->variance) + added * added / 9.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
+    }
+    const double reach =
+        r->events > 0.0 ? 1.959963984540054 * sqrt(variance) / r->events : 0.0; // 97.5 %
+    r->events_low = r->events * exp(-reach);
+    r->events_high = r->events * exp(reach);
+}
+
+static clast_status alloc_parts(count *n)
+{
+    clast_status status = CLAST_OK;
+    int64_t n_halved = 0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        n_halved += halved(n->cells, c) >= 0 ? 1 : 0;
+    }
+    CLX_TRY(clx_alloc(&n->cell, n->cells->n, sizeof *n->cell));
+    CLX_TRY(clx_alloc(&n->half, n_halved << n->cloud->dimension, sizeof *n->half));
+    CLX_TRY(clx_alloc(&n->capped, n->cells->n, sizeof *n->capped));
+done:
+    return status;
+}
+
+clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
+                              const clx_sample *sample, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    const clast_domain *domain = sample->domain;
+    count n = {.cloud = cloud,
+               .config = config,
+               .sample = sample,
+               .cells = &result->cells,
+               .scale = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain),
+               .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
+    n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
+    CLX_TRY(alloc_parts(&n));
+    CLX_TRY(fill_parts(&n));
+    measure_halves(&n);
+    const double plain = count_plain(&n);
+    count_pairs(&n);
+    share_out(&n, plain, result);
+    set_interval(&n, result);
+    result->bias_estimate =
+        result->n > 0 ? (double)result->cells.n / (double)result->n : 0.0;
+done:
+    clx_free(n.cell);
+    clx_free(n.half);
+    clx_free(n.capped);
+    return status;
+}
