@@ -1,7 +1,7 @@
 // Error of the event count on clouds whose density f is known, over seeds: mean error (bias), its
 // standard error, root mean square, share of intervals that cover, share of clouds in more than one
-// cell, and the error that is left when the sample's own luck, 2 (mean of f at the points / integral
-// of f^2 - 1), is taken off.
+// cell, and the error that is left when the sample's own luck, 2 (mean of f at the points /
+// integral of f^2 - 1), is taken off.
 //
 //     bench_events [n = 10000] [repeats = 20] [first seed = 1000] [scene, or all] [ways = 1..6]
 //
@@ -321,8 +321,8 @@ static clast_status run(int scene, double mean_n, int n_repeat, uint64_t first, 
     for (int way = 0; way < n_way && status == CLAST_OK; ++way) {
         const double mean = t[way].sum / n_repeat;
         const double left = t[way].left / n_repeat;
-        (void)printf("%s,%.0f,%s,%+.4f,%.4f,%.4f,%.4f,%+.5f,%.5f,%.4f,%.0f,%.4f\n", scenes[scene].name,
-                     mean_n, ways[way].name, mean,
+        (void)printf("%s,%.0f,%s,%+.4f,%.4f,%.4f,%.4f,%+.5f,%.5f,%.4f,%.0f,%.4f\n",
+                     scenes[scene].name, mean_n, ways[way].name, mean,
                      sqrt(fmax(0.0, t[way].squares / n_repeat - mean * mean) / n_repeat),
                      sqrt(t[way].squares / n_repeat), t[way].worst, left,
                      sqrt(fmax(0.0, t[way].left2 / n_repeat - left * left) / n_repeat),

@@ -167,8 +167,9 @@ typedef struct clast_decomposition {
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
-    double smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
-                           ///< off events and all cells' events. 0 where nothing is extrapolated
+    double
+        smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
+                        ///< off events and all cells' events. 0 where nothing is extrapolated
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

@@ -173,8 +173,8 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
                                                config->tree_least, config->variable_tolerance,
                                                config->tree_refine};
     CLX_TRY(take_variable(cloud, m, &variable));
-    const clx_uniformity_tree_points points = {
-        m->u, m->n_test, m->n, d, variable, is_uneven(&result->before, config)};
+    const clx_uniformity_tree_points points = {m->u, m->n_test, m->n,
+                                               d,    variable,  is_uneven(&result->before, config)};
     CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
     CLX_TRY(clx_uniformity_tree_split(&points, &limits, &tree, of_sample));
     CLX_TRY(alloc_cells(cells, tree.n));

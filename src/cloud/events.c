@@ -208,8 +208,8 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
     r->smoothing_bias = factor > 0.0 ? 1.0 / factor - 1.0 : 0.0;
 }
 
-/// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the extrapolation
-/// is an assumption: a third of what it adds counts as a standard error.
+/// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the
+/// extrapolation is an assumption: a third of what it adds counts as a standard error.
 static void set_interval(const count *n, clast_decomposition *r)
 {
     const double rate = n->is_printed ? n->config->beta_dt : 0.5 * n->config->beta_dt;
@@ -257,8 +257,7 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     count_pairs(&n);
     share_out(&n, plain, result);
     set_interval(&n, result);
-    result->bias_estimate =
-        result->n > 0 ? (double)result->cells.n / (double)result->n : 0.0;
+    result->bias_estimate = result->n > 0 ? (double)result->cells.n / (double)result->n : 0.0;
 done:
     clx_free(n.cell);
     clx_free(n.half);

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-// Of 64 blocks the chi-square law holds its level of 0.005 to a factor of 1.5 with one point a block
-// (1.5e6 samples), so those are tested; as cells they are given with 5.
+// Of 64 blocks the chi-square law holds its level of 0.005 to a factor of 1.5 with one point a
+// block (1.5e6 samples), so those are tested; as cells they are given with 5.
 enum { TESTED_LEAST = 1, GIVEN_LEAST = 5, MAX_BLOCK = 64, FEW = 256, POINTS_A_BLOCK = 16384 };
 
 typedef struct {

@@ -16,8 +16,8 @@ typedef struct clx_uniformity_tree_cells {
 typedef struct clx_uniformity_tree_config {
     double level;      ///< of the test in each cell
     double root_level; ///< of that of all points
-    int64_t least;    ///< points below which a cell is not tested
-    double tolerance; ///< standard deviation of the variable that a cell may keep
+    int64_t least;     ///< points below which a cell is not tested
+    double tolerance;  ///< standard deviation of the variable that a cell may keep
     bool refine; ///< below the root, a cell is given as the blocks that its last test looked at
 } clx_uniformity_tree_config;
 

@@ -204,25 +204,25 @@ static void steep_clouds_lose_their_bias_and_the_interval_knows(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
-/* A blob in the middle leaves the halves of the cube even: 150 points, too few for quarters with 5
- * points each, are found by the tests of step 1 and by quarters with a point each. */
+/* A blob in the middle leaves the halves of the cube even: 60 points, too few for quarters, are
+ * found by the tests of step 1; 150 by quarters with two points each. */
 static void a_few_points_about_the_middle_are_found(void **state)
 {
     (void)state;
     enum { N = 150 };
     clast_decompose_config c = config_in_cube();
     clast_decomposition r = {0};
-    const clast_cloud cloud = {.n = N, .dimension = 3, .x = x};
+    clast_cloud cloud = {.n = 60, .dimension = 3, .x = x};
     for (uint64_t i = 0; i < 3 * N; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
         x[i] = cut_normal(&rng, 0.08);
     }
     CHECK_OK(clast_decompose(&cloud, &c, &r));
-    assert_true(r.cells.n > 8);
-    c.tree_root_level = 1e-12; // the tree's own test alone, and it may not
-    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &c, "pearson",
-                             false));
+    assert_true(r.cells.n >= 8);
     clast_decomposition_free(&r);
+    cloud.n = N;
+    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &c, "pearson",
+                             false)); // one test of two votes: the tree's own alone
     CHECK_OK(clast_decompose(&cloud, &c, &r));
     assert_true(r.cells.n > 8);
     clast_decomposition_free(&r);

@@ -162,8 +162,7 @@ static void exact_sum(const double k[3], double t, double exact[2])
             rate[stage][1] = k[0] + 2.0 * k[1] * z[1] + k[2] * z[1] * z[1];
         }
         for (int q = 0; q < 2; ++q) {
-            y[q] += h / 6.0 *
-                    (rate[0][q] + 2.0 * rate[1][q] + 2.0 * rate[2][q] + rate[3][q]);
+            y[q] += h / 6.0 * (rate[0][q] + 2.0 * rate[1][q] + 2.0 * rate[2][q] + rate[3][q]);
         }
     }
     exact[0] = y[0];
@@ -176,9 +175,10 @@ static void sums_of_kernels_meet_their_exact_moments(void **state)
     static const struct {
         const char *name;
         double k[3], t;
-    } sum[] = {{"additive", {0, 1, 0}, 0.7},          {"product", {0, 0, 1}, 0.5},
-               {"constant+additive", {1, 1, 0}, 0.5}, {"constant+product", {1, 0, 1}, 0.4},
-               {"additive+product", {0, 1, 1}, 0.3},  {"constant+additive+product", {1, 1, 1}, 0.25}};
+    } sum[] = {
+        {"additive", {0, 1, 0}, 0.7},          {"product", {0, 0, 1}, 0.5},
+        {"constant+additive", {1, 1, 0}, 0.5}, {"constant+product", {1, 0, 1}, 0.4},
+        {"additive+product", {0, 1, 1}, 0.3},  {"constant+additive+product", {1, 1, 1}, 0.25}};
     double exact[2];
     exact_sum(sum[0].k, sum[0].t, exact);
     CHECK_REL(exact[0], exp(-0.7), 1e-10);
@@ -191,8 +191,7 @@ static void sums_of_kernels_meet_their_exact_moments(void **state)
         for (int32_t mode = 0; mode < 2; ++mode) {
             estimate e[N_QUANTITY];
             evolve_repeats(sum[s].name, sum[s].t, mode, e);
-            const double leap =
-                mode == CLAST_COLLISIONS_POISSON ? 0.005 * exact[0] * N_START : 0.0;
+            const double leap = mode == CLAST_COLLISIONS_POISSON ? 0.005 * exact[0] * N_START : 0.0;
             CHECK_ABS(e[0].mean, exact[0] * N_START, 4.0 * e[0].error + 4.0 * exact[0] + leap);
             CHECK_ABS(e[3].mean, exact[1] * N_START,
                       4.0 * e[3].error + 4.0 * exact[1] * exact[1] + leap);
@@ -342,10 +341,10 @@ static double total(const clast_population *p, int power)
 }
 
 /* 400 parcels of the weights 1 .. 4 stand for 1000 particles: with collisions within parcels they
- * are all pairs of 1000, so that number and sum of squares meet the exact solutions of the constant,
- * the additive and the product kernel and of their sum. Every whole particle stays: sums of weight times monomers and of
- * momentum (whole numbers) are the same to the last bit. Tolerance: 4 standard errors, a few over
- * 400 (parcels sample the size distribution), half a leap. */
+ * are all pairs of 1000, so that number and sum of squares meet the exact solutions of the
+ * constant, the additive and the product kernel and of their sum. Every whole particle stays: sums
+ * of weight times monomers and of momentum (whole numbers) are the same to the last bit. Tolerance:
+ * 4 standard errors, a few over 400 (parcels sample the size distribution), half a leap. */
 static void parcels_meet_the_exact_solutions(void **state)
 {
     (void)state;

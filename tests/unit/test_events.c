@@ -1,4 +1,5 @@
-/* Unit: events of tree cells, extrapolated, and their interval equal sums over pairs and triples. */
+/* Unit: events of tree cells, extrapolated, and their interval equal sums over pairs and triples.
+ */
 #include "support.h"
 
 #include "math/rng.h"
@@ -158,8 +159,8 @@ static void every_refused_allocation_is_told(void **state)
     CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
     CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c,
                              "box:0,0,0,1,1,1", false));
-    CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &c, "pearson",
-                             false));
+    CHECK_OK(
+        clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &c, "pearson", false));
     support_refuse_each_allocation(decompose_once, &c);
     clast_fields_free(clast_decompose_fields, &c);
 }
