@@ -1,4 +1,4 @@
-// Decimal texts to doubles and back.
+// Decimal texts to doubles.
 //
 // strtod obeys the locale (a decimal comma breaks every file) and is slow, so numbers are read
 // here. Three ways, each exact: small integers times a power of ten that is a double [Clinger1990];
@@ -7,16 +7,15 @@
 
 #include "base/status.h"
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 __extension__ typedef unsigned __int128 u128;
 
 enum {
-    N_WORD_DIGIT = 19,     // digits that always fit in 64 bits
-    N_BIG_DIGIT = 800,     // 767 digits decide any rounding; the rest counts as "more than"
-    N_LIMB = 160,          // 10^1145, the largest denominator, has 3804 bits
-    POWER_OF_FIVE_MAX = 27 // 5^27 < 2^63
+    N_WORD_DIGIT = 19, // digits that always fit in 64 bits
+    N_BIG_DIGIT = 800, // 767 digits decide any rounding; the rest counts as "more than"
+    N_LIMB = 160       // 10^1145, the largest denominator, has 3804 bits
 };
 
 typedef struct {
@@ -257,56 +256,32 @@ static double convert_big(const decimal *d)
     return round_word(q, r.n > 0, (int64_t)k - 63);
 }
 
-const char *clx_number_parse(const char *text, const char *end, double *value)
+double clx_number_scaled(uint64_t word, int exponent)
 {
     static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    CLAST_ASSERT(word > 0 && abs(exponent) <= CLX_NUMBER_POWER);
+    if (word <= (uint64_t)1 << 53 && abs(exponent) <= 22) {
+        return exponent < 0 ? (double)word / ten[-exponent] : (double)word * ten[exponent];
+    }
+    return convert_wide(word, exponent);
+}
+
+const char *clx_number_parse(const char *text, const char *end, double *value)
+{
     decimal d;
     const char *after = scan(text, end, &d);
     if (after == NULL) {
         return NULL;
     }
     double v = 0.0;
-    const bool exact_word = d.n_digit <= N_WORD_DIGIT;
-    if (d.n_digit == 0) {
-        v = 0.0;
-    } else if (exact_word && d.word <= (uint64_t)1 << 53 && d.exponent >= -22 && d.exponent <= 22) {
-        v = d.exponent < 0 ? (double)d.word / ten[-d.exponent] : (double)d.word * ten[d.exponent];
-    } else if (exact_word && d.exponent >= -POWER_OF_FIVE_MAX && d.exponent <= POWER_OF_FIVE_MAX) {
-        v = convert_wide(d.word, (int)d.exponent);
-    } else {
+    if (d.n_digit > 0 && d.n_digit <= N_WORD_DIGIT && d.exponent >= -CLX_NUMBER_POWER &&
+        d.exponent <= CLX_NUMBER_POWER) {
+        v = clx_number_scaled(d.word, (int)d.exponent);
+    } else if (d.n_digit > 0) {
         v = convert_big(&d);
     }
     *value = d.is_negative ? -v : v;
     return after;
-}
-
-/// A locale may print another decimal point, of several bytes: put '.' there.
-static int plain_point(char *text)
-{
-    char *out = text;
-    for (const char *p = text; *p != '\0'; ++p) {
-        if (is_digit(*p) || strchr("+-einfa", *p) != NULL) {
-            *out++ = *p;
-        } else if (out == text || out[-1] != '.') {
-            *out++ = '.';
-        }
-    }
-    *out = '\0';
-    return (int)(out - text);
-}
-
-int clx_number_format(double value, char text[CLX_NUMBER_SIZE])
-{
-    int n = 0;
-    for (int digits = 15; digits <= 17; ++digits) {
-        (void)snprintf(text, CLX_NUMBER_SIZE, "%.*g", digits, value);
-        n = plain_point(text);
-        double back = 0.0;
-        if (clx_number_parse(text, text + n, &back) != NULL && back == value) {
-            break;
-        }
-    }
-    return n;
 }

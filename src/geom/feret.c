@@ -9,6 +9,7 @@
 // border of their common region is an arc on the walk.   [HouleToussaint1988; docs/theory/form.md]
 #include "geom/hull_body.h"
 
+#include "base/alloc.h"
 #include "math/vec3.h"
 
 typedef struct {
@@ -134,34 +135,52 @@ static void walk_edge(feret_walk *w, const clx_hull_body_edge *edge, int32_t opp
     }
 }
 
-static void support_against(const clx_hull_body *body, int32_t face, int32_t *vertex)
+/// The vertex farthest against the normal of each face, each search from the last one's end.
+static void find_opposite(const clx_hull_body *body, int32_t *opposite)
 {
-    double back[3];
-    v3_scale(back, -1.0, body->normal[face]);
-    *vertex = clx_hull_body_support(body, back, *vertex);
+    int32_t at = 0;
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        double back[3];
+        v3_scale(back, -1.0, body->normal[f]);
+        at = clx_hull_body_support(body, back, at);
+        opposite[f] = at;
+    }
 }
 
-clx_feret clx_hull_body_feret(const clx_hull_body *body)
+/// Planes on a face, the first time it is met.
+static void try_face(feret_walk *w, int32_t face, const int32_t *opposite, bool *is_tried)
 {
+    if (!is_tried[face]) {
+        is_tried[face] = true;
+        try_planes(w, w->body->normal[face], w->body->face[face][0], opposite[face]);
+    }
+}
+
+clast_status clx_hull_body_feret(const clx_hull_body *body, clx_feret *feret)
+{
+    clast_status status = CLAST_OK;
     feret_walk w = {.body = body, .longest2 = 0.0, .shortest = INFINITY};
-    clx_feret feret = {0};
-    int32_t opposite = 0;
+    int32_t *opposite = NULL;
+    bool *is_tried = NULL;
+    CLX_TRY(clx_alloc(&opposite, body->n_face, sizeof *opposite));
+    CLX_TRY(clx_alloc(&is_tried, body->n_face, sizeof *is_tried));
+    find_opposite(body, opposite);
     for (int32_t e = 0; e < body->n_edge; ++e) {
         const clx_hull_body_edge *edge = &body->edge[e];
-        support_against(body, edge->face[0], &opposite);
-        try_planes(&w, body->normal[edge->face[0]], edge->vert[0], opposite);
-        walk_edge(&w, edge, opposite);
-        support_against(body, edge->face[1], &opposite);
-        try_planes(&w, body->normal[edge->face[1]], edge->vert[0], opposite);
+        try_face(&w, edge->face[0], opposite, is_tried);
+        walk_edge(&w, edge, opposite[edge->face[0]]);
+        try_face(&w, edge->face[1], opposite, is_tried);
     }
-    feret.longest = sqrt(w.longest2);
-    feret.n_longest = w.n_pair;
+    *feret = (clx_feret){.longest = sqrt(w.longest2), .n_longest = w.n_pair};
     for (int32_t i = 0; i < w.n_pair; ++i) {
-        double *axis = feret.longest_axis[i];
+        double *axis = feret->longest_axis[i];
         v3_sub(axis, body->vert[w.pair[i][1]], body->vert[w.pair[i][0]]);
         (void)v3_unit(axis, axis);
     }
-    v3_copy(feret.shortest_axis, w.axis);
-    feret.shortest = clx_hull_body_width(body, w.axis);
-    return feret;
+    v3_copy(feret->shortest_axis, w.axis);
+    feret->shortest = clx_hull_body_width(body, w.axis);
+done:
+    clx_free(opposite);
+    clx_free(is_tried);
+    return status;
 }

@@ -16,8 +16,8 @@ void clx_hull_body_free(clx_hull_body *body)
 {
     clx_free(body->vert);
     clx_free(body->face);
-    clx_free(body->across);
-    clx_free(body->face_at);
+    clx_free(body->twin);
+    clx_free(body->half_at);
     clx_free(body->normal);
     clx_free(body->area);
     clx_free(body->edge);
@@ -34,8 +34,8 @@ static clast_status reserve(const clx_hull_inc *hull, clx_hull_body *body)
     body->n_edge = hull->n_facet / 2 * 3; // closed: each face has three halves of edges
     CLX_TRY(clx_alloc(&body->vert, body->n_vert, sizeof *body->vert));
     CLX_TRY(clx_alloc(&body->face, body->n_face, sizeof *body->face));
-    CLX_TRY(clx_alloc(&body->across, body->n_face, sizeof *body->across));
-    CLX_TRY(clx_alloc(&body->face_at, body->n_vert, sizeof *body->face_at));
+    CLX_TRY(clx_alloc(&body->twin, 4 * (int64_t)body->n_face, sizeof *body->twin));
+    CLX_TRY(clx_alloc(&body->half_at, body->n_vert, sizeof *body->half_at));
     CLX_TRY(clx_alloc(&body->normal, body->n_face, sizeof *body->normal));
     CLX_TRY(clx_alloc(&body->area, body->n_face, sizeof *body->area));
     CLX_TRY(clx_alloc(&body->edge, body->n_edge, sizeof *body->edge));
@@ -119,8 +119,8 @@ static void copy_faces(const clx_hull_inc *hull, const int32_t *vert_number,
             const int32_t from = vert_number[facet->vert[k]];
             const int32_t to = vert_number[facet->vert[(k + 1) % 3]];
             body->face[f][k] = from;
-            body->across[f][k] = face_number[facet->adj[k]];
-            body->face_at[from] = f;
+            body->twin[clx_half_of(f, k)] = face_number[facet->adj[k]]; // as yet: find_twins
+            body->half_at[from] = clx_half_of(f, k);
             if (from < to) {
                 body->edge[n_edge++] =
                     (clx_hull_body_edge){{from, to}, {f, face_number[facet->adj[k]]}};
@@ -129,6 +129,21 @@ static void copy_faces(const clx_hull_inc *hull, const int32_t *vert_number,
         measure_face(body, f);
     }
     CLAST_ASSERT(n_edge == body->n_edge);
+}
+
+/// Turns the faces across into half-edges: the one that begins where this one ends.
+static void find_twins(clx_hull_body *body)
+{
+    for (int32_t f = 0; f < body->n_face; ++f) {
+        for (int k = 0; k < 3; ++k) {
+            const int32_t end = body->face[f][(k + 1) % 3];
+            const int32_t across = body->twin[clx_half_of(f, k)];
+            const int32_t *corner = body->face[across];
+            body->twin[clx_half_of(f, k)] = clx_half_of(across, corner[0] == end   ? 0
+                                                                : corner[1] == end ? 1
+                                                                                   : 2);
+        }
+    }
 }
 
 /// Longest edge of a face: the number of its first corner.
@@ -223,6 +238,7 @@ clast_status clx_hull_body_make(const clast_mesh *mesh, clx_hull_body *body)
     number_slots(&hull, vert_number, face_number);
     copy_vertices(&hull, vert_number, &made);
     copy_faces(&hull, vert_number, face_number, slot_of, &made);
+    find_twins(&made);
     mend_normals(&hull, face_number, slot_of, &made);
     link_neighbours(&made);
     *body = made;

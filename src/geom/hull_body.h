@@ -8,14 +8,26 @@ typedef struct clx_hull_body_edge {
     int32_t face[2];
 } clx_hull_body_edge;
 
+/// Half-edge 4 f + k begins at corner k of face f.
+static inline int32_t clx_half_of(int32_t face, int corner)
+{
+    return 4 * face + corner;
+}
+
+/// The half-edge that follows on the same face.
+static inline int32_t clx_half_after(int32_t half)
+{
+    return (half & 3) == 2 ? half - 2 : half + 1;
+}
+
 /// Convex hull of points, moved so that the middle of its box is the origin; {0} is empty.
 typedef struct clx_hull_body {
     double middle[3]; ///< of the box, in the points' own coordinates
     int32_t n_vert, n_face, n_edge;
     double (*vert)[3];        ///< [n_vert]
     int32_t (*face)[3];       ///< [n_face] counter-clockwise from outside
-    int32_t (*across)[3];     ///< [n_face] faces across the edges that begin at each corner
-    int32_t *face_at;         ///< [n_vert] one of the faces at a vertex
+    int32_t *twin;            ///< [4 n_face] the other half-edge of each half-edge's edge
+    int32_t *half_at;         ///< [n_vert] one of the half-edges that begin at a vertex
     double (*normal)[3];      ///< [n_face] outward, unit; zero where a sliver has none
     double *area;             ///< [n_face]
     clx_hull_body_edge *edge; ///< [n_edge]
@@ -38,9 +50,9 @@ int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[
 /// Caliper width along a unit direction, over all vertices.
 double clx_hull_body_width(const clx_hull_body *body, const double direction[3]);
 
-enum { CLX_DIRECTIONS = 4 };
+enum { CLX_DIRECTIONS = 8 };
 
-/// Widths along four unit directions, and areas of the four shadows: the same bits as one by one.
+/// Widths along eight unit directions, and areas of the eight shadows: the same bits as one by one.
 void clx_hull_body_widths(const clx_hull_body *body, const double direction[CLX_DIRECTIONS][3],
                           double width[CLX_DIRECTIONS]);
 void clx_shadow_areas(const clx_hull_body *body, const double direction[CLX_DIRECTIONS][3],
@@ -59,7 +71,7 @@ typedef struct clx_feret {
 /// The longest caliper joins two vertices, the shortest stands on a face and a vertex or on two
 /// edges; all antipodal pairs are met on a walk along the normals' arcs.  [docs/theory/form.md]
 /// @note O(edges) expected
-clx_feret clx_hull_body_feret(const clx_hull_body *body);
+clast_status clx_hull_body_feret(const clx_hull_body *body, clx_feret *feret);
 
 /// The outline of the shadow along a direction: a convex polygon, counter-clockwise in the plane
 /// with axes u, v.
@@ -93,6 +105,7 @@ typedef struct clx_face_view {
     int32_t face;
     double width;  ///< of the hull along the face's normal
     double shadow; ///< area
+    double least;  ///< width times shadow: no box along the normal is smaller
 } clx_face_view;
 
 typedef struct clx_face_views {

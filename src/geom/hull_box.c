@@ -104,7 +104,7 @@ static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *view
         const clx_face_view *view = &views->view[i];
         const double limit = *n_kept < KEPT ? (double)INFINITY : box_volume(&kept[KEPT - 1]);
         clx_box box;
-        if (view->width * view->shadow >= limit) {
+        if (view->least >= limit) {
             break;
         }
         if (box_along(body, body->normal[view->face], view->width, limit, shadow, &box) &&

@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "math/predicates.h"
 #include <math.h>
+#include <string.h>
 
 enum {
     STAGE_STRICT,  ///< convex, nothing in the ear or on its border
@@ -247,10 +248,14 @@ clast_status clx_polygon_cut(clx_polygon_cutter *c, const double (*vert)[3], int
 {
     clast_status status = CLAST_OK;
     CLAST_ASSERT(n >= 3);
+    *kind = CLX_POLYGON_FAN;
+    if (n == 3) {
+        memcpy(tri[0], corner, sizeof tri[0]);
+        return CLAST_OK;
+    }
     CLX_TRY(reserve(c, n));
     flatten(c, vert, n, corner);
-    *kind = CLX_POLYGON_FAN;
-    if (n == 3 || is_fan(c, n)) {
+    if (is_fan(c, n)) {
         for (int32_t t = 0; t < n - 2; ++t) {
             tri[t][0] = 0;
             tri[t][1] = t + 1;

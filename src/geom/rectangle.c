@@ -6,15 +6,19 @@
 // found is then measured over all corners.
 #include "geom/hull_body.h"
 
-#include <math.h>
+#include "math/lanes.h"
+
+enum { FEW = 64 }; ///< corners up to which trying all edges is the faster way
 
 /// Four calipers: the corner each side touches, in the order along, left, against, right of a turn.
 typedef struct {
     const clx_shadow *outline;
     double tolerance2; ///< square of the length below which an edge is only rounding
     int32_t corner[4];
+    double ahead[4][2];        ///< the edge after each corner, turned back by its quarters
     double best, best_length2; ///< area times the square of the edge's length, and that square
-    double edge[2];            ///< best edge so far, not of unit length
+    double edge[2];            ///< best edge so far, turned back, not of unit length
+    int quarters;              ///< that it was turned back
 } calipers;
 
 static int32_t following(const clx_shadow *s, int32_t i)
@@ -31,22 +35,27 @@ static double reach_along(const clx_shadow *s, int32_t i, const double d[2])
 static void put_on(calipers *c)
 {
     const double(*p)[2] = (const double(*)[2])c->outline->point;
-    int32_t *at = c->corner;
+    int32_t low = 0;
+    int32_t right = 0;
+    int32_t high = 0;
+    int32_t left = 0;
     for (int32_t i = 1; i < c->outline->n; ++i) {
         // low side: least y, of equal ones the last on the way (greatest x); so on around
-        at[0] =
-            p[i][1] < p[at[0]][1] || (p[i][1] == p[at[0]][1] && p[i][0] > p[at[0]][0]) ? i : at[0];
-        at[1] =
-            p[i][0] > p[at[1]][0] || (p[i][0] == p[at[1]][0] && p[i][1] > p[at[1]][1]) ? i : at[1];
-        at[2] =
-            p[i][1] > p[at[2]][1] || (p[i][1] == p[at[2]][1] && p[i][0] < p[at[2]][0]) ? i : at[2];
-        at[3] =
-            p[i][0] < p[at[3]][0] || (p[i][0] == p[at[3]][0] && p[i][1] < p[at[3]][1]) ? i : at[3];
+        const double x = p[i][0];
+        const double y = p[i][1];
+        low = y < p[low][1] || (y == p[low][1] && x > p[low][0]) ? i : low;
+        right = x > p[right][0] || (x == p[right][0] && y > p[right][1]) ? i : right;
+        high = y > p[high][1] || (y == p[high][1] && x < p[high][0]) ? i : high;
+        left = x < p[left][0] || (x == p[left][0] && y < p[left][1]) ? i : left;
     }
+    c->corner[0] = low;
+    c->corner[1] = right;
+    c->corner[2] = high;
+    c->corner[3] = left;
 }
 
 /// The edge that follows a corner, beyond corners that differ by rounding alone.
-static void next_edge(const calipers *c, int32_t *corner, double edge[2])
+CLX_INLINE void next_edge(const calipers *c, int32_t *corner, double edge[2])
 {
     const clx_shadow *s = c->outline;
     for (int32_t step = 0; step < s->n; ++step) {
@@ -61,40 +70,67 @@ static void next_edge(const calipers *c, int32_t *corner, double edge[2])
     }
 }
 
-/// Turns on to the next edge, which then lies in one side: the edge itself, and d, the same as if
-/// that side were the lowest.
-static void turn_on(calipers *c, double edge[2], double d[2])
+/// Turns a vector back by k quarters: (x, y), (y, -x), (-x, -y), (-y, x). Signs are factors, since
+/// branches on k would be mispredicted.
+static void turn_back(int k, const double v[2], double out[2])
 {
-    double e[4][2] = {{0}};
-    for (int k = 0; k < 4; ++k) {
-        next_edge(c, &c->corner[k], e[k]);
-    }
-    // Each turned back by its quarters: (x, y), (y, -x), (-x, -y), (-y, x).
-    const double x[4] = {e[0][0], e[1][1], -e[2][0], -e[3][1]};
-    const double y[4] = {e[0][1], -e[1][0], -e[2][1], e[3][0]};
-    const int low = x[1] * y[0] - y[1] * x[0] > 0.0;
-    const int high = x[3] * y[2] - y[3] * x[2] > 0.0 ? 3 : 2;
-    const int k = x[high] * y[low] - y[high] * x[low] > 0.0 ? high : low;
-    c->corner[k] = following(c->outline, c->corner[k]);
-    edge[0] = e[k][0];
-    edge[1] = e[k][1];
-    d[0] = x[k];
-    d[1] = y[k];
+    static const double sign[4][2] = {{1.0, 1.0}, {1.0, -1.0}, {-1.0, -1.0}, {-1.0, 1.0}};
+    out[0] = sign[k][0] * v[k & 1];
+    out[1] = sign[k][1] * v[1 - (k & 1)];
 }
 
-static void weigh(calipers *c, const double edge[2], const double d[2])
+CLX_INLINE void look_ahead(calipers *c, int k)
 {
-    const clx_shadow *s = c->outline;
-    const double across[2] = {-d[1], d[0]};
+    double edge[2] = {0};
+    next_edge(c, &c->corner[k], edge);
+    turn_back(k, edge, c->ahead[k]);
+}
+
+/// Which of the four edges ahead needs the least turn.
+static int least_turn(const calipers *c)
+{
+    const double(*e)[2] = (const double(*)[2])c->ahead;
+    const int low = e[1][0] * e[0][1] - e[1][1] * e[0][0] > 0.0;
+    const int high = e[3][0] * e[2][1] - e[3][1] * e[2][0] > 0.0 ? 3 : 2;
+    return e[high][0] * e[low][1] - e[high][1] * e[low][0] > 0.0 ? high : low;
+}
+
+/// Keeps the rectangle with a side along d, turned back by k quarters, if it is the least so far.
+static void take(calipers *c, int k, const double d[2], double area)
+{
     const double length2 = d[0] * d[0] + d[1] * d[1];
-    const double along = reach_along(s, c->corner[1], d) - reach_along(s, c->corner[3], d);
-    const double up = reach_along(s, c->corner[2], across) - reach_along(s, c->corner[0], across);
-    const double area = along * up;
     if (length2 > c->tolerance2 && area * c->best_length2 < c->best * length2) {
         c->best = area;
         c->best_length2 = length2;
-        c->edge[0] = edge[0];
-        c->edge[1] = edge[1];
+        c->edge[0] = d[0];
+        c->edge[1] = d[1];
+        c->quarters = k;
+    }
+}
+
+/// Weighs the rectangle with a side along d, the edge just passed by caliper k.
+static void weigh(calipers *c, int k, const double d[2])
+{
+    const clx_shadow *s = c->outline;
+    const double across[2] = {-d[1], d[0]};
+    const double along = reach_along(s, c->corner[1], d) - reach_along(s, c->corner[3], d);
+    const double up = reach_along(s, c->corner[2], across) - reach_along(s, c->corner[0], across);
+    take(c, k, d, along * up);
+}
+
+/// Meets every edge of the outline once. Of the four calipers one moves at a time, so the edges
+/// ahead of the other three stay.
+static void turn_around(calipers *c)
+{
+    for (int k = 0; k < 4; ++k) {
+        look_ahead(c, k);
+    }
+    for (int32_t i = 0; i < c->outline->n; ++i) {
+        const int k = least_turn(c);
+        const double d[2] = {c->ahead[k][0], c->ahead[k][1]};
+        c->corner[k] = following(c->outline, c->corner[k]);
+        weigh(c, k, d);
+        look_ahead(c, k);
     }
 }
 
@@ -110,6 +146,72 @@ static double width_along(const clx_shadow *s, const double d[2])
     return high - low;
 }
 
+enum { N_EDGE = 2 * CLX_LANES }; ///< measured at once, in two rows of lanes
+
+/// One row of edges and the outline's reach along and across them so far.
+typedef struct {
+    clx_lanes x, y, low[2], high[2];
+} edge_row;
+
+CLX_INLINE void begin_row(edge_row *r, const double (*edge)[2])
+{
+    r->x = (clx_lanes){edge[0][0], edge[1][0], edge[2][0], edge[3][0]};
+    r->y = (clx_lanes){edge[0][1], edge[1][1], edge[2][1], edge[3][1]};
+    for (int k = 0; k < 2; ++k) {
+        r->low[k] = lanes_all((double)INFINITY);
+        r->high[k] = lanes_all(-(double)INFINITY);
+    }
+}
+
+CLX_INLINE void reach_row(edge_row *r, const double p[2])
+{
+    const clx_lanes along = p[0] * r->x + p[1] * r->y;
+    const clx_lanes across = p[1] * r->x - p[0] * r->y;
+    r->low[0] = lanes_lesser(along, r->low[0]);
+    r->low[1] = lanes_lesser(across, r->low[1]);
+    r->high[0] = lanes_pick(along > r->high[0], along, r->high[0]);
+    r->high[1] = lanes_pick(across > r->high[1], across, r->high[1]);
+}
+
+/// Areas of the rectangles along the edges, times the squares of their lengths: every corner is
+/// looked at, without a branch to mispredict.
+CLX_FOR_EACH_MACHINE
+static void measure_edges(int32_t n, const double (*point)[2], const double (*edge)[2],
+                          double area[N_EDGE])
+{
+    edge_row row[2];
+    begin_row(&row[0], edge);
+    begin_row(&row[1], edge + CLX_LANES);
+    for (int32_t i = 0; i < n; ++i) {
+        reach_row(&row[0], point[i]);
+        reach_row(&row[1], point[i]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        lanes_store(area + (size_t)k * CLX_LANES,
+                    (row[k].high[0] - row[k].low[0]) * (row[k].high[1] - row[k].low[1]));
+    }
+}
+
+/// The same by every edge against every corner: n^2, but for few corners faster than calipers.
+static void try_all(calipers *c)
+{
+    const clx_shadow *s = c->outline;
+    for (int32_t i = 0; i < s->n; i += N_EDGE) {
+        double edge[N_EDGE][2];
+        double area[N_EDGE];
+        for (int k = 0; k < N_EDGE; ++k) { // the last one again where there are no more
+            const int32_t from = i + k < s->n ? i + k : s->n - 1;
+            const int32_t to = following(s, from);
+            edge[k][0] = s->point[to][0] - s->point[from][0];
+            edge[k][1] = s->point[to][1] - s->point[from][1];
+        }
+        measure_edges(s->n, (const double(*)[2])s->point, (const double(*)[2])edge, area);
+        for (int k = 0; k < N_EDGE; ++k) {
+            take(c, 0, edge[k], area[k]);
+        }
+    }
+}
+
 bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double limit, double side[2],
                           double edge[2])
 {
@@ -117,19 +219,20 @@ bool clx_shadow_rectangle(const clx_shadow *shadow, double tolerance, double lim
                   .tolerance2 = tolerance * tolerance,
                   .best = (double)INFINITY,
                   .best_length2 = 1.0};
-    put_on(&c);
-    for (int32_t i = 0; i < shadow->n; ++i) {
-        double touched[2] = {0};
-        double d[2] = {0};
-        turn_on(&c, touched, d);
-        weigh(&c, touched, d);
+    if (shadow->n <= FEW) {
+        try_all(&c);
+    } else {
+        put_on(&c);
+        turn_around(&c);
     }
     if (!(c.best < (double)INFINITY) || c.best > (1.0 + 1e-9) * limit * c.best_length2) {
         return false;
     }
     const double length = sqrt(c.best_length2);
-    side[0] = c.edge[0] / length;
-    side[1] = c.edge[1] / length;
+    double touched[2]; // the edge itself: turned on again by as many quarters
+    turn_back((4 - c.quarters) % 4, c.edge, touched);
+    side[0] = touched[0] / length;
+    side[1] = touched[1] / length;
     edge[0] = width_along(shadow, side);
     edge[1] = width_along(shadow, (const double[2]){-side[1], side[0]});
     return true;

@@ -126,30 +126,21 @@ static int turned(const clx_hull_body *body, int32_t f, const double direction[3
     return fabs(side) < DOUBTFUL ? 0 : side > 0.0 ? 1 : -1;
 }
 
-static int corner_of(const clx_hull_body *body, int32_t f, int32_t vertex)
+/// Turns around the vertex where *half begins, counter-clockwise, to the edge out of it that has a
+/// face in the light at its left and one in the dark at its right. False when a face is doubtful,
+/// or when there is no such edge: the vertex is not on the outline.
+static bool next_rim(const clx_hull_body *body, const double direction[3], int32_t *half)
 {
-    const int32_t *corner = body->face[f];
-    return corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2;
-}
-
-/// Turns around a vertex, counter-clockwise from face *f on, to the edge out of it that has a face
-/// in the light at its left and one in the dark at its right. False when a face is doubtful, or
-/// when there is no such edge: the vertex is not on the outline.
-static bool next_rim(const clx_hull_body *body, const double direction[3], int32_t vertex,
-                     int32_t *f, int *k)
-{
-    int32_t at = *f;
-    int here = turned(body, at, direction);
+    int32_t at = *half;
+    int here = turned(body, at >> 2, direction);
     for (int32_t step = 0; here != 0 && step <= body->n_face; ++step) {
-        const int corner = corner_of(body, at, vertex);
-        const int32_t right = body->across[at][corner];
-        const int there = turned(body, right, direction);
+        const int32_t twin = body->twin[at];
+        const int there = turned(body, twin >> 2, direction);
         if (here > 0 && there < 0) {
-            *f = at;
-            *k = corner;
+            *half = at;
             return true;
         }
-        at = right;
+        at = clx_half_after(twin);
         here = there;
     }
     return false;
@@ -160,17 +151,17 @@ static bool next_rim(const clx_hull_body *body, const double direction[3], int32
 static bool walk_outline(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
 {
     const int32_t first = clx_hull_body_support(body, shadow->u, shadow->start);
-    int32_t f = body->face_at[first];
+    int32_t half = body->half_at[first];
     int32_t at = first;
-    int k = 0;
     shadow->start = first;
     shadow->n = 0;
     do {
-        if (shadow->n >= body->n_vert || !next_rim(body, direction, at, &f, &k)) {
+        if (shadow->n >= body->n_vert || !next_rim(body, direction, &half)) {
             return false;
         }
         emit_point(body, at, shadow);
-        at = body->face[f][(k + 1) % 3];
+        half = clx_half_after(half);
+        at = body->face[half >> 2][half & 3];
     } while (at != first);
     return shadow->n >= 3;
 }
@@ -236,20 +227,19 @@ static double descend(const clx_hull_body *body, const double start[3])
         double u[3];
         double v[3];
         double next[3];
-        double trial[2 * CLX_DIRECTIONS][3];
-        double area[2 * CLX_DIRECTIONS];
+        double trial[CLX_DIRECTIONS][3];
+        double area[CLX_DIRECTIONS];
         bool better = false;
         v3_copy(next, n);
         v3_frame(n, u, v);
-        for (int k = 0; k < 8; ++k) {
+        for (int k = 0; k < CLX_DIRECTIONS; ++k) {
             const double turn = 0.25 * CLAST_PI * k;
             v3_axpy(trial[k], n, tan(angle) * cos(turn), u);
             v3_axpy(trial[k], trial[k], tan(angle) * sin(turn), v);
             (void)v3_unit(trial[k], trial[k]);
         }
         clx_shadow_areas(body, (const double(*)[3])trial, area);
-        clx_shadow_areas(body, (const double(*)[3])(trial + CLX_DIRECTIONS), area + CLX_DIRECTIONS);
-        for (int k = 0; k < 8; ++k) {
+        for (int k = 0; k < CLX_DIRECTIONS; ++k) {
             if (area[k] < best) {
                 best = area[k];
                 better = true;
@@ -268,10 +258,8 @@ static int compare_views(const void *a, const void *b)
 {
     const clx_face_view *p = a;
     const clx_face_view *q = b;
-    const double x = p->width * p->shadow;
-    const double y = q->width * q->shadow;
-    if (x != y) {
-        return x < y ? -1 : 1;
+    if (p->least != q->least) {
+        return p->least < q->least ? -1 : 1;
     }
     return p->face < q->face ? -1 : 1;
 }
@@ -292,6 +280,7 @@ static void measure_views(const clx_hull_body *body, clx_face_views *views)
         for (int k = 0; k < CLX_DIRECTIONS && i + k < views->n; ++k) {
             views->view[i + k].width = width[k];
             views->view[i + k].shadow = shadow[k];
+            views->view[i + k].least = width[k] * shadow[k];
         }
     }
 }

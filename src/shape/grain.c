@@ -97,12 +97,13 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
     clast_status status = CLAST_OK;
     clx_hull_body body = {0};
     clx_face_views views = {0};
+    clx_feret feret;
     clx_box box;
     double(*frame)[3] = grain->axes[CLAST_AXES_ELLIPSOID].direction;
     clast_axes *feret_axes = &grain->axes[CLAST_AXES_FERET];
     clast_axes *principal = &grain->axes[CLAST_AXES_PRINCIPAL];
     CLX_TRY(clx_hull_body_make(points, &body));
-    const clx_feret feret = clx_hull_body_feret(&body);
+    CLX_TRY(clx_hull_body_feret(&body, &feret));
     CLX_TRY(clx_hull_body_fitted_box(&body, &feret, &box));
     take_box(&box, &grain->axes[CLAST_AXES_FITTED]);
     *feret_axes = grain->axes[CLAST_AXES_FITTED];

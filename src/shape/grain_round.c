@@ -17,70 +17,101 @@ enum { MOST_DEPTH = 12 };
 
 static const double PIECE = 0.01; ///< sr
 
-/// Solid angle of a triangle seen from the origin, signed. [VanOosterom1983]
-static double solid_angle(double p[3][3])
+/// A triangle with its corners' distances from the origin.
+typedef struct {
+    double p[3][3];
+    double r[3];
+} facet;
+
+/// 2 atan2(y, x); for small angles by the series, which is as good and five times as fast.
+static double twice_angle(double y, double x)
 {
-    double n[3];
-    const double r[3] = {v3_norm(p[0]), v3_norm(p[1]), v3_norm(p[2])};
-    v3_cross(n, p[1], p[2]);
-    const double below = r[0] * r[1] * r[2] + v3_dot(p[0], p[1]) * r[2] +
-                         v3_dot(p[1], p[2]) * r[0] + v3_dot(p[2], p[0]) * r[1];
-    return 2.0 * atan2(v3_dot(p[0], n), below);
+    const double small = 0.02; // the first term left out is below 1e-18 of the sum
+    if (x > 0.0 && fabs(y) < small * x) {
+        const double t = y / x;
+        const double t2 = t * t;
+        return 2.0 * t *
+               (1.0 - t2 * (1.0 / 3.0 - t2 * (1.0 / 5.0 - t2 * (1.0 / 7.0 - t2 * (1.0 / 9.0)))));
+    }
+    return 2.0 * atan2(y, x);
 }
 
-/// int of cos(normal, p) over a triangle.
-static double cosine_integral(double p[3][3])
+/// Solid angle of a triangle seen from the origin, signed. [VanOosterom1983]
+static double solid_angle(const facet *f)
+{
+    double n[3];
+    const double *r = f->r;
+    v3_cross(n, f->p[1], f->p[2]);
+    const double below = r[0] * r[1] * r[2] + v3_dot(f->p[0], f->p[1]) * r[2] +
+                         v3_dot(f->p[1], f->p[2]) * r[0] + v3_dot(f->p[2], f->p[0]) * r[1];
+    return twice_angle(v3_dot(f->p[0], n), below);
+}
+
+/// int of cos(normal, p) over a triangle of this solid angle.
+static double cosine_integral(const facet *f, double angle)
 {
     double u[3];
     double v[3];
     double n[3];
-    v3_sub(u, p[1], p[0]);
-    v3_sub(v, p[2], p[0]);
+    v3_sub(u, f->p[1], f->p[0]);
+    v3_sub(v, f->p[2], f->p[0]);
     v3_cross(n, u, v);
     if (!v3_unit(n, n)) {
         return 0.0;
     }
-    const double h = v3_dot(n, p[0]);
+    const double h = v3_dot(n, f->p[0]);
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
-        const double *a = p[k];
-        const double *b = p[(k + 1) % 3];
+        const double *a = f->p[k];
+        const double *b = f->p[(k + 1) % 3];
         double edge[3];
         double out[3];
         v3_sub(edge, b, a);
         const double length = v3_norm(edge);
         v3_cross(out, edge, n); // outward in the plane, of the edge's length
-        const double reach = v3_norm(a) + v3_norm(b);
+        const double reach = f->r[k] + f->r[(k + 1) % 3];
         if (length > 0.0 && reach > length) {
             sum += v3_dot(out, a) / length * log((reach + length) / (reach - length));
         }
     }
-    return h * (sum - h * solid_angle(p));
+    return h * (sum - h * angle);
+}
+
+static void add_angular(const clast_grain *grain, const facet *f, double signed_angle, int depth,
+                        double sum[2]);
+
+/// The same for the four quarters.
+static void add_quarters(const clast_grain *grain, const facet *f, int depth, double sum[2])
+{
+    facet middle;
+    for (int k = 0; k < 3; ++k) {
+        v3_add(middle.p[k], f->p[k], f->p[(k + 1) % 3]);
+        v3_scale(middle.p[k], 0.5, middle.p[k]);
+        middle.r[k] = v3_norm(middle.p[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        facet corner;
+        v3_copy(corner.p[0], f->p[k]);
+        v3_copy(corner.p[1], middle.p[k]);
+        v3_copy(corner.p[2], middle.p[(k + 2) % 3]);
+        v3_set(corner.r, f->r[k], middle.r[k], middle.r[(k + 2) % 3]);
+        add_angular(grain, &corner, solid_angle(&corner), depth, sum);
+    }
+    add_angular(grain, &middle, solid_angle(&middle), depth, sum);
 }
 
 /// Adds |r - r_e| / r_e times solid angle, and the solid angle, for one triangle.
-static void add_angular(const clast_grain *grain, double p[3][3], int depth, double sum[2])
+static void add_angular(const clast_grain *grain, const facet *f, double signed_angle, int depth,
+                        double sum[2])
 {
-    const double angle = fabs(solid_angle(p));
+    const double angle = fabs(signed_angle);
     if (angle > PIECE && depth < MOST_DEPTH) {
-        double mid[3][3];
-        for (int k = 0; k < 3; ++k) {
-            v3_add(mid[k], p[k], p[(k + 1) % 3]);
-            v3_scale(mid[k], 0.5, mid[k]);
-        }
-        for (int k = 0; k < 3; ++k) {
-            double corner[3][3];
-            v3_copy(corner[0], p[k]);
-            v3_copy(corner[1], mid[k]);
-            v3_copy(corner[2], mid[(k + 2) % 3]);
-            add_angular(grain, corner, depth + 1, sum);
-        }
-        add_angular(grain, mid, depth + 1, sum);
+        add_quarters(grain, f, depth + 1, sum);
         return;
     }
     double middle[3];
     for (int i = 0; i < 3; ++i) {
-        middle[i] = (p[0][i] + p[1][i] + p[2][i]) / 3.0;
+        middle[i] = (f->p[0][i] + f->p[1][i] + f->p[2][i]) / 3.0;
     }
     const double r = v3_norm(middle);
     if (r > 0.0) {
@@ -96,12 +127,14 @@ void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
     double cosine = 0.0;
     double sum[2] = {0};
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        double p[3][3];
+        facet f;
         for (int k = 0; k < 3; ++k) {
-            v3_sub(p[k], mesh->vert[mesh->tri[t][k]], grain->centroid);
+            v3_sub(f.p[k], mesh->vert[mesh->tri[t][k]], grain->centroid);
+            f.r[k] = v3_norm(f.p[k]);
         }
-        cosine += cosine_integral(p);
-        add_angular(grain, p, 0, sum);
+        const double angle = solid_angle(&f);
+        cosine += cosine_integral(&f, angle);
+        add_angular(grain, &f, angle, 0, sum);
     }
     grain->roundness = cosine / grain->area;
     grain->angularity = sum[0] / sum[1];

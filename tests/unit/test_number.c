@@ -118,6 +118,66 @@ static void long_integers_with_exponents_round_as_strtod(void **state)
     }
 }
 
+/* What clx_number_format is, said with printf. */
+static void plain_format(double value, char text[CLX_NUMBER_SIZE])
+{
+    for (int digits = 15; digits <= 17; ++digits) {
+        (void)snprintf(text, CLX_NUMBER_SIZE, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            return;
+        }
+    }
+}
+
+static void same_as_printf(double value)
+{
+    char text[CLX_NUMBER_SIZE];
+    char plain[CLX_NUMBER_SIZE];
+    for (int sign = 0; sign < 2; ++sign) {
+        const double v = sign == 0 ? value : -value;
+        plain_format(v, plain);
+        assert_int_equal(clx_number_format(v, text), strlen(plain));
+        assert_string_equal(text, plain);
+    }
+}
+
+/* Powers of ten and their neighbours, where the number of digits changes; ties; all sizes. */
+static void numbers_are_written_as_printf_would(void **state)
+{
+    (void)state;
+    static const double hard[] = {0.0,
+                                  5e-324,
+                                  1.7976931348623157e308,
+                                  0x1p53,
+                                  0x1p-40,
+                                  0.3,
+                                  1e-11,
+                                  1e15 - 1,
+                                  9.9999999999999995e-5,
+                                  123456789012345680.0};
+    for (size_t i = 0; i < sizeof hard / sizeof hard[0]; ++i) {
+        same_as_printf(hard[i]);
+    }
+    for (int place = -14; place <= 18; ++place) {
+        double below = pow(10.0, place);
+        double above = below;
+        for (int step = 0; step < 200; ++step) {
+            same_as_printf(below);
+            same_as_printf(above);
+            below = nextafter(below, 0.0);
+            above = nextafter(above, INFINITY);
+        }
+    }
+    for (int32_t i = 0; i < 40000; ++i) {
+        clx_rng rng = clx_rng_at(8, CLX_STREAM_TEST, (uint64_t)i);
+        const double u = clx_rng_uniform(&rng);
+        const int place = (int)clx_rng_below(&rng, 34) - 16;
+        same_as_printf(ldexp(u, place * 3));                         /* full mantissas */
+        same_as_printf(floor(1e6 * u) * pow(10.0, place));           /* few digits */
+        same_as_printf(floor(ldexp(u, 20)) * ldexp(1.0, place - 8)); /* ties of the last digit */
+    }
+}
+
 static void words_and_scraps_are_no_numbers(void **state)
 {
     static const char *const texts[] = {"", "-", "+", ".", "-.", "e5", "nan", "inf", "x1"};
@@ -184,6 +244,7 @@ int main(void)
         cmocka_unit_test(half_way_between_doubles_is_decided_by_the_last_of_many_digits),
         cmocka_unit_test(random_numbers_round_as_strtod),
         cmocka_unit_test(long_integers_with_exponents_round_as_strtod),
+        cmocka_unit_test(numbers_are_written_as_printf_would),
         cmocka_unit_test(words_and_scraps_are_no_numbers),
         cmocka_unit_test(decimal_comma_locale_changes_nothing),
     };

@@ -104,6 +104,10 @@ static void shadows_equal_brute_force(void **state)
         check_body(&points);
         clast_mesh_free(&points);
     }
+    clast_mesh many = {0}; /* outlines of some 100 corners: calipers, not every edge */
+    make_points(9, 1500, &many);
+    check_body(&many);
+    clast_mesh_free(&many);
 }
 
 /* Faces upright to rounding, coplanar triangles, corners on one line. */
@@ -128,7 +132,7 @@ static void shadows_of_regular_bodies_equal_brute_force(void **state)
     }
 }
 
-/* Four directions at once give the bits of each alone. */
+/* Eight directions at once give the bits of each alone. */
 static void directions_at_once_equal_one_by_one(void **state)
 {
     (void)state;
