@@ -47,15 +47,16 @@ enum { N_COLUMN = 7 };
 static double value_at(const clast_synthesize_report *r, int column)
 {
     const double value[N_COLUMN] = {r->flatness,          r->elongation, r->amplitude,
-                                    r->roundness,         r->angularity, r->volume,
+                                    r->normal_roundness,  r->angularity, r->volume,
                                     (double)r->n_triangle};
     return value[column];
 }
 
 static clast_status begin_table(int32_t n, clast_table *table)
 {
-    static const char *const name[N_COLUMN] = {"flatness",   "elongation", "amplitude", "roundness",
-                                               "angularity", "volume",     "n_triangle"};
+    static const char *const name[N_COLUMN] = {"flatness",         "elongation", "amplitude",
+                                               "normal_roundness", "angularity", "volume",
+                                               "n_triangle"};
     clast_status status = clast_table_init(table, "grains", n);
     if (status == CLAST_OK) {
         status = clast_table_add_text(table, "file");
@@ -209,7 +210,8 @@ const cli_command cli_mesh_synthesize = {
     .details =
         "Convex hulls of random bodies (spherical harmonics with a power-law spectrum) of at most "
         "--faces\ntriangles, stretched so that flatness, elongation and sieve size of the "
-        "mass-equivalent ellipsoid are met\nexactly. --measure roundness or angularity searches "
+        "mass-equivalent ellipsoid are met\nexactly. --measure normal_roundness or angularity "
+        "searches "
         "the "
         "amplitude until the finished grain measures\n--rough within --tolerance (definitions as "
         "in "

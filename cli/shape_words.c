@@ -46,6 +46,8 @@ static void put_surface(json_t *object, const clast_grain_record *r)
     put_triple(object, "moments", g->moments);
     put_triple(object, "centroid", g->centroid);
     cli_json_number(object, "roundness", g->roundness);
+    cli_json_count(object, "n_outline", g->n_outline);
+    cli_json_number(object, "normal_roundness", g->normal_roundness);
     cli_json_number(object, "angularity", g->angularity);
     cli_json_number(object, "hull_volume", g->hull_volume);
     cli_json_number(object, "hull_area", g->hull_area);
@@ -125,6 +127,19 @@ static const char *unit(const cli_shape_result *shape, int power)
     return shape->in_metres ? metres[power] : "";
 }
 
+/// Wadell's roundness, or why there is none.
+static void roundness_words(const clast_grain *g)
+{
+    if (isfinite(g->roundness)) {
+        (void)printf("roundness          %.3f (Wadell; outline of %d edges)\n", g->roundness,
+                     g->n_outline);
+    } else {
+        (void)printf("roundness          none (Wadell's needs %d triangles and an outline of %d "
+                     "edges)\n",
+                     CLAST_ROUNDNESS_FACES, CLAST_ROUNDNESS_EDGES);
+    }
+}
+
 static void surface_words(const cli_shape_result *shape, const clast_grain_record *r)
 {
     const clast_grain *g = &r->grain;
@@ -142,7 +157,9 @@ static void surface_words(const cli_shape_result *shape, const clast_grain_recor
     }
     (void)putchar('\n');
     (void)printf("sphericity         %.6f\nconvexity          %.6f\n", g->sphericity, g->convexity);
-    (void)printf("roundness          %.6f\nangularity         %.6f\n", g->roundness, g->angularity);
+    roundness_words(g);
+    (void)printf("normal roundness   %.6f\nangularity         %.6f\n", g->normal_roundness,
+                 g->angularity);
     (void)printf("Feret              %.9g greatest, %.9g least%s\n", g->longest, g->shortest,
                  unit(shape, 1));
     (void)printf("projected area     %.9g mean, %.9g least, %.9g greatest%s\n", g->projected_mean,

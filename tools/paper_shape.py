@@ -107,7 +107,7 @@ def cement(report, shared):
             values = [float(row[i]) for i in (7, 8, 11, 14, 15, 16)]
             g = report.series("cement 152", path, int(row[12]), values)
             if path.name in shape:
-                report.add("cement 152", path.name, "roundness (DP)", shape[path.name][11], g["roundness"], None)
+                report.add("cement 152", path.name, "roundness (DP)", shape[path.name][11], g["normal_roundness"], None)
 
 
 def meshes(report, shared):

@@ -73,7 +73,7 @@ CLAST_API void clast_form_factors(double l, double i, double s, double value[CLA
 /// One of them.
 CLAST_API double clast_form_factor_value(clast_form_factor factor, double l, double i, double s);
 
-/// The 13 factors and then their inverses 1/X; an inverse of 0 is infinite.
+/// The 13 factors and then their inverses 1/X; NaN where X is 0 or has no value.
 CLAST_API void clast_form_features(double l, double i, double s,
                                    double value[CLAST_N_FORM_FEATURE]);
 

@@ -47,7 +47,8 @@ CLAST_API clast_status clast_table_parse_csv(const char *name, const void *bytes
                                              clast_csv_report *report);
 
 /// Writes RFC 4180 text: a header of the columns' names (which end in their units), ',', lines that
-/// end in LF, numbers in the fewest digits that read back as the same double, nan and inf as words.
+/// end in LF, numbers in the fewest digits that read back as the same double, NaN (what does not
+/// exist) as empty cells, infinities as inf.
 /// The file appears whole or not at all.
 ///
 /// @return CLAST_E_DISK

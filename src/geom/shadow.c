@@ -197,9 +197,8 @@ void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_s
 }
 
 /// Climbs to a greatest shadow: n becomes the direction of the sum of the face areas turned to it.
-static double climb(const clx_hull_body *body, const double start[3])
+static double climb(const clx_hull_body *body, const double start[3], double n[3])
 {
-    double n[3];
     double best = 0.0;
     v3_copy(n, start);
     for (int step = 0; step < 100; ++step) {
@@ -309,7 +308,7 @@ void clx_face_views_free(clx_face_views *views)
 }
 
 void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
-                         double *least, double *greatest)
+                         double *least, double *greatest, double direction[3])
 {
     const double *low = axis[0];
     const double *high = axis[0];
@@ -328,5 +327,5 @@ void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views,
         }
     }
     *least = descend(body, low);
-    *greatest = climb(body, high);
+    *greatest = climb(body, high, direction);
 }

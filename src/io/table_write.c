@@ -27,14 +27,16 @@ static void put_cell(clx_file *file, const char *text)
     (void)clx_file_write(file, "\"", 1);
 }
 
-static void put_number(clx_file *file, double value)
+/// A number; what does not exist (NaN) is an empty cell, quoted where it is the whole line, which
+/// would be no row else.
+static void put_number(clx_file *file, double value, bool is_alone)
 {
     char text[CLX_NUMBER_SIZE];
-    const int n = clx_number_format(value, text);
-    if (isnan(value)) {
-        (void)clx_file_write(file, "nan", 3); // whatever the sign bit
-    } else {
+    if (!isnan(value)) {
+        const int n = clx_number_format(value, text);
         (void)clx_file_write(file, text, (size_t)n);
+    } else if (is_alone) {
+        put_cell(file, "");
     }
 }
 
@@ -60,7 +62,7 @@ clast_status clast_table_write_csv(const clast_table *table, const char *path)
             const clast_column *column = &table->column[k];
             put_separator(&file, k);
             if (column->number != NULL) {
-                put_number(&file, column->number[row]);
+                put_number(&file, column->number[row], table->n_column == 1);
             } else {
                 put_cell(&file, column->text[row]);
             }

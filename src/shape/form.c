@@ -70,7 +70,8 @@ void clast_form_features(double l, double i, double s, double value[CLAST_N_FORM
 {
     clast_form_factors(l, i, s, value);
     for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
-        value[CLAST_N_FORM_FACTOR + f] = 1.0 / value[f];
+        const double inverse = 1.0 / value[f];
+        value[CLAST_N_FORM_FACTOR + f] = isfinite(inverse) ? inverse : (double)NAN;
     }
 }
 

@@ -5,6 +5,7 @@
 #include "geom/hull.h"
 #include "geom/topology.h"
 #include "math/vec3.h"
+#include "shape/roundness.h"
 #include "shape/shape.h"
 
 #define AXES(id, name, what, source) {name, what, source},
@@ -92,7 +93,7 @@ static void take_box(const clx_box *box, clast_axes *axes)
     }
 }
 
-clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
+clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double lying[3])
 {
     clast_status status = CLAST_OK;
     clx_hull_body body = {0};
@@ -117,7 +118,8 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain)
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
     sort_widths(principal);
-    clx_shadow_extremes(&body, &views, frame, &grain->projected_least, &grain->projected_greatest);
+    clx_shadow_extremes(&body, &views, frame, &grain->projected_least, &grain->projected_greatest,
+                        lying);
     grain->longest = feret.longest;
     grain->shortest = feret.shortest;
     grain->hull_volume = body.volume;
@@ -249,6 +251,7 @@ static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
     clast_status status = CLAST_OK;
     clast_mass mass = {0};
     clast_mesh used = {0};
+    double lying[3];
     double low[3];
     double high[3];
     clast_mesh_bounds(mesh, low, high);
@@ -262,9 +265,10 @@ static clast_status measure_solid(const clast_mesh *mesh, clast_grain *grain)
     }
     CLX_TRY(clx_grain_inertia(grain));
     CLX_TRY(used_vertices(mesh, &used));
-    CLX_TRY(clx_grain_hull(used.n_vert > 0 ? &used : mesh, grain));
+    CLX_TRY(clx_grain_hull(used.n_vert > 0 ? &used : mesh, grain, lying));
     clx_grain_ratios(grain);
     clx_grain_surface_means(mesh, grain);
+    CLX_TRY(clx_roundness(mesh, lying, grain->centroid, &grain->roundness, &grain->n_outline));
 done:
     clast_mesh_free(&used);
     return status;

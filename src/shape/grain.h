@@ -8,8 +8,9 @@
 /// and inertia, which are already in the grain.
 clast_status clx_grain_inertia(clast_grain *grain);
 
-/// Everything that the convex hull of `points` says; needs clx_grain_inertia before.
-clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain);
+/// Everything that the convex hull of `points` says, and the direction of its greatest shadow;
+/// needs clx_grain_inertia before.
+clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double lying[3]);
 
 /// Sphericity, convexity: the ratios of what is in the grain.
 void clx_grain_ratios(clast_grain *grain);
@@ -17,5 +18,6 @@ void clx_grain_ratios(clast_grain *grain);
 /// Radius of the mass-equivalent ellipsoid along a unit direction.
 double clx_grain_ellipsoid_radius(const clast_grain *grain, const double direction[3]);
 
-/// Roundness and angularity of a surface whose centroid, area and ellipsoid are in the grain.
+/// Normal roundness and angularity of a surface whose centroid, area and ellipsoid are in the
+/// grain.
 void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain);

@@ -1,8 +1,8 @@
-// Means over a grain's surface as seen from its centroid: roundness and angularity.
+// Means over a grain's surface as seen from its centroid: normal roundness and angularity.
 //
-// Roundness is the surface integral of cos(normal, ray) = h / |p|, h the distance of the facet's
-// plane. The integral of 1 / |p| over a triangle is the potential of a uniform plate and has a
-// closed form, so cutting triangles flat changes nothing:
+// Normal roundness is the surface integral of cos(normal, ray) = h / |p|, h the distance of the
+// facet's plane. The integral of 1 / |p| over a triangle is the potential of a uniform plate and
+// has a closed form, so cutting triangles flat changes nothing:
 //
 //     int dA / |p| = sum over edges d ln((r1 + r2 + l) / (r1 + r2 - l)) - |h| Omega
 //
@@ -136,6 +136,6 @@ void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
         cosine += cosine_integral(&f, angle);
         add_angular(grain, &f, angle, 0, sum);
     }
-    grain->roundness = cosine / grain->area;
+    grain->normal_roundness = cosine / grain->area;
     grain->angularity = sum[0] / sum[1];
 }

@@ -10,6 +10,7 @@
 #include "math/legendre.h"
 #include "math/vec3.h"
 #include "shape/grain.h"
+#include "shape/roundness.h"
 
 enum { LEAST_NODES = 120, MAX_LEVEL = 8 };
 
@@ -237,6 +238,7 @@ clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degr
     clast_mesh mesh = {0};
     clast_grain made = {0};
     clast_mass mass = {0};
+    double lying[3];
     double area = 0.0;
     CLX_TRY(clast_harmonics_mass(series, degree, &mass, &area));
     CLX_TRY(clast_harmonics_mesh(series, degree, level, &mesh));
@@ -247,8 +249,9 @@ clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degr
         v3_copy(made.inertia[k], mass.inertia[k]);
     }
     CLX_TRY(clx_grain_inertia(&made));
-    CLX_TRY(clx_grain_hull(&mesh, &made));
+    CLX_TRY(clx_grain_hull(&mesh, &made, lying));
     clx_grain_surface_means(&mesh, &made);
+    CLX_TRY(clx_roundness(&mesh, lying, made.centroid, &made.roundness, &made.n_outline));
     made.area = area;
     clx_grain_ratios(&made);
     made.convexity = clast_mesh_volume(&mesh) / made.hull_volume; // both of the same facets

@@ -36,8 +36,9 @@ const clast_field clast_synthesize_fields[] = {
     {FIELD(size), CLAST_FIELD_F64, 1.0, 1e-12, 1e12, "-",
      "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", NULL},
     {FIELD(measure), CLAST_FIELD_CHOICE, CLAST_ROUGH_ANGULARITY, 0, 2, "-",
-     "what `rough` is: amplitude of ln r, or the finished grain's measured roundness or angularity",
-     "amplitude|roundness|angularity"},
+     "what `rough` is: amplitude of ln r, or the finished grain's measured normal roundness or "
+     "angularity",
+     "amplitude|normal_roundness|angularity"},
     {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", NULL},
     {FIELD(tolerance), CLAST_FIELD_F64, 1e-3, 1e-6, 1.0, "-", "of the measured one", NULL},
     {FIELD(decay), CLAST_FIELD_F64, 3.0, 0.0, 10.0, "-",
@@ -120,7 +121,7 @@ done:
 /// How rough the last grain is in the measure asked for; grows with the amplitude.
 static double roughness(const maker *m)
 {
-    return m->config->measure == CLAST_ROUGH_ROUNDNESS ? -m->measured.roundness
+    return m->config->measure == CLAST_ROUGH_ROUNDNESS ? -m->measured.normal_roundness
                                                        : m->measured.angularity;
 }
 
@@ -194,7 +195,7 @@ clast_status clast_synthesize_grain(const clast_synthesize_config *config, uint6
     CLX_TRY(begin(config, index, &m));
     CLX_TRY(config->measure == CLAST_ROUGH_AMPLITUDE ? make_grain(&m, config->rough)
                                                      : search(&m, &r.amplitude));
-    r.roundness = m.measured.roundness;
+    r.normal_roundness = m.measured.roundness;
     r.angularity = m.measured.angularity;
     r.volume = m.measured.volume;
     r.n_triangle = m.grain.n_tri;

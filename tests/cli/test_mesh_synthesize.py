@@ -41,7 +41,7 @@ class MeshSynthesize(Case):
     def test_refusals_are_one_line(self):
         out = self.folder / "g.ply"
         self.assert_fails(2, "mesh", "synthesize", says=["-o OUT"])
-        self.assert_fails(5, "mesh", "synthesize", "--measure", "roundness", "--rough", "0.99", "-o", out,
+        self.assert_fails(5, "mesh", "synthesize", "--measure", "normal_roundness", "--rough", "0.99", "-o", out,
                           says=["smoother than its ellipsoid"])
         self.assert_fails(2, "mesh", "synthesize", "--flatness", "0.05", "-o", out, says=["outside 0.1 to 1"])
         self.assertFalse(out.exists())

@@ -210,6 +210,33 @@ static void written_tables_come_back_bit_for_bit(void **state)
     clast_table_free(&back);
 }
 
+/* What does not exist is an empty cell, and a row of one such cell still is a row. */
+static void missing_numbers_are_empty_cells(void **state)
+{
+    (void)state;
+    clast_table t = {0};
+    clast_table back = {0};
+    clast_csv_report report;
+    double *x = NULL;
+    char text[64] = "";
+    CHECK_OK(clast_table_init(&t, "one", 3));
+    CHECK_OK(clast_table_add_number(&t, "x", "-", &x));
+    x[0] = NAN;
+    x[1] = 0.5;
+    x[2] = -NAN;
+    CHECK_OK(clast_table_write_csv(&t, support_scratch_file("one.csv")));
+    FILE *file = fopen(support_scratch_file("one.csv"), "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    (void)fclose(file);
+    assert_string_equal(text, "x\n\"\"\n0.5\n\"\"\n");
+    CHECK_OK(clast_table_read_csv(support_scratch_file("one.csv"), NULL, &back, &report));
+    check_same(&t, &back);
+    assert_int_equal(report.n_missing, 2);
+    clast_table_free(&t);
+    clast_table_free(&back);
+}
+
 /* Property: any double survives, of 20,000 random bit patterns. */
 static void random_numbers_come_back_bit_for_bit(void **state)
 {
@@ -298,6 +325,7 @@ int main(void)
         cmocka_unit_test(options_overrule_guesses),
         cmocka_unit_test(headers_tell_units),
         cmocka_unit_test(written_tables_come_back_bit_for_bit),
+        cmocka_unit_test(missing_numbers_are_empty_cells),
         cmocka_unit_test(random_numbers_come_back_bit_for_bit),
         cmocka_unit_test(json_is_what_jansson_reads),
         cmocka_unit_test(tables_survive_refused_memory),

@@ -108,7 +108,7 @@ static void check_grain(const clast_synthesize_config *c, uint64_t index)
     CHECK_REL(lis[2] / lis[1], r.flatness, 1e-12);
     CHECK_REL(lis[1] / lis[0], r.elongation, 1e-12);
     CHECK_REL(clast_form_sieve_size(lis[1], lis[2]), c->size, 1e-12);
-    CHECK_ABS(c->measure == CLAST_ROUGH_ROUNDNESS ? g.roundness : g.angularity, c->rough,
+    CHECK_ABS(c->measure == CLAST_ROUGH_ROUNDNESS ? g.normal_roundness : g.angularity, c->rough,
               c->tolerance);
     assert_true(mesh.n_tri <= c->faces && r.n_triangle == mesh.n_tri);
     CHECK_OK(clast_mesh_hull(&mesh, &hull));
