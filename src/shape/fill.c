@@ -32,7 +32,7 @@ const clast_field clast_fill_fields[] = {
     NUMBER(min_radius, 0, 0, DBL_MAX, "no smaller spheres, model units; 0: any"),
     NUMBER(min_share, 0.01, 1e-4, 1,
            "largest, overlap: no sphere below this share of the first one's radius"),
-    NUMBER(tolerance, 0.01, 1e-9, 1, "largest: radius may be this share below the largest"),
+    NUMBER(tolerance, 0.03, 1e-9, 1, "largest: radius may be this share below the largest"),
     COUNT(I32, candidates, 10, 1, 1e9, "random, published: candidates for each sphere (N_iter)"),
     FLAG(first_at_centre, 1, "random, published: first sphere at the mean of the corners"),
     FLAG(vertex_subset, 0, "published: the released code's random third of the corners"),

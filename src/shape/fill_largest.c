@@ -10,29 +10,26 @@
 // where that bound was reached, which finds the witness that was missing; after a few samples the
 // cube is divided. Placing a sphere only lowers f: old bounds stay valid, and cubes are brought up
 // to date when they come to the top.                                     [docs/theory/fill.md]
-#include "shape/fill.h"
+#include "shape/fill_witness.h"
 
 #include "base/alloc.h"
 #include <string.h>
 
-enum { SAMPLES = 2, LEVELS = 60, CUBE_LIMIT = 1 << 26 };
+enum { SAMPLES = 2, LEVELS = 60, CUBE_LIMIT = 1 << 26, SHRINKS = 2, CLIMBS = 8, WAYS = 4 };
 
-/// f at a point, and what bounds it there.
-typedef struct {
-    double at[3];
-    double nearest[3]; ///< surface point, when `surface` is a number
-    double value;      ///< f(at), as far as the first `seen` spheres go
-    double surface;    ///< signed distance to the surface; NAN when a sphere is nearer
-    int32_t ball;      ///< the nearer sphere, or -1
-    int32_t tri;       ///< nearest triangle of the field, with a known `surface`; -1: not known
-    int32_t seen;
-} sample;
+/// Greatest outer ball, and how far from the wall it may end, in half edges of the cube. Measured:
+/// 3 and 12 half edges cost more on scans and on smooth grains.
+static const double OUTER_REACH = 6.0;
+static const double OUTER_GAP = 0.25;
+
+/// A climb ends when its bound is above by this share of the tolerance.
+static const double CLIMB_SHARE = 0.03;
 
 typedef struct {
     double centre[3];
     double next[3];          ///< where f is to be sampled next
     double upper;            ///< no sphere centred in the cube is larger
-    int32_t sample[SAMPLES]; ///< own samples, numbers
+    int32_t sample[SAMPLES]; ///< own samples, numbers; -1: not taken yet
     int32_t best;            ///< sample in the cube with the greatest f known, or -1
     int32_t parent;          ///< -1 for roots
     int32_t seen;            ///< spheres that `upper` and the samples know
@@ -59,13 +56,15 @@ typedef struct {
     int64_t n_cube, cube_capacity;
     block *blocks; ///< [n_cube / 8]
     int64_t block_capacity;
-    sample *samples;
+    clx_fill_sample *samples;
     int64_t n_sample, sample_capacity;
     entry *heap;
     int64_t n_heap, heap_capacity;
-    double floor; ///< smaller spheres are of no interest
+    int32_t best_cube; ///< holds the best sample
+    double floor;      ///< smaller spheres are of no interest
 } search;
 
+// The heap has four ways: half as many waits for memory as one of two.
 static bool before(const entry *a, const entry *b)
 {
     // bitwise: a branch here would be mispredicted half of the time
@@ -78,9 +77,9 @@ static clast_status heap_push(search *s, int32_t number)
     const entry e = {s->cubes[number].upper, number};
     CLX_TRY(clx_grow(&s->heap, &s->heap_capacity, s->n_heap + 1, sizeof *s->heap));
     int64_t i = s->n_heap++;
-    while (i > 0 && before(&e, &s->heap[(i - 1) / 2])) {
-        s->heap[i] = s->heap[(i - 1) / 2];
-        i = (i - 1) / 2;
+    while (i > 0 && before(&e, &s->heap[(i - 1) / WAYS])) {
+        s->heap[i] = s->heap[(i - 1) / WAYS];
+        i = (i - 1) / WAYS;
     }
     s->heap[i] = e;
 done:
@@ -92,12 +91,13 @@ static void heap_sink(search *s, entry e)
 {
     int64_t i = 0;
     for (;;) {
-        int64_t child = 2 * i + 1;
-        if (child >= s->n_heap) {
-            break;
+        const int64_t first = WAYS * i + 1;
+        const int64_t end = first + WAYS < s->n_heap ? first + WAYS : s->n_heap;
+        int64_t child = first;
+        for (int64_t k = first + 1; k < end; ++k) {
+            child = before(&s->heap[k], &s->heap[child]) ? k : child;
         }
-        child += child + 1 < s->n_heap && before(&s->heap[child + 1], &s->heap[child]);
-        if (!before(&s->heap[child], &e)) {
+        if (child >= end || !before(&s->heap[child], &e)) {
             break;
         }
         s->heap[i] = s->heap[child];
@@ -134,7 +134,7 @@ static double lesser_of_farthest(double bound, double offset, const double centr
 
 /// Upper bound over a cube from one sample, if less than `bound`: f changes no faster than one
 /// moves, and no point is farther from the witness than the farthest corner.
-static double bound_by(const search *s, const sample *p, const double centre[3], double h,
+static double bound_by(const search *s, const clx_fill_sample *p, const double centre[3], double h,
                        double bound)
 {
     bound = lesser_of_farthest(bound, p->value, centre, h, p->at);
@@ -149,7 +149,7 @@ static double bound_by(const search *s, const sample *p, const double centre[3],
 }
 
 /// Radius of a ball about a sample that the surface does not enter: signed by its side.
-static double clear_radius(const sample *p)
+static double clear_radius(const clx_fill_sample *p)
 {
     return isnan(p->surface) ? fmax(p->value, 0.0) : p->surface;
 }
@@ -159,7 +159,7 @@ static double reach_by(const search *s, const cube *c, const double point[3])
 {
     double reach2 = INFINITY;
     for (int i = 0; i < c->n_sample; ++i) {
-        const sample *p = &s->samples[c->sample[i]];
+        const clx_fill_sample *p = &s->samples[c->sample[i]];
         if (!isnan(p->surface)) {
             reach2 = lesser(reach2, v3_distance2(p->nearest, point));
         }
@@ -173,7 +173,7 @@ static double reach_by(const search *s, const cube *c, const double point[3])
 static int side_by(const search *s, const block *family, const double point[3], double d)
 {
     for (int i = 0; i < family->n; ++i) {
-        const sample *p = &s->samples[family->sample[i]];
+        const clx_fill_sample *p = &s->samples[family->sample[i]];
         const double clear = clear_radius(p);
         const double reach = fabs(clear) + d - 2.0 * s->fill->field.error;
         if (clear != 0.0 && reach > 0.0 && v3_distance2(p->at, point) < reach * reach) {
@@ -192,8 +192,50 @@ static bool is_inside(const search *s, const cube *c, const double point[3], dou
     return side != 0 ? side > 0 : clast_bvh_inside(s->fill->bvh, point);
 }
 
+/// True when the wall's plane at a sample's nearest point parts the cube.
+static bool is_parted(const cube *c, double h, const clx_fill_sample *p)
+{
+    double away[3];
+    double from[3];
+    v3_sub(away, p->at, p->nearest);
+    v3_sub(from, c->centre, p->nearest);
+    const double width = h * (fabs(away[0]) + fabs(away[1]) + fabs(away[2]));
+    return v3_dot(away, from) <= width;
+}
+
+/// Finds a large ball behind the wall that touches it near the sample's nearest point: a ball
+/// through that point, shrunk until the surface leaves it alone [Ma2012].
+static void find_outer(search *s, const cube *c, clx_fill_sample *p)
+{
+    const double h = s->half[c->level];
+    const double depth = fmax(0.0, -p->surface); // of the sample, behind the wall
+    double out[3];
+    double radius = OUTER_REACH * h;
+    v3_sub(out, p->nearest, p->at);
+    v3_scale(out, 1.0 / p->surface, out);
+    for (int i = 0; i < SHRINKS && radius > fmax(h, 2.0 * depth); ++i) {
+        double centre[3];
+        double touch[3];
+        int32_t tri;
+        v3_axpy(centre, p->nearest, radius, out);
+        ++s->fill->n_tested;
+        const double d = clx_fill_field_distance(&s->fill->field, centre, radius, touch, &tri);
+        const double clear = lesser(d, radius) - s->fill->field.error;
+        if (clear > radius - OUTER_GAP * h) {
+            if (!is_inside(s, c, centre, clear)) {
+                v3_copy(p->outer, centre);
+                p->outer_radius = clear;
+            }
+            return;
+        }
+        double to[3];
+        v3_sub(to, touch, p->nearest);
+        radius = lesser(0.9 * radius, 0.5 * v3_norm2(to) / v3_dot(to, out));
+    }
+}
+
 /// f at a point of a cube.
-static void measure(search *s, const cube *c, sample *p)
+static void measure(search *s, const cube *c, clx_fill_sample *p)
 {
     clx_fill *fill = s->fill;
     double reach = reach_by(s, c, p->at);
@@ -203,6 +245,7 @@ static void measure(search *s, const cube *c, sample *p)
     p->seen = fill->balls.n;
     p->ball = -1;
     p->surface = NAN;
+    p->outer_radius = 0.0;
     p->value = clx_ball_set_distance(&fill->balls, 0, p->at, reach, &p->ball);
     if (p->ball >= 0 && p->value <= 0.0) {
         return;
@@ -214,6 +257,14 @@ static void measure(search *s, const cube *c, sample *p)
     }
     p->surface = is_inside(s, c, p->at, d) ? d : -d;
     p->value = p->surface;
+    if (p->surface < 0.0) {
+        v3_copy(p->outer, p->at);
+        p->outer_radius = d - fill->field.error;
+    }
+    if (p->surface != 0.0 && (p->surface < 0.0 || c->n_sample > 0) &&
+        is_parted(c, s->half[c->level], p)) {
+        find_outer(s, c, p);
+    }
 }
 
 static void note_best(search *s, cube *c, int32_t number)
@@ -229,7 +280,7 @@ static clast_status take_sample(search *s, cube *c)
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&s->samples, &s->sample_capacity, s->n_sample + 1, sizeof *s->samples));
     const int32_t number = (int32_t)s->n_sample++;
-    sample *p = &s->samples[number];
+    clx_fill_sample *p = &s->samples[number];
     v3_copy(p->at, c->next);
     measure(s, c, p);
     c->sample[c->n_sample++] = number;
@@ -243,7 +294,7 @@ done:
 }
 
 /// Lets a sample know the spheres placed since it was last looked at; true when one is nearer.
-static bool renew(search *s, sample *p)
+static bool renew(search *s, clx_fill_sample *p)
 {
     const double before_it = p->value;
     p->value = clx_ball_set_distance(&s->fill->balls, p->seen, p->at, p->value, &p->ball);
@@ -255,7 +306,7 @@ static void refresh(search *s, cube *c)
 {
     bool changed = c->best >= 0 && renew(s, &s->samples[c->best]);
     for (int i = 0; i < c->n_sample; ++i) {
-        sample *p = &s->samples[c->sample[i]];
+        clx_fill_sample *p = &s->samples[c->sample[i]];
         if (renew(s, p)) {
             changed = true;
             c->upper = bound_by(s, p, c->centre, s->half[c->level], c->upper);
@@ -268,102 +319,11 @@ static void refresh(search *s, cube *c)
     c->seen = s->fill->balls.n;
 }
 
-/// Bound by one witness, a sphere of radius r (0: a surface point): |x - p| - r over the cube.
-///
-/// With d = |centre - p| and unit g = (centre - p) / d: |centre + e - p| = d + g . e + k, where
-/// k is about (|e|^2 - (g . e)^2) / 2d, at most h^2 / d when the edges are along g. Only a good
-/// guess is needed here: fill_lp.c computes the bound from the distances themselves.
-static void add_plane(clx_fill_planes *planes, const cube *c, double h, const double away[3],
-                      double r)
-{
-    const double d2 = v3_norm2(away);
-    const double reach = c->upper + r + 1.7320508075688773 * h;
-    if (planes->n < CLX_FILL_WITNESSES && d2 <= reach * reach) { // else above all known in the cube
-        const int j = planes->n++;
-        const double d = sqrt(d2);
-        v3_copy(planes->away[j], away);
-        planes->radius[j] = r;
-        planes->tri[j] = NULL;
-        planes->value[j] = d - r + h * h / (d + h);
-        v3_scale(planes->gradient[j], d > 0.0 ? 1.0 / d : 0.0, away);
-    }
-}
-
-typedef struct {
-    clx_fill_planes planes;
-    union {
-        int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
-        clx_int4 known4[CLX_FILL_WITNESSES / 4];
-    };
-    int n_known;
-} witnesses;
-
-/// True, and noted, when a sphere or triangle is new and there is room for it.
-static bool is_new(witnesses *w, int32_t name)
-{
-    clx_int4 same = {0};
-    for (int j = 0; j < CLX_FILL_WITNESSES / 4; ++j) { // all: no branch to predict
-        same |= w->known4[j] == name;
-    }
-    if (clx_any(same) || w->n_known == CLX_FILL_WITNESSES) {
-        return false;
-    }
-    w->known[w->n_known++] = name;
-    return true;
-}
-
-/// The triangle of a sample: as a whole when it is not small against the cube, else its point.
-static void add_surface(const search *s, witnesses *w, const cube *c, const sample *p)
-{
-    const double h = s->half[c->level];
-    double away[3];
-    if (p->tri >= 0 && !is_new(w, -1 - p->tri)) {
-        return;
-    }
-    const int j = w->planes.n;
-    if (p->tri < 0 || s->fill->field.size[p->tri] < h) {
-        v3_sub(away, c->centre, p->nearest);
-        add_plane(&w->planes, c, h, away, 0.0);
-        return;
-    }
-    double from_corner[3];
-    v3_sub(from_corner, c->centre, s->fill->field.tri[p->tri][0]);
-    clx_fill_triangle_away(s->fill->field.tri[p->tri], from_corner, away);
-    add_plane(&w->planes, c, h, away, 0.0);
-    if (w->planes.n > j) {
-        const double size = s->fill->field.size[p->tri];
-        w->planes.tri[j] = s->fill->field.tri[p->tri];
-        v3_copy(w->planes.away[j], from_corner);
-        w->planes.value[j] -= h * h / (v3_norm(away) + h) * size / (size + h);
-    }
-}
-
-static void add_ball(const search *s, witnesses *w, const cube *c, int32_t ball)
-{
-    if (is_new(w, ball)) {
-        const double *b = s->fill->balls.ball[ball];
-        double away[3];
-        v3_sub(away, c->centre, b);
-        add_plane(&w->planes, c, s->half[c->level], away, b[3]);
-    }
-}
-
-/// Witnesses of one sample.
-static void add_witnesses(const search *s, witnesses *w, const cube *c, const sample *p)
-{
-    if (!isnan(p->surface)) {
-        add_surface(s, w, c, p);
-    }
-    if (p->ball >= 0) {
-        add_ball(s, w, c, p->ball);
-    }
-}
-
 /// Bound of the cube that follows the top one in the heap.
 static double second(const search *s)
 {
     double upper = -INFINITY;
-    for (int64_t i = 1; i < 3 && i < s->n_heap; ++i) {
+    for (int64_t i = 1; i <= WAYS && i < s->n_heap; ++i) {
         upper = fmax(upper, s->heap[i].upper);
     }
     return upper;
@@ -374,39 +334,51 @@ static void bound_by_samples(const search *s, cube *c, const block *family)
 {
     const double h = s->half[c->level];
     for (int i = 0; i < family->n; ++i) {
-        const sample *p = &s->samples[family->sample[i]];
+        const clx_fill_sample *p = &s->samples[family->sample[i]];
         c->upper = lesser_of_farthest(c->upper, p->value, c->centre, h, p->at);
     }
 }
 
-/// Bounds f by the witnesses of the cube, its siblings, and its parent's generation.
+/// Collects the witnesses of the cube, its siblings, and its parent's generation.
+static void witnesses_of(const search *s, const cube *c, const clx_fill_region *region,
+                         clx_fill_witnesses *w)
+{
+    const ptrdiff_t own = (c - s->cubes) / 8;
+    const block *families[2] = {&s->blocks[own], c->parent >= 0 ? &s->blocks[c->parent / 8] : NULL};
+    for (int i = 0; i < c->n_sample; ++i) {
+        clx_fill_witnesses_add(s->fill, region, &s->samples[c->sample[i]], w);
+    }
+    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
+        for (int i = 0; i < families[k]->n; ++i) {
+            const int32_t number = families[k]->sample[i];
+            if (number != c->sample[0] && number != c->sample[1]) {
+                clx_fill_witnesses_add(s->fill, region, &s->samples[number], w);
+            }
+        }
+    }
+}
+
+/// Bounds f by the witnesses of the cube and its relatives.
 static void bound_cube(search *s, int32_t number)
 {
-    witnesses w;
+    clx_fill_witnesses w;
     cube *c = &s->cubes[number];
-    const block *families[2] = {&s->blocks[number / 8],
-                                c->parent >= 0 ? &s->blocks[c->parent / 8] : NULL};
-    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
-        bound_by_samples(s, c, families[k]);
+    clx_fill_region region = {.half = s->half[c->level]};
+    bound_by_samples(s, c, &s->blocks[number / 8]);
+    if (c->parent >= 0) {
+        bound_by_samples(s, c, &s->blocks[c->parent / 8]);
     }
     if (c->upper < second(s)) {
         return; // the samples' reach was enough to sink it
     }
-    w.planes.n = 0;
-    w.n_known = 0;
-    memset(w.known, 0x7f, sizeof w.known); // no name
-    for (int i = 0; i < c->n_sample; ++i) {
-        add_witnesses(s, &w, c, &s->samples[c->sample[i]]);
-    }
-    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
-        for (int i = 0; i < families[k]->n; ++i) {
-            add_witnesses(s, &w, c, &s->samples[families[k]->sample[i]]);
-        }
-    }
+    v3_copy(region.centre, c->centre);
+    region.upper = c->upper;
+    clx_fill_witnesses_clear(&w);
+    witnesses_of(s, c, &region, &w);
     v3_copy(c->next, c->centre);
     if (w.planes.n > 0) {
         double step[3];
-        const double bound = clx_fill_bound(&w.planes, s->half[c->level], step);
+        const double bound = clx_fill_bound(&w.planes, region.half, step);
         c->upper = lesser(c->upper, bound * (1.0 + 1e-12));
         v3_add(c->next, c->centre, step);
     }
@@ -418,6 +390,7 @@ static void make_child(search *s, int32_t parent, int i, cube *child)
     const cube *c = &s->cubes[parent];
     const double h = s->half[c->level + 1];
     *child = (cube){.upper = c->upper,
+                    .sample = {-1, -1},
                     .best = -1,
                     .parent = parent,
                     .seen = c->seen,
@@ -483,7 +456,7 @@ static clast_status plant(search *s)
     memset(s->cubes, 0, (size_t)s->n_cube * sizeof *s->cubes);
     for (int64_t i = 0; i < total; ++i) {
         cube *c = &s->cubes[i];
-        *c = (cube){.upper = INFINITY, .best = -1, .parent = -1};
+        *c = (cube){.upper = INFINITY, .sample = {-1, -1}, .best = -1, .parent = -1};
         const int64_t at[3] = {i % n[0], i / n[0] % n[1], i / n[0] / n[1]};
         for (int k = 0; k < 3; ++k) {
             c->centre[k] = 0.5 * (fill->low[k] + fill->high[k]) +
@@ -564,6 +537,7 @@ static clast_status find_best(search *s, int32_t *best)
         const cube *c = &s->cubes[number];
         if (c->seen == s->fill->balls.n && c->best >= 0 && s->samples[c->best].value > value) {
             *best = c->best;
+            s->best_cube = number;
             value = s->samples[c->best].value;
         }
     }
@@ -571,8 +545,42 @@ done:
     return status;
 }
 
+/// Climbs from the best sample to the summit nearby: linear programmes in shrinking cubes about the
+/// best point so far, each over what the samples before it saw. The spheres touch what they should.
+static void climb(search *s, clx_fill_sample *best)
+{
+    const cube *home = &s->cubes[s->best_cube];
+    const double enough = 1.0 + CLIMB_SHARE * s->fill->config->tolerance;
+    clx_fill_sample seen[CLIMBS];
+    clx_fill_region region = {.half = s->half[home->level]};
+    for (int n = 0; n < CLIMBS; ++n) {
+        clx_fill_witnesses w;
+        clx_fill_sample *p = &seen[n];
+        double step[3];
+        v3_copy(region.centre, best->at);
+        region.upper = best->value + 1.7320508075688773 * region.half;
+        clx_fill_witnesses_clear(&w);
+        clx_fill_witnesses_add(s->fill, &region, best, &w);
+        for (int i = n - 1; i >= 0; --i) {
+            clx_fill_witnesses_add(s->fill, &region, &seen[i], &w);
+        }
+        witnesses_of(s, home, &region, &w);
+        if (clx_fill_bound(&w.planes, region.half, step) <= best->value * enough) {
+            return;
+        }
+        p->tri = -1;
+        v3_add(p->at, best->at, step);
+        measure(s, home, p);
+        if (p->value > best->value) {
+            *best = *p;
+        } else {
+            region.half *= 0.5;
+        }
+    }
+}
+
 /// True when the exact tree agrees with the sample's side and distance; corrects it otherwise.
-static bool is_confirmed(const search *s, sample *p)
+static bool is_confirmed(const search *s, clx_fill_sample *p)
 {
     double closest[3];
     const bool inside = clast_bvh_inside(s->fill->bvh, p->at);
@@ -596,6 +604,9 @@ static clast_status next(clx_fill *fill, void *state, double ball[4], bool *foun
     int32_t best = -1;
     do {
         CLX_TRY(find_best(s, &best));
+        if (best >= 0) {
+            climb(s, &s->samples[best]);
+        }
     } while (best >= 0 && !is_confirmed(s, &s->samples[best]));
     fill->bound = s->n_heap > 0 ? s->heap[0].upper : 0.0;
     *found = best >= 0 && s->samples[best].value > s->floor;
