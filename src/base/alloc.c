@@ -1,10 +1,17 @@
 // Heap blocks with checked sizes, from the system or from a pool of the calling thread; in test
 // builds counted and refusable. The pool in use is thread-local, so that no function between the
 // caller of a workspace and an allocation needs to know of it.
+#ifdef __linux__
+#define _DEFAULT_SOURCE 1 // madvise
+#endif
 #include "base/alloc.h"
 
+#include "base/lines.h"
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 #ifdef CLAST_ALLOC_INJECT
 #include <stdatomic.h>
@@ -233,23 +240,71 @@ clast_status clx_alloc_text(char **copy, const char *text)
     return status;
 }
 
+/// Half as many again, at least `need` and 16.
+static int64_t grown(int64_t capacity, int64_t need)
+{
+    const int64_t next = capacity + capacity / 2;
+    const int64_t least = need > 16 ? need : 16;
+    return next > least ? next : least;
+}
+
 clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size)
 {
     if (need <= *capacity) {
         return CLAST_OK;
     }
-    int64_t next = *capacity + *capacity / 2;
-    if (next < need) {
-        next = need;
-    }
-    if (next < 16) {
-        next = 16;
-    }
+    const int64_t next = grown(*capacity, need);
     const clast_status status = clx_realloc(block, next, size);
     if (status == CLAST_OK) {
         *capacity = next;
     }
     return status;
+}
+
+enum { LINE = 64, LARGE_PAGE = 1 << 21 };
+
+/// A block that begins with a cache line, or with a large page where there are several of them.
+static void *take_lines(size_t bytes)
+{
+    const size_t unit = bytes >= 2 * (size_t)LARGE_PAGE ? LARGE_PAGE : LINE;
+    const size_t whole = (bytes + unit - 1) / unit * unit;
+    void *got = aligned_alloc(unit, whole);
+#ifdef MADV_HUGEPAGE
+    if (got != NULL && unit == LARGE_PAGE) {
+        (void)madvise(got, whole, MADV_HUGEPAGE); // an advice: speed only
+    }
+#endif
+    return got;
+}
+
+clast_status clx_grow_lines(void *block, int64_t *capacity, int64_t need, size_t size)
+{
+    void *old = NULL;
+    size_t bytes = 0;
+    if (need <= *capacity) {
+        return CLAST_OK;
+    }
+    if (current != NULL) { // blocks of a pool are the pool's
+        return clx_grow(block, capacity, need, size);
+    }
+    const int64_t next = grown(*capacity, need);
+    memcpy(&old, block, sizeof old);
+    if (!bytes_of(next, size, &bytes) || refused()) {
+        return fail(next, size);
+    }
+    void *got = take_lines(bytes);
+    if (got == NULL) {
+        return fail(next, size);
+    }
+    COUNT(1);
+    COUNT_TAKEN();
+    if (old != NULL) {
+        memcpy(got, old, (size_t)*capacity * size);
+        clx_free(old);
+    }
+    memcpy(block, &got, sizeof got);
+    *capacity = next;
+    return CLAST_OK;
 }
 
 void clx_free(void *block)

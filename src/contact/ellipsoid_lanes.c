@@ -1,7 +1,8 @@
-// One short Newton step of four common normals; reasons and equations are in ellipsoid_pair.c,
+// Newton steps of four common normals; reasons and equations are in ellipsoid_pair.c,
 // whose `follow` is also the twin that tests compare bit by bit.
 #include "contact/ellipsoid_lanes.h"
 
+#include "contact/ellipsoid_pair.h"
 #include <assert.h>
 #include <stddef.h>
 
@@ -11,9 +12,6 @@ typedef float floats_at __attribute__((vector_size(16), aligned(4), may_alias));
 /// A load of four takes `round` along, which is 0 for ellipsoids.
 static_assert(offsetof(clx_convex, round) == offsetof(clx_convex, semi_axes) + 24,
               "semi-axes and rounding of a shape stand in a row");
-
-/// As in ellipsoid_pair.c.
-static const double SHORT_STEP = 1e-5;
 
 CLX_INLINE void gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
 {
@@ -134,34 +132,60 @@ CLX_INLINE void expand(const side *a, const side *b, const clx_lanes offset[3],
     add_curvature(b->matrix, h_b, tip_b, at);
 }
 
-/// `follow`: the normal, the gap, and which lanes may be taken.
-CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset[3], clx_lanes m[3],
-                            clx_lanes *s)
+/// Newton's step at `start`: where it leads and how long it is.
+typedef struct {
+    clx_lanes s, next[3], step2;
+    clx_marks is_safe;
+} newton;
+
+CLX_INLINE void step_from(const side *a, const side *b, const clx_lanes offset[3],
+                          const clx_lanes start[3], newton *to)
 {
     local at;
-    clx_lanes start[3];
     const clx_lanes size = a->size + b->size;
-    const clx_lanes e = lanes_dot(m, m) - 1.0;
-    const clx_lanes unit = 1.0 - 0.5 * e + 0.375 * e * e;
-    for (int c = 0; c < 3; ++c) {
-        start[c] = unit * m[c];
-    }
     expand(a, b, offset, start, &at);
     const clx_lanes trace = at.k[0] + at.k[2];
     const clx_lanes det = at.k[0] * at.k[2] - at.k[1] * at.k[1];
     const clx_lanes inverse = 1.0 / det;
     const clx_lanes u = (at.k[2] * at.g[0] - at.k[1] * at.g[1]) * inverse;
     const clx_lanes v = (at.k[0] * at.g[1] - at.k[1] * at.g[0]) * inverse;
-    const clx_lanes step2 = u * u + v * v;
-    const clx_lanes shrink = 1.0 - 0.5 * step2;
-    *s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
-    lanes_axpy(m, start, u, at.tangent[0]);
-    lanes_axpy(m, m, v, at.tangent[1]);
+    to->step2 = u * u + v * v;
+    to->s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
+    lanes_axpy(to->next, start, u, at.tangent[0]);
+    lanes_axpy(to->next, to->next, v, at.tangent[1]);
+    to->is_safe = (trace > 0.0) & (det > 1e-3 * size * trace) &
+                  (to->step2 <= CLX_ELLIPSOID_LONG * CLX_ELLIPSOID_LONG);
+}
+
+/// `follow`: the normals, the gaps, and which lanes are done. A lane that is done, or not safe,
+/// stays as it is.
+CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset[3], clx_lanes m[3],
+                            clx_lanes *s)
+{
+    clx_lanes start[3];
+    const clx_lanes e = lanes_dot(m, m) - 1.0;
+    const clx_lanes unit = 1.0 - 0.5 * e + 0.375 * e * e;
+    clx_marks goes_on = lanes_size(e) < 1e-5;
+    clx_marks is_done = goes_on ^ goes_on;
     for (int c = 0; c < 3; ++c) {
-        m[c] = shrink * m[c];
+        start[c] = unit * m[c];
     }
-    return (lanes_size(e) < 1e-5) & (trace > 0.0) & (det > 1e-3 * size * trace) &
-           (step2 <= SHORT_STEP * SHORT_STEP);
+    for (int k = 0; k < CLX_ELLIPSOID_STEPS && lanes_bits(goes_on) != 0; ++k) {
+        newton to;
+        step_from(a, b, offset, start, &to);
+        goes_on &= to.is_safe;
+        const clx_marks ends = goes_on & (to.step2 <= CLX_ELLIPSOID_SHORT * CLX_ELLIPSOID_SHORT);
+        const clx_lanes shrink = 1.0 - 0.5 * to.step2;
+        const clx_lanes back = 1.0 / lanes_root(1.0 + to.step2);
+        *s = lanes_pick(ends, to.s, *s);
+        for (int c = 0; c < 3; ++c) {
+            m[c] = lanes_pick(ends, shrink * to.next[c], m[c]);
+            start[c] = back * to.next[c];
+        }
+        is_done |= ends;
+        goes_on &= ~ends;
+    }
+    return is_done;
 }
 
 CLX_FOR_EACH_MACHINE
@@ -169,7 +193,8 @@ int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[
                          const clx_convex *const shape_b[CLX_LANES])
 {
     side a, b;
-    clx_lanes offset[3], m[4], n[3], tip[3], s;
+    clx_lanes offset[3], m[4], n[3], tip[3];
+    clx_lanes s = lanes_all(0.0);
     read_side(batch->turn_a, shape_a, &a);
     read_side(batch->turn_b, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
@@ -180,7 +205,7 @@ int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[
         offset[c] = lanes_load(batch->offset[c]);
         m[c] = -m[c];
     }
-    const clx_marks is_short = follow(&a, &b, offset, m, &s);
+    const clx_marks is_done = follow(&a, &b, offset, m, &s);
     (void)support(a.matrix, m, tip);
     lanes_store(batch->gap, s);
     for (int c = 0; c < 3; ++c) {
@@ -188,5 +213,5 @@ int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[
         lanes_store(batch->normal[c], n[c]);
         lanes_store(batch->point[c], tip[c] + -0.5 * s * n[c]);
     }
-    return lanes_bits(is_short & (s > -(a.roundness + b.roundness)));
+    return lanes_bits(is_done & (s > -(a.roundness + b.roundness)));
 }

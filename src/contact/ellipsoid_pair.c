@@ -20,9 +20,6 @@ static const double TOLERANCE = 1e-13;
 /// their square, of the gap their fourth power.
 static const double LAST_STEP = 3e-5;
 
-/// Steps shorter than this need no new value: s + g.step / 2 is exact to their third power.
-static const double SHORT_STEP = 1e-5;
-
 CLX_INLINE void sym_mul(const double m[6], const double x[3], double out[3])
 {
     v3_set(out, m[0] * x[0] + m[5] * x[1] + m[4] * x[2], m[5] * x[0] + m[1] * x[1] + m[3] * x[2],
@@ -174,8 +171,9 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
     return at.s;
 }
 
-/// One short step from a remembered normal of about unit length; false if it is not short, or K not
-/// safely positive definite.
+/// A Newton step from a remembered normal of about unit length, and two more where it is not short;
+/// false if the last is not, or K not safely positive definite. However it came there, a maximum
+/// above -roundness is the only one.
 CLX_INLINE bool follow(const clx_ellipsoids *p, double size, double m[3], double *s)
 {
     local at;
@@ -185,24 +183,30 @@ CLX_INLINE bool follow(const clx_ellipsoids *p, double size, double m[3], double
         return false;
     }
     v3_scale(start, 1.0 - 0.5 * e + 0.375 * e * e, m); // 1 / sqrt(1 + e)
-    expand(p, start, &at);
-    const double trace = at.k[0] + at.k[2];
-    const double det = at.k[0] * at.k[2] - at.k[1] * at.k[1];
-    if (!(trace > 0.0 && det > 1e-3 * size * trace)) { // both eigenvalues beyond 1e-3 of the size
-        return false;
+    for (int k = 0; k < CLX_ELLIPSOID_STEPS; ++k) {
+        double next[3];
+        expand(p, start, &at);
+        const double trace = at.k[0] + at.k[2];
+        const double det = at.k[0] * at.k[2] - at.k[1] * at.k[1];
+        const double inverse = 1.0 / det;
+        const double u = (at.k[2] * at.g[0] - at.k[1] * at.g[1]) * inverse;
+        const double v = (at.k[0] * at.g[1] - at.k[1] * at.g[0]) * inverse;
+        const double step2 = u * u + v * v;
+        if (!(trace > 0.0 &&
+              det > 1e-3 * size * trace && // both eigenvalues beyond 1e-3 of the size
+              step2 <= CLX_ELLIPSOID_LONG * CLX_ELLIPSOID_LONG)) {
+            return false;
+        }
+        v3_axpy(next, start, u, at.tangent[0]);
+        v3_axpy(next, next, v, at.tangent[1]);
+        if (step2 <= CLX_ELLIPSOID_SHORT * CLX_ELLIPSOID_SHORT) {
+            *s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
+            v3_scale(m, 1.0 - 0.5 * step2, next); // 1 / sqrt(1 + step2)
+            return true;
+        }
+        v3_scale(start, 1.0 / sqrt(1.0 + step2), next);
     }
-    const double inverse = 1.0 / det;
-    const double u = (at.k[2] * at.g[0] - at.k[1] * at.g[1]) * inverse;
-    const double v = (at.k[0] * at.g[1] - at.k[1] * at.g[0]) * inverse;
-    const double step2 = u * u + v * v;
-    if (!(step2 <= SHORT_STEP * SHORT_STEP)) {
-        return false;
-    }
-    *s = at.s + 0.5 * (at.g[0] * u + at.g[1] * v);
-    v3_axpy(m, start, u, at.tangent[0]);
-    v3_axpy(m, m, v, at.tangent[1]);
-    v3_scale(m, 1.0 - 0.5 * step2, m); // 1 / sqrt(1 + step2)
-    return true;
+    return false;
 }
 
 /// Where the normal would be if A + B were the ellipsoid of matrix A + B.

@@ -165,7 +165,7 @@ CLX_INLINE void force(const clx_law *law, clx_lanes overlap, double dt, meetings
 }
 
 /// Forces, torques and the links' displacements of the marked lanes.
-CLX_INLINE void write(clast_dem *dem, const clx_batch *p, int lanes, const clx_lanes f[4],
+CLX_INLINE void write(const clx_batch *p, int lanes, const clx_lanes f[4],
                       const clx_lanes torque_b[4], const clx_lanes torque_a[4],
                       const clx_lanes wake_slide[4])
 {
@@ -175,7 +175,7 @@ CLX_INLINE void write(clast_dem *dem, const clx_batch *p, int lanes, const clx_l
     double *link[CLX_LANES];
     for (int k = 0; k < CLX_LANES; ++k) {
         const bool is_on = (lanes >> k & 1) != 0;
-        to[k] = is_on ? &dem->near.push[p->at[k]] : &spare;
+        to[k] = is_on ? p->to[k] : &spare;
         link[k] = is_on ? &p->link[k]->wake : unused;
     }
     lanes_scatter(f, to[0]->force, to[1]->force, to[2]->force, to[3]->force);
@@ -184,7 +184,7 @@ CLX_INLINE void write(clast_dem *dem, const clx_batch *p, int lanes, const clx_l
     lanes_scatter(wake_slide, link[0], link[1], link[2], link[3]);
 }
 
-CLX_INLINE void push_all(clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
+CLX_INLINE void push_all(const clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
 {
     meetings m;
     clx_lanes f[4], torque_a[4], torque_b[4], slide[4];
@@ -207,11 +207,11 @@ CLX_INLINE void push_all(clast_dem *dem, const clx_batch *p, int lanes, bool has
     lanes_cross(torque_b, m.arm_b, turning);
     lanes_cross(torque_a, m.arm_a, turning);
     f[3] = torque_a[3] = torque_b[3] = lanes_all(0.0);
-    write(dem, p, lanes, f, torque_b, torque_a, slide);
+    write(p, lanes, f, torque_b, torque_a, slide);
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_batch_push(clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
+void clx_batch_push(const clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
 {
     if (has_walls) {
         push_all(dem, p, lanes, true);

@@ -14,7 +14,7 @@ typedef enum {
 
 typedef struct clx_batch {
     int n;                     ///< contacts in it; the lanes beyond repeat the first
-    int32_t at[CLX_LANES];     ///< places in the near list
+    clx_pushed *to[CLX_LANES]; ///< where what they do is written
     clx_link *link[CLX_LANES]; ///< may wake now
     double travel[CLX_LANES];  ///< of both grains
     const clx_grain *a[CLX_LANES], *b[CLX_LANES];
@@ -39,4 +39,4 @@ static inline bool clx_batch_has_law(const clx_law *law)
 
 /// Forces of four contacts by the linear law: the twin of clx_law_force, with its bits. Writes what
 /// the marked lanes (bits) push, and their displacements. Walls are looked for if there may be any.
-void clx_batch_push(clast_dem *dem, const clx_batch *batch, int lanes, bool has_walls);
+void clx_batch_push(const clast_dem *dem, const clx_batch *batch, int lanes, bool has_walls);

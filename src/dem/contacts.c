@@ -119,21 +119,21 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
 }
 
-static void part(clast_dem *dem, const clx_batch *p, int k)
+static void part(const clx_batch *p, int k)
 {
     clx_link *link = p->link[k];
     link->wake = p->travel[k] + p->meet.gap[k];
     link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
-    dem->near.push[p->at[k]] = (clx_pushed){0};
+    *p->to[k] = (clx_pushed){0};
 }
 
 /// What a pair that touches does, by the plain way.
-static void push_alone(clast_dem *dem, clx_link *link, const clx_dem_touch *t, int32_t at)
+static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch *t,
+                       clx_pushed *out)
 {
     clx_load on_a = {0};
     clx_load on_b = {0};
-    clx_pushed *out = &dem->near.push[at];
     clx_push_pair(dem, &dem->law, link, t, &on_a, &on_b);
     *out = (clx_pushed){0};
     v3_copy(out->force, on_b.force);
@@ -141,7 +141,7 @@ static void push_alone(clast_dem *dem, clx_link *link, const clx_dem_touch *t, i
     v3_scale(out->torque_a, -1.0, on_a.torque);
 }
 
-static void push_one(clast_dem *dem, const clx_batch *p, int k)
+static void push_one(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_dem_touch t = {.distance = p->meet.gap[k]};
     for (int c = 0; c < 3; ++c) {
@@ -149,7 +149,7 @@ static void push_one(clast_dem *dem, const clx_batch *p, int k)
         t.arm_a[c] = p->meet.point[c][k];
         t.arm_b[c] = p->arm_b[c][k];
     }
-    push_alone(dem, p->link[k], &t, p->at[k]);
+    push_alone(dem, p->link[k], &t, p->to[k]);
 }
 
 /// Finds where the pairs meet and what those that touch do; empties the batch.
@@ -164,7 +164,7 @@ static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     find_all(dem, p, kind);
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
-            part(dem, p, k);
+            part(p, k);
         } else {
             p->link[k]->touches = 1;
             touching |= 1 << k;
@@ -191,7 +191,7 @@ enum { LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
 CLX_INLINE void fetch(const void *record, size_t bytes)
 {
     for (size_t at = 0; at < bytes; at += LINE) {
-        __builtin_prefetch((const char *)record + at, 1);
+        __builtin_prefetch((const char *)record + at);
     }
 }
 
@@ -216,7 +216,7 @@ CLX_INLINE void fetch_ahead(const arrays *s, int64_t at)
 {
     if (at + LINK_AHEAD < s->n) {
         const clx_link *link = &s->link[s->near[at + REST_AHEAD]];
-        __builtin_prefetch(&s->link[s->near[at + LINK_AHEAD]], 1);
+        __builtin_prefetch(&s->link[s->near[at + LINK_AHEAD]]);
         if (link->slot != 0) {
             fetch(&s->memory[link->slot], sizeof *s->memory + LINE / 2);
         }
@@ -228,7 +228,7 @@ CLX_INLINE void fetch_ahead(const arrays *s, int64_t at)
     }
 }
 
-void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base)
+void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push)
 {
     clx_batch batch[CLX_N_BATCH];
     const arrays s = {dem->near.link, dem->list.link, dem->list.memory, dem->grain,
@@ -249,7 +249,7 @@ void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base
         const clx_batch_kind kind =
             s.item != NULL || b < 0 ? CLX_BATCH_ANY : kind_of(link, &s.grain[a], on_b);
         clx_batch *p = &batch[kind];
-        p->at[p->n] = (int32_t)(at - base);
+        p->to[p->n] = push + (at - begin);
         p->link[p->n] = link;
         p->travel[p->n] = travel;
         p->a[p->n] = &s.grain[a];
@@ -267,8 +267,9 @@ void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base
 
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_dem *dem = context;
     (void)worker;
-    clx_contacts_among(context, begin, end, 0);
+    clx_contacts_among(dem, begin, end, dem->near.push + begin);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.
@@ -293,7 +294,7 @@ static void contain_block(int64_t begin, int64_t end, int32_t worker, void *cont
             near->push[at] = (clx_pushed){0};
             for (int32_t k = 0; k < n; ++k) {
                 if (touch[k].link == near->link[at]) {
-                    push_alone(dem, link, &touch[k].touch, at);
+                    push_alone(dem, link, &touch[k].touch, &near->push[at]);
                 }
             }
         }

@@ -1,7 +1,7 @@
 // A simulation: made, filled with grains, stepped.
 #include <clast/dem.h>
 
-#include "base/alloc.h"
+#include "base/lines.h"
 #include "dem/list.h"
 #include <clast/settling.h>
 #include <string.h>
@@ -34,6 +34,7 @@ void clast_dem_destroy(clast_dem *dem)
     clx_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
     clx_near_free(&dem->near);
+    clx_sweeping_free(&dem->sweeping);
     clx_free(dem->body);
     clx_free(dem->grain);
     clx_free(dem->motion);
@@ -120,9 +121,10 @@ static clast_status reserve(clast_dem *dem, int64_t n)
         return CLAST_OK;
     }
     const int64_t room = n + n / 2 + 16;
-    const int64_t blocks = (room + CLX_MOVE_BLOCK - 1) / CLX_MOVE_BLOCK;
-    CLX_TRY(clx_realloc(&dem->grain, room, sizeof *dem->grain));
-    CLX_TRY(clx_realloc(&dem->motion, room, sizeof *dem->motion));
+    const int64_t blocks = room / CLX_SWEEP_BLOCK + 1;
+    int64_t capacity[2] = {dem->grain_capacity, dem->grain_capacity};
+    CLX_TRY(clx_grow_lines(&dem->grain, &capacity[0], room, sizeof *dem->grain));
+    CLX_TRY(clx_grow_lines(&dem->motion, &capacity[1], room, sizeof *dem->motion));
     CLX_TRY(clx_realloc(&dem->travel, room, sizeof *dem->travel));
     CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
     dem->grain_capacity = room;
@@ -198,19 +200,17 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
     dem->drive = *drive;
 }
 
-/// Contacts and motion of a step. In one sweep where a thread works alone: a grain moves as soon as
-/// it has met those of lower number and its own, while all of it is still in the cache.
-static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
+/// Contacts, then motion, of all grains.
+static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
 {
     clast_status status = CLAST_OK;
-    const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
-    if (!verifies && dem->item == NULL && dem->container == NULL && clx_dem_is_serial(dem)) {
-        dem->near.is_gathered = false;
-        *is_fine = clx_meet_and_move(dem);
-        return CLAST_OK;
-    }
-    if (!dem->near.is_gathered) {
+    clx_near *near = &dem->near;
+    if (!near->is_gathered) {
         CLX_TRY(clx_near_gather(dem));
+    }
+    if (!near->is_pushed) {
+        memset(near->push, 0, (size_t)near->n * sizeof *near->push);
+        near->is_pushed = true;
     }
     clx_contacts(dem);
     if (verifies) {
@@ -219,6 +219,14 @@ static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
     *is_fine = clx_move(dem);
 done:
     return status;
+}
+
+static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
+{
+    const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
+    return verifies || dem->item != NULL || dem->container != NULL
+               ? step_in_passes(dem, verifies, is_fine)
+               : clx_sweep(dem, is_fine);
 }
 
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)

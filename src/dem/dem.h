@@ -85,7 +85,7 @@ typedef struct clx_pushed {
 typedef struct clx_near {
     int32_t n;
     int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches; or those of one sweep
+    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches
     int32_t *begin;    ///< [n_item + 1] first of each item's own
     int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
     int32_t *in;       ///< [n] their numbers, rising
@@ -94,8 +94,21 @@ typedef struct clx_near {
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
     int64_t load_capacity;
     bool is_due;
-    bool is_gathered; ///< `in` and `push` are there for all links
+    bool is_gathered; ///< `in` is there
+    bool is_pushed;   ///< `push` is kept up by each step
 } clx_near;
+
+/// How a sweep is divided among threads (sweep.c).
+typedef struct clx_sweeping {
+    int32_t n_worker; ///< 0: to be divided anew
+    int32_t chunk;    ///< grains of each
+    int32_t most;     ///< links of a block of grains
+    uint8_t *is_late; ///< [grains / CLX_LANES] fours that move when all chunks are done
+    int32_t *late;    ///< [n_late] their first grains
+    int32_t n_late;
+    clx_pushed *push; ///< [n_worker][most] of the block that a worker is at
+    int64_t late_capacity[2], push_capacity;
+} clx_sweeping;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
 
@@ -106,7 +119,8 @@ typedef struct clx_wall {
     double radius;    ///< cylinder about the z axis
 } clx_wall;
 
-enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256 };
+/// Grains that a thread takes at once: moving them, sweeping over them.
+enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256, CLX_SWEEP_BLOCK = 48 };
 
 /// A shape and what mechanics needs of it.
 typedef struct clx_dem_body {
@@ -192,9 +206,10 @@ struct clast_dem {
     clx_item *item;      ///< [n_item] or NULL without clumps
     int32_t *item_begin; ///< [n_grain + 1] or NULL without clumps
     clx_convex *convex;  ///< [n_item], or NULL while all items are spheres
-    uint8_t *block_flag; ///< [blocks of CLX_MOVE_BLOCK grains] clx_move_flag of each
+    uint8_t *block_flag; ///< [blocks of CLX_SWEEP_BLOCK grains, at most] clx_move_flag of each
     clx_list list;
     clx_near near;
+    clx_sweeping sweeping;
     clast_dem_verification verified; ///< since the simulation was made or restored
 };
 
@@ -275,8 +290,10 @@ clast_status clx_list_reserve(clx_list *list, int64_t n_item);
 clast_status clx_near_find(clast_dem *dem);
 void clx_near_free(clx_near *near);
 
-/// What clx_contacts and clx_move need of the near list beyond that.
+/// Which links load each grain as b.
 clast_status clx_near_gather(clast_dem *dem);
+
+void clx_sweeping_free(clx_sweeping *sweeping);
 
 /// Whether one thread does all the work: there is no other, or too few grains for the threads'
 /// meetings to pay.
@@ -288,8 +305,8 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 /// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some links of the near list; what link k does goes to near.push[k - base].
-void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, int64_t base);
+/// The same for some links of the near list; what link k does goes to push[k - begin].
+void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push);
 
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);
@@ -299,7 +316,8 @@ void clx_verify(clast_dem *dem);
 bool clx_move(clast_dem *dem);
 
 /// Contacts and motion of whole grains in one sweep: the bits of clx_contacts and clx_move.
-bool clx_meet_and_move(clast_dem *dem);
+/// *is_fine as clx_move.
+clast_status clx_sweep(clast_dem *dem, bool *is_fine);
 
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);

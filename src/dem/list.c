@@ -7,7 +7,7 @@
 // over memory.
 #include "dem/list.h"
 
-#include "base/alloc.h"
+#include "base/lines.h"
 #include "contact/facet.h"
 #include "dem/container.h"
 #include <math.h>
@@ -245,7 +245,7 @@ clast_status clx_list_give_slot(clx_list *l, clx_link *link)
     } else {
         const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
         CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
-        CLX_TRY(clx_grow(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
+        CLX_TRY(clx_grow_lines(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
         CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
         l->n_slot = n + 1;
         link->slot = (uint32_t)n & CLX_MOST_SLOTS;
@@ -321,7 +321,8 @@ static clast_status merge(clast_dem *dem)
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
     int64_t n = 0;
-    CLX_TRY(clx_grow(&l->other, &l->other_capacity, l->n_link + l->n_found + 1, sizeof *l->other));
+    CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_link + l->n_found + 1,
+                           sizeof *l->other));
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;

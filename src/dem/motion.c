@@ -13,9 +13,8 @@
 #include "base/parallel.h"
 #include <clast/settling.h>
 #include <math.h>
-#include <string.h>
 
-enum { BLOCK = CLX_MOVE_BLOCK, SWEEP = 48 };
+enum { BLOCK = CLX_MOVE_BLOCK };
 
 /// q = exp(w dt / 2) q, by the series to the sixth power of the angle (below rounding for 0.1 rad).
 static void turn_by(const double w[3], double dt, double q[4])
@@ -196,18 +195,26 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
     return is_fine;
 }
 
-/// Sum of what contacts do to grain g.
-static inline clx_load load_of(const clast_dem *dem, int64_t g)
+CLX_FOR_EACH_MACHINE
+void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load)
 {
-    const clx_near *near = &dem->near;
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
-    clx_load load;
     for (int32_t k = near->in_begin[g]; k < near->in_begin[g + 1]; ++k) {
         const clx_pushed *push = &near->push[near->in[k]];
         force += lanes_load(push->force);
         torque += lanes_load(push->torque_b);
     }
+    lanes_store(load->force, force);
+    lanes_store(load->torque, torque);
+}
+
+/// Sum of what contacts do to grain g.
+static inline clx_load load_of(const clast_dem *dem, int64_t g)
+{
+    const clx_near *near = &dem->near;
+    clx_load load;
+    clx_move_incoming(near, g, &load);
     const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
     const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
     for (int64_t i = first; i < last; ++i) {
@@ -217,11 +224,9 @@ static inline clx_load load_of(const clast_dem *dem, int64_t g)
             own -= lanes_load(near->push[k].force);
             turning -= lanes_load(near->push[k].torque_a);
         }
-        force += own;
-        torque += turning;
+        lanes_store(load.force, lanes_load(load.force) + own);
+        lanes_store(load.torque, lanes_load(load.torque) + turning);
     }
-    lanes_store(load.force, force);
-    lanes_store(load.torque, torque);
     return load;
 }
 
@@ -239,8 +244,7 @@ static bool is_grain_due(clast_dem *dem, int64_t i)
     return is_due;
 }
 
-/// Moves n grains, four at most; clx_move_flag.
-static int move_few(const clx_moving *c, int64_t first, int n, const clx_load load[CLX_LANES])
+int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load load[CLX_LANES])
 {
     clast_dem *dem = c->dem;
     bool is_lost = false;
@@ -259,11 +263,6 @@ static int move_few(const clx_moving *c, int64_t first, int n, const clx_load lo
     return flag;
 }
 
-static int number_from(int64_t i, int64_t end)
-{
-    return end - i < CLX_LANES ? (int)(end - i) : CLX_LANES;
-}
-
 CLX_FOR_EACH_MACHINE
 static void move_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
@@ -272,11 +271,11 @@ static void move_block(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     for (int64_t i = begin; i < end; i += CLX_LANES) {
         clx_load load[CLX_LANES];
-        const int n = number_from(i, end);
+        const int n = clx_lanes_from(i, end);
         for (int k = 0; k < n; ++k) {
             load[k] = load_of(c->dem, i + k);
         }
-        flag |= move_few(c, i, n, load);
+        flag |= clx_move_few(c, i, n, load);
     }
     c->dem->block_flag[begin / BLOCK] = (uint8_t)flag;
 }
@@ -292,14 +291,14 @@ static double shaking(const clast_dem *dem)
     return d->shake_amplitude * w * w * sin(w * clast_dem_time(dem));
 }
 
-static clx_moving begin_move(clast_dem *dem)
+clx_moving clx_move_begin(clast_dem *dem)
 {
     return (clx_moving){.dem = dem,
                         .shake = shaking(dem),
                         .damping = pow(dem->drive.damping, dem->config.time_step)};
 }
 
-static bool end_move(clast_dem *dem, int flag)
+bool clx_move_end(clast_dem *dem, int flag)
 {
     dem->list.is_due = dem->list.is_due || (flag & CLX_MOVE_DUE) != 0;
     dem->near.is_due = dem->near.is_due || (flag & CLX_MOVE_NEAR_DUE) != 0;
@@ -309,64 +308,11 @@ static bool end_move(clast_dem *dem, int flag)
 bool clx_move(clast_dem *dem)
 {
     const int64_t n_block = (dem->n_grain + BLOCK - 1) / BLOCK;
-    clx_moving c = begin_move(dem);
+    clx_moving c = clx_move_begin(dem);
     int flag = 0;
     clx_dem_for(dem, dem->n_grain, BLOCK, move_block, &c);
     for (int64_t b = 0; b < n_block; ++b) {
         flag |= dem->block_flag[b];
     }
-    return end_move(dem, flag);
-}
-
-/// Adds what the grain's own contacts do to its load, and to those of the grains they push.
-CLX_INLINE void spread(clx_near *near, const clx_link *links, int64_t g, int32_t base)
-{
-    clx_lanes own = lanes_all(0.0);
-    clx_lanes turning = lanes_all(0.0);
-    clx_load *load = &near->load[g];
-    for (int32_t k = near->begin[g]; k < near->begin[g + 1]; ++k) {
-        const clx_link *link = &links[near->link[k]];
-        const clx_pushed *push = &near->push[k - base];
-        if (link->touches == 0) {
-            continue;
-        }
-        own -= lanes_load(push->force);
-        turning -= lanes_load(push->torque_a);
-        if (link->b >= 0) {
-            clx_load *on_b = &near->load[link->b];
-            lanes_store(on_b->force, lanes_load(on_b->force) + lanes_load(push->force));
-            lanes_store(on_b->torque, lanes_load(on_b->torque) + lanes_load(push->torque_b));
-        }
-    }
-    lanes_store(load->force, lanes_load(load->force) + own);
-    lanes_store(load->torque, lanes_load(load->torque) + turning);
-}
-
-CLX_FOR_EACH_MACHINE
-static int spread_and_move(const clx_moving *c, int64_t begin, int64_t end)
-{
-    clx_near *near = &c->dem->near;
-    int flag = 0;
-    for (int64_t g = begin; g < end; ++g) {
-        spread(near, c->dem->list.link, g, near->begin[begin]);
-    }
-    for (int64_t g = begin; g < end; g += CLX_LANES) {
-        const int n = number_from(g, end);
-        flag |= move_few(c, g, n, &near->load[g]);
-        memset(&near->load[g], 0, (size_t)n * sizeof *near->load);
-    }
-    return flag;
-}
-
-bool clx_meet_and_move(clast_dem *dem)
-{
-    const clx_moving c = begin_move(dem);
-    const clx_near *near = &dem->near;
-    int flag = 0;
-    for (int64_t begin = 0; begin < dem->n_grain; begin += SWEEP) {
-        const int64_t end = begin + SWEEP < dem->n_grain ? begin + SWEEP : dem->n_grain;
-        clx_contacts_among(dem, near->begin[begin], near->begin[end], near->begin[begin]);
-        flag |= spread_and_move(&c, begin, end);
-    }
-    return end_move(dem, flag);
+    return clx_move_end(dem, flag);
 }

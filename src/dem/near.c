@@ -6,7 +6,7 @@
 // comparison, one that is not costs nothing, and whether it is here changes no result.
 #include "dem/dem.h"
 
-#include "base/alloc.h"
+#include "base/lines.h"
 #include <string.h>
 
 /// Steps at the present speed that the advance lasts, and its least share of the grain's radius.
@@ -50,8 +50,8 @@ static clast_status pick(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_item; ++i) {
         const double own = near->until[clx_item_grain(dem, i)];
         near->begin[i] = near->n;
-        CLX_TRY(clx_grow(&near->link, &near->capacity,
-                         near->n + (l->begin[i + 1] - l->begin[i]) + 1, sizeof *near->link));
+        CLX_TRY(clx_grow_lines(&near->link, &near->capacity,
+                               near->n + (l->begin[i + 1] - l->begin[i]) + 1, sizeof *near->link));
         for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
             const clx_link *link = &l->link[k];
             const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
@@ -94,7 +94,6 @@ clast_status clx_near_gather(clast_dem *dem)
     CLX_TRY(clx_grow(&near->in_begin, &near->grain_capacity, (int64_t)dem->n_grain + 2,
                      sizeof *near->in_begin));
     CLX_TRY(clx_grow(&near->in, &near->in_capacity, (int64_t)near->n + 1, sizeof *near->in));
-    memset(near->push, 0, (size_t)near->n * sizeof *near->push);
     gather(dem);
     near->is_gathered = true;
 done:
@@ -125,14 +124,17 @@ clast_status clx_near_find(clast_dem *dem)
     CLX_TRY(clx_grow(&near->begin, &near->item_capacity, (int64_t)dem->n_item + 1,
                      sizeof *near->begin));
     CLX_TRY(clx_grow(&near->until, &near->until_capacity, n_grain + 1, sizeof *near->until));
-    CLX_TRY(clx_grow(&near->load, &near->load_capacity, n_grain + 1, sizeof *near->load));
+    CLX_TRY(clx_grow_lines(&near->load, &near->load_capacity, n_grain + 1, sizeof *near->load));
     memset(near->load, 0, (size_t)n_grain * sizeof *near->load);
     advance(dem);
     CLX_TRY(pick(dem));
-    CLX_TRY(clx_grow(&near->push, &near->push_capacity, (int64_t)near->n + 1, sizeof *near->push));
+    CLX_TRY(clx_grow_lines(&near->push, &near->push_capacity, (int64_t)near->n + 1,
+                           sizeof *near->push));
     CLX_TRY(give_slots(dem));
     near->is_due = false;
     near->is_gathered = false;
+    near->is_pushed = false;
+    dem->sweeping.n_worker = 0;
 done:
     return status;
 }

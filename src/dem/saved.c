@@ -1,7 +1,7 @@
 // Simulations to plain arrays and back.
 #include "dem/saved.h"
 
-#include "base/alloc.h"
+#include "base/lines.h"
 #include "dem/list.h"
 #include <string.h>
 
@@ -159,7 +159,7 @@ static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
     CLX_TRY(clx_list_reserve(l, dem->n_item));
-    CLX_TRY(clx_grow(&l->link, &l->capacity, s->n_link + 1, sizeof *l->link));
+    CLX_TRY(clx_grow_lines(&l->link, &l->capacity, s->n_link + 1, sizeof *l->link));
     for (int64_t k = 0; k < s->n_link; ++k) {
         CLX_TRY(take_link(dem, s, k));
     }

@@ -109,6 +109,7 @@ static void threads_change_no_bit(void **state)
     (void)state;
     const uint64_t one = hash_after(1, 0.1, 1600, true);
     assert_true(hash_after(2, 0.1, 1600, true) == one);
+    assert_true(hash_after(4, 0.1, 1600, true) == one);
 }
 
 static uint64_t hull_hash_after(int32_t threads)
@@ -129,7 +130,9 @@ static uint64_t hull_hash_after(int32_t threads)
 static void threads_change_no_bit_of_hulls(void **state)
 {
     (void)state;
-    assert_true(hull_hash_after(2) == hull_hash_after(1));
+    const uint64_t one = hull_hash_after(1);
+    assert_true(hull_hash_after(2) == one);
+    assert_true(hull_hash_after(4) == one);
 }
 
 /* Without a drive the sum of kinetic, potential and elastic energy only falls; the scheme's own

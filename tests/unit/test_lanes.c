@@ -246,7 +246,6 @@ static void law_in_lanes_is_the_law_alone(void **state)
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
     CHECK_OK(clast_dem_create(&config, &dem));
-    dem->near.push = room;
     for (uint64_t i = 0; i < 500; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
         clx_grain grain[2 * CLX_LANES];
@@ -262,7 +261,7 @@ static void law_in_lanes_is_the_law_alone(void **state)
             clx_rng_direction(&rng, n);
             fill3(&rng, clx_rng_below(&rng, 3) == 0 ? 0.0 : 1e-7, link[k].slide);
             v3_copy(slide[k], link[k].slide);
-            p.at[k] = k;
+            p.to[k] = &room[k];
             p.link[k] = &link[k];
             p.a[k] = &grain[2 * k];
             p.b[k] = link[k].b < 0 ? &clx_immovable : &grain[2 * k + 1];
@@ -284,7 +283,6 @@ static void law_in_lanes_is_the_law_alone(void **state)
             }
         }
     }
-    dem->near.push = NULL;
     clast_dem_destroy(dem);
 }
 

@@ -1,0 +1,206 @@
+// A step of whole grains in one sweep over memory.
+//
+// A grain's load is known when the pairs of lower grains and its own are done, and no later pair
+// asks where it is. So a block of grains meets its neighbours and moves at once: what contacts do
+// stays in the first-level cache, grains in the second.
+//
+// Threads take chunks of grains. A grain that one of an earlier chunk pushes is late: it stays
+// where it is, what is done to it is kept in near.push, and it moves when all chunks are done. No
+// other chunk reads a grain that is not late. The sums have the order of motion.c, so chunks and
+// threads change no bit.
+#include "base/lines.h"
+#include "base/parallel.h"
+#include "dem/move.h"
+#include <string.h>
+
+/// Grains of a block, whose pushes stay in the first-level cache; chunks of a thread.
+enum { BLOCK = CLX_SWEEP_BLOCK, CHUNKS = 4 };
+
+void clx_sweeping_free(clx_sweeping *s)
+{
+    clx_free(s->is_late);
+    clx_free(s->late);
+    clx_free(s->push);
+    *s = (clx_sweeping){0};
+}
+
+/// Marks the fours that some earlier chunk pushes, and lists them.
+static void find_late(clast_dem *dem)
+{
+    clx_sweeping *s = &dem->sweeping;
+    const clx_near *near = &dem->near;
+    const int32_t n_four = (dem->n_grain + CLX_LANES - 1) / CLX_LANES;
+    memset(s->is_late, 0, (size_t)n_four);
+    s->n_late = 0;
+    for (int32_t k = 0; k < near->n && s->n_worker > 1; ++k) {
+        const clx_link *link = &dem->list.link[near->link[k]];
+        if (link->b >= 0 && link->a / s->chunk != link->b / s->chunk) {
+            s->is_late[link->b / CLX_LANES] = 1;
+        }
+    }
+    for (int32_t f = 0; f < n_four; ++f) {
+        if (s->is_late[f] != 0) {
+            s->late[s->n_late++] = f * CLX_LANES;
+        }
+    }
+}
+
+static clast_status divide(clast_dem *dem, int32_t n_worker)
+{
+    clast_status status = CLAST_OK;
+    clx_sweeping *s = &dem->sweeping;
+    const clx_near *near = &dem->near;
+    const int32_t n = dem->n_grain;
+    const int32_t n_four = n / CLX_LANES + 1;
+    const int32_t n_chunk = n_worker > 1 ? n_worker * CHUNKS : 1;
+    s->chunk = (n / n_chunk / BLOCK + 1) * BLOCK;
+    s->most = 0;
+    for (int32_t i = 0; i < n; i += BLOCK) {
+        const int32_t links = near->begin[i + BLOCK < n ? i + BLOCK : n] - near->begin[i];
+        s->most = links > s->most ? links : s->most;
+    }
+    CLX_TRY(clx_grow(&s->is_late, &s->late_capacity[0], n_four, sizeof *s->is_late));
+    CLX_TRY(clx_grow(&s->late, &s->late_capacity[1], n_four, sizeof *s->late));
+    CLX_TRY(
+        clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
+    s->n_worker = n_worker;
+    find_late(dem);
+    if (s->n_late > 0 && !near->is_gathered) {
+        CLX_TRY(clx_near_gather(dem));
+    }
+done:
+    if (status != CLAST_OK) {
+        s->n_worker = 0;
+    }
+    return status;
+}
+
+/// What a contact does to b: onto its load, or kept where b is late.
+CLX_INLINE void push_on(clast_dem *dem, int32_t b, int32_t k, const clx_pushed *push, bool touches)
+{
+    if (dem->sweeping.is_late[b / CLX_LANES] != 0) {
+        dem->near.push[k] = touches ? *push : (clx_pushed){0};
+    } else if (touches) {
+        clx_load *load = &dem->near.load[b];
+        lanes_store(load->force, lanes_load(load->force) + lanes_load(push->force));
+        lanes_store(load->torque, lanes_load(load->torque) + lanes_load(push->torque_b));
+    }
+}
+
+/// What grain g's own contacts do, to it and to the others. `push` begins with its first link's.
+CLX_INLINE void spread(clast_dem *dem, int64_t g, const clx_pushed *push)
+{
+    clx_near *near = &dem->near;
+    const clx_link *links = dem->list.link;
+    clx_lanes own = lanes_all(0.0);
+    clx_lanes turning = lanes_all(0.0);
+    clx_load *load = &near->load[g];
+    for (int32_t k = near->begin[g]; k < near->begin[g + 1]; ++k, ++push) {
+        const clx_link *link = &links[near->link[k]];
+        if (link->touches != 0) {
+            own -= lanes_load(push->force);
+            turning -= lanes_load(push->torque_a);
+        }
+        if (link->b >= 0) {
+            push_on(dem, link->b, k, push, link->touches != 0);
+        }
+    }
+    lanes_store(load->force, lanes_load(load->force) + own);
+    lanes_store(load->torque, lanes_load(load->torque) + turning);
+}
+
+CLX_FOR_EACH_MACHINE
+static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pushed *push)
+{
+    for (int64_t g = begin; g < end; ++g) {
+        spread(dem, g, push + (dem->near.begin[g] - dem->near.begin[begin]));
+    }
+}
+
+static int move_and_clear(const clx_moving *c, int64_t g, int n)
+{
+    clx_load *load = &c->dem->near.load[g];
+    const int flag = clx_move_few(c, g, n, load);
+    memset(load, 0, (size_t)n * sizeof *load);
+    return flag;
+}
+
+static int sweep_block(const clx_moving *c, int64_t begin, int64_t end, clx_pushed *push)
+{
+    clast_dem *dem = c->dem;
+    int flag = 0;
+    clx_contacts_among(dem, dem->near.begin[begin], dem->near.begin[end], push);
+    spread_all(dem, begin, end, push);
+    for (int64_t g = begin; g < end; g += CLX_LANES) {
+        if (dem->sweeping.is_late[g / CLX_LANES] == 0) {
+            flag |= move_and_clear(c, g, clx_lanes_from(g, end));
+        }
+    }
+    return flag;
+}
+
+static void sweep_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const clx_moving *c = context;
+    const clx_sweeping *s = &c->dem->sweeping;
+    int flag = 0;
+    for (int64_t g = begin; g < end; g += BLOCK) {
+        flag |= sweep_block(c, g, g + BLOCK < end ? g + BLOCK : end,
+                            s->push + (int64_t)worker * s->most);
+    }
+    c->dem->block_flag[begin / s->chunk] = (uint8_t)flag;
+}
+
+/// Late grains: what was kept for them, then their own.
+static void move_late(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const clx_moving *c = context;
+    clx_near *near = &c->dem->near;
+    int flag = 0;
+    (void)worker;
+    for (int64_t f = begin; f < end; ++f) {
+        const int64_t first = c->dem->sweeping.late[f];
+        const int n = clx_lanes_from(first, c->dem->n_grain);
+        for (int64_t g = first; g < first + n; ++g) {
+            clx_load in;
+            clx_load *load = &near->load[g];
+            clx_move_incoming(near, g, &in);
+            for (int i = 0; i < 4; ++i) {
+                load->force[i] = in.force[i] + load->force[i];
+                load->torque[i] = in.torque[i] + load->torque[i];
+            }
+        }
+        flag |= move_and_clear(c, first, n);
+    }
+    c->dem->block_flag[begin / BLOCK] = (uint8_t)flag;
+}
+
+static int all_flags(const clast_dem *dem, int64_t n_block)
+{
+    int flag = 0;
+    for (int64_t b = 0; b < n_block; ++b) {
+        flag |= dem->block_flag[b];
+    }
+    return flag;
+}
+
+clast_status clx_sweep(clast_dem *dem, bool *is_fine)
+{
+    clast_status status = CLAST_OK;
+    clx_sweeping *s = &dem->sweeping;
+    clx_moving c = clx_move_begin(dem);
+    const int32_t n_worker = clx_dem_is_serial(dem) ? 1 : clx_parallel_workers();
+    if (s->n_worker != n_worker) {
+        CLX_TRY(divide(dem, n_worker));
+    }
+    dem->near.is_pushed = false;
+    clx_dem_for(dem, dem->n_grain, s->chunk, sweep_chunk, &c);
+    int flag = all_flags(dem, (dem->n_grain + s->chunk - 1) / s->chunk);
+    if (s->n_late > 0) {
+        clx_dem_for(dem, s->n_late, BLOCK, move_late, &c);
+        flag |= all_flags(dem, (s->n_late + BLOCK - 1) / BLOCK);
+    }
+    *is_fine = clx_move_end(dem, flag);
+done:
+    return status;
+}
