@@ -39,6 +39,23 @@ done:
     return status;
 }
 
+/// Positions and velocities of all snapshots; `number` counts them from 1.
+static clast_status check_motion(const clast_cloud *cloud, long long number)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n = cloud->n * cloud->dimension;
+    for (int64_t i = 0; i < n; ++i) {
+        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
+                  "particle %lld has a coordinate that is not finite in snapshot %lld",
+                  (long long)(i / cloud->dimension + 1), number);
+        CLX_CHECK(cloud->velocity == NULL || isfinite(cloud->velocity[i]), CLAST_E_FORMAT,
+                  "particle %lld has a velocity that is not finite in snapshot %lld",
+                  (long long)(i / cloud->dimension + 1), number);
+    }
+done:
+    return status;
+}
+
 static clast_status check_input(const clx_evolution *r)
 {
     clast_status status = CLAST_OK;
@@ -52,6 +69,9 @@ static clast_status check_input(const clx_evolution *r)
                   "every snapshot must list the same particles in the same order",
                   (long long)k + 1, (long long)in->snapshot[k].n, in->snapshot[k].dimension,
                   (long long)n, cloud->dimension);
+    }
+    for (int64_t k = 0; k < in->n_snapshot; ++k) {
+        CLX_TRY(check_motion(&in->snapshot[k], (long long)k + 1));
     }
     CLX_TRY(check_column(cloud->radius, n, "radius", false));
     CLX_TRY(check_column(cloud->mass, n, "mass", false));
@@ -224,9 +244,11 @@ static clast_status make_mesh(clx_evolution *r)
     clast_cloud live = {0};
     int64_t *number = NULL;
     clast_decomposition made = {0};
+    clast_decompose_config config = r->config->decompose;
+    config.beta_dt = 0.0; // cells alone: no cap binds
     CLX_TRY(clx_alloc(&number, r->population.n, sizeof *number));
     CLX_TRY(gather_live(r, &live, number));
-    CLX_TRY(clast_decompose_in(&r->domain, &live, &r->config->decompose, &made));
+    CLX_TRY(clast_decompose_in(&r->domain, &live, &config, &made));
     for (int64_t i = 0; i < live.n; ++i) {
         r->cell[number[i]] = made.cells.of_point[i];
     }
@@ -366,6 +388,7 @@ done:
     return status;
 }
 
+/// Volumes in which pairs meet as often as the extrapolated events say.
 static clast_status take_volumes(clx_evolution *r)
 {
     clast_status status = CLAST_OK;
@@ -373,7 +396,10 @@ static clast_status take_volumes(clx_evolution *r)
     r->volume = NULL;
     r->n_cell = r->mesh.cells.n;
     CLX_TRY(clx_alloc(&r->volume, r->n_cell, sizeof *r->volume));
-    memcpy(r->volume, r->mesh.cells.volume, (size_t)r->n_cell * sizeof *r->volume);
+    const double share = r->mesh.smoothing_bias > -1.0 ? 1.0 + r->mesh.smoothing_bias : 1.0;
+    for (int32_t c = 0; c < r->n_cell; ++c) {
+        r->volume[c] = share * r->mesh.cells.volume[c];
+    }
 done:
     return status;
 }

@@ -149,18 +149,19 @@ static void add_pairs(count *n, const part *p, int n_part)
     }
 }
 
-/// Each cell's events by its own count, uncapped; returns their sum where no cap binds.
+/// Each cell's events by its own count, uncapped; returns the sum of w_i w_j / V over i != j where
+/// no cap binds.
 static double count_plain(const count *n)
 {
     double sum = 0.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         const double *w = n->cell[c].power;
-        const double rate = n->config->beta_dt / n->cell[c].volume;
+        const double pairs = fmax(0.0, w[0] * w[0] - w[1]) / n->cell[c].volume;
         const double wanted =
-            n->is_printed ? rate * w[0] * w[0] : 0.5 * rate * fmax(0.0, w[0] * w[0] - w[1]);
+            n->config->beta_dt * (n->is_printed ? w[0] * w[0] / n->cell[c].volume : 0.5 * pairs);
         n->capped[c] = wanted > 0.5 * w[0];
         n->cells->events[c] = wanted;
-        sum += n->capped[c] ? 0.0 : wanted;
+        sum += n->capped[c] ? 0.0 : pairs;
     }
     return sum;
 }
@@ -196,8 +197,7 @@ static void count_pairs(count *n)
 /// Shares the extrapolated sum out over the cells whose cap does not bind, in proportion.
 static void share_out(const count *n, double plain, clast_decomposition *r)
 {
-    const double wanted = 0.5 * n->config->beta_dt * n->pairs;
-    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.0, wanted / plain) : 1.0;
+    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.0, n->pairs / plain) : 1.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         const double cap = 0.5 * n->cells->weight[c];
         const double shared = factor * n->cells->events[c];

@@ -30,6 +30,10 @@ static clast_status check_points(const clast_cloud *cloud)
                   "the radius of point %lld is %g; it must be a number > 0", (long long)i + 1,
                   cloud->radius[i]);
     }
+    for (int64_t i = 0; i < cloud->n && cloud->variable != NULL; ++i) { // NAN: not known
+        CLX_CHECK(!isinf(cloud->variable[i]), CLAST_E_FORMAT,
+                  "the variable of point %lld is infinite", (long long)i + 1);
+    }
     for (int64_t i = 0; i < cloud->n && cloud->weight != NULL; ++i) {
         const double w = cloud->weight[i];
         CLX_CHECK(w > 0.0 && isfinite(w), CLAST_E_FORMAT,

@@ -45,8 +45,18 @@ class BadClouds(Case):
         for word in ("nan", "inf", "-inf"):
             path = self.folder / "bad.csv"
             path.write_text(f"x,y,z\n0.1,0.2,0.3\n0.1,{word},0.3\n")
-            for command in ("decompose", "agglomerate"):
-                self.assert_fails(3, command, path, "--domain", CUBE, says=["point 2", "not finite"])
+            self.assert_fails(3, "decompose", path, "--domain", CUBE, says=["point 2", "not finite"])
+            self.assert_fails(3, "agglomerate", path, "--domain", CUBE, says=["particle 2", "not finite in snapshot 1"])
+            good = self.write("good.csv", [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]])
+            for rebuild in ("changed", "always", "never"):
+                self.assert_fails(3, "agglomerate", good, path, "--domain", CUBE, "--rebuild", rebuild,
+                                  says=["particle 2", "coordinate that is not finite in snapshot 2"])
+            path.write_text(f"x,y,z,u,v,w\n0.1,0.2,0.3,{word},0,0\n")
+            self.assert_fails(3, "agglomerate", path, "--domain", CUBE, "--velocity-columns", "u,v,w",
+                              says=["particle 1", "velocity that is not finite"])
+        path = self.folder / "hot.csv"
+        path.write_text("x,y,z,T\n0.1,0.2,0.3,inf\n")
+        self.assert_fails(3, "decompose", path, "--domain", CUBE, "--variable-column", "T", says=["variable of point 1"])
         path = self.write("weights.csv", [[0.5, 0.5, 0.5, -2.0]], "x,y,z,w")
         self.assert_fails(3, "decompose", path, "--domain", CUBE, "--weight-column", "w", says=["weight of point 1", "-2"])
         self.assert_fails(3, "agglomerate", path, "--domain", CUBE, "--weight-column", "w", says=["weight of particle 1", "-2"])
