@@ -205,9 +205,11 @@ static clast_status draw_score(const clast_decomposition *r, const char *path)
     clast_series series[4 * MAX_PASS_DRAWN + 2]; // and one that is not kept
     int32_t n_series = 0;
     double *ratio = NULL;
+    double most = one;
     CLX_TRY(clx_alloc(&ratio, r->search.n_row, sizeof *ratio));
     for (int64_t i = 0; i < r->search.n_row; ++i) {
         ratio[i] = score[i] / ideal[i];
+        most = fmax(most, ratio[i]);
     }
     for (int64_t begin = 0; begin < r->search.n_row && pass[begin] <= MAX_PASS_DRAWN;) {
         // of a joint search, the lower thresholds beside the upper one that was chosen
@@ -217,7 +219,8 @@ static clast_status draw_score(const clast_decomposition *r, const char *path)
         n_series += is_drawn ? 2 : 0;
     }
     const clast_chart chart = {.x = {.label = "threshold: density over the mean (-)"},
-                               .y = {.label = "expected score over the ideal (-)"},
+                               .y = {.label = "expected score over the ideal (-)",
+                                     .high = 1.1 * most}, // room for the mark's word
                                .series = series,
                                .n_series = n_series,
                                .mark_y = &one,
