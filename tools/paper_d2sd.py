@@ -285,6 +285,15 @@ def table_clouds(_, share):
                     "2 (mean of f at its points / integral of f^2 - 1), is taken off in the bias alone. Intervals are of Poisson clouds.", ""]
 
 
+def table_change(_, samples):
+    """False alarms of the test that asks for new cells: two samples of one density."""
+    lines = [f"## False alarms of the test for a changed cloud ({samples} pairs of samples of one density)", "",
+             "| d | n | cloud | at level 0.05 | at 0.01 | at 0.001 |", "| --- |" + " --- |" * 5]
+    for r in bench("bench_tests", "change", samples):
+        lines.append(f"| {r['d']} | {r['n']} | {r['cloud']} | {r['at_0.05']} | {r['at_0.01']} | {r['at_0.001']} |")
+    return lines + ["", "Steep: density 1 / (2 sqrt x) along each axis; blocks with few points make the test a little shy there.", ""]
+
+
 def table_rates(kind):
     """The rows of bench_tests of one kind."""
     def made(_, samples):
@@ -294,7 +303,8 @@ def table_rates(kind):
 
 
 PARTS = {"frame": table_frame, "uniform": table_uniform, "quarter": table_quarter, "pipe": table_pipe, "extension": table_extension,
-         "flat": table_flat, "clouds": table_clouds, "size": table_rates(table_size), "power": table_rates(table_power)}
+         "flat": table_flat, "clouds": table_clouds, "size": table_rates(table_size), "power": table_rates(table_power),
+         "change": table_change}
 
 
 def digest(*words):
@@ -330,7 +340,7 @@ def main():
     parser.add_argument("--parts", help="print these parts instead of writing the page: " + ",".join(PARTS))
     parser.add_argument("-o", "--output", default="docs/validation/d2sd.md")
     args = parser.parse_args()
-    argument = {"size": args.samples, "power": args.power, "clouds": args.clouds, "flat": args.clouds}
+    argument = {"size": args.samples, "change": args.samples, "power": args.power, "clouds": args.clouds, "flat": args.clouds}
     if args.parts:
         for name in args.parts.split(","):
             print("\n".join(part_lines(name, argument.get(name))))
