@@ -18,8 +18,12 @@ enum {
     TAG_PREDICTOR = 317,
     TAG_TILES = 322,
     TAG_FORMAT = 339,
-    ENTRY_SIZE = 12
+    ENTRY_SIZE = 12,
+    CLASSIC = 42 // 43: BigTIFF
 };
+
+/// What to do about a kind that is not read, with libtiff's tool.
+#define CONVERT "`tiffcp -s -c none IN OUT` writes what is read"
 
 typedef struct {
     const uint8_t *bytes;
@@ -38,7 +42,8 @@ typedef struct {
 
 bool clx_tiff_is(const uint8_t *bytes, size_t n)
 {
-    return n >= 8 && (memcmp(bytes, "II*\0", 4) == 0 || memcmp(bytes, "MM\0*", 4) == 0);
+    return n >= 8 && (memcmp(bytes, "II*\0", 4) == 0 || memcmp(bytes, "MM\0*", 4) == 0 ||
+                      memcmp(bytes, "II+\0", 4) == 0 || memcmp(bytes, "MM\0+", 4) == 0);
 }
 
 static uint32_t number(const tiff *t, size_t at, int size)
@@ -120,7 +125,7 @@ done:
 static clast_status check_page(const page *p, int32_t k)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(!p->has_tiles, CLAST_E_FORMAT, "TIFF: page %d has tiles; save it in strips", k);
+    CLX_CHECK(!p->has_tiles, CLAST_E_FORMAT, "TIFF: page %d has tiles; " CONVERT, k);
     CLX_CHECK(p->width > 0 && p->height > 0 && p->width < INT32_MAX && p->height < INT32_MAX,
               CLAST_E_FORMAT, "TIFF: page %d is %u x %u", k, p->width, p->height);
     CLX_CHECK(p->samples == 1, CLAST_E_FORMAT,
@@ -129,10 +134,10 @@ static clast_status check_page(const page *p, int32_t k)
     CLX_CHECK(p->bits == 8 || p->bits == 16 || p->bits == 32, CLAST_E_FORMAT,
               "TIFF: page %d has %u bits a pixel; 8, 16 and 32 are read", k, p->bits);
     CLX_CHECK(p->compression == 1 || p->compression == 8 || p->compression == 32946, CLAST_E_FORMAT,
-              "TIFF: page %d is packed by method %u; save it uncompressed or deflated", k,
-              p->compression);
+              "TIFF: page %d is packed by method %u%s; " CONVERT, k, p->compression,
+              p->compression == 5 ? " (LZW)" : "");
     CLX_CHECK(p->predictor == 1, CLAST_E_FORMAT,
-              "TIFF: page %d is packed with a predictor; save it uncompressed", k);
+              "TIFF: page %d is packed with a predictor; " CONVERT, k);
     CLX_CHECK(p->n_strip > 0 && (p->n_count == p->n_strip || (p->n_count == 0 && p->n_strip == 1)),
               CLAST_E_FORMAT, "TIFF: page %d has %u strips and %u lengths", k, p->n_strip,
               p->n_count);
@@ -255,6 +260,8 @@ clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume
     uint8_t *scratch = NULL;
     page p = {0};
     int32_t n_page = 0;
+    CLX_CHECK(number(&t, 2, 2) == CLASSIC, CLAST_E_FORMAT,
+              "TIFF: a BigTIFF; " CONVERT " (beyond 4 GiB: save it as NRRD or bare values)");
     CLX_TRY(count_pages(&t, &p, &n_page));
     CLX_CHECK(promised(&t, &p) <= n_page, CLAST_E_FORMAT,
               "TIFF: %lld slices are promised and %d have a page; save the stack with a page a "

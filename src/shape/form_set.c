@@ -286,6 +286,28 @@ done:
     return status;
 }
 
+/// " (rows 2, 3 and 5 more)"
+static void put_rows(const clast_form_set *set, char *text, size_t size, size_t used)
+{
+    enum { MOST_SHOWN = 10 };
+    const int64_t n = set->n_left_out;
+    const int64_t n_shown = n <= MOST_SHOWN ? n : MOST_SHOWN;
+    for (int64_t k = 0; k < n_shown && used < size; ++k) {
+        used += (size_t)snprintf(text + used, size - used, "%s%lld",
+                                 k > 0    ? ", "
+                                 : n == 1 ? " (row "
+                                          : " (rows ",
+                                 (long long)set->left_out[k].row + 1);
+    }
+    if (used < size && n_shown < n) {
+        used +=
+            (size_t)snprintf(text + used, size - used, " and %lld more", (long long)(n - n_shown));
+    }
+    if (used < size) {
+        (void)snprintf(text + used, size - used, ")");
+    }
+}
+
 void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
 {
     int64_t count[CLAST_N_ROW_FAULT] = {0};
@@ -307,10 +329,7 @@ void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size
             comma = ",";
         }
     }
-    if (used < size) {
-        (void)snprintf(text + used, size - used, " (first: row %lld)",
-                       (long long)set->left_out[0].row + 1);
-    }
+    put_rows(set, text, size, used);
 }
 
 clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table)
