@@ -92,7 +92,7 @@ static int place_of(uint64_t mantissa, int exponent)
 /// Digits as printf's %g writes them: plain from 1e-4 up to the precision, no zeros at the end.
 static int put_digits(uint64_t word, int n_digit, int place, char *text)
 {
-    char digit[MOST_DIGITS];
+    char digit[MOST_DIGITS] = {0};
     const int precision = n_digit;
     int n = 0;
     for (int i = n_digit - 1; i >= 0; --i, word /= 10) {

@@ -173,7 +173,7 @@ done:
 
 void clx_outline_smooth(clx_outline *outline, double window)
 {
-    double weight[N_POINT / 2];
+    double weight[N_POINT / 2] = {0};
     double keep[N_POINT][2];
     const double piece = outline->length / N_POINT;
     const int wanted = (int)(0.5 * window / piece + 0.5);

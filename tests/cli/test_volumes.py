@@ -85,6 +85,10 @@ class Volumes(Case):
         self.assertEqual(out.code, 0, out.err)
         return out.json
 
+    def test_hulls_of_voxels_say_what_they_add(self):
+        for g in self.grains(self.file("h.nrrd", nrrd("raw", U8)), "--threshold", "100", "--hull"):
+            self.assertAlmostEqual(g["hull_volume_added"], g["volume"] / (g["n_voxel"] * 1e-9 * math.prod(EDGE)) - 1.0, delta=1e-9)
+
     def check_sizes(self, grains, unit=1.0):
         self.assertEqual(len(grains), 2)
         for g, (_, axes) in zip(grains, GRAINS):
