@@ -86,7 +86,7 @@ class Volumes(Case):
         return out.json
 
     def test_hulls_of_voxels_say_what_they_add(self):
-        for g in self.grains(self.file("h.nrrd", nrrd("raw", U8)), "--threshold", "100", "--hull"):
+        for g in self.grains(self.file("h.nrrd", nrrd("raw", U8)), "--threshold", "100", "--hull")["grains"]:
             self.assertAlmostEqual(g["hull_volume_added"], g["volume"] / (g["n_voxel"] * 1e-9 * math.prod(EDGE)) - 1.0, delta=1e-9)
 
     def check_sizes(self, grains, unit=1.0):
