@@ -195,7 +195,7 @@ clast_status clast_synthesize_grain(const clast_synthesize_config *config, uint6
     CLX_TRY(begin(config, index, &m));
     CLX_TRY(config->measure == CLAST_ROUGH_AMPLITUDE ? make_grain(&m, config->rough)
                                                      : search(&m, &r.amplitude));
-    r.normal_roundness = m.measured.roundness;
+    r.normal_roundness = m.measured.normal_roundness;
     r.angularity = m.measured.angularity;
     r.volume = m.measured.volume;
     r.n_triangle = m.grain.n_tri;

@@ -114,6 +114,8 @@ static void check_grain(const clast_synthesize_config *c, uint64_t index)
     CHECK_OK(clast_mesh_hull(&mesh, &hull));
     CHECK_REL(clast_mesh_volume(&hull), g.volume, 1e-12);
     CHECK_REL(g.volume, r.volume, 1e-15);
+    CHECK_REL(g.normal_roundness, r.normal_roundness, 1e-15);
+    CHECK_REL(g.angularity, r.angularity, 1e-15);
     clast_mesh_free(&hull);
     clast_mesh_free(&mesh);
 }
