@@ -2,7 +2,8 @@
 // builds counted and refusable. The pool in use is thread-local, so that no function between the
 // caller of a workspace and an allocation needs to know of it.
 #ifdef __linux__
-#define _DEFAULT_SOURCE 1 // madvise
+// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): glibc's, for madvise
+#define _DEFAULT_SOURCE 1
 #endif
 #include "base/alloc.h"
 

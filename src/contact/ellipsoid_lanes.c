@@ -166,7 +166,7 @@ CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset
     const clx_lanes e = lanes_dot(m, m) - 1.0;
     const clx_lanes unit = 1.0 - 0.5 * e + 0.375 * e * e;
     clx_marks goes_on = lanes_size(e) < 1e-5;
-    clx_marks is_done = goes_on ^ goes_on;
+    clx_marks is_done = {0};
     for (int c = 0; c < 3; ++c) {
         start[c] = unit * m[c];
     }

@@ -1,0 +1,115 @@
+// What does a grain-step of the same bed cost among more grains, and with more threads?
+//
+//     build/release/bench/bench_tiles [NX NY [THREADS]]      (without numbers: all, some minutes)
+//
+// The bed of case P1 (4000 grains, shaken and settled) stands beside itself NX times NY times in
+// one periodic box, grain by grain of all copies in turn, as a fill would number them: so every
+// size has the same contacts a grain, which no bed that is still falling has. Contacts are found
+// afresh, 50 steps go by, then windows of 500 steps are timed; the least counts.
+#include "gravel.h"
+#include "support.h"
+
+#include <clast/parallel.h>
+#include <clast/scene.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { N_FORM = 63, SETTLE = 155000, WARM = 50, STEPS = 500, WINDOWS = 3 };
+
+static const double WIDTH = 0.1;
+
+static double wall(void)
+{
+    struct timespec t;
+    (void)clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static clast_dem *make_box(int nx, int ny)
+{
+    clast_dem *dem = NULL;
+    clast_dem_config config;
+    CHECK_OK(clast_fields_default(clast_dem_fields, &config));
+    config.domain = CLAST_DEM_PERIODIC;
+    config.width = WIDTH * nx;
+    config.depth = WIDTH * ny;
+    config.height = 2.0;
+    CHECK_OK(clast_dem_create(&config, &dem));
+    for (int k = 0; k < N_FORM; ++k) {
+        clast_mesh hull = {0};
+        clast_shape form = {0};
+        char name[16];
+        int32_t id = 0;
+        support_gravel(30, (uint64_t)k, 152, &hull);
+        (void)snprintf(name, sizeof name, "form%d", k);
+        CHECK_OK(clast_shape_mesh(name, &hull, &form));
+        CHECK_OK(clast_dem_add_shape(dem, &form, &id));
+        clast_shape_free(&form);
+        clast_mesh_free(&hull);
+    }
+    clast_dem_set_drive(dem, &(clast_dem_drive){3e-4, 0.025, 1.0});
+    return dem;
+}
+
+static clast_dem *tile(const clast_dem *bed, int nx, int ny)
+{
+    clast_dem *dem = make_box(nx, ny);
+    const int32_t n = clast_dem_n_grain(bed);
+    clast_dem_grain *grain = malloc((size_t)n * (size_t)(nx * ny) * sizeof *grain);
+    int32_t k = 0;
+    assert_non_null(grain);
+    for (int32_t i = 0; i < n; ++i) {
+        for (int copy = 0; copy < nx * ny; ++copy) {
+            clast_dem_read_grain(bed, i, &grain[k]);
+            grain[k].position[0] += WIDTH * (copy % nx);
+            grain[k++].position[1] += WIDTH * (copy / nx);
+        }
+    }
+    CHECK_OK(clast_dem_add_grains(dem, k, grain));
+    free(grain);
+    return dem;
+}
+
+static double time_tiles(const clast_dem *bed, int nx, int ny, int threads)
+{
+    double best = INFINITY;
+    clast_parallel_set_threads(threads);
+    clast_dem *dem = tile(bed, nx, ny);
+    CHECK_OK(clast_dem_step(dem, WARM));
+    for (int k = 0; k < WINDOWS; ++k) {
+        const double begun = wall();
+        CHECK_OK(clast_dem_step(dem, STEPS));
+        best = fmin(best, 1e9 * (wall() - begun) / STEPS / clast_dem_n_grain(dem));
+    }
+    clast_dem_destroy(dem);
+    return best;
+}
+
+static void report(const char *name, double ns, double reference)
+{
+    printf("%s,%.4g,ns/grain-step,%.4g,%.3g\n", name, ns, reference, reference / ns);
+    (void)fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+    clast_dem *bed = NULL;
+    clast_parallel_set_threads(1);
+    CHECK_OK(clast_scene_p1(&(clast_scene_bed){4000, 152, WIDTH, 0.0}, &bed));
+    CHECK_OK(clast_dem_step(bed, SETTLE));
+    printf("scene,value,unit,reference,ratio\n");
+    if (argc > 2) {
+        const int threads = argc > 3 ? atoi(argv[3]) : 1;
+        report("TILES", time_tiles(bed, atoi(argv[1]), atoi(argv[2]), threads), 250.0);
+    } else {
+        const double one = time_tiles(bed, 1, 1, 1);
+        report("TILES_4000", one, 250.0);
+        report("TILES_196000", time_tiles(bed, 7, 7, 1), 1.5 * one);
+        const double alone = time_tiles(bed, 5, 1, 1);
+        report("TILES_20000", alone, 250.0);
+        report("TILES_20000_2_THREADS", time_tiles(bed, 5, 1, 2), alone / 1.8);
+    }
+    clast_dem_destroy(bed);
+    return 0;
+}
