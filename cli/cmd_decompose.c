@@ -374,19 +374,23 @@ const cli_command cli_decompose = {
     .arguments = "POINTS",
     .summary = "test a particle cloud for uniformity, split it into uniform cells, count "
                "agglomeration events",
-    .details = "Reads delimited text, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. Method: "
-               "Martinez Rodriguez et al., Appl. Math. Modelling 90 "
-               "(2021) 582-614.\n"
-               "tests: symmetric, centred and star discrepancy A_n standardised by its exact "
-               "variance (two-sided p),\n"
-               "       Henze-Zirkler on probit scores, Pearson with Bonferroni; rejected when "
-               "--votes of them reject.\n"
-               "events: sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events paper "
-               "takes n^2 / V as printed.\n"
-               "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events), "
-               "point_cells.csv, thresholds.csv,\nsummary.json, cells.vtu and points.vtp for "
-               "ParaView, and charts: points, density, score, events; with "
-               "--sizes K events_by_n.csv and its chart.",
+    .details =
+        "Reads delimited text, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. Method: "
+        "Martinez Rodriguez et al., Appl. Math. Modelling 90 "
+        "(2021) 582-614.\n"
+        "tests: symmetric, centred and star discrepancy A_n standardised by its exact "
+        "variance (two-sided p),\n"
+        "       Henze-Zirkler on probit scores, Pearson with Bonferroni; rejected when "
+        "--votes of them reject.\n"
+        "events: sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events paper "
+        "takes n^2 / V as printed.\n"
+        "        Tree cells hide pairs by being taken as uniform: the sums over cells of two "
+        "sizes are extrapolated to none,\n        smoothing_bias is what that took off "
+        "(--no-extrapolate: nothing). The interval is 95 %, for Poisson points.\n"
+        "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events), "
+        "point_cells.csv, thresholds.csv,\nsummary.json, cells.vtu and points.vtp for "
+        "ParaView, and charts: points, density, score, events; with "
+        "--sizes K events_by_n.csv and its chart.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -229,7 +229,9 @@ static clast_status alloc_parts(count *n)
     clast_status status = CLAST_OK;
     int64_t n_halved = 0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
-        n_halved += halved(n->cells, c) >= 0 ? 1 : 0;
+        const int32_t k =
+            halved(n->cells, c); // cells without volume were left out: numbers have gaps
+        n_halved = k >= n_halved ? (int64_t)k + 1 : n_halved;
     }
     CLX_TRY(clx_alloc(&n->cell, n->cells->n, sizeof *n->cell));
     CLX_TRY(clx_alloc(&n->half, n_halved << n->cloud->dimension, sizeof *n->half));

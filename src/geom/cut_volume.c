@@ -179,6 +179,15 @@ done:
     return status;
 }
 
+static bool reaches_above(const piece *s)
+{
+    bool above = false;
+    for (int i = 0; i < s->n; ++i) {
+        above = above || s->p[i][0] > 1.0;
+    }
+    return above;
+}
+
 /// What a triangle adds to the box that is the unit cube here.
 static double below_triangle(const piece *triangle)
 {
@@ -195,8 +204,8 @@ static double below_triangle(const piece *triangle)
         (void)shadow(&part, &moment);
         sum += moment;
     }
-    cut(&column, 0, 1.0, 1.0, &part);
-    return part.n >= 3 ? sum + shadow(&part, &moment) : sum;
+    cut(&column, 0, 1.0, 1.0, &part); // a facet in the plane x = 1 has been counted
+    return part.n >= 3 && reaches_above(&part) ? sum + shadow(&part, &moment) : sum;
 }
 
 double clx_cut_box_share(const clast_bvh *bvh, const double low[3], const double high[3])
