@@ -88,7 +88,14 @@ static clast_status prepare_contact(clast_aggregate *a)
     if (a->config->contact == CLAST_CONTACT_MARCH) {
         return clx_march_make(a->config, &a->kit, a->seed, &a->march);
     }
-    return a->config->mode == CLAST_AGGREGATE_CORE ? clx_touch_scene_create(&a->scene) : CLAST_OK;
+    if (a->config->mode != CLAST_AGGREGATE_CORE) {
+        return CLAST_OK;
+    }
+    const clast_status status = clx_touch_scene_create(&a->scene);
+    if (status == CLAST_OK) {
+        clx_touch_scene_expect(a->scene, a->config->rays);
+    }
+    return status;
 }
 
 /// Kit, sizes and an empty scene: all that is known before the first grain.

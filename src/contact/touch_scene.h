@@ -11,6 +11,8 @@
 typedef struct clx_touch_scene clx_touch_scene;
 
 clast_status clx_touch_scene_create(clx_touch_scene **scene);
+/// About how many walks go by to each body that joins; 1 until it is told. No result depends on it.
+void clx_touch_scene_expect(clx_touch_scene *scene, int64_t n_walk);
 void clx_touch_scene_destroy(clx_touch_scene *scene); ///< NULL is allowed
 
 /// Adds a copy of a body; its number is the count before. The scene is untouched on failure.
