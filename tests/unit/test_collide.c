@@ -416,6 +416,30 @@ static void a_heavy_parcel_keeps_what_did_not_collide(void **state)
     CHECK_ABS((double)n_hit / N, chance, 4.0 * sqrt(chance * (1.0 - chance) / N));
 }
 
+/* One parcel of 4 with collisions within: 6 pairs at the rate K / V, and an event joins 2 of them,
+ * so its rate is 3 K / V; it leaves a weight of 2. 4000 trials, 4 sd. */
+static void particles_of_one_parcel_collide_at_their_rate(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    const double volume = 1.0;
+    int n_hit = 0;
+    clast_collide_config c = kernel("constant");
+    c.self_collisions = true;
+    c.keep_positions = true;
+    for (int r = 0; r < N; ++r) {
+        clast_population p = singles(1);
+        const clast_collide_cells cells = one_cell(&volume);
+        p.weight = weight;
+        weight[0] = 4.0;
+        CHECK_OK(clast_collide(&p, &cells, 0.1, (uint64_t)r, &c, NULL));
+        assert_true(weight[0] * (double)monomers[0] == 4.0);
+        n_hit += monomers[0] > 1 ? 1 : 0;
+    }
+    const double chance = 1.0 - exp(-0.3);
+    CHECK_ABS((double)n_hit / N, chance, 4.0 * sqrt(chance * (1.0 - chance) / N));
+}
+
 /* Equal weights are particles of another number: the draws of weight 1. */
 static void unit_weights_change_nothing(void **state)
 {
@@ -516,6 +540,7 @@ int main(void)
         cmocka_unit_test(blocks_have_the_rates_of_the_whole_cell),
         cmocka_unit_test(parcels_meet_the_exact_solutions),
         cmocka_unit_test(a_heavy_parcel_keeps_what_did_not_collide),
+        cmocka_unit_test(particles_of_one_parcel_collide_at_their_rate),
         cmocka_unit_test(unit_weights_change_nothing),
         cmocka_unit_test(any_thread_count_gives_the_same_aggregates),
         cmocka_unit_test(every_refused_allocation_is_told),
