@@ -139,17 +139,6 @@ void clx_grain_ratios(clast_grain *grain)
     grain->hull_volume_added = grain->hull_volume / v - 1.0;
 }
 
-double clx_grain_ellipsoid_radius(const clast_grain *grain, const double direction[3])
-{
-    const clast_axes *e = &grain->axes[CLAST_AXES_ELLIPSOID];
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double x = v3_dot(direction, e->direction[k]) / (0.5 * e->lis[k]);
-        sum += x * x;
-    }
-    return 1.0 / sqrt(sum);
-}
-
 static clast_status check_finite(const clast_mesh *mesh)
 {
     for (int32_t v = 0; v < mesh->n_vert; ++v) {

@@ -15,9 +15,6 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
 /// Sphericity, convexity: the ratios of what is in the grain.
 void clx_grain_ratios(clast_grain *grain);
 
-/// Radius of the mass-equivalent ellipsoid along a unit direction.
-double clx_grain_ellipsoid_radius(const clast_grain *grain, const double direction[3]);
-
 /// Normal roundness and angularity of a surface whose centroid, area and ellipsoid are in the
 /// grain.
 void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain);

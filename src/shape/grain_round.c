@@ -77,11 +77,33 @@ static double cosine_integral(const facet *f, double angle)
     return h * (sum - h * angle);
 }
 
-static void add_angular(const clast_grain *grain, const facet *f, double signed_angle, int depth,
+/// Maps the mass-equivalent ellipsoid to the unit sphere.
+typedef struct {
+    double row[3][3];
+} unit_map;
+
+static unit_map map_of(const clast_grain *grain)
+{
+    unit_map m;
+    const clast_axes *e = &grain->axes[CLAST_AXES_ELLIPSOID];
+    for (int k = 0; k < 3; ++k) {
+        v3_scale(m.row[k], 2.0 / e->lis[k], e->direction[k]);
+    }
+    return m;
+}
+
+/// r / r_e at a point: what the ray through it is long in radii of the ellipsoid.
+static double length_in_map(const unit_map *m, const double p[3])
+{
+    const double x[3] = {v3_dot(p, m->row[0]), v3_dot(p, m->row[1]), v3_dot(p, m->row[2])};
+    return v3_norm(x);
+}
+
+static void add_angular(const unit_map *m, const facet *f, double signed_angle, int depth,
                         double sum[2]);
 
 /// The same for the four quarters.
-static void add_quarters(const clast_grain *grain, const facet *f, int depth, double sum[2])
+static void add_quarters(const unit_map *m, const facet *f, int depth, double sum[2])
 {
     facet middle;
     for (int k = 0; k < 3; ++k) {
@@ -95,37 +117,33 @@ static void add_quarters(const clast_grain *grain, const facet *f, int depth, do
         v3_copy(corner.p[1], middle.p[k]);
         v3_copy(corner.p[2], middle.p[(k + 2) % 3]);
         v3_set(corner.r, f->r[k], middle.r[k], middle.r[(k + 2) % 3]);
-        add_angular(grain, &corner, solid_angle(&corner), depth, sum);
+        add_angular(m, &corner, solid_angle(&corner), depth, sum);
     }
-    add_angular(grain, &middle, solid_angle(&middle), depth, sum);
+    add_angular(m, &middle, solid_angle(&middle), depth, sum);
 }
 
 /// Adds |r - r_e| / r_e times solid angle, and the solid angle, for one triangle.
-static void add_angular(const clast_grain *grain, const facet *f, double signed_angle, int depth,
+static void add_angular(const unit_map *m, const facet *f, double signed_angle, int depth,
                         double sum[2])
 {
     const double angle = fabs(signed_angle);
     if (angle > PIECE && depth < MOST_DEPTH) {
-        add_quarters(grain, f, depth + 1, sum);
+        add_quarters(m, f, depth + 1, sum);
         return;
     }
     double middle[3];
     for (int i = 0; i < 3; ++i) {
         middle[i] = (f->p[0][i] + f->p[1][i] + f->p[2][i]) / 3.0;
     }
-    const double r = v3_norm(middle);
-    if (r > 0.0) {
-        v3_scale(middle, 1.0 / r, middle);
-        const double wanted = clx_grain_ellipsoid_radius(grain, middle);
-        sum[0] += angle * fabs(r - wanted) / wanted;
-        sum[1] += angle;
-    }
+    sum[0] += angle * fabs(length_in_map(m, middle) - 1.0);
+    sum[1] += angle;
 }
 
 void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
 {
     double cosine = 0.0;
     double sum[2] = {0};
+    const unit_map map = map_of(grain);
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         facet f;
         for (int k = 0; k < 3; ++k) {
@@ -134,7 +152,7 @@ void clx_grain_surface_means(const clast_mesh *mesh, clast_grain *grain)
         }
         const double angle = solid_angle(&f);
         cosine += cosine_integral(&f, angle);
-        add_angular(grain, &f, angle, 0, sum);
+        add_angular(&map, &f, angle, 0, sum);
     }
     grain->normal_roundness = cosine / grain->area;
     grain->angularity = sum[0] / sum[1];
