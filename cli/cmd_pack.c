@@ -72,6 +72,10 @@ static void print_text(const clast_pack_result *r)
     print_hulls(r);
     (void)printf("%-26s %d in %d fills, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->dem.mass, r->mass_wanted);
+    if (r->n_waited > 0) {
+        (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
+                     (long long)r->n_waited);
+    }
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
                  r->converged ? " (still)" : "", (long long)r->dem.step, r->dem.time);
     if (r->n_outside > 0) {

@@ -64,6 +64,7 @@
 #include <clast/reform.h>
 #include <clast/render.h>
 #include <clast/report.h>
+#include <clast/rigid.h>
 #include <clast/scene.h>
 #include <clast/settling.h>
 #include <clast/shape.h>

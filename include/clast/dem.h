@@ -152,8 +152,8 @@ CLAST_API void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 
 /// Goes on by n_step time steps.
 ///
-/// @return CLAST_E_CONVERGE when a run explodes (a grain moves more than a twentieth of its radius
-/// in a step): the message names step, grain and likely cause
+/// @return CLAST_E_CONVERGE when a run explodes (a grain is so fast that its contact would overlap
+/// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause
 CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
 
 CLAST_API int32_t clast_dem_n_grain(const clast_dem *dem);

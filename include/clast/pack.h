@@ -40,8 +40,8 @@ typedef struct clast_pack_config {
     bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
     bool form_law;   ///< stretch every grain to a form drawn from a law
     double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
-    double density; ///< [kg/m3]
-    double mass;    ///< wanted [kg]
+    clast_f64_list density; ///< one for all shapes, or one each [kg/m3]
+    double mass;            ///< wanted [kg]
     uint64_t seed;
     char *container;      ///< surface that holds the grains in place of domain; "": none
     char *container_unit; ///< of its coordinates
@@ -123,6 +123,7 @@ typedef struct clast_pack_result {
     bool converged;
     uint64_t hash;
     int32_t n_fill;
+    int64_t n_waited;      ///< grains that found no place in one fill and were made in a later one
     double wall_s, step_s; ///< clock of the run; of the stepping alone
     double grain_steps;    ///< sum over steps of the grains that were there
     int32_t n_outside;     ///< grains whose centre is outside the container

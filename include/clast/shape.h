@@ -19,10 +19,24 @@ typedef enum {
     CLAST_SHAPE_CLUMP      ///< union of spheres
 } clast_shape_kind;
 
+/// A convex part of a rigid grain, in the shape's frame.
+typedef struct clast_part {
+    clast_shape_kind kind;   ///< sphere, ellipsoid or mesh
+    double semi_axes[3];     ///< of a sphere or ellipsoid, along the part's axes [m]
+    double position[3];      ///< its centroid
+    double orientation[4];   ///< of its axes; a mesh lies in the shape's frame as it is
+    int32_t vert[2], tri[2]; ///< its vertices and triangles in the shape's mesh: first, end
+} clast_part;
+
+typedef struct clast_parts {
+    int32_t n;
+    clast_part *part; ///< [n]
+} clast_parts;
+
 /// A kind of grain in its own frame: centroid at the origin, one shape shared by many grains.
 ///
 /// A sphere or ellipsoid may carry a mesh too (for pictures and files); a mesh may carry spheres
-/// (its composite).
+/// (its composite). A rigid body of parts (clast_assembly_rigid) is a mesh: the parts' surfaces.
 typedef struct clast_shape {
     clast_shape_kind kind;
     char *name;          ///< unique within an assembly, never NULL once made
@@ -30,6 +44,7 @@ typedef struct clast_shape {
                          ///< >= b >= c
     clast_mesh mesh;     ///< surface, or empty
     clast_spheres spheres;   ///< composite or clump, or empty
+    clast_parts parts;       ///< convex parts of a mesh that is one rigid body of several; or empty
     double volume;           ///< of the solid
     double length;           ///< maximum length (diameter of the point set)
     double bounding_radius;  ///< greatest distance of the surface from the centroid

@@ -31,7 +31,7 @@ int64_t clx_container_end(const clast_dem *dem, int32_t i)
 
 static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
 {
-    clx_placed body = {.turn = dem->grain[clx_item_grain(dem, i)].turn[0]};
+    clx_placed body = {.turn = clx_item_turn(dem, i)};
     if (dem->convex != NULL) {
         body.shape = &dem->convex[i];
     } else {

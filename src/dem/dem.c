@@ -28,8 +28,7 @@ void clast_dem_destroy(clast_dem *dem)
         return;
     }
     for (int32_t i = 0; i < dem->n_body; ++i) {
-        clast_shape_free(&dem->body[i].shape);
-        clx_hull_core_destroy(dem->body[i].core);
+        clx_body_free(&dem->body[i]);
     }
     clx_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
@@ -42,6 +41,7 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->item);
     clx_free(dem->item_begin);
     clx_free(dem->convex);
+    clx_free(dem->item_turn);
     clx_free(dem->block_flag);
     clx_free(dem);
 }
@@ -174,6 +174,8 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     v3_scale(momentum, m->inertia_factor, momentum);
     m3_mul(m->angular, g->turn, momentum);
     set_drag(dem, &body->shape, m);
+    dem->stride = fmax(dem->stride, clx_law_speed(&dem->law, g->mass, g->round_radius, g->radius) *
+                                        dem->config.time_step / g->radius);
     dem->travel[i] = 0.0;
 }
 

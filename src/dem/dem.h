@@ -48,13 +48,14 @@ typedef struct clx_anchor {
     double margin; ///< half its skin: how far it may move before it looks again
 } clx_anchor;
 
-/// A sphere of a clump, or a whole grain.
+/// A sphere of a clump, a part of a rigid grain, or a whole grain.
 typedef struct clx_item {
     double position[3];
     double radius;
     double local[3]; ///< centre in the grain's frame, scaled
     int32_t grain;
-    int32_t part; ///< sphere of the clump; -1: the grain's own shape
+    int32_t part; ///< sphere of the clump or rigid grain; -1: the grain's own shape; -2 - k: its
+                  ///< k-th part, which is no sphere
 } clx_item;
 
 /// Two items near each other: 48 bytes.
@@ -122,6 +123,17 @@ typedef struct clx_wall {
 /// Grains that a thread takes at once: moving them, sweeping over them.
 enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256, CLX_SWEEP_BLOCK = 48 };
 
+/// A convex part of a rigid grain, at scale 1.
+typedef struct clx_dem_part {
+    clx_hull_core *core; ///< about its centroid; NULL: a sphere or ellipsoid
+    double semi_axes[3];
+    double turn[3][3]; ///< of the ellipsoid's axes in the grain's frame
+    double centre[3];
+    double radius; ///< bounding radius about its centre
+    double round_radius;
+    bool is_sphere;
+} clx_dem_part;
+
 /// A shape and what mechanics needs of it.
 typedef struct clx_dem_body {
     clast_shape shape;
@@ -129,7 +141,15 @@ typedef struct clx_dem_body {
     clx_hull_core *core;          ///< of a mesh, else NULL
     double steiner[2]; ///< of a mesh: area, and its mean curvature integrated over the surface
     bool is_round;     ///< sphere: its turn does not matter
+    int32_t n_part;
+    clx_dem_part *part; ///< [n_part] of a rigid grain
 } clx_dem_body;
+
+/// Share of what is left of a margin that an item may go before it is asked again. What it has
+/// moved grows by at most 1.05 times its path (2.1 |dq| for the angle), so that the step in which a
+/// margin is used up is found whenever it was asked before: a resumed run refreshes in the same
+/// steps.
+#define CLX_SURE 0.94
 
 enum { CLX_MAX_LEVEL = 24 };
 
@@ -188,13 +208,15 @@ struct clast_dem {
     clast_dem_drive drive;
     clx_law law;
     int64_t step;
+    double stride; ///< share of its radius that a grain may move in a step: clx_law_speed, greatest
     int32_t n_wall;
     clx_wall wall[CLX_MAX_WALL];
     double period[2];         ///< widths of a periodic domain, else 0
     clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
-    bool has_items;     ///< some shape is a clump: items are not grains
+    bool has_items;     ///< some shape is a clump or rigid grain: items are not grains
+    bool has_parts;     ///< some shape is a rigid grain: items have turns of their own
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
     int32_t n_started; ///< grains that have been looked at for overlaps among those added with them
@@ -203,9 +225,10 @@ struct clast_dem {
     clx_motion *motion; ///< [n_grain]
     double *travel;     ///< [n_grain] path of the surface's fastest point, at most
     int32_t n_item;
-    clx_item *item;      ///< [n_item] or NULL without clumps
-    int32_t *item_begin; ///< [n_grain + 1] or NULL without clumps
-    clx_convex *convex;  ///< [n_item], or NULL while all items are spheres
+    clx_item *item;            ///< [n_item] or NULL without clumps
+    int32_t *item_begin;       ///< [n_grain + 1] or NULL without clumps
+    clx_convex *convex;        ///< [n_item], or NULL while all items are spheres
+    double (*item_turn)[3][3]; ///< [n_item] rotation matrices, or NULL without rigid grains
     uint8_t *block_flag; ///< [blocks of CLX_SWEEP_BLOCK grains, at most] clx_move_flag of each
     clx_list list;
     clx_near near;
@@ -231,9 +254,27 @@ static inline double clx_item_radius(const clast_dem *dem, int32_t i)
 /// Whether an item's contacts depend on its turn.
 static inline bool clx_item_is_round(const clast_dem *dem, int32_t i)
 {
-    return dem->item != NULL && dem->item[i].part >= 0
-               ? true
+    return dem->item != NULL && dem->item[i].part != -1
+               ? dem->item[i].part >= 0
                : dem->grain[clx_item_grain(dem, i)].kind == CLAST_SHAPE_SPHERE;
+}
+
+/// The part of a rigid grain that an item is, or NULL.
+static inline const clx_dem_part *clx_item_part(const clast_dem *dem, int32_t i)
+{
+    const clx_dem_body *body = &dem->body[dem->grain[clx_item_grain(dem, i)].shape];
+    if (body->n_part == 0) {
+        return NULL;
+    }
+    const int32_t k = dem->item[i].part;
+    return &body->part[k >= 0 ? k : -2 - k];
+}
+
+/// Rotation matrix of an item's own axes [9].
+static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
+{
+    return dem->item_turn != NULL ? dem->item_turn[i][0]
+                                  : dem->grain[clx_item_grain(dem, i)].turn[0];
 }
 
 /// The contact memory of a link, or NULL.
@@ -255,6 +296,8 @@ clast_status clx_dem_check(const clast_dem_config *config);
 /// Refuses a time step that does not resolve the contact of a grain like this.
 clast_status clx_dem_check_step(const clx_law *law, double time_step, double mass, double radius);
 
+void clx_body_free(clx_dem_body *body);
+
 /// Area and integrated mean curvature of a body's core.
 void clx_rounding_prepare(clx_dem_body *body);
 
@@ -268,6 +311,9 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
 /// Room for the items of n more grains; then items of the grain g, which is set.
 clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain);
 void clx_items_add(clast_dem *dem, int32_t g);
+
+/// Items of grain g where it is now.
+void clx_items_place(clast_dem *dem, int32_t g);
 clast_status clx_items_begin_convex(clast_dem *dem);
 
 /// Walls and periods of the domain.
@@ -311,8 +357,8 @@ void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);
 
-/// Sums what contacts do; velocities, positions and turns one step on. True when all grains moved
-/// less than a twentieth of their radius.
+/// Sums what contacts do; velocities, positions and turns one step on. True when no grain moved
+/// farther than its stride.
 bool clx_move(clast_dem *dem);
 
 /// Contacts and motion of whole grains in one sweep: the bits of clx_contacts and clx_move.

@@ -51,6 +51,14 @@ double clx_law_time(const clx_law *law, double mass, double radius)
     return law->kind == CLAST_DEM_LINEAR ? linear : hertz_time(law, mass, radius);
 }
 
+double clx_law_speed(const clx_law *law, double mass, double radius, double reach)
+{
+    const double d = 0.5 * reach;
+    return law->kind == CLAST_DEM_LINEAR
+               ? d * sqrt(law->stiffness)
+               : sqrt(16.0 / 15.0 * law->young * sqrt(radius * d) * d * d / mass);
+}
+
 double clx_law_energy(const clx_law *law, double overlap, double slide, double mass, double radius)
 {
     const clx_meeting c = {.overlap = overlap, .mass = mass, .radius = radius};

@@ -49,6 +49,13 @@ clx_law clx_law_make(const clast_dem_config *config);
 /// @param mass, radius  of the lightest grain; not used by the linear law
 double clx_law_time(const clx_law *law, double mass, double radius);
 
+/// Speed at which a wall's spring, without its dashpot, stops a grain within half its reach: m v^2
+/// / 2 is the work k d^2 / 2 of the linear law, 8/15 E* sqrt(R) d^(5/2) of Hertz's, d = reach / 2.
+///                                                       [docs/theory/dem.md "When a run explodes"]
+///
+/// @param radius  R of Hertz's law    @param reach  bounding radius
+double clx_law_speed(const clx_law *law, double mass, double radius, double reach);
+
 /// Normal spring's and tangential spring's energy at this overlap and displacement [J].
 double clx_law_energy(const clx_law *law, double overlap, double slide, double mass, double radius);
 

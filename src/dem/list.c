@@ -66,7 +66,7 @@ static void drop_anchor(clast_dem *dem, int32_t i)
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
     }
-    dem->list.limit[i] = dem->travel[g] + at->margin;
+    dem->list.limit[i] = dem->travel[g] + CLX_SURE * at->margin;
 }
 
 /// All items that have used half of their margin.

@@ -133,16 +133,6 @@ static double shift(const clx_moving *c, int64_t i, const double f[3])
     return v3_norm(g->velocity);
 }
 
-static void place_items(clast_dem *dem, int64_t g)
-{
-    for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {
-        clx_item *item = &dem->item[i];
-        double arm[3];
-        m3_mul(arm, dem->grain[g].turn, item->local);
-        v3_add(item->position, dem->grain[g].position, arm);
-    }
-}
-
 /// How far an item's surface may be from where its neighbours were looked for.
 static inline double moved(const clast_dem *dem, int32_t i)
 {
@@ -165,15 +155,14 @@ bool clx_item_has_left(const clast_dem *dem, int32_t i, double share)
     return !(moved(dem, i) <= share * dem->list.anchor[i].margin);
 }
 
-/// Whether an item has used up its margin. Its path tells that it has not, most of the time; when
-/// it does not, what is left of the margin is the path that it may go before it is asked again.
+/// Whether an item has used up its margin. Its path tells that it has not, most of the time.
 static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
 {
     if (travel < dem->list.limit[i]) {
         return false;
     }
     const double left = dem->list.anchor[i].margin - moved(dem, i);
-    dem->list.limit[i] = travel + left;
+    dem->list.limit[i] = travel + CLX_SURE * left;
     return !(left >= 0.0);
 }
 
@@ -184,7 +173,7 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
     clx_grain *g = &dem->grain[i];
     const double dt = dem->config.time_step;
     double speed = shift(c, i, load->force);
-    const bool is_fine = speed * dt <= CLX_STRIDE * g->radius;
+    const bool is_fine = speed * dt <= c->stride * g->radius;
     if (g->kind == CLAST_SHAPE_SPHERE) {
         turn_round(g, &dem->motion[i], load->torque, c->damping, dt);
     } else {
@@ -237,7 +226,7 @@ static bool is_grain_due(clast_dem *dem, int64_t i)
         return is_beyond(dem, (int32_t)i, dem->travel[i]);
     }
     bool is_due = false;
-    place_items(dem, i);
+    clx_items_place(dem, (int32_t)i);
     for (int32_t k = dem->item_begin[i]; k < dem->item_begin[i + 1]; ++k) {
         is_due = is_beyond(dem, k, dem->travel[i]) || is_due;
     }
@@ -295,7 +284,8 @@ clx_moving clx_move_begin(clast_dem *dem)
 {
     return (clx_moving){.dem = dem,
                         .shake = shaking(dem),
-                        .damping = pow(dem->drive.damping, dem->config.time_step)};
+                        .damping = pow(dem->drive.damping, dem->config.time_step),
+                        .stride = dem->stride};
 }
 
 bool clx_move_end(clast_dem *dem, int flag)

@@ -3,13 +3,11 @@
 #include "dem/dem.h"
 #include "math/lanes.h"
 
-/// Share of its radius that a grain may move in a step.
-#define CLX_STRIDE 0.05
-
 typedef struct clx_moving {
     clast_dem *dem;
     double shake;   ///< acceleration along x [m/s2]
     double damping; ///< factor of a step
+    double stride;  ///< share of its radius that a grain may move in a step
 } clx_moving;
 
 /// What a block of grains asks for.

@@ -195,7 +195,7 @@ bool clx_move_lanes(const clx_moving *c, int64_t i, const clx_load load[CLX_LANE
         return false;
     }
     clx_lanes speed = lanes_root(lanes_dot(g.velocity, g.velocity));
-    *is_lost = lanes_bits(speed * dt <= CLX_STRIDE * g.position[3]) != 15;
+    *is_lost = lanes_bits(speed * dt <= c->stride * g.position[3]) != 15;
     if (!is_round) {
         speed += lanes_root(lanes_dot(g.spin, g.spin)) * g.position[3] * (1.0 + 1e-6);
     }

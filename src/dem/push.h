@@ -47,9 +47,12 @@ static inline double clx_reduced_inertia(const clx_grain *a, const clx_grain *b)
 
 static inline double clx_item_curve(const clast_dem *dem, int32_t item)
 {
-    return dem->item != NULL && dem->item[item].part >= 0
-               ? dem->item[item].radius
-               : dem->grain[clx_item_grain(dem, item)].round_radius;
+    const clx_grain *g = &dem->grain[clx_item_grain(dem, item)];
+    if (dem->item == NULL || dem->item[item].part == -1) {
+        return g->round_radius;
+    }
+    return dem->item[item].part >= 0 ? dem->item[item].radius
+                                     : g->scale * clx_item_part(dem, item)->round_radius;
 }
 
 /// Length of the neck that still holds a pair apart; 0 for laws that have none, and pairs that did

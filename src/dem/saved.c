@@ -164,7 +164,7 @@ static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
         CLX_TRY(take_link(dem, s, k));
     }
     int64_t k = 0;
-    for (int32_t i = 0; i <= dem->n_item; ++i) {
+    for (int32_t i = 0; dem->n_item > 0 && i <= dem->n_item; ++i) {
         while (k < s->n_link && l->link[k].a < i) {
             ++k;
         }

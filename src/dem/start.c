@@ -1,12 +1,12 @@
 // Grains that begin inside of each other.
 #include "dem/touch.h"
 
-/// Overlap that a contact's spring would throw apart, at d pi / T, faster than a run may go: a
-/// twentieth of the radius a step. 0.64 of the radius with the published constants.
+/// Overlap that a contact's spring would throw apart, at d pi / T, faster than a run may go. 0.62
+/// of the radius with the published constants.
 static double deepest(const clast_dem *dem, const clx_grain *g, double radius)
 {
     const double time = clx_law_time(&dem->law, g->mass, g->round_radius);
-    return 0.05 * radius * time / (CLAST_PI * dem->config.time_step);
+    return dem->stride * radius * time / (CLAST_PI * dem->config.time_step);
 }
 
 clast_status clx_check_starts(clast_dem *dem)

@@ -7,13 +7,11 @@ static const double FAR = 0.1;
 void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
                       clx_dem_touch *t)
 {
-    const int32_t a = clx_item_grain(dem, link->a);
-    const int32_t b = clx_item_grain(dem, link->b);
     clx_contact contact;
     clx_pair pair = {.a = &dem->convex[link->a],
                      .b = &dem->convex[link->b],
-                     .turn_a = dem->grain[a].turn[0],
-                     .turn_b = dem->grain[b].turn[0]};
+                     .turn_a = clx_item_turn(dem, link->a),
+                     .turn_b = clx_item_turn(dem, link->b)};
     clx_link_offset(dem, link, pair.offset);
     const double ra = clx_item_radius(dem, link->a);
     const double rb = clx_item_radius(dem, link->b);
@@ -31,8 +29,7 @@ void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_conta
     static const double axis[2] = {0.0, 0.0};
     static const double nowhere[3] = {0.0, 0.0, 0.0};
     const clx_wall *wall = &dem->wall[-1 - link->b];
-    clx_placed body = {.shape = &dem->convex[link->a],
-                       .turn = dem->grain[clx_item_grain(dem, link->a)].turn[0]};
+    clx_placed body = {.shape = &dem->convex[link->a], .turn = clx_item_turn(dem, link->a)};
     clx_contact contact;
     v3_copy(body.position, clx_item_position(dem, link->a));
     if (wall->kind == CLX_WALL_PLANE) {

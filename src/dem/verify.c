@@ -23,8 +23,8 @@ static double cold_gap(const clast_dem *dem, const clx_link *link)
     clx_contact contact;
     clx_pair pair = {.a = &dem->convex[link->a],
                      .b = &dem->convex[link->b],
-                     .turn_a = dem->grain[clx_item_grain(dem, link->a)].turn[0],
-                     .turn_b = dem->grain[clx_item_grain(dem, link->b)].turn[0]};
+                     .turn_a = clx_item_turn(dem, link->a),
+                     .turn_b = clx_item_turn(dem, link->b)};
     clx_link_offset(dem, link, pair.offset);
     (void)clx_pair_contact(&pair, INFINITY, NULL, &contact);
     return contact.gap;

@@ -12,6 +12,7 @@
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
 #include <clast/reform.h>
+#include <clast/rigid.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <math.h>
@@ -58,9 +59,13 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
     CLX_TRY(clast_mesh_read(path, &mesh, NULL));
     CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
     if (config->faces > 0) {
-        CLX_TRY(clast_reform_hull(&mesh, config->faces, &hull));
+        status = clast_reform_hull(&mesh, config->faces, &hull);
     } else if (config->hull) {
-        CLX_TRY(clast_mesh_hull(&mesh, &hull));
+        status = clast_mesh_hull(&mesh, &hull);
+    }
+    if (status != CLAST_OK) {
+        clx_fail_prefix("%s", path);
+        goto done;
     }
     if (hull.n_tri > 0) {
         CLX_TRY(note_hull(name, &mesh, &hull, note));
@@ -72,26 +77,40 @@ done:
     return status;
 }
 
-/// The spheres of an aggregate's state.
-static clast_status spheres_of(const clast_assembly *a, const char *path, clast_spheres *out)
+/// A grain of a packing is of one material.
+static clast_status check_density(const clast_assembly *a, const char *path)
 {
     clast_status status = CLAST_OK;
-    clast_spheres made = {0};
-    int64_t n = 0;
     for (int32_t i = 0; i < a->n_grain; ++i) {
-        const clast_shape *shape = &a->shape[a->shape_id[i]];
-        CLX_CHECK(shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_CLUMP,
-                  CLAST_E_GEOMETRY,
-                  "%s: grain %d of the aggregate is no sphere (%s); a rigid grain is made of "
-                  "spheres: fill the surface (clast fill), or take the aggregate's hull",
-                  path, i, shape->name);
         CLX_CHECK(fabs(a->density[i] - a->density[0]) <= 1e-9 * a->density[0], CLAST_E_GEOMETRY,
                   "%s: grain %d has another density (%g, not %g kg/m3); a grain of a packing is of "
                   "one material",
                   path, i, a->density[i], a->density[0]);
-        n += shape->kind == CLAST_SHAPE_SPHERE ? 1 : shape->spheres.n;
     }
-    CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_GEOMETRY, "%s holds %lld spheres", path,
+done:
+    return status;
+}
+
+/// Whether an aggregate is made of spheres alone; how many.
+static bool is_of_spheres(const clast_assembly *a, int64_t *n)
+{
+    *n = 0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        if (shape->kind != CLAST_SHAPE_SPHERE && shape->kind != CLAST_SHAPE_CLUMP) {
+            return false;
+        }
+        *n += shape->kind == CLAST_SHAPE_SPHERE ? 1 : shape->spheres.n;
+    }
+    return true;
+}
+
+/// The spheres of an aggregate's state.
+static clast_status spheres_of(const clast_assembly *a, int64_t n, clast_spheres *out)
+{
+    clast_status status = CLAST_OK;
+    clast_spheres made = {0};
+    CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_GEOMETRY, "the aggregate holds %lld spheres",
               (long long)n);
     CLX_TRY(clast_spheres_alloc((int32_t)n, &made));
     n = 0;
@@ -115,8 +134,34 @@ done:
     return status;
 }
 
+/// The rigid grain that an aggregate's state is: a clump where all its grains are spheres.
+static clast_status read_aggregate(const clast_pack_config *config, const clast_assembly *a,
+                                   const char *name, clast_shape *shape, clast_pack_hull *note)
+{
+    clast_status status = CLAST_OK;
+    const clast_rigid_options options = {.hull = config->hull, .faces = config->faces};
+    clast_spheres spheres = {0};
+    int64_t n = 0;
+    if (is_of_spheres(a, &n)) {
+        CLX_TRY(spheres_of(a, n, &spheres));
+        CLX_TRY(clast_shape_clump(name, &spheres, shape));
+    } else {
+        double added = 0.0;
+        CLX_TRY(clast_assembly_rigid(a, name, &options, shape, &added));
+        if (isfinite(added) && (config->hull || config->faces > 0)) {
+            (void)snprintf(note->shape, sizeof note->shape, "%s", name);
+            note->n_triangle = shape->mesh.n_tri;
+            note->volume_added = added;
+        }
+    }
+done:
+    clast_spheres_free(&spheres);
+    return status;
+}
+
 /// Spheres of a file, or the rigid grain that an aggregate's state is.
-static clast_status read_clump(const char *path, const char *name, clast_shape *shape)
+static clast_status read_clump(const clast_pack_config *config, const char *path, const char *name,
+                               clast_shape *shape, clast_pack_hull *note)
 {
     clast_status status = CLAST_OK;
     clast_spheres spheres = {0};
@@ -125,11 +170,12 @@ static clast_status read_clump(const char *path, const char *name, clast_shape *
         CLX_TRY(clast_state_read(path, &state));
     }
     if (state.n_spheres == 0 && state.assembly != NULL) {
-        CLX_TRY(spheres_of(state.assembly, path, &spheres));
+        CLX_TRY(check_density(state.assembly, path));
+        CLX_TRY(read_aggregate(config, state.assembly, name, shape, note));
     } else {
         CLX_TRY(clast_spheres_read(path, NULL, &spheres));
+        CLX_TRY(clast_shape_clump(name, &spheres, shape));
     }
-    CLX_TRY(clast_shape_clump(name, &spheres, shape));
 done:
     clast_spheres_free(&spheres);
     clast_state_free(&state);
@@ -161,7 +207,7 @@ static clast_status read_shape(const clast_pack_config *config, const char *text
         return clx_ellipsoid_word(text, name, shape);
     }
     if (clx_path_is(text, "csv") || clx_path_is(text, "h5")) {
-        return read_clump(text, name, shape);
+        return read_clump(config, text, name, shape, note);
     }
     return read_surface(config, text, name, shape, note);
 }

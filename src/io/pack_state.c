@@ -9,7 +9,7 @@
 #include "pack/saved.h"
 #include <string.h>
 
-enum { N_ARRAY = 8 };
+enum { N_ARRAY = 9 };
 
 typedef struct {
     const char *name;
@@ -25,6 +25,7 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     int n = 0;
     a[n++] = (array){"/pack/count", CLX_H5_I64, CLX_PACK_COUNTS, 1, s->count};
     a[n++] = (array){"/pack/number", CLX_H5_F64, CLX_PACK_NUMBERS, 1, s->number};
+    a[n++] = (array){"/pack/waiting", CLX_H5_I64, s->n_waiting, 2, s->waiting};
     a[n++] = (array){"/pack/shape", CLX_H5_I32, d->n_grain, 1, d->shape};
     a[n++] = (array){"/pack/grain", CLX_H5_F64, d->n_grain, CLX_SAVED_GRAIN, d->grain};
     a[n++] = (array){"/pack/anchor", CLX_H5_F64, d->n_known, CLX_SAVED_ANCHOR, d->anchor};
@@ -87,7 +88,7 @@ done:
         clast_table_free(&table[k]);
     }
     clast_assembly_free(&grains);
-    clx_dem_saved_free(&saved.dem);
+    clx_pack_saved_free(&saved);
     return status;
 }
 
@@ -148,10 +149,13 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     int64_t shape[2];
     CLX_TRY(clx_h5_shape(h5, "/pack/grain", CLX_H5_F64, 2, shape));
     d->n_grain = shape[0];
+    CLX_TRY(clx_h5_shape(h5, "/pack/waiting", CLX_H5_I64, 2, shape));
+    s->n_waiting = shape[0];
     CLX_TRY(clx_h5_shape(h5, "/pack/anchor", CLX_H5_F64, 2, shape));
     d->n_known = shape[0];
     CLX_TRY(clx_h5_shape(h5, "/pack/link", CLX_H5_F64, 2, shape));
     d->n_link = shape[0];
+    CLX_TRY(clx_alloc(&s->waiting, 2 * s->n_waiting, sizeof *s->waiting));
     CLX_TRY(clx_alloc(&d->shape, d->n_grain, sizeof *d->shape));
     CLX_TRY(clx_alloc(&d->grain, d->n_grain * CLX_SAVED_GRAIN, sizeof *d->grain));
     CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
@@ -239,7 +243,7 @@ done:
         clx_fail_prefix("%s", found->path);
     }
     clx_h5_close(h5);
-    clx_dem_saved_free(&saved.dem);
+    clx_pack_saved_free(&saved);
     clast_state_free(&state);
     return status;
 }

@@ -189,6 +189,60 @@ done:
     return status;
 }
 
+static clast_status check_part(const clast_part *p, const clast_mesh *mesh, const char *folder)
+{
+    clast_status status = CLAST_OK;
+    const bool is_mesh = p->kind == CLAST_SHAPE_MESH;
+    double length2 = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        length2 += p->orientation[k] * p->orientation[k];
+    }
+    CLX_CHECK((is_mesh || ((p->kind == CLAST_SHAPE_SPHERE || p->kind == CLAST_SHAPE_ELLIPSOID) &&
+                           all_positive(p->semi_axes, 3))) &&
+                  all_finite(p->position, 3) && fabs(length2 - 1.0) <= 2e-9 && p->vert[0] >= 0 &&
+                  p->vert[0] <= p->vert[1] && p->vert[1] <= mesh->n_vert && p->tri[0] >= 0 &&
+                  p->tri[0] <= p->tri[1] && p->tri[1] <= mesh->n_tri,
+              CLAST_E_FORMAT, "%s: a part that cannot be", folder);
+    for (int32_t t = p->tri[0]; t < p->tri[1]; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            CLX_CHECK(mesh->tri[t][k] >= p->vert[0] && mesh->tri[t][k] < p->vert[1], CLAST_E_FORMAT,
+                      "%s: a part's triangle has vertices of another", folder);
+        }
+    }
+done:
+    return status;
+}
+
+/// Convex parts of a rigid grain, whose surfaces are read.
+static clast_status take_rigid(clx_h5 *h5, const char *folder, clast_shape *shape)
+{
+    clast_status status = CLAST_OK;
+    int32_t(*id)[5] = NULL;
+    double(*number)[10] = NULL;
+    int64_t n = -1;
+    CLX_TRY(take((clx_place){h5, folder}, "part_id", CLX_H5_I32, 5, &n, &id));
+    CLX_TRY(take((clx_place){h5, folder}, "part", CLX_H5_F64, 10, &n, &number));
+    CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_FORMAT, "%s: %" PRId64 " parts", folder, n);
+    CLX_TRY(clx_alloc(&shape->parts.part, n, sizeof *shape->parts.part));
+    for (; shape->parts.n < n; ++shape->parts.n) {
+        const int32_t i = shape->parts.n;
+        clast_part *p = &shape->parts.part[i];
+        CLX_CHECK(id[i][0] >= CLAST_SHAPE_SPHERE && id[i][0] <= CLAST_SHAPE_MESH, CLAST_E_FORMAT,
+                  "%s: a part of kind %d", folder, id[i][0]);
+        *p = (clast_part){.kind = (clast_shape_kind)id[i][0],
+                          .vert = {id[i][1], id[i][2]},
+                          .tri = {id[i][3], id[i][4]}};
+        memcpy(p->semi_axes, number[i], sizeof p->semi_axes);
+        memcpy(p->position, number[i] + 3, sizeof p->position);
+        memcpy(p->orientation, number[i] + 6, sizeof p->orientation);
+        CLX_TRY(check_part(p, &shape->mesh, folder));
+    }
+done:
+    clx_free(id);
+    clx_free(number);
+    return status;
+}
+
 static clast_status take_shape(clx_h5 *h5, const char *folder, clast_shape *shape)
 {
     clast_status status = CLAST_OK;
@@ -201,6 +255,9 @@ static clast_status take_shape(clx_h5 *h5, const char *folder, clast_shape *shap
     }
     if (has(h5, folder, "centre")) {
         CLX_TRY(clx_state_take_spheres(h5, folder, &made.spheres));
+    }
+    if (has(h5, folder, "part")) {
+        CLX_TRY(take_rigid(h5, folder, &made));
     }
     CLX_CHECK((made.kind != CLAST_SHAPE_MESH || made.mesh.n_tri >= 4) &&
                   (made.kind != CLAST_SHAPE_CLUMP || made.spheres.n > 0) && made.name[0] != '\0',

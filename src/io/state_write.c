@@ -43,6 +43,30 @@ done:
     return status;
 }
 
+/// Convex parts of a rigid grain: kind; vertices and triangles; semi-axes, position, orientation.
+static clast_status put_rigid(clx_h5 *h5, const char *folder, const clast_parts *parts)
+{
+    clast_status status = CLAST_OK;
+    int32_t *id = NULL;
+    double *number = NULL;
+    CLX_TRY(clx_alloc(&id, parts->n, 5 * sizeof *id));
+    CLX_TRY(clx_alloc(&number, parts->n, 10 * sizeof *number));
+    for (int32_t i = 0; i < parts->n; ++i) {
+        const clast_part *p = &parts->part[i];
+        const int32_t own[5] = {(int32_t)p->kind, p->vert[0], p->vert[1], p->tri[0], p->tri[1]};
+        memcpy(&id[5 * i], own, sizeof own);
+        memcpy(&number[10 * i], p->semi_axes, sizeof p->semi_axes);
+        memcpy(&number[10 * i + 3], p->position, sizeof p->position);
+        memcpy(&number[10 * i + 6], p->orientation, sizeof p->orientation);
+    }
+    CLX_TRY(put((clx_place){h5, folder}, "part_id", CLX_H5_I32, parts->n, 5, id));
+    CLX_TRY(put((clx_place){h5, folder}, "part", CLX_H5_F64, parts->n, 10, number));
+done:
+    clx_free(id);
+    clx_free(number);
+    return status;
+}
+
 static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape *shape)
 {
     clast_status status = CLAST_OK;
@@ -54,6 +78,9 @@ static clast_status put_parts(clx_h5 *h5, const char *folder, const clast_shape 
     }
     if (shape->spheres.n > 0) {
         CLX_TRY(clx_state_put_spheres(h5, folder, &shape->spheres));
+    }
+    if (shape->parts.n > 0) {
+        CLX_TRY(put_rigid(h5, folder, &shape->parts));
     }
 done:
     return status;

@@ -28,9 +28,8 @@ const clast_field clast_pack_fields[] = {
     CHOICE(count, 0, "mean|exact", "grains of a class by its mean size (eq. 9), or by its mass"),
     CHOICE(size_meaning, 0, "sieve|volume", "sizes are sieve sizes (eq. 1), or volume-equivalent"),
     {FIELD(TEXT_LIST, shapes), 0, 0, 0, "-",
-     "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), or spheres of "
-     "a "
-     "clump (CSV x,y,z,radius or state.h5); only their form counts",
+     "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a "
+     "clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts",
      "sphere"},
     {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
      ""},
@@ -47,7 +46,8 @@ const clast_field clast_pack_fields[] = {
     NUMBER(flatness_deviation, 0.175, 0, 10, "-", "its standard deviation"),
     NUMBER(elongation_mean, 0.682, 1e-3, 1, "-", "mean elongation I/L of form_law"),
     NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
-    NUMBER(density, 2650, 1e-6, 1e6, "kg/m^3", "density of the grains (rho_p)"),
+    {FIELD(F64_LIST, density), 0, 1e-6, 1e6, "kg/m^3",
+     "density of the grains (rho_p): one for all shapes, or one each", "2650"},
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)"),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL},

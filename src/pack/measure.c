@@ -1,5 +1,6 @@
 // What a packing ends as: porosity, time series, sizes achieved.
 #include "base/alloc.h"
+#include "dem/dem.h"
 #include "pack/pack.h"
 #include <math.h>
 #include <string.h>
@@ -150,6 +151,7 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .converged = pack->converged,
                            .hash = clast_dem_hash(pack->dem),
                            .n_fill = pack->n_fill,
+                           .n_waited = pack->n_waited,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .grain_steps = pack->grain_steps};
@@ -178,7 +180,7 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
         double measures[2];
         clast_dem_read_grain(p->dem, i, &g);
         clast_dem_shape_measures(p->dem, g.shape, measures);
-        size[i] = clast_grading_draw(p->input.grading, p->config.seed, (uint64_t)i);
+        size[i] = g.scale * clx_pack_size_of(&p->dem->body[g.shape].shape, p->config.size_meaning);
         volume[i] = g.scale * g.scale * g.scale * measures[1];
     }
     const clast_grading_sample sample = {.n = n, .size = size, .volume = volume};

@@ -44,6 +44,16 @@ clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
     return o;
 }
 
+/// Least and greatest density of the grains.
+static void density_range(const clast_pack *p, double *low, double *high)
+{
+    *low = *high = clx_pack_density(p, 0);
+    for (int32_t i = 1; i < p->config.density.n; ++i) {
+        *low = fmin(*low, p->config.density.item[i]);
+        *high = fmax(*high, p->config.density.item[i]);
+    }
+}
+
 /// The bed at a porosity of 0.5 must stay below the place where grains are made.
 static clast_status check_room(const clast_pack *p)
 {
@@ -52,19 +62,23 @@ static clast_status check_room(const clast_pack *p)
     const clast_bed bed = clast_pack_bed(p);
     const double edge[2] = {p->base, p->base + c->fill_low * p->tall};
     double room = 0.0;
+    double light = 0.0;
+    double heavy = 0.0;
+    CLX_CHECK(c->density.n == 1 || c->density.n == p->input.n_shape, CLAST_E_CONFIG,
+              "%d densities for %d shapes (density)", c->density.n, p->input.n_shape);
+    density_range(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL, CLAST_E_CONFIG, "a packing needs a floor");
     CLX_CHECK(c->fill_low < c->fill_high, CLAST_E_CONFIG, "fill_low %g is not below fill_high %g",
               c->fill_low, c->fill_high);
     clast_bed_volumes(&bed, 1, edge, &room);
-    CLX_CHECK(0.5 * c->density * room >= c->mass, CLAST_E_CONFIG,
+    CLX_CHECK(0.5 * heavy * room >= c->mass, CLAST_E_CONFIG,
               "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
               "made (fill_low of height), takes %g kg; take a taller or wider domain",
-              c->mass, edge[1], 0.5 * c->density * room);
-    CLX_CHECK(c->density > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
-              "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", c->density,
-              c->dem.fluid_density);
+              c->mass, edge[1], 0.5 * heavy * room);
+    CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
+              "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", light, c->dem.fluid_density);
 done:
     return status;
 }
@@ -77,7 +91,6 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->config = *config;
     made->input = *input;
-    made->pending_form = -1;
     CLX_TRY(clx_pack_contain(made));
     CLX_TRY(check_room(made));
     CLX_TRY(clx_pack_prepare(made));
@@ -100,6 +113,7 @@ void clast_pack_destroy(clast_pack *pack)
     clast_table_free(&pack->series);
     clx_free(pack->unit_size);
     clx_free(pack->weight);
+    clx_free(pack->waiting);
     clx_free(pack);
 }
 
@@ -137,7 +151,7 @@ static clast_status generate(clast_pack *p)
     if (p->n_fill > 0) {
         (void)clast_dem_mean_height(p->dem, &top);
     }
-    if (p->mass >= p->config.mass) {
+    if (p->drawn_mass >= p->config.mass && p->n_waiting == 0) {
         begin_phase(p, CLAST_PACK_SHAKE);
         return CLAST_OK;
     }
@@ -284,7 +298,10 @@ int64_t clast_pack_expected_steps(const clast_pack *pack)
     if (pack->n_fill == 0 || pack->mass <= 0.0) {
         return c->max_steps;
     }
-    const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / c->density));
+    double light = 0.0;
+    double heavy = 0.0;
+    density_range(pack, &light, &heavy);
+    const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / light));
     const double drop = (c->fill_high - c->fill_low) * c->dem.height;
     const double u = c->initial_speed;
     const double fall = (sqrt(u * u + 2.0 * g * drop) - u) / g;

@@ -4,6 +4,12 @@
 #include <clast/bvh.h>
 #include <clast/pack.h>
 
+/// A grain before it is made.
+typedef struct clx_pack_number {
+    int64_t index; ///< of the seed's grains
+    int32_t form;  ///< shape of the simulation that was made for it, or -1
+} clx_pack_number;
+
 struct clast_pack {
     clast_pack_config config; ///< borrowed texts and lists
     clast_pack_input input;   ///< borrowed
@@ -20,20 +26,31 @@ struct clast_pack {
     clast_pack_phase phase;
     int64_t n_made;
     double mass;
+    int64_t n_drawn;   ///< grains made, and those that wait
+    double drawn_mass; ///< of these
+    int32_t n_waiting;
+    clx_pack_number *waiting; ///< [n_waiting] found no place in the fills so far
+    int64_t waiting_capacity;
+    int64_t n_waited; ///< grains that had to wait
     int32_t n_fill;
     int64_t fill_step;  ///< of the last fill
     int64_t phase_step; ///< when the phase began
     double last_height; ///< at the last look
     bool converged;
     double grain_steps;
-    int64_t pending_form;  ///< the last grain that got a form of its own, -1: none
-    int32_t pending_shape; ///< that form
     clast_table series;
     double step_s, wall_s; ///< clocks, which no result depends on
 };
 
-/// What is drawn for grain `index`, ready but for its place: size, shape, turn, velocities.
-clast_status clx_pack_draw(clast_pack *pack, int64_t index, clast_dem_grain *grain);
+/// Sieve size of eq. 1 (meaning 0), or the volume-equivalent diameter.
+double clx_pack_size_of(const clast_shape *shape, int32_t meaning);
+
+/// Density of the grains of an input's shape.
+double clx_pack_density(const clast_pack *pack, int32_t shape);
+
+/// What is drawn for a grain, ready but for its place: size, shape, turn, velocities. Makes the
+/// form that it needs, unless it has one.
+clast_status clx_pack_draw(clast_pack *pack, clx_pack_number *number, clast_dem_grain *grain);
 
 /// Refuses a seed that draws a grain too large for the domain, before hours are spent on others.
 /// Forms drawn from a law are checked when they are made.

@@ -5,16 +5,31 @@
 #include <math.h>
 #include <string.h>
 
+void clx_pack_saved_free(clx_pack_saved *saved)
+{
+    clx_dem_saved_free(&saved->dem);
+    clx_free(saved->waiting);
+    *saved = (clx_pack_saved){0};
+}
+
 clast_status clx_pack_save(clast_pack *p, clx_pack_saved *saved)
 {
     clast_status status = CLAST_OK;
     clx_pack_saved s = {.count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step,
-                                  p->converged ? 1 : 0, p->pending_form, p->pending_shape, 0},
-                        .number = {p->mass, p->last_height, p->grain_steps},
+                                  p->converged ? 1 : 0, p->n_drawn, p->n_waited, 0},
+                        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
+                        .n_waiting = p->n_waiting,
                         .series = &p->series};
+    CLX_TRY(clx_alloc(&s.waiting, 2 * s.n_waiting, sizeof *s.waiting));
+    for (int64_t i = 0; i < s.n_waiting; ++i) {
+        s.waiting[2 * i] = p->waiting[i].index;
+        s.waiting[2 * i + 1] = p->waiting[i].form;
+    }
     CLX_TRY(clx_dem_save(p->dem, &s.dem));
     *saved = s;
+    s = (clx_pack_saved){0};
 done:
+    clx_pack_saved_free(&s);
     return status;
 }
 
@@ -62,12 +77,26 @@ static bool is_same_clump(const clast_spheres *a, const clast_spheres *b)
                                           are_same(a->n, a->radius, b->radius)));
 }
 
+static bool are_same_parts(const clast_parts *a, const clast_parts *b)
+{
+    bool same = a->n == b->n;
+    for (int32_t i = 0; i < a->n && same; ++i) {
+        const clast_part *p = &a->part[i];
+        const clast_part *q = &b->part[i];
+        same = p->kind == q->kind && are_same(3, p->semi_axes, q->semi_axes) &&
+               are_same(3, p->position, q->position) &&
+               are_same(4, p->orientation, q->orientation) && p->vert[1] == q->vert[1] &&
+               p->tri[1] == q->tri[1];
+    }
+    return same;
+}
+
 static bool is_same_shape(const clast_shape *a, const clast_shape *b)
 {
     return a->kind == b->kind && strcmp(a->name, b->name) == 0 && a->volume == b->volume &&
            a->bounding_radius == b->bounding_radius && are_same(9, a->inertia[0], b->inertia[0]) &&
            are_same(3, a->semi_axes, b->semi_axes) && is_same_surface(&a->mesh, &b->mesh) &&
-           is_same_clump(&a->spheres, &b->spheres);
+           is_same_clump(&a->spheres, &b->spheres) && are_same_parts(&a->parts, &b->parts);
 }
 
 /// The files of shapes may have changed since.
@@ -84,13 +113,33 @@ done:
     return status;
 }
 
+/// Grains that wait: numbers that rise, forms that are there.
+static clast_status take_waiting(clast_pack *p, const clx_pack_saved *s)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow(&p->waiting, &p->waiting_capacity, s->n_waiting + 1, sizeof *p->waiting));
+    for (int64_t i = 0; i < s->n_waiting; ++i) {
+        const int64_t *w = &s->waiting[2 * i];
+        CLX_CHECK(
+            w[0] > (i > 0 ? w[-2] : -1) && w[0] < s->count[6] &&
+                (p->config.form_law ? w[1] >= p->input.n_shape && w[1] < s->count[8] : w[1] == -1),
+            CLAST_E_FORMAT, "grain %lld of the checkpoint cannot wait", (long long)w[0]);
+        p->waiting[i] = (clx_pack_number){w[0], (int32_t)w[1]};
+    }
+    p->n_waiting = (int32_t)s->n_waiting;
+done:
+    return status;
+}
+
 clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(s->count[0] >= CLAST_PACK_GENERATE && s->count[0] <= CLAST_PACK_DONE &&
                   s->count[1] == s->dem.n_grain && s->count[2] >= 0 && s->count[2] <= INT32_MAX &&
                   s->count[8] >= p->input.n_shape && s->count[8] <= INT32_MAX &&
-                  isfinite(s->number[0]) && isfinite(s->number[1]),
+                  s->n_waiting <= INT32_MAX && s->count[6] == s->count[1] + s->n_waiting &&
+                  s->count[7] >= 0 && isfinite(s->number[0]) && isfinite(s->number[1]) &&
+                  isfinite(s->number[3]),
               CLAST_E_FORMAT, "the checkpoint's process is not one");
     CLX_TRY(check_shapes(p, s->shape));
     for (int64_t i = p->input.n_shape; i < s->count[8]; ++i) {
@@ -99,17 +148,19 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
     }
     CLX_TRY(clx_dem_restore(p->dem, &s->dem));
     CLX_TRY(take_series(p, s->series));
+    CLX_TRY(take_waiting(p, s));
     p->phase = (clast_pack_phase)s->count[0];
     p->n_made = s->count[1];
     p->n_fill = (int32_t)s->count[2];
     p->fill_step = s->count[3];
     p->phase_step = s->count[4];
     p->converged = s->count[5] != 0;
-    p->pending_form = s->count[6];
-    p->pending_shape = (int32_t)s->count[7];
+    p->n_drawn = s->count[6];
+    p->n_waited = s->count[7];
     p->mass = s->number[0];
     p->last_height = s->number[1];
     p->grain_steps = s->number[2];
+    p->drawn_mass = s->number[3];
     clx_pack_drive(p);
 done:
     return status;

@@ -3,19 +3,23 @@
 #include "dem/saved.h"
 #include "pack/pack.h"
 
-enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 3 };
+enum { CLX_PACK_COUNTS = 9, CLX_PACK_NUMBERS = 4 };
 
 typedef struct clx_pack_saved {
     clx_dem_saved dem;
     int64_t count[CLX_PACK_COUNTS];  ///< phase, n_made, n_fill, fill_step, phase_step, converged,
-                                     ///< pending form, pending shape, shapes in all
-    double number[CLX_PACK_NUMBERS]; ///< mass, last height, grain-steps
-    const clast_table *series;       ///< borrowed
-    const clast_shape *shape;        ///< [count[8]] borrowed
+                                     ///< drawn, waited, shapes in all
+    double number[CLX_PACK_NUMBERS]; ///< mass, last height, grain-steps, mass drawn
+    int64_t n_waiting;
+    int64_t *waiting;          ///< [n_waiting][2] index and form of grains without a place
+    const clast_table *series; ///< borrowed
+    const clast_shape *shape;  ///< [count[8]] borrowed
 } clx_pack_saved;
 
-/// `saved` borrows the series; free saved->dem.
+/// `saved` borrows the series.
 clast_status clx_pack_save(clast_pack *pack, clx_pack_saved *saved);
+
+void clx_pack_saved_free(clx_pack_saved *saved);
 
 /// Into a packing fresh from clast_pack_create. Shapes beyond the input's are added.
 clast_status clx_pack_restore(clast_pack *pack, const clx_pack_saved *saved);

@@ -131,8 +131,9 @@ static void add_facet(const slices *s, const facet *f, double z)
     }
 }
 
+/// @param share  of the surface's volume that counts
 static void add_mesh(const slices *s, const clast_mesh *mesh, double turn[3][3], double scale,
-                     double z)
+                     double z, double share)
 {
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         double p[3][3];
@@ -142,6 +143,7 @@ static void add_mesh(const slices *s, const clast_mesh *mesh, double turn[3][3],
             v3_scale(p[k], scale, p[k]);
         }
         sort_facet(p, &f);
+        f.flux *= share;
         add_facet(s, &f, z);
     }
 }
@@ -290,7 +292,7 @@ void clx_mesh_slabs(const clast_mesh *mesh, int32_t n, const double *edge, doubl
 {
     const slices s = {n, edge, solid};
     double unturned[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    add_mesh(&s, mesh, unturned, 1.0, 0.0);
+    add_mesh(&s, mesh, unturned, 1.0, 0.0, 1.0);
 }
 
 clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
@@ -307,7 +309,9 @@ clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
     if (method == CLAST_POROSITY_SPHERES) {
         add_ellipsoid(&s, volume, z, cbrt(0.75 / CLAST_PI * volume));
     } else if (shape->kind == CLAST_SHAPE_MESH) {
-        add_mesh(&s, &shape->mesh, turn, scale, z);
+        const bool is_rigid = shape->parts.n > 0; // what its parts share counts once
+        add_mesh(&s, &shape->mesh, turn, scale, z,
+                 is_rigid ? shape->volume / clast_mesh_volume(&shape->mesh) : 1.0);
     } else if (shape->kind == CLAST_SHAPE_CLUMP && is_disjoint(shape)) {
         add_spheres(&s, &shape->spheres, z, turn, scale);
     } else if (shape->kind == CLAST_SHAPE_CLUMP) {

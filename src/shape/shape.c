@@ -7,12 +7,14 @@
 #include "base/alloc.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
+#include <string.h>
 
 void clast_shape_free(clast_shape *shape)
 {
     clx_free(shape->name);
     clast_mesh_free(&shape->mesh);
     clast_spheres_free(&shape->spheres);
+    clx_free(shape->parts.part);
     *shape = (clast_shape){0};
 }
 
@@ -23,12 +25,19 @@ clast_status clast_shape_copy(const clast_shape *shape, clast_shape *copy)
     made.name = NULL;
     made.mesh = (clast_mesh){0};
     made.spheres = (clast_spheres){0};
+    made.parts = (clast_parts){0};
     CLX_TRY(clx_alloc_text(&made.name, shape->name));
     if (shape->mesh.n_vert > 0) {
         CLX_TRY(clast_mesh_copy(&shape->mesh, &made.mesh));
     }
     if (shape->spheres.n > 0) {
         CLX_TRY(clast_spheres_copy(&shape->spheres, &made.spheres));
+    }
+    if (shape->parts.n > 0) {
+        CLX_TRY(clx_alloc(&made.parts.part, shape->parts.n, sizeof *made.parts.part));
+        memcpy(made.parts.part, shape->parts.part,
+               (size_t)shape->parts.n * sizeof *made.parts.part);
+        made.parts.n = shape->parts.n;
     }
     *copy = made;
     made = (clast_shape){0};

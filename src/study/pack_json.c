@@ -77,6 +77,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "max_speed", r->dem.max_speed);
     put(o, "kinetic_energy", r->dem.kinetic_energy);
     put_count(o, "n_fill", r->n_fill);
+    put_count(o, "n_waited", r->n_waited);
     (void)json_object_set_new(o, "hulls", hulls(r));
     put(o, "grain_steps", r->grain_steps);
     put_count(o, "n_refresh", r->dem.n_refresh);

@@ -153,7 +153,10 @@ class Pack(Case):
     def test_other_kinds_resume_after_a_kill(self):
         spheres = self.folder / "clump.csv"
         spheres.write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
-        for kind, shape in (("egg", "ellipsoid:3,2,1"), ("hull", "data/standin63/grain10.ply"), ("clump", str(spheres))):
+        rigid = self.aggregate("rigid", "--core", "ellipsoid:3,2,1", "--core-size", "200um", "--coat", "ellipsoid:2,1,1", "--size",
+                               "100um", "--replicate", "2")
+        for kind, shape in (("egg", "ellipsoid:3,2,1"), ("hull", "data/standin63/grain10.ply"), ("clump", str(spheres)),
+                            ("rigid", str(rigid))):
             options = ["--shapes", shape, "--mass", "4g", "--shaking-time", "0.004s", "--max-steps", "24000"]
             whole = self.folder / f"{kind}-whole"
             self.assertEqual(self.run_small(*options, "-o", whole, "--checkpoint-time", "0.02s").code, 0)
@@ -207,6 +210,145 @@ class Pack(Case):
                                 "--json", "-o", run)
         self.assertEqual(result.code, 0, result.err)
         self.assertGreater(json.loads(result.out)["n_grain"], 5)
+
+    def aggregate(self, name, *options):
+        made = clast("aggregate", *options, "--seed", "2", "-o", self.folder / name, "--quiet")
+        self.assertEqual(made.code, 0, made.err)
+        return self.folder / name / "state.h5"
+
+    def test_aggregates_of_any_shape_are_grains(self):
+        eggs = self.aggregate("eggs", "--core", "ellipsoid:3,2,1", "--core-size", "200um", "--coat", "ellipsoid:2,1,1", "--size",
+                              "100um", "--replicate", "3")
+        gravel = self.aggregate("gravel", "--core", ROOT / "data/standin63/grain20.ply", "--core-size", "200um", "--coat",
+                                ROOT / "data/standin63/grain10.ply", "--size", "100um", "--replicate", "2", "--unit", "m")
+        for state, n_hull in ((eggs, 0), (gravel, 1)):
+            run = self.folder / f"bed-{n_hull}"
+            made = self.run_small("--shapes", state, "--mass", "4g", "--json", "-o", run)
+            self.assertEqual(made.code, 0, made.err)
+            self.assertEqual(len(made.json["hulls"]), n_hull)
+            self.assertTrue(made.json["converged"])
+            # the exact slices hold the volume of the parts: the bed's mass over its density
+            sliced = clast("porosity", run, "--cut", "0.95", "-o", run / "slices")
+            self.assertEqual(sliced.code, 0, sliced.err)
+            with open(run / "slices/profile.csv", newline="", encoding="utf-8") as file:
+                solid = sum(float(row["solid_m3"]) for row in csv.DictReader(file))
+            self.assertAlmostEqual(2650 * solid / made.json["mass"], 1, 12)
+            picture = clast("render", run, "-o", run / "bed.png")
+            self.assertEqual(picture.code, 0, picture.err)
+        self.assert_fails(2, *SMALL, "--shapes", eggs, "--form-law", says=("cannot stretch",))
+        self.assert_fails(2, *SMALL, "--shapes", gravel, "--rounding", "1um", says=("not rounded",))
+
+    def test_density_is_one_for_all_or_one_each(self):
+        pair = ["--shapes", "sphere", "--shapes", "ellipsoid:1,1,0.5", "--max-steps", "1", "--spacing", "8mm", "--json"]
+        volume = {"1-sphere": math.pi / 6 * 0.006**3, "2-ellipsoid:1,1,0.5": None}
+        # sieve size D = sqrt(2 (b^2 + c^2)) of semi-axes: b = 2 c
+        c = 0.006 / math.sqrt(2 * 5)
+        volume["2-ellipsoid:1,1,0.5"] = 4 / 3 * math.pi * 4 * c**3
+        config = self.folder / "bed.yaml"
+        config.write_text("density: [2000 kg/m^3, 5 g/cm3]\n")
+        for words, density in (((), (2650, 2650)), (("--density", "2000"), (2000, 2000)),
+                               (("--density", "2000", "--density", "5 g/cm3"), (2000, 5000)), ((config,), (2000, 5000))):
+            run = self.folder / f"run-{len(words)}-{density[1]}"
+            made = clast("pack", *(words if words[:1] == (config,) else ()), *SMALL[1:], *(words if words[:1] != (config,) else ()),
+                         *pair, "-o", run)
+            self.assertEqual(made.code, 0, made.err)
+            with open(run / "grains.csv", newline="", encoding="utf-8") as file:
+                shapes = [row["shape"] for row in csv.DictReader(file)]
+            self.assertEqual(set(shapes), set(volume))
+            wanted = sum(volume[s] * density[s.startswith("2")] for s in shapes)
+            self.assertAlmostEqual(made.json["mass"] / wanted, 1, 12)
+        self.assert_fails(2, *SMALL, "--density", "1", "--density", "2", says=("2 densities for 1 shapes",))
+        self.assert_fails(2, *SMALL, *pair[:4], "--density", "2650", "--density", "900", says=("900 kg/m3 do not sink",))
+
+    def test_kills_at_any_moment_lose_nothing(self):
+        # checkpoints all the time, so that most kills hit one
+        whole = self.run_small("--json")
+        run = self.folder / "run"
+        first = [os.environ["CLAST"], *SMALL, "--checkpoint-time", "0s", "-o", str(run)]
+        again = [os.environ["CLAST"], "pack", "--resume", str(run), "--quiet", "-j", "1"]
+        killed = 0
+        for wait in (0.05, 0.03, 0.07, 0.02, 0.045, 0.06, 0.025, 0.055):
+            going = again if list(run.glob("checkpoint-*.h5")) else first
+            process = subprocess.Popen(going, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(wait)
+            while not list(run.glob("checkpoint-*.h5")) and process.poll() is None:
+                time.sleep(0.001)
+            process.kill()
+            process.wait()
+            killed += process.returncode == -9
+        self.assertGreater(killed, 3)
+        resumed = clast("pack", "--resume", run, "--quiet", "-j", "1", "--json")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertEqual(resumed.json["state_hash"], whole.json["state_hash"])
+        self.assertEqual([p.name for p in run.iterdir() if "checkpoint" in p.name], [])
+
+    def test_killed_before_the_first_grain_it_goes_on(self):
+        whole = self.run_small("--json")
+        run = self.folder / "run"
+        process = subprocess.Popen([os.environ["CLAST"], *SMALL, "-o", str(run)], cwd=ROOT, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        while not (run / "checkpoint-000000000000.h5").exists() and process.poll() is None:
+            pass
+        process.kill()
+        process.wait()
+        self.assertEqual([p.name for p in run.glob("checkpoint-*")], ["checkpoint-000000000000.h5"])
+        resumed = clast("pack", "--resume", run, "--quiet", "-j", "1", "--json")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertEqual(resumed.json["state_hash"], whole.json["state_hash"])
+
+    def test_other_checkpoints_are_refused(self):
+        eggs = self.aggregate("eggs", "--core", "sphere", "--core-size", "200um", "--coat", "sphere", "--size", "100um",
+                              "--replicate", "2")
+        run = self.folder / "run"
+        run.mkdir()
+        (run / "checkpoint-000000000100.h5").write_bytes(eggs.read_bytes())
+        self.assert_fails(3, "pack", "--resume", run, says=("no checkpoint of a packing",))
+
+    def test_grains_without_volume_are_refused(self):
+        flat = self.folder / "flat.obj"
+        flat.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n")
+        self.assert_fails(3, *SMALL, "--shapes", flat, says=("flat.obj",))
+        self.assert_fails(3, *SMALL, "--shapes", flat, "--no-hull", says=("flat.obj",))
+        self.assert_fails(2, *SMALL, "--shapes", "ellipsoid:1,1,0", says=("three axes above 0",))
+
+    def drum(self, height=80):
+        """A closed drum of twelve sides, 50 mm wide, lying off the axis."""
+        n = 12
+        ring = [(25 * math.cos(2 * math.pi * k / n) + 10, 25 * math.sin(2 * math.pi * k / n)) for k in range(n)]
+        vertices = [(x, y, 5) for x, y in ring] + [(x, y, 5 + height) for x, y in ring] + [(10, 0, 5), (10, 0, 5 + height)]
+        faces = []
+        for i in range(n):
+            j = (i + 1) % n
+            faces += [(i, j, n + j), (i, n + j, n + i), (j, i, 2 * n), (n + i, n + j, 2 * n + 1)]
+        path = self.folder / "drum.off"
+        path.write_text(f"OFF\n{len(vertices)} {len(faces)} 0\n" + "".join("%r %r %r\n" % v for v in vertices) +
+                        "".join("3 %d %d %d\n" % f for f in faces))
+        return path
+
+    def test_closed_container_holds_a_shaken_bed(self):
+        drum = self.drum()
+        options = ["pack", "--container", drum, "--container-unit", "mm", "--no-floor", "--curve", "8 mm", "--mass", "30g",
+                   "--shaking-time", "0.05s", "--shake-amplitude", "2mm", "-j", "1", "--quiet"]
+        run = self.folder / "run"
+        for shape in ("sphere", ROOT / "data/standin63/grain10.ply"):
+            made = clast(*options, "--shapes", shape, "--json")
+            self.assertEqual(made.code, 0, made.err)
+            self.assertEqual((made.json["n_outside"], made.json["converged"]), (0, True))
+        # cut off, its container changed, it does not go on
+        process = subprocess.Popen([os.environ["CLAST"], *map(str, options), "--checkpoint-time", "0s", "-o", str(run)], cwd=ROOT,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        self.drum(height=81)
+        self.assert_fails(3, "pack", "--resume", run, says=("container is not the one",))
+        self.drum()
+        resumed = clast("pack", "--resume", run, "--quiet", "-j", "1", "--json")
+        self.assertEqual((resumed.code, resumed.json["n_outside"]), (0, 0), resumed.err)
+
+    def test_contacts_too_soft_for_their_load_end_with_a_line(self):
+        self.assert_fails(5, *SMALL, "--initial-speed", "80m/s", says=("explodes in step", "contacts too soft"))
 
     def test_trimmed_away_says_what_to_do(self):
         result = clast("pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "30g",

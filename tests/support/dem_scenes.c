@@ -1,5 +1,7 @@
 #include "dem_scenes.h"
 
+#include <clast/rigid.h>
+
 #include "math/rng.h"
 #include <math.h>
 #include <stdio.h>
@@ -113,6 +115,33 @@ static clast_status dumb_bell(clast_shape *shape)
     return status;
 }
 
+/// Two bodies of half the reach, end to end, as one rigid grain.
+static clast_status rigid_pair(const clast_shape *part, clast_shape *shape)
+{
+    clast_assembly a = {0};
+    int32_t id = 0;
+    const clast_rigid_options options = {.hull = false};
+    const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    clast_status status = clast_assembly_add_shape(&a, part, &id);
+    for (int k = 0; k < 2 && status == CLAST_OK; ++k) {
+        const double x[3] = {k == 0 ? 2e-3 : -2e-3, 0.0, 0.0};
+        status = clast_assembly_add_grain(&a, id, x, unturned, 0.5, 2650.0);
+    }
+    status = status == CLAST_OK ? clast_assembly_rigid(&a, "pair", &options, shape, NULL) : status;
+    clast_assembly_free(&a);
+    return status;
+}
+
+bool scene_is_flat(scene_body_kind kind)
+{
+    return kind == SCENE_CUBE || kind == SCENE_BRICKS;
+}
+
+bool scene_is_pointed(scene_body_kind kind)
+{
+    return kind == SCENE_OCTAHEDRON || kind == SCENE_GEMS;
+}
+
 clast_status scene_body(scene_body_kind kind, clast_shape *shape)
 {
     const double axes[3] = {4e-3, 3e-3, 2e-3};
@@ -131,8 +160,17 @@ clast_status scene_body(scene_body_kind kind, clast_shape *shape)
         status = clast_mesh_box(8e-3, 8e-3, 8e-3, &mesh);
         status = status == CLAST_OK ? clast_shape_mesh("cube", &mesh, shape) : status;
         break;
-    default:
+    case SCENE_CLUMP:
         return dumb_bell(shape);
+    default: {
+        const scene_body_kind half = kind == SCENE_EGGS   ? SCENE_EGG
+                                     : kind == SCENE_GEMS ? SCENE_OCTAHEDRON
+                                                          : SCENE_CUBE;
+        clast_shape part = {0};
+        status = scene_body(half, &part);
+        status = status == CLAST_OK ? rigid_pair(&part, shape) : status;
+        clast_shape_free(&part);
+    }
     }
     clast_mesh_free(&mesh);
     return status;

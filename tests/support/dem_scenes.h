@@ -21,8 +21,16 @@ typedef enum {
     SCENE_OCTAHEDRON,
     SCENE_CUBE,
     SCENE_CLUMP,
+    SCENE_EGGS,   ///< rigid: two ellipsoids end to end
+    SCENE_GEMS,   ///< rigid: two octahedra
+    SCENE_BRICKS, ///< rigid: two cubes face to face
     N_SCENE_BODY
 } scene_body_kind;
+
+/// Whether a body ends in a face along x, or in a corner: face on face has no point of its own, and
+/// corner on corner parts sideways, so that these pairs have no closed form.
+bool scene_is_flat(scene_body_kind kind);
+bool scene_is_pointed(scene_body_kind kind);
 
 clast_status scene_body(scene_body_kind kind, clast_shape *shape);
 

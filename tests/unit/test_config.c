@@ -1,8 +1,19 @@
 /* Unit: configurations are typed by their field table and refused in one line. */
 #include "support.h"
 
+#include <clast/agglomerate.h>
 #include <clast/aggregate.h>
 #include <clast/config.h>
+#include <clast/decompose.h>
+#include <clast/fill.h>
+#include <clast/mesh_repair.h>
+#include <clast/pack.h>
+#include <clast/porosity_fit.h>
+#include <clast/render.h>
+#include <clast/report.h>
+#include <clast/study.h>
+#include <clast/synthesize.h>
+#include <stdio.h>
 #include <string.h>
 
 static clast_aggregate_config config;
@@ -71,12 +82,38 @@ static void survives_refused_memory(void **state)
     support_refuse_each_allocation(make, text);
 }
 
+/* A number with the unit that --help names is that number, for every option of every command. */
+static void every_field_reads_its_own_unit(void **state)
+{
+    (void)state;
+    const clast_field *const tables[] = {
+        clast_aggregate_fields,   clast_report_fields,      clast_render_fields,
+        clast_decompose_fields,   clast_fill_fields,        clast_agglomerate_fields,
+        clast_pack_fields,        clast_synthesize_fields,  clast_study_fields,
+        clast_mesh_repair_fields, clast_porosity_fit_fields};
+    for (size_t k = 0; k < sizeof tables / sizeof tables[0]; ++k) {
+        for (const clast_field *f = tables[k]; f->name != NULL; ++f) {
+            char text[64];
+            double value = 0.0;
+            if (f->unit != NULL && f->unit[0] != '-' &&
+                (f->type == CLAST_FIELD_F64 || f->type == CLAST_FIELD_F64_LIST)) {
+                (void)snprintf(text, sizeof text, "3.5 %s", f->unit);
+                if (clast_unit_parse(text, f->unit, &value) != CLAST_OK) {
+                    print_message("%s\n", clast_error_detail());
+                }
+                CHECK_REL(value, 3.5, 1e-15);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_carry_units_and_lists_replace),
         cmocka_unit_test(wrong_lines_are_named),
         cmocka_unit_test(survives_refused_memory),
+        cmocka_unit_test(every_field_reads_its_own_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

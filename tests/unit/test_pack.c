@@ -1,8 +1,10 @@
 /* Unit: the process step by step: fills, phases, mass, the rules that end it. */
 #include "support.h"
 
+#include "math/vec3.h"
 #include "pack/saved.h"
 #include <clast/parallel.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -127,16 +129,49 @@ static void phases_follow_one_another(void **state)
     end(&b);
 }
 
+static void check_same(const char *what, const void *a, const void *b, int64_t n, size_t size)
+{
+    for (int64_t i = 0; i < n; ++i) {
+        if (memcmp((const char *)a + (size_t)i * size, (const char *)b + (size_t)i * size, size) !=
+            0) {
+            fail_msg("%s %lld of %lld differs", what, (long long)i, (long long)n);
+        }
+    }
+}
+
+/* All that a checkpoint would keep, byte by byte: what a state file holds beyond what is hashed. */
+static void check_same_saves(clast_pack *one, clast_pack *other)
+{
+    clx_pack_saved a = {0};
+    clx_pack_saved b = {0};
+    CHECK_OK(clx_pack_save(one, &a));
+    CHECK_OK(clx_pack_save(other, &b));
+    assert_true(a.dem.n_grain == b.dem.n_grain && a.dem.n_link == b.dem.n_link &&
+                a.dem.n_known == b.dem.n_known && a.dem.n_refresh == b.dem.n_refresh);
+    check_same("count", a.count, b.count, CLX_PACK_COUNTS, sizeof *a.count);
+    check_same("number", a.number, b.number, CLX_PACK_NUMBERS, sizeof *a.number);
+    check_same("grain", a.dem.grain, b.dem.grain, a.dem.n_grain, CLX_SAVED_GRAIN * sizeof(double));
+    check_same("anchor", a.dem.anchor, b.dem.anchor, a.dem.n_known,
+               CLX_SAVED_ANCHOR * sizeof(double));
+    check_same("pair", a.dem.id, b.dem.id, a.dem.n_link, CLX_SAVED_ID * sizeof(int32_t));
+    check_same("link", a.dem.link, b.dem.link, a.dem.n_link, CLX_SAVED_LINK * sizeof(double));
+    if (a.dem.memory != NULL) {
+        check_same("memory", a.dem.memory, b.dem.memory, a.dem.n_link, (size_t)a.dem.memory_width);
+    }
+    clx_pack_saved_free(&a);
+    clx_pack_saved_free(&b);
+}
+
 /* Saved at any step and restored into a fresh packing, it ends in the same state. */
 static void check_restored(clast_shape_kind kind)
 {
     bed b;
     begin_with(&b, kind);
-    b.config.max_steps = 7000;
+    b.config.max_steps = 24000;
     clast_pack *whole = NULL;
     CHECK_OK(clast_pack_create(&b.config, &b.input, &whole));
     CHECK_OK(clast_pack_advance(whole, INT64_MAX));
-    const int64_t cut[3] = {1, 777, 5000};
+    const int64_t cut[3] = {5000, 12700, 20000};
     for (int k = 0; k < 3; ++k) {
         clast_pack *first = NULL;
         clast_pack *second = NULL;
@@ -150,6 +185,7 @@ static void check_restored(clast_shape_kind kind)
         CHECK_OK(clast_pack_advance(second, INT64_MAX));
         assert_true(clast_dem_hash(clast_pack_dem(second)) ==
                     clast_dem_hash(clast_pack_dem(whole)));
+        check_same_saves(second, whole);
         clast_pack_destroy(second);
         /* what no packing writes is refused */
         second = NULL;
@@ -158,7 +194,7 @@ static void check_restored(clast_shape_kind kind)
         CHECK_STATUS(clx_pack_restore(second, &saved), CLAST_E_FORMAT);
         clast_pack_destroy(second);
         clast_pack_destroy(first);
-        clx_dem_saved_free(&saved.dem);
+        clx_pack_saved_free(&saved);
     }
     clast_pack_destroy(whole);
     end(&b);
@@ -170,6 +206,237 @@ static void restored_packing_ends_the_same(void **state)
     for (int kind = 0; kind < 4; ++kind) {
         check_restored((clast_shape_kind)kind);
     }
+}
+
+/* A bed of many small grains and few wide ones, poured in several fills. */
+static void begin_mixed(bed *b, int generator)
+{
+    clast_sizes sizes = {0};
+    CHECK_OK(clast_sizes_alloc(40, &sizes));
+    for (int i = 0; i < 40; ++i) {
+        sizes.low[i] = sizes.high[i] = i % 4 == 1 ? 14e-3 : 5e-3 + 1e-5 * i;
+        sizes.count[i] = 1.0;
+    }
+    begin(b);
+    clast_grading_destroy(b->grading);
+    b->grading = NULL;
+    CHECK_OK(clast_grading_of_sizes(&sizes, false, &b->grading));
+    clast_sizes_free(&sizes);
+    b->input.grading = b->grading;
+    b->config.generator = generator;
+    b->config.spacing = 8e-3;
+    b->config.mass = 0.15;
+    b->config.dem.width = 0.05;
+    b->config.dem.height = 0.12;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// Sizes made, sorted; their number.
+static int32_t sizes_of(const clast_pack *pack, double size[1000])
+{
+    const int32_t n = clast_dem_n_grain(clast_pack_dem(pack));
+    assert_in_range(n, 50, 1000);
+    for (int32_t i = 0; i < n; ++i) {
+        clast_dem_grain g;
+        clast_dem_read_grain(clast_pack_dem(pack), i, &g);
+        size[i] = g.scale;
+    }
+    qsort(size, (size_t)n, sizeof *size, by_size);
+    return n;
+}
+
+static void pour(clast_pack *pack)
+{
+    while (clast_pack_phase_of(pack) == CLAST_PACK_GENERATE) {
+        CHECK_OK(clast_pack_advance(pack, 200));
+    }
+}
+
+/* Grains that find no place wait; none is left out: the bed is made of the seed's first grains, as
+ * many as the mass needs, whatever the generator. */
+static void grains_that_wait_are_made(void **state)
+{
+    (void)state;
+    double drawn[1000];
+    for (int generator = 0; generator < 3; ++generator) {
+        bed b;
+        double size[1000];
+        double mass = 0.0;
+        clast_pack *pack = NULL;
+        clast_pack_result r;
+        begin_mixed(&b, generator);
+        int32_t n = 0;
+        for (; mass < b.config.mass; ++n) {
+            const double d = clast_grading_draw(b.grading, b.config.seed, (uint64_t)n);
+            drawn[n] = d;
+            mass += 2650.0 * CLAST_PI / 6.0 * d * d * d;
+        }
+        qsort(drawn, (size_t)n, sizeof *drawn, by_size);
+        CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+        pour(pack);
+        CHECK_OK(clast_pack_measure(pack, &r));
+        assert_true(r.n_waited > 0 && r.n_fill > 1);
+        assert_int_equal(sizes_of(pack, size), n);
+        for (int32_t i = 0; i < n; ++i) {
+            CHECK_REL(size[i], drawn[i], 1e-15);
+        }
+        CHECK_REL(r.dem.mass, mass, 1e-12);
+        clast_pack_destroy(pack);
+        end(&b);
+    }
+}
+
+/* When a fill is made the last one is just below: no sphere of one crosses one of the other, also
+ * where both are narrower than the lattice. */
+static void fills_are_clear_of_each_other(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *pack = NULL;
+    int32_t n_fill = 0;
+    int32_t before = 0;
+    begin(&b);
+    b.config.spacing = 8.2e-3; /* grains of 5.6 to 8 mm */
+    b.config.mass = 0.08;
+    b.config.dem.height = 0.2;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    while (clast_pack_phase_of(pack) == CLAST_PACK_GENERATE) {
+        CHECK_OK(clast_pack_advance(pack, 1)); /* decides at whole milliseconds */
+        const clast_dem *dem = clast_pack_dem(pack);
+        const int32_t n = clast_dem_n_grain(dem);
+        for (int32_t i = before; i < n; ++i) {
+            for (int32_t k = 0; k < i; ++k) {
+                clast_dem_grain g, o;
+                double d[3];
+                clast_dem_read_grain(dem, i, &g);
+                clast_dem_read_grain(dem, k, &o);
+                v3_sub(d, g.position, o.position);
+                assert_true(v3_norm(d) > 0.5 * (g.scale + o.scale) - 2e-5); /* a step at 3 m/s */
+            }
+        }
+        n_fill += n > before ? 1 : 0;
+        before = n;
+        CHECK_OK(clast_pack_advance(pack, 199));
+    }
+    assert_true(n_fill > 1);
+    clast_pack_destroy(pack);
+    end(&b);
+}
+
+/* Cut while grains wait, a packing goes on with them. */
+static void waiting_grains_outlive_a_checkpoint(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *first = NULL;
+    clast_pack *second = NULL;
+    clx_pack_saved saved = {0};
+    begin_mixed(&b, CLAST_PACK_CUBIC);
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &first));
+    CHECK_OK(clast_pack_advance(first, 10));
+    assert_true(first->n_waiting > 0);
+    CHECK_OK(clx_pack_save(first, &saved));
+    saved.count[CLX_PACK_COUNTS - 1] = 1;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &second));
+    CHECK_OK(clx_pack_restore(second, &saved));
+    pour(first);
+    pour(second);
+    assert_true(clast_dem_hash(clast_pack_dem(first)) == clast_dem_hash(clast_pack_dem(second)));
+    clast_pack_destroy(second);
+    /* numbers that were never drawn, or twice */
+    for (int bad = 0; bad < 2; ++bad) {
+        second = NULL;
+        saved.waiting[0] = bad == 0 ? -1 : saved.count[6];
+        CHECK_OK(clast_pack_create(&b.config, &b.input, &second));
+        CHECK_STATUS(clx_pack_restore(second, &saved), CLAST_E_FORMAT);
+        clast_pack_destroy(second);
+    }
+    clx_pack_saved_free(&saved);
+    clast_pack_destroy(first);
+    end(&b);
+}
+
+/* One density each: of two shapes drawn as often, a heavy one and a light one, every grain has its
+ * shape's; weights in the bed are volume times that. */
+static void density_goes_with_the_shape(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *pack = NULL;
+    clast_shape both[2] = {{0}, {0}};
+    double density[2] = {2000.0, 5000.0};
+    begin(&b);
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_shape_sphere(k == 0 ? "light" : "heavy", 0.5, &both[k]));
+    }
+    b.config.spacing = 8.2e-3;
+    b.input.n_shape = 2;
+    b.input.shape = both;
+    double *const old = b.config.density.item;
+    b.config.density = (clast_f64_list){2, density};
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    CHECK_OK(clast_pack_advance(pack, 1));
+    int n[2] = {0, 0};
+    double mass = 0.0;
+    for (int32_t i = 0; i < clast_dem_n_grain(clast_pack_dem(pack)); ++i) {
+        clast_dem_grain g;
+        clast_dem_read_grain(clast_pack_dem(pack), i, &g);
+        CHECK_REL(g.density, density[g.shape], 0.0);
+        ++n[g.shape];
+        mass += CLAST_PI / 6.0 * g.scale * g.scale * g.scale * density[g.shape];
+    }
+    assert_true(n[0] > 5 && n[1] > 5);
+    CHECK_REL(clast_pack_mass(pack), mass, 1e-13);
+    clast_pack_destroy(pack);
+    pack = NULL;
+    density[0] = 900.0; /* one of two floats */
+    CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+    b.config.density = (clast_f64_list){1, old};
+    b.input.n_shape = 1;
+    for (int k = 0; k < 2; ++k) {
+        clast_shape_free(&both[k]);
+    }
+    end(&b);
+}
+
+/* In a closed container no grain leaves; one that is outside, whatever brought it there, ends the
+ * run with its number. */
+static void leaving_grain_ends_the_run(void **state)
+{
+    (void)state;
+    bed b;
+    clast_mesh box = {0};
+    clast_pack *pack = NULL;
+    clast_pack *second = NULL;
+    clx_pack_saved saved = {0};
+    begin(&b);
+    CHECK_OK(clast_mesh_box(0.05, 0.05, 0.1, &box));
+    b.input.container = b.input.container_closed = &box;
+    b.config.spacing = 8.2e-3;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    CHECK_OK(clast_pack_advance(pack, 100));
+    CHECK_OK(clx_pack_save(pack, &saved));
+    saved.count[CLX_PACK_COUNTS - 1] = 1;
+    saved.dem.grain[3 * CLX_SAVED_GRAIN] = -0.01; /* x of grain 3 */
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &second));
+    CHECK_OK(clx_pack_restore(second, &saved));
+    CHECK_OK(clast_pack_advance(pack, INT64_MAX));
+    clast_pack_result r;
+    CHECK_OK(clast_pack_measure(pack, &r));
+    assert_true(r.converged && r.n_outside == 0);
+    CHECK_STATUS(clast_pack_advance(second, INT64_MAX), CLAST_E_CONVERGE);
+    assert_non_null(strstr(clast_error_detail(), "grain 3 has passed the walls"));
+    clx_pack_saved_free(&saved);
+    clast_pack_destroy(second);
+    clast_pack_destroy(pack);
+    clast_mesh_free(&box);
+    end(&b);
 }
 
 /* The lattice of this spacing has no point where a 31 mm grain would clear the wall; the axis has.
@@ -206,9 +473,9 @@ static void what_cannot_work_is_refused(void **state)
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "cannot fit"));
     b.config.mass = 0.02;
-    b.config.density = 900.0;
+    b.config.density.item[0] = 900.0;
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
-    b.config.density = 2650.0;
+    b.config.density.item[0] = 2650.0;
     b.config.dem.width = 5e-3; /* narrower than a grain */
     b.config.mass = 1e-4;
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_GEOMETRY);
@@ -229,6 +496,11 @@ int main(void)
         cmocka_unit_test(fill_is_clear_and_where_it_belongs),
         cmocka_unit_test(phases_follow_one_another),
         cmocka_unit_test(restored_packing_ends_the_same),
+        cmocka_unit_test(grains_that_wait_are_made),
+        cmocka_unit_test(fills_are_clear_of_each_other),
+        cmocka_unit_test(waiting_grains_outlive_a_checkpoint),
+        cmocka_unit_test(density_goes_with_the_shape),
+        cmocka_unit_test(leaving_grain_ends_the_run),
         cmocka_unit_test(wide_grain_finds_the_axis),
         cmocka_unit_test(what_cannot_work_is_refused),
     };
