@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Packings of Rettinger et al. 2022 beside ours: writes docs/validation/packing.md and packing.csv.
 
-usage: tools/paper_packing.py [--clast build/release/clast] [--runs build/paper-packing] [--run [STUDY...]]
+usage: tools/paper_packing.py [--clast build/release/clast] [--runs FOLDER...] [--run [STUDY...]] [--keep-cases]
 
---runs FOLDER  holds the studies of examples/packing, each in a folder of its own name; whole and half-done ones are read
---run STUDY... runs these studies there first (resumable; without names: the scaled-down ones, some hours on one core)
-packing.csv is the record of all beds: a bed found in FOLDER replaces its row, others stay. The page comes from the record, so
+--runs FOLDER... hold the studies of examples/packing, each in a folder of its own name: whole ones, half-done ones, and those of
+               which only some shards were run (build/paper-packing unless said)
+--run STUDY... runs these studies in the first of them (resumable; without names: the scaled-down ones, some hours on one core)
+--keep-cases   leaves the timings of cases A and P as the page has them (they want an idle machine)
+packing.csv is the record of all beds: a bed found in a FOLDER replaces its row, others stay. The page comes from the record, so
 it can be made anew without running anything. Cases A and P (two GPL scans of ../shared) and known packings are run each time.
 """
 import argparse
@@ -25,7 +27,7 @@ SHARED = ROOT.parent / "shared/data"
 RECORD = ROOT / "docs/validation/packing.csv"
 SMALL = ("forms-small", "rounding-small", "dip-small", "spheres-small", "table11-small", "table8-small", "table5-small", "table4-small",
          "table7-small", "table6-small")
-HEAD = ("study", "run", "keys", "seed", "n_grain", "mass", "porosity_bulk", "z_low", "z_high", "flatness_mean",
+HEAD = ("study", "run", "planned", "keys", "seed", "n_grain", "mass", "porosity_bulk", "z_low", "z_high", "flatness_mean",
         "flatness_deviation", "elongation_mean", "elongation_deviation", "coordination", "max_overlap", "n_step", "grain_steps",
         "wall_s", "state_hash")
 # two-sided 95 % of Student's t with n - 1 degrees of freedom
@@ -73,9 +75,10 @@ def read_csv(path):
 
 
 def beds_of(folder, study):
-    """The whole beds of a study's folder, also of one that has not ended."""
+    """The whole beds of a study's folder, also of one that has not ended or of some shards."""
     plan = folder / study / "plan.csv"
-    for row in read_csv(plan) if plan.exists() else []:
+    rows = read_csv(plan) if plan.exists() else []
+    for row in rows:
         result = folder / study / f"runs/{int(row['run']):06d}/result.json"
         if not result.exists() or not result.read_text(encoding="utf-8").strip():
             continue
@@ -84,15 +87,16 @@ def beds_of(folder, study):
             continue
         keys = ";".join(f"{k}={v}" for k, v in row.items() if k not in ("run", "seed"))
         yield {k: "" for k in HEAD} | {k: str(found[k]) for k in HEAD if k in found} | {
-            "study": study, "run": row["run"], "keys": keys, "seed": row.get("seed", "1")}
+            "study": study, "run": row["run"], "planned": str(len(rows)), "keys": keys, "seed": row.get("seed", "1")}
 
 
 class Record:
-    def __init__(self, folder):
+    def __init__(self, folders):
         self.beds = {(b["study"], b["keys"], b["seed"]): b for b in (read_csv(RECORD) if RECORD.exists() else [])}
-        for study in sorted(p.name for p in folder.iterdir() if p.is_dir()) if folder.exists() else []:
-            for bed in beds_of(folder, study):
-                self.beds[bed["study"], bed["keys"], bed["seed"]] = bed
+        for folder in folders:
+            for study in sorted(p.name for p in folder.iterdir() if p.is_dir()) if folder.exists() else []:
+                for bed in beds_of(folder, study):
+                    self.beds[bed["study"], bed["keys"], bed["seed"]] = bed
 
     def write(self):
         with open(RECORD, "w", newline="", encoding="utf-8") as file:
@@ -132,7 +136,7 @@ def what_was_run(record):
         grains = [int(b["n_grain"]) for b in beds]
         masses = [float(b["mass"]) for b in beds]
         steps = sum(float(b["grain_steps"]) for b in beds)
-        rows.append((f"`{study}`", len(beds), f"{min(masses):.3g} to {max(masses):.3g} kg", f"{min(grains)} to {max(grains)}",
+        rows.append((f"`{study}`", f"{len(beds)} of {beds[0]['planned']}", f"{min(masses):.3g} to {max(masses):.3g} kg", f"{min(grains)} to {max(grains)}",
                      f"{steps:.3g}"))
     return table(("study (examples/packing)", "beds", "mass", "grains a bed", "grain-steps"), rows)
 
@@ -253,9 +257,20 @@ def dip_rows(record):
 def dip(record):
     text = table(("L/S", "porosity", "coordination"),
                  [(f"{e:.2f}", f"{p:.4f}", f"{z:.2f}") for e, p, z in sorted(dip_rows(record))])
+    return text
+
+
+def spheres(record):
+    """Porosity and coordination of spheres by friction and time of shaking."""
     times = ("0.7 s", "2 s", "6 s")
-    return text + "\n\n" + table(("spheres (`spheres-small`), shaken for", *times),
-                                 [("porosity", *column(record, "spheres-small", "shaking_time", times))])
+    rows = []
+    for friction in ("0.5", "0.1", "0"):
+        cells = []
+        for time in times:
+            beds = record.of("spheres-small", friction=friction, shaking_time=time)
+            cells.append(f"{float(beds[0]['porosity_bulk']):.4f} ({float(beds[0]['coordination']):.2f})" if beds else "")
+        rows.append((friction, *cells))
+    return table(("friction", *times), rows)
 
 
 def rounding(record):
@@ -293,6 +308,14 @@ def cases(command):
                      f"{least:.3f}", f"{rate / least:.0f}", shown([f["porosity_bulk"] for f in found])))
     return table(("case", "their wall s", "their us a grain-step", "their porosity", "our grains", "our kg", "our CPU s (least of 3)",
                   "our us a grain-step", "ratio", "our porosity"), rows)
+
+
+def kept_cases():
+    """The table of cases as the page has it."""
+    lines = (ROOT / "docs/validation/packing.md").read_text(encoding="utf-8").splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("| case "))
+    last = next(i for i in range(first, len(lines)) if not lines[i].startswith("|"))
+    return "\n".join(lines[first:last])
 
 
 def full_u1(command):
@@ -380,8 +403,9 @@ def draw_forms(record, library):
     smooth = sorted((e, p) for e, p, _ in dip_rows(record))
     if smooth:
         series.append(chart.points("ellipsoids, I = sqrt(L S)", 2, smooth))
+    reach = max([e for _, e, _, _, _ in rows] + [e for e, _ in smooth])
     chart.draw(library, RECORD.with_name("packing_forms.svg"), "One form a packing, U1 (scaled down)", "L/S (-)", "porosity (-)",
-               series)
+               series, x_range=(.8, reach + .2))
 
 
 def page(record, command, timed):
@@ -440,11 +464,21 @@ Ellipsoids of I = sqrt(L S) (`dip-small`; the paper: 0.36 for spheres, least nea
 
 {dip(record)}
 
+Spheres (`spheres-small`), porosity and coordination by friction and time of shaking. Random close packing of spheres, 0.36, is the state
+without friction (isostatic, six contacts a grain); with the paper's friction of 0.5 grains lock into looser beds, which shaking
+brings down by about 0.01 for each threefold time:
+
+{spheres(record)}
+
+Ten single forms at L = 0.1 m, 4 kg, t_s = 1 s (`forms-10`):
+
+{forms_text(record, "forms-10")}
+
 ## Table 11: forms as they are, or drawn
 
 {table_11(record, command)}
 
-Scaled down: `table11-small` (1.1 kg), else the exact beds of `rounding-small` (0.5 kg); both are shaken for 1 s, the paper's for 6 s.
+Scaled down: `table11-small` (L = 100 mm, 1.1 kg), else the exact beds of `rounding-small` (0.5 kg); both are shaken for 1 s, the paper's for 6 s.
 
 ## Rounded edges
 
@@ -477,12 +511,13 @@ grain-step (`clast bench P1 P1_20K -j 1`, and `-j 2` for two threads). The paper
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--clast", default=str(ROOT / "build/release/clast"))
-    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "build/paper-packing")
+    parser.add_argument("--runs", type=pathlib.Path, nargs="+", default=[ROOT / "build/paper-packing"])
     parser.add_argument("--run", nargs="*")
+    parser.add_argument("--keep-cases", action="store_true")
     args = parser.parse_args()
     for study in (args.run or SMALL) if args.run is not None else ():
-        subprocess.run([args.clast, "study", f"examples/packing/{study}.yaml", "-o", str(args.runs / study)], check=True, cwd=ROOT)
-    timed = cases(args.clast)
+        subprocess.run([args.clast, "study", f"examples/packing/{study}.yaml", "-o", str(args.runs[0] / study)], check=True, cwd=ROOT)
+    timed = kept_cases() if args.keep_cases else cases(args.clast)
     record = Record(args.runs)
     record.write()
     library = pathlib.Path(args.clast).resolve().parent / "libclast.so"
