@@ -12,7 +12,7 @@ n_peer=0
 peer() { # name, command
     command -v "$2" > /dev/null || { echo "run.sh: $1 is not installed ($2): left out (apt-get install $1)" >&2; return 0; }
     log=$(mktemp)
-    OMP_NUM_THREADS=1 "$2" -in s1.lammps > "$log" 2>&1 || { echo "run.sh: $2 failed:" >&2; tail -5 "$log" >&2; rm -f "$log"; return 1; }
+    OMP_NUM_THREADS=1 "$2" -log none -in s1.lammps > "$log" 2>&1 || { echo "run.sh: $2 failed:" >&2; tail -5 "$log" >&2; rm -f "$log"; return 1; }
     # "Loop time of T on P procs for S steps with N atoms", of the last run
     grep '^Loop time of' "$log" | tail -1 | awk -v p="$1" '{ printf "%s,S1,%.1f,ns/grain-step\n", p, 1e9 * $4 / ($9 * $12) }'
     rm -f "$log"

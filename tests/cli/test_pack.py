@@ -223,7 +223,7 @@ class Pack(Case):
                                 ROOT / "data/standin63/grain10.ply", "--size", "100um", "--replicate", "2", "--unit", "m")
         for state, n_hull in ((eggs, 0), (gravel, 1)):
             run = self.folder / f"bed-{n_hull}"
-            made = self.run_small("--shapes", state, "--mass", "4g", "--json", "-o", run)
+            made = self.run_small("--shapes", state, "--mass", "2g", "--json", "-o", run)
             self.assertEqual(made.code, 0, made.err)
             self.assertEqual(len(made.json["hulls"]), n_hull)
             self.assertTrue(made.json["converged"])
@@ -233,7 +233,7 @@ class Pack(Case):
             with open(run / "slices/profile.csv", newline="", encoding="utf-8") as file:
                 solid = sum(float(row["solid_m3"]) for row in csv.DictReader(file))
             self.assertAlmostEqual(2650 * solid / made.json["mass"], 1, 12)
-            picture = clast("render", run, "-o", run / "bed.png")
+            picture = clast("render", run, "-o", run / "bed.png", "--width", "60", "--height", "40", "--samples", "1")
             self.assertEqual(picture.code, 0, picture.err)
         self.assert_fails(2, *SMALL, "--shapes", eggs, "--form-law", says=("cannot stretch",))
         self.assert_fails(2, *SMALL, "--shapes", gravel, "--rounding", "1um", says=("not rounded",))

@@ -103,6 +103,30 @@ static void push_to_gap(scene *s, const double line[3], double wanted)
     }
 }
 
+/* a and b in random turns, at this gap along a random line. */
+static void draw_poses(clx_rng *rng, double wanted, scene *s)
+{
+    double line[3];
+    random_turn(rng, s->turn[0]);
+    random_turn(rng, s->turn[1]);
+    clx_rng_direction(rng, line);
+    join(s);
+    push_to_gap(s, line, wanted);
+}
+
+/* The gap of the pair is that of the plain twin, and its contact shows it. */
+static void check_against_all_axes(const scene *s, int pair)
+{
+    clx_contact c;
+    assert_true(clx_pair_contact(&s->pair, INFINITY, NULL, &c));
+    const double expected = reference(s);
+    if (!(fabs(c.gap - expected) <= 1e-13)) {
+        print_message("pair %d: gap %.17g, reference %.17g\n", pair, c.gap, expected);
+    }
+    CHECK_ABS(c.gap, expected, 1e-11);
+    check_contact(s, &c, 1e-11);
+}
+
 static void hull_pairs_equal_all_axes(void **state)
 {
     (void)state;
@@ -111,22 +135,10 @@ static void hull_pairs_equal_all_axes(void **state)
     for (uint64_t i = 0; i < 660; ++i) {
         clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, i);
         scene s;
-        clx_contact c;
-        double line[3];
         s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
         s.b = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], i % 5 == 0 ? 1.0 / 11.0 : 1.0);
-        random_turn(&rng, s.turn[0]);
-        random_turn(&rng, s.turn[1]);
-        clx_rng_direction(&rng, line);
-        join(&s);
-        push_to_gap(&s, line, gaps[i % 11]);
-        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
-        const double expected = reference(&s);
-        if (!(fabs(c.gap - expected) <= 1e-13)) {
-            print_message("pair %d: gap %.17g, reference %.17g\n", (int)i, c.gap, expected);
-        }
-        CHECK_ABS(c.gap, expected, 1e-11);
-        check_contact(&s, &c, 1e-11);
+        draw_poses(&rng, gaps[i % 11], &s);
+        check_against_all_axes(&s, (int)i);
     }
 }
 
@@ -139,15 +151,11 @@ static void contacts_ignore_order_and_frame(void **state)
         clx_rng rng = clx_rng_at(12, CLX_STREAM_TEST, i);
         scene s;
         clx_contact c, d;
-        double line[3], world[9], turned[2][9];
+        double world[9], turned[2][9];
         s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
         s.b = i % 3 == 0 ? clx_convex_ellipsoid((const double[3]){0.5, 0.3, 0.2})
                          : clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 0.7);
-        random_turn(&rng, s.turn[0]);
-        random_turn(&rng, s.turn[1]);
-        clx_rng_direction(&rng, line);
-        join(&s);
-        push_to_gap(&s, line, gaps[i % 4]);
+        draw_poses(&rng, gaps[i % 4], &s);
         assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
         const double tol = i % 3 == 0 ? 1e-11 : 1e-14; // smooth: what both orders promise
         const double *r = s.pair.offset;
@@ -210,7 +218,6 @@ static void tied_features_equal_all_axes(void **state)
     for (uint64_t i = 0; i < 420; ++i) {
         clx_rng rng = clx_rng_at(8, CLX_STREAM_TEST, i);
         scene s;
-        clx_contact c;
         const clx_hull_core *core = cores[clx_rng_below(&rng, N_CORE)];
         s.a = clx_convex_hull(core, 1.0);
         s.b = clx_convex_hull(core, 1.0);
@@ -230,13 +237,7 @@ static void tied_features_equal_all_axes(void **state)
         v3_sub(s.pair.offset, x, i % 2 == 0 ? y : (const double[3]){0.0, 0.0, 0.0});
         v3_scale(s.pair.offset, i % 7 == 0 ? 0.0 : i % 4 == 0 ? 1.0 + 1e-9 : 1.0, s.pair.offset);
         join(&s);
-        assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
-        const double expected = reference(&s);
-        if (!(fabs(c.gap - expected) <= 1e-13)) {
-            print_message("pair %d: gap %.17g, reference %.17g\n", (int)i, c.gap, expected);
-        }
-        CHECK_ABS(c.gap, expected, 1e-11);
-        check_contact(&s, &c, 1e-11);
+        check_against_all_axes(&s, (int)i);
     }
 }
 
@@ -328,14 +329,9 @@ static void round_pairs_equal_all_directions(void **state)
         clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, i);
         scene s;
         clx_contact c;
-        double line[3];
         s.a = random_round(&rng);
         s.b = random_round(&rng);
-        random_turn(&rng, s.turn[0]);
-        random_turn(&rng, s.turn[1]);
-        clx_rng_direction(&rng, line);
-        join(&s);
-        push_to_gap(&s, line, gaps[i % 10]);
+        draw_poses(&rng, gaps[i % 10], &s);
         assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
         CHECK_ABS(c.gap, ref_ellipsoid_gap(&s.pair), 1e-11);
         check_contact(&s, &c, 1e-11);
@@ -375,7 +371,6 @@ static void round_and_hull_equal_all_directions(void **state)
         clx_rng rng = clx_rng_at(10, CLX_STREAM_TEST, i);
         scene s;
         clx_contact c;
-        double line[3];
         s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
         s.b = random_round(&rng);
         if (i % 2 == 0) {
@@ -383,11 +378,7 @@ static void round_and_hull_equal_all_directions(void **state)
             s.a = s.b;
             s.b = swap;
         }
-        random_turn(&rng, s.turn[0]);
-        random_turn(&rng, s.turn[1]);
-        clx_rng_direction(&rng, line);
-        join(&s);
-        push_to_gap(&s, line, gaps[i % 10]);
+        draw_poses(&rng, gaps[i % 10], &s);
         assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &c));
         const double m[3] = {-c.normal[0], -c.normal[1], -c.normal[2]};
         CHECK_ABS(ref_support_along(&s.pair, m), c.gap, 1e-11);
