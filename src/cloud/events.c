@@ -197,7 +197,8 @@ static void count_pairs(count *n)
 /// Shares the extrapolated sum out over the cells whose cap does not bind, in proportion.
 static void share_out(const count *n, double plain, clast_decomposition *r)
 {
-    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.0, n->pairs / plain) : 1.0;
+    // pairs can only be hidden: below 1 it is noise, and of a handful of points it may be negative
+    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.5, n->pairs / plain) : 1.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         const double cap = 0.5 * n->cells->weight[c];
         const double shared = factor * n->cells->events[c];
@@ -205,7 +206,7 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
         n->cells->events[c] = n->capped[c] ? cap : fmin(cap, shared);
         r->events += n->cells->events[c];
     }
-    r->smoothing_bias = factor > 0.0 ? 1.0 / factor - 1.0 : 0.0;
+    r->smoothing_bias = 1.0 / factor - 1.0;
 }
 
 /// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the
