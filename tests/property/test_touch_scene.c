@@ -71,15 +71,19 @@ static void scenes_agree_with_asking_every_body(void **state)
 {
     (void)state;
     clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, 0);
-    clx_touch_scene *scene = NULL;
-    CHECK_OK(clx_touch_scene_create(&scene));
-    for (int i = 0; i < 300; ++i) {
-        const clx_touch_body body = random_body(&rng, 6.0);
-        check_query(scene, &rng, 6.0);
-        check_query(scene, &rng, 6.0);
-        CHECK_OK(clx_touch_scene_insert(scene, &body));
+    /* The tree is built at each doubling for few walks, at each sixteenth more for many. */
+    for (int64_t n_walk = 1; n_walk <= 100; n_walk += 99) {
+        clx_touch_scene *scene = NULL;
+        CHECK_OK(clx_touch_scene_create(&scene));
+        clx_touch_scene_expect(scene, n_walk);
+        for (int i = 0; i < 300; ++i) {
+            const clx_touch_body body = random_body(&rng, 6.0);
+            check_query(scene, &rng, 6.0);
+            check_query(scene, &rng, 6.0);
+            CHECK_OK(clx_touch_scene_insert(scene, &body));
+        }
+        clx_touch_scene_destroy(scene);
     }
-    clx_touch_scene_destroy(scene);
 }
 
 /// Bodies along a line, ever farther.
