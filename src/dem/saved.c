@@ -12,6 +12,7 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->shape);
     clx_free(s->grain);
     clx_free(s->anchor);
+    clx_free(s->limit);
     clx_free(s->id);
     clx_free(s->link);
     clx_free(s->memory);
@@ -57,6 +58,7 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
     CLX_TRY(clx_alloc(&s.shape, s.n_grain, sizeof *s.shape));
     CLX_TRY(clx_alloc(&s.grain, s.n_grain * CLX_SAVED_GRAIN, sizeof *s.grain));
     CLX_TRY(clx_alloc(&s.anchor, s.n_known * CLX_SAVED_ANCHOR, sizeof *s.anchor));
+    CLX_TRY(clx_alloc(&s.limit, s.n_known, sizeof *s.limit));
     CLX_TRY(clx_alloc(&s.id, s.n_link * CLX_SAVED_ID, sizeof *s.id));
     CLX_TRY(clx_alloc(&s.link, s.n_link * CLX_SAVED_LINK, sizeof *s.link));
     for (int64_t i = 0; i < s.n_grain; ++i) {
@@ -65,6 +67,7 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
     }
     for (int64_t i = 0; i < s.n_known; ++i) {
         memcpy(&s.anchor[i * CLX_SAVED_ANCHOR], &l->anchor[i], CLX_SAVED_ANCHOR * sizeof(double));
+        s.limit[i] = l->limit[i];
     }
     for (int64_t k = 0; k < s.n_link; ++k) {
         put_link(&l->link[k], &s.id[k * CLX_SAVED_ID], &s.link[k * CLX_SAVED_LINK]);
@@ -197,7 +200,12 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
                   CLAST_E_FORMAT, "anchor %lld of the checkpoint is not finite", (long long)i);
     }
     for (int64_t i = 0; i < s->n_known; ++i) {
-        dem->list.limit[i] = -INFINITY; // asked at the first step
+        // asked at the first step where it is not known; the bound of a turn is wider than its
+        // path, so that asking earlier than the run that was not stopped may call for another
+        // refresh
+        dem->list.limit[i] = s->limit != NULL ? s->limit[i] : -(double)INFINITY;
+        CLX_CHECK(!isnan(dem->list.limit[i]), CLAST_E_FORMAT,
+                  "limit %lld of the checkpoint is not a number", (long long)i);
     }
     dem->list.n_known = (int32_t)s->n_known;
     dem->list.is_due = s->is_due;

@@ -31,6 +31,9 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     a[n++] = (array){"/pack/anchor", CLX_H5_F64, d->n_known, CLX_SAVED_ANCHOR, d->anchor};
     a[n++] = (array){"/pack/link_id", CLX_H5_I32, d->n_link, CLX_SAVED_ID, d->id};
     a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_link, CLX_SAVED_LINK, d->link};
+    if (d->limit != NULL) {
+        a[n++] = (array){"/pack/limit", CLX_H5_F64, d->n_known, 1, d->limit};
+    }
     if (d->memory != NULL) {
         a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_link, d->memory_width, d->memory};
     }
@@ -161,6 +164,9 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
     CLX_TRY(clx_alloc(&d->id, d->n_link * CLX_SAVED_ID, sizeof *d->id));
     CLX_TRY(clx_alloc(&d->link, d->n_link * CLX_SAVED_LINK, sizeof *d->link));
+    if (clx_h5_has(h5, "/pack/limit")) {
+        CLX_TRY(clx_alloc(&d->limit, d->n_known, sizeof *d->limit));
+    }
     if (clx_h5_has(h5, "/pack/memory")) {
         CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));
         CLX_CHECK(shape[0] == d->n_link && shape[1] > 0 && shape[1] < 4096, CLAST_E_FORMAT,
