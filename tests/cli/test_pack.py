@@ -233,7 +233,7 @@ class Pack(Case):
             with open(run / "slices/profile.csv", newline="", encoding="utf-8") as file:
                 solid = sum(float(row["solid_m3"]) for row in csv.DictReader(file))
             self.assertAlmostEqual(2650 * solid / made.json["mass"], 1, 12)
-            picture = clast("render", run, "-o", run / "bed.png", "--width", "60", "--height", "40", "--samples", "1")
+            picture = clast("render", run, "-o", run / "bed.png", "--width", "64", "--height", "64", "--samples", "1")
             self.assertEqual(picture.code, 0, picture.err)
         self.assert_fails(2, *SMALL, "--shapes", eggs, "--form-law", says=("cannot stretch",))
         self.assert_fails(2, *SMALL, "--shapes", gravel, "--rounding", "1um", says=("not rounded",))
