@@ -9,7 +9,7 @@
 #include "pack/saved.h"
 #include <string.h>
 
-enum { N_ARRAY = 9 };
+enum { N_ARRAY = 10 };
 
 typedef struct {
     const char *name;
