@@ -62,8 +62,9 @@ static clast_dem *tile(const clast_dem *bed, int nx, int ny)
     for (int32_t i = 0; i < n; ++i) {
         for (int copy = 0; copy < nx * ny; ++copy) {
             clast_dem_read_grain(bed, i, &grain[k]);
+            const int row = copy / nx;
             grain[k].position[0] += WIDTH * (copy % nx);
-            grain[k++].position[1] += WIDTH * (copy / nx);
+            grain[k++].position[1] += WIDTH * row;
         }
     }
     CHECK_OK(clast_dem_add_grains(dem, k, grain));
@@ -100,8 +101,11 @@ int main(int argc, char **argv)
     CHECK_OK(clast_dem_step(bed, SETTLE));
     printf("scene,value,unit,reference,ratio\n");
     if (argc > 2) {
-        const int threads = argc > 3 ? atoi(argv[3]) : 1;
-        report("TILES", time_tiles(bed, atoi(argv[1]), atoi(argv[2]), threads), 250.0);
+        int number[3] = {1, 1, 1};
+        for (int i = 0; i < 3 && i + 1 < argc; ++i) {
+            number[i] = (int)strtol(argv[i + 1], NULL, 10);
+        }
+        report("TILES", time_tiles(bed, number[0], number[1], number[2]), 250.0);
     } else {
         const double one = time_tiles(bed, 1, 1, 1);
         report("TILES_4000", one, 250.0);
