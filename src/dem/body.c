@@ -170,8 +170,8 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
     if (clx_item_is_round(dem, i)) {
         return clx_convex_sphere(clx_item_radius(dem, i));
     }
-    if (body->n_part > 0) {
-        const clx_dem_part *part = clx_item_part(dem, i);
+    const clx_dem_part *part = clx_item_part(dem, i);
+    if (part != NULL) {
         double axes[3];
         v3_scale(axes, g->scale, part->semi_axes);
         return part->core != NULL ? clx_convex_hull(part->core, g->scale)
