@@ -251,6 +251,7 @@ static void measure(search *s, const cube *c, clx_fill_sample *p)
         return;
     }
     ++fill->n_tested;
+    v3_copy(p->nearest, p->at); // stays where the surface is no nearer than the sphere
     const double d = clx_fill_field_distance(&fill->field, p->at, p->value, p->nearest, &p->tri);
     if (d > p->value) {
         return; // nearer to a sphere than to the surface: inside, for spheres are
