@@ -307,6 +307,7 @@ static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                            .scale = 1.0,
                            .size = 2.0 * group->radius,
                            .scene = large->scene,
+                           .n_body = clx_touch_scene_count(large->scene),
                            .origin = c->origin == CLAST_ORIGIN_GRAIN ? CLAST_ORIGIN_GRAIN
                                                                      : CLAST_ORIGIN_MASS,
                            .aim = clx_aggregate_aim(a),

@@ -126,7 +126,7 @@ double clx_aggregate_gyration(const clast_aggregate *a)
     return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));
 }
 
-clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
+clast_status clx_aggregate_open_row(clast_aggregate *a, double **row)
 {
     clast_status status = CLAST_OK;
     double *made = NULL;
@@ -140,6 +140,16 @@ clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
     made[CLX_HISTORY_MASS] = a->mass;
     made[CLX_HISTORY_SOLID] = a->volume;
     made[CLX_HISTORY_GYRATION] = clx_aggregate_gyration(a);
+    *row = made;
+done:
+    return status;
+}
+
+clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
+{
+    clast_status status = CLAST_OK;
+    double *made = NULL;
+    CLX_TRY(clx_aggregate_open_row(a, &made));
     CLX_TRY(clx_aggregate_measure_row(a, made));
     *row = made;
 done:

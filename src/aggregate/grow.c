@@ -123,6 +123,7 @@ clast_status clx_aggregate_begin(const clast_aggregate_config *config,
     a->input = input;
     a->repeat = repeat;
     a->seed = seed_of(config, repeat);
+    a->alone_s = HUGE_VAL;
     (void)snprintf(a->assembly.unit, sizeof a->assembly.unit, "m");
     CLX_TRY(clast_aggregate_config_check(config));
     CLX_TRY(clx_aggregate_axis(config, &a->random_axis, a->axis));
@@ -193,7 +194,10 @@ clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a)
 static clast_status step(clast_aggregate *a)
 {
     const bool clusters = a->config->mode == CLAST_AGGREGATE_CLUSTER;
-    const clast_status status = clusters ? clx_clusters_merge(a) : clx_aggregate_place(a);
+    clast_status status = clusters ? clx_clusters_merge(a) : clx_aggregate_place(a);
+    if (status == CLAST_OK && (a->config->stop_size > 0.0 || a->config->stop_porosity > 0.0)) {
+        status = clx_aggregate_settle(a);
+    }
     a->stop = status == CLAST_OK ? clx_aggregate_stop_now(a) : CLAST_STOP_NOT;
     if (clusters && a->stop != CLAST_STOP_NOT) {
         clx_clusters_spread(a);
@@ -204,6 +208,7 @@ static clast_status step(clast_aggregate *a)
 clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_monitor *monitor)
 {
     clast_status status = CLAST_OK;
+    clast_status settled = CLAST_OK;
     const double begun = clx_clock();
     for (int32_t i = 0; i < n && a->stop == CLAST_STOP_NOT; ++i) {
         CLX_CHECK(monitor == NULL || monitor->stop == NULL || !monitor->stop(monitor->context),
@@ -214,8 +219,9 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
         }
     }
 done:
+    settled = clx_aggregate_settle(a);
     a->wall_s += clx_clock() - begun;
-    return status;
+    return status != CLAST_OK ? status : settled;
 }
 
 bool clast_aggregate_is_done(const clast_aggregate *a)

@@ -6,7 +6,23 @@
 #include "aggregate/history.h"
 #include "aggregate/kit.h"
 #include "aggregate/march.h"
+#include "aggregate/trial.h"
 #include "contact/touch_scene.h"
+
+/// What follows a landing and the next search does not need, so that it is done beside that: the
+/// proof that nothing overlaps, the new grains' share of the envelopes, and what its row says of
+/// them.
+typedef struct clx_arrival {
+    bool is_due;  ///< there is one
+    bool is_done; ///< but for the row
+    clx_search search;
+    clx_landing landing;
+    int32_t first; ///< new grain
+    int64_t row;
+    double overlap;
+    clast_status status;
+    char detail[512]; ///< the worker's message
+} clx_arrival;
 
 struct clast_aggregate {
     const clast_aggregate_config *config; ///< borrowed
@@ -31,6 +47,7 @@ struct clast_aggregate {
     int64_t *sphere_end;    ///< [n_grain] running count of composite spheres
     int64_t sphere_room;
     int32_t n_placed;      ///< steps done: particles placed, or mergers
+    clx_arrival arrival;   ///< of the last particle
     clx_clusters clusters; ///< cluster mode
     clx_history history;
 
@@ -43,7 +60,7 @@ struct clast_aggregate {
     double second;    ///< sum of mass times (position squared + own mean square radius)
     clast_aggregate_stop stop;
     double contact_s, envelope_s, wall_s;
-    double alone_s; ///< how long the last search on one thread took
+    double alone_s; ///< how long the last search took on one thread, or would have at most
 };
 
 /// Coating shape and scale of a particle.
@@ -86,7 +103,8 @@ clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster
                                            double *row);
 clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result);
 
-/// A row of the sums as they are.
+/// A row of the sums as they are; without the envelopes, or with them.
+clast_status clx_aggregate_open_row(clast_aggregate *a, double **row);
 clast_status clx_aggregate_add_row(clast_aggregate *a, double **row);
 
 double clx_aggregate_gyration(const clast_aggregate *a);
@@ -98,3 +116,6 @@ clast_status clx_aggregate_check_sizes(const clast_aggregate *a);
 
 /// Throws and places the next particle.
 clast_status clx_aggregate_place(clast_aggregate *a);
+
+/// Ends the last particle's arrival, so that its row is whole.
+clast_status clx_aggregate_settle(clast_aggregate *a);

@@ -57,13 +57,13 @@ done:
     return status;
 }
 
-static clast_status make_shape(int32_t contact, const clast_shape *shape, clx_kit_shape *made)
+static clast_status make_shape(int32_t contact, clx_kit_shape *made)
 {
+    const clast_shape *shape = made->shape;
     double trace = 0.0;
     for (int k = 0; k < 3; ++k) {
         trace += 0.5 * shape->inertia[k][k];
     }
-    made->shape = shape;
     made->inertia_trace = trace;
     const bool round = shape->kind == CLAST_SHAPE_SPHERE && shape->spheres.n == 0;
     return contact == CLAST_CONTACT_EXACT || round ? true_surface(shape, made)
@@ -93,8 +93,6 @@ static clast_status make_parts(const clx_kit *kit, const clast_assembly *assembl
         group->mass += volume * part->density;
         group->radius = fmax(group->radius, v3_norm(part->position) + s * shape->bounding_radius);
     }
-    group->is_round =
-        group->n_part == 1 && kit->shape[group->part[0].shape].body.kind == CLX_TOUCH_SPHERE;
 done:
     return status;
 }
@@ -194,71 +192,92 @@ done:
     return status;
 }
 
-/// One assembly's shapes come after those before it; all are made ready side by side.
+/// What takes long is made ready side by side: a tree for each shape, then the form of each group.
 typedef struct {
-    int32_t contact;
+    const clast_aggregate_config *config;
     clx_kit *kit;
-    const clast_shape **shape; ///< [kit->n_shape] to be made ready
-    clast_status *status;      ///< [kit->n_shape]
-    char (*detail)[DETAIL];    ///< [kit->n_shape] the workers' messages
-} shape_job;
+    clast_status *status;   ///< [n_shape + n_group]
+    char (*detail)[DETAIL]; ///< [n_shape + n_group] the workers' messages
+} kit_job;
 
-static void make_shapes(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status make_group_form(const kit_job *job, int32_t g)
 {
-    const shape_job *job = context;
+    clx_kit_group *group = &job->kit->group[g];
+    const int32_t meaning = g == 0 ? job->config->core_meaning : job->config->size_meaning;
+    return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
+}
+
+static void make_some(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const kit_job *job = context;
+    const int64_t n_shape = job->kit->n_shape;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        job->status[i] = make_shape(job->contact, job->shape[i], &job->kit->shape[i]);
+        job->status[i] = i < n_shape ? make_shape(job->config->contact, &job->kit->shape[i])
+                                     : make_group_form(job, (int32_t)(i - n_shape));
         if (job->status[i] != CLAST_OK) {
             (void)snprintf(job->detail[i], DETAIL, "%s", clast_error_detail());
         }
     }
 }
 
-static clast_status add_shapes(const clast_aggregate_config *config,
-                               const clast_aggregate_input *input, clx_kit *kit)
+static clast_status make_all(const clast_aggregate_config *config, clx_kit *kit)
 {
     clast_status status = CLAST_OK;
-    shape_job job = {.contact = config->contact, .kit = kit};
-    const int32_t n_core = input->core != NULL ? input->core->n_shape : 0; // none in cluster mode
-    int32_t n_all = n_core;
-    for (int32_t k = 0; k < input->n_coat; ++k) {
-        n_all += input->coat[k].n_shape;
-    }
-    CLX_TRY(clx_alloc(&kit->shape, n_all, sizeof *kit->shape));
-    kit->n_shape = n_all;
-    CLX_TRY(clx_alloc(&job.shape, kit->n_shape, sizeof(clast_shape *)));
-    CLX_TRY(clx_alloc(&job.status, kit->n_shape, sizeof *job.status));
-    CLX_TRY(clx_alloc(&job.detail, kit->n_shape, sizeof *job.detail));
-    for (int32_t g = 0, n = 0; g <= input->n_coat; ++g) {
-        const clast_assembly *from = g == 0 ? input->core : &input->coat[g - 1];
-        for (int32_t i = 0; from != NULL && i < from->n_shape; ++i) {
-            kit->shape[n].group = g;
-            job.shape[n++] = &from->shape[i];
-        }
-    }
-    clx_parallel_for(kit->n_shape, 1, make_shapes, &job);
-    for (int32_t i = 0; i < kit->n_shape; ++i) {
+    const int64_t n = (int64_t)kit->n_shape + kit->n_group;
+    kit_job job = {.config = config, .kit = kit};
+    CLX_TRY(clx_alloc(&job.status, n, sizeof *job.status));
+    CLX_TRY(clx_alloc(&job.detail, n, sizeof *job.detail));
+    clx_parallel_for(n, 1, make_some, &job);
+    for (int64_t i = 0; i < n; ++i) {
         CLX_CHECK(job.status[i] == CLAST_OK, job.status[i], "%s", job.detail[i]);
     }
 done:
-    clx_free(job.shape);
     clx_free(job.status);
     clx_free(job.detail);
     return status;
 }
 
-/// Group of one assembly; an absent one leaves the group empty.
-static clast_status add_group(const clast_aggregate_config *config, const clast_assembly *assembly,
-                              int32_t first_shape, clx_kit *kit)
+/// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.
+static const clast_assembly *assembly_of(const clast_aggregate_input *input, int32_t g)
+{
+    return g == 0 ? input->core : &input->coat[g - 1];
+}
+
+/// One assembly's shapes come after those before it.
+static clast_status name_shapes(const clast_aggregate_input *input, clx_kit *kit)
 {
     clast_status status = CLAST_OK;
-    const int32_t meaning = kit->n_group == 0 ? config->core_meaning : config->size_meaning;
-    clx_kit_group *group = &kit->group[kit->n_group++];
-    if (assembly != NULL) {
-        CLX_TRY(make_group(kit, assembly, first_shape, group));
-        measure_inner(kit, group);
-        CLX_TRY(measure_form(kit, meaning == CLAST_SIZE_MEAN, group));
+    int32_t n_all = 0;
+    for (int32_t g = 0; g <= input->n_coat; ++g) {
+        const clast_assembly *from = assembly_of(input, g);
+        n_all += from != NULL ? from->n_shape : 0;
+    }
+    CLX_TRY(clx_alloc(&kit->shape, n_all, sizeof *kit->shape));
+    for (int32_t g = 0; g <= input->n_coat; ++g) {
+        const clast_assembly *from = assembly_of(input, g);
+        for (int32_t i = 0; from != NULL && i < from->n_shape; ++i) {
+            kit->shape[kit->n_shape].group = g;
+            kit->shape[kit->n_shape++].shape = &from->shape[i];
+        }
+    }
+done:
+    return status;
+}
+
+/// The parts of every group; an absent assembly leaves its group empty.
+static clast_status name_groups(const clast_aggregate_input *input, clx_kit *kit)
+{
+    clast_status status = CLAST_OK;
+    int32_t first = 0;
+    CLX_TRY(clx_alloc(&kit->group, 1 + input->n_coat, sizeof *kit->group));
+    kit->n_group = 1 + input->n_coat;
+    for (int32_t g = 0; g < kit->n_group; ++g) {
+        const clast_assembly *from = assembly_of(input, g);
+        if (from != NULL) {
+            CLX_TRY(make_group(kit, from, first, &kit->group[g]));
+            first += from->n_shape;
+        }
     }
 done:
     return status;
@@ -269,13 +288,14 @@ clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggr
 {
     clast_status status = CLAST_OK;
     clx_kit made = {0};
-    int32_t first = input->core != NULL ? input->core->n_shape : 0;
-    CLX_TRY(add_shapes(config, input, &made));
-    CLX_TRY(clx_alloc(&made.group, 1 + input->n_coat, sizeof *made.group));
-    CLX_TRY(add_group(config, input->core, 0, &made));
-    for (int32_t k = 0; k < input->n_coat; ++k) {
-        CLX_TRY(add_group(config, &input->coat[k], first, &made));
-        first += input->coat[k].n_shape;
+    CLX_TRY(name_shapes(input, &made));
+    CLX_TRY(name_groups(input, &made));
+    CLX_TRY(make_all(config, &made));
+    for (int32_t g = 0; g < made.n_group; ++g) {
+        clx_kit_group *group = &made.group[g];
+        measure_inner(&made, group);
+        group->is_round =
+            group->n_part == 1 && made.shape[group->part[0].shape].body.kind == CLX_TOUCH_SPHERE;
     }
     *kit = made;
     made = (clx_kit){0};

@@ -19,25 +19,27 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
 }
 
 // A search shorter than this is not worth waking other threads for, which takes tens of
-// microseconds on an idle machine and milliseconds on a busy one. Every PROBE-th search is made on
-// one thread to see.
+// microseconds on an idle machine and milliseconds on a busy one. What a shared search would take
+// on one thread is known from above only, so that every PROBE-th is made on one thread to see.
 static const double SHARED_FROM = 5e-4;
 enum { PROBE = 256 };
 
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
     const clast_aggregate_config *c = a->config;
-    *search = (clx_search){.kit = &a->kit,
-                           .group = &a->kit.group[1 + shape],
-                           .scale = clx_aggregate_scale(a, a->n_placed, shape),
-                           .size = a->size[a->n_placed],
-                           .scene = a->scene,
-                           .sphere_end = a->sphere_end,
-                           .origin = a->origin,
-                           .aim = clx_aggregate_aim(a),
-                           .n_orientation = c->orientations,
-                           .start = c->start,
-                           .on_one_thread = a->n_placed % PROBE == 0 || a->alone_s < SHARED_FROM};
+    *search =
+        (clx_search){.kit = &a->kit,
+                     .group = &a->kit.group[1 + shape],
+                     .scale = clx_aggregate_scale(a, a->n_placed, shape),
+                     .size = a->size[a->n_placed],
+                     .scene = a->scene,
+                     .n_body = a->assembly.n_grain,
+                     .sphere_end = a->sphere_end,
+                     .origin = a->origin,
+                     .aim = clx_aggregate_aim(a),
+                     .n_orientation = c->orientations,
+                     .start = c->start,
+                     .on_one_thread = a->n_placed % PROBE == PROBE - 1 || a->alone_s < SHARED_FROM};
     if (a->origin == CLAST_ORIGIN_MASS) {
         v3_scale(search->centre, 1.0 / a->mass, a->moment);
     }
@@ -46,14 +48,70 @@ static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *
     }
 }
 
+enum { HULL, PROOF, N_PIECE };
+
+/// The pieces of an arrival. The scene may hold the new grains already: the proof looks at those
+/// before them.
+static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_aggregate *a = context;
+    clx_arrival *last = &a->arrival;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        if (i == PROOF) {
+            last->overlap = clx_search_overlap(&last->search, &last->landing);
+            continue;
+        }
+        last->status = clx_aggregate_track(a, last->first);
+        if (last->status != CLAST_OK) {
+            (void)snprintf(last->detail, sizeof last->detail, "%s", clast_error_detail());
+        }
+    }
+}
+
+clast_status clx_aggregate_settle(clast_aggregate *a)
+{
+    clast_status status = CLAST_OK;
+    clx_arrival *last = &a->arrival;
+    if (!last->is_due) {
+        return CLAST_OK;
+    }
+    if (!last->is_done) {
+        clx_parallel_for(N_PIECE, last->search.on_one_thread ? N_PIECE : 1, arrive, a);
+    }
+    last->is_due = false;
+    CLX_CHECK(last->status == CLAST_OK, last->status, "%s", last->detail);
+    double *row = &a->history.value[last->row * a->history.n_column];
+    row[CLX_HISTORY_OVERLAP] = last->overlap;
+    CLX_TRY(clx_aggregate_measure_row(a, row));
+done:
+    return status;
+}
+
+/// The last particle's arrival goes beside this search, unless one thread would do both.
+static void bring_beside(clast_aggregate *a, clx_search *search)
+{
+    if (!a->arrival.is_due) {
+        return;
+    }
+    if (search->on_one_thread || clx_parallel_workers() == 1) {
+        arrive(0, N_PIECE, 0, a);
+    } else {
+        search->beside = (clx_beside){N_PIECE, arrive, a};
+    }
+    a->arrival.is_done = true;
+}
+
 /// The landing, with new axes as long as every ray misses.
 static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_landing *landing)
 {
     clast_status status = CLAST_OK;
+    bring_beside(a, search);
     const double begun = clx_clock();
     const double worked = clx_clock_thread();
     do {
         CLX_TRY(clx_search_run(search, landing));
+        search->beside = (clx_beside){0};
     } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
     CLX_CHECK(landing->found, CLAST_E_CONVERGE,
               "particle %d of %d: all rays of %d axes miss the aggregate; widen the cone or let "
@@ -61,36 +119,9 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
               a->n_placed + 1, a->n_particle, a->config->max_tries);
 done:
     a->contact_s += clx_clock() - begun;
-    a->alone_s = search->on_one_thread ? clx_clock_thread() - worked : a->alone_s;
+    a->alone_s =
+        (clx_clock_thread() - worked) * (search->on_one_thread ? 1 : clx_parallel_workers());
     return status;
-}
-
-/// What follows a landing on two threads: the proof that nothing overlaps, which looks at the scene
-/// without the new grains, and their share of the envelopes.
-typedef struct {
-    clast_aggregate *a;
-    const clx_search *search;
-    const clx_landing *landing;
-    int32_t first; ///< new grain
-    double overlap;
-    clast_status status;
-    char detail[512]; ///< the worker's message
-} arrival;
-
-static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
-{
-    arrival *all = context;
-    (void)worker;
-    for (int64_t i = begin; i < end; ++i) {
-        if (i == 0) {
-            all->overlap = clx_search_overlap(all->search, all->landing);
-            continue;
-        }
-        all->status = clx_aggregate_track(all->a, all->first);
-        if (all->status != CLAST_OK) {
-            (void)snprintf(all->detail, sizeof all->detail, "%s", clast_error_detail());
-        }
-    }
 }
 
 static clast_status place_by_touch(clast_aggregate *a)
@@ -103,22 +134,24 @@ static clast_status place_by_touch(clast_aggregate *a)
     const int32_t first = a->assembly.n_grain;
     prepare_search(a, shape, &search);
     CLX_TRY(throw_particle(a, &search, &landing));
+    CLX_TRY(clx_aggregate_settle(a));
     CLX_TRY(
         clx_aggregate_lay_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
-    arrival all = {.a = a, .search = &search, .landing = &landing, .first = first};
-    clx_parallel_for(2, search.on_one_thread ? 2 : 1, arrive, &all);
-    CLX_CHECK(all.status == CLAST_OK, all.status, "%s", all.detail);
     CLX_TRY(clx_aggregate_account_all(a, first));
     CLX_TRY(clast_assembly_add_contact(&a->assembly, landing.touch.body, first + landing.part,
                                        landing.touch.point));
     ++a->n_placed;
-    CLX_TRY(clx_aggregate_add_row(a, &row));
+    CLX_TRY(clx_aggregate_open_row(a, &row));
     row[CLX_HISTORY_SHAPE] = shape;
     row[CLX_HISTORY_SIZE] = search.size;
     row[CLX_HISTORY_DISTANCE] = landing.distance;
     row[CLX_HISTORY_RAYS] = (double)search.aim.n_ray * (search.aim.attempt + 1);
     row[CLX_HISTORY_TOUCHED] = landing.touch.body;
-    row[CLX_HISTORY_OVERLAP] = all.overlap;
+    a->arrival = (clx_arrival){.is_due = true,
+                               .search = search,
+                               .landing = landing,
+                               .first = first,
+                               .row = a->history.n_row - 1};
 done:
     return status;
 }

@@ -20,9 +20,6 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/// Small, since a few long flights are most of a search and threads must not wait for the last one.
-enum { TRIAL_BLOCK = 2, RAY_BLOCK = 2 };
-
 /// Margin of the bound, in units of the numbers it is made of.
 static const double ROUNDING = 1e-9;
 
@@ -47,7 +44,7 @@ typedef struct {
 static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
 {
     int32_t low = 0;
-    int32_t high = clx_touch_scene_count(s->scene) - 1;
+    int32_t high = s->n_body - 1;
     while (low < high) {
         const int32_t middle = low + (high - low) / 2;
         if (s->sphere_end[middle] > k) {
@@ -68,7 +65,7 @@ static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
 
 static void draw_origin(const clx_search *s, int64_t number, double origin[3])
 {
-    const int32_t n = clx_touch_scene_count(s->scene);
+    const int32_t n = s->n_body;
     clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_ORIGIN,
                              clx_aim_index(&s->aim, number, s->aim.n_ray));
     if (s->origin == CLAST_ORIGIN_GRAIN) {
@@ -90,8 +87,9 @@ static double start_of(const clx_search *s, const clx_touch_path *path, const do
     clx_touch hit;
     clx_touch_body point = clx_touch_body_sphere(ROUNDING * s->size);
     clx_touch_body_place(&point, origin, (const double[4]){1.0, 0.0, 0.0, 0.0}, 1.0);
-    return clx_touch_scene_first(s->scene, &point, path, &hit) ? hit.t - s->start * s->size
-                                                               : -HUGE_VAL;
+    return clx_touch_scene_first_among(s->scene, s->n_body, &point, path, &hit)
+               ? hit.t - s->start * s->size
+               : -HUGE_VAL;
 }
 
 /// The foot of the target on a ray: the distance to the target at s is sqrt(h2 + (s - b)^2).
@@ -112,7 +110,7 @@ static void scout(const clx_search *s, const clx_touch_path *path, ray *r)
     clx_touch_body ball = clx_touch_body_sphere(s->scale * s->group->inner);
     clx_touch_body_place(&ball, r->origin, (const double[4]){1.0, 0.0, 0.0, 0.0}, 1.0);
     r->rank = HUGE_VAL;
-    if (clx_touch_scene_first(s->scene, &ball, path, &hit)) {
+    if (clx_touch_scene_first_among(s->scene, s->n_body, &ball, path, &hit)) {
         foot_of(s, r, &b, &h2);
         const double beyond = fmax(0.0, -hit.t - b);
         r->rank = sqrt(h2 + beyond * beyond);
@@ -186,7 +184,7 @@ static bool fly(const clx_search *s, const double origin[3], const double orient
         clx_kit_pose(s->group, i, origin, orientation, s->scale, &placed);
         clx_touch_body body = s->kit->shape[placed.shape].body;
         clx_touch_body_place(&body, placed.position, placed.orientation, placed.scale);
-        if (!clx_touch_scene_first(s->scene, &body, &rest, &touch)) {
+        if (!clx_touch_scene_first_among(s->scene, s->n_body, &body, &rest, &touch)) {
             continue;
         }
         if (touch.beaten) {
@@ -252,19 +250,29 @@ static void keep(race *all, const clx_landing *landing)
     atomic_flag_clear_explicit(&all->lock, memory_order_release);
 }
 
+static void run_trial(race *all, int64_t i)
+{
+    const clx_search *s = all->search;
+    clx_landing landing = {0};
+    const ray *r = &all->rays[i / all->n_orientation];
+    const int64_t trial = r->number * s->n_orientation + i % all->n_orientation;
+    const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
+    if (r->least <= bound + margin_of(s, bound) && attempt_trial(s, r, trial, bound, &landing) &&
+        landing.distance <= bound) {
+        keep(all, &landing);
+    }
+}
+
+/// What is done beside comes first: its pieces are long, and threads must not wait for the last.
 static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context)
 {
-    (void)worker;
     race *all = context;
-    const clx_search *s = all->search;
+    const clx_beside *beside = &all->search->beside;
     for (int64_t i = begin; i < end; ++i) {
-        clx_landing landing = {0};
-        const ray *r = &all->rays[i / all->n_orientation];
-        const int64_t trial = r->number * s->n_orientation + i % all->n_orientation;
-        const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
-        if (r->least <= bound + margin_of(s, bound) &&
-            attempt_trial(s, r, trial, bound, &landing) && landing.distance <= bound) {
-            keep(all, &landing);
+        if (i < beside->n_piece) {
+            beside->work(i, i + 1, worker, beside->context);
+        } else {
+            run_trial(all, i - beside->n_piece);
         }
     }
 }
@@ -278,13 +286,13 @@ clast_status clx_search_run(const clx_search *search, clx_landing *best)
                 .lock = ATOMIC_FLAG_INIT};
     atomic_init(&all.bound, HUGE_VAL);
     CLX_TRY(clx_alloc(&all.rays, n_ray, sizeof *all.rays));
-    const int64_t n_trial = n_ray * all.n_orientation;
+    const int64_t n_item = search->beside.n_piece + n_ray * all.n_orientation;
     const bool alone = search->on_one_thread;
-    clx_parallel_for(n_ray, is_scouted(search) && !alone ? RAY_BLOCK : n_ray, make_rays, &all);
+    clx_parallel_for(n_ray, is_scouted(search) && !alone ? 1 : n_ray, make_rays, &all);
     if (is_scouted(search)) {
         qsort(all.rays, (size_t)n_ray, sizeof *all.rays, by_rank);
     }
-    clx_parallel_for(n_trial, alone ? n_trial : TRIAL_BLOCK, run_trials, &all);
+    clx_parallel_for(n_item, alone ? n_item : 1, run_trials, &all);
     *best = all.best;
 done:
     clx_free(all.rays);

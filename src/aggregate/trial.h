@@ -2,7 +2,16 @@
 // One particle's search: rays in a cone, orientations on each ray, the landing nearest the target.
 #include "aggregate/aim.h"
 #include "aggregate/kit.h"
+#include "base/parallel.h"
 #include "contact/touch_scene.h"
+
+/// Work that has nothing to do with a search and is done beside it, a piece at a time: the longest
+/// first.
+typedef struct clx_beside {
+    int64_t n_piece;
+    clx_kernel work; ///< called for one piece, by any thread
+    void *context;
+} clx_beside;
 
 /// What is thrown at what, and from where.
 typedef struct clx_search {
@@ -12,6 +21,7 @@ typedef struct clx_search {
     double size; ///< as the sizes mean it; the unit of `start` [m]
 
     const clx_touch_scene *scene;
+    int32_t n_body;            ///< of the scene, that the particle may meet: the first so many
     const int64_t *sphere_end; ///< [bodies] running count of composite spheres, for SPHERE
     int32_t origin;            ///< clast_ray_origin, but never AUTO
     double centre[3];          ///< rays' origin for CORE and MASS
@@ -21,6 +31,7 @@ typedef struct clx_search {
     int32_t n_orientation; ///< on each of aim.n_ray rays
     double start;          ///< sizes beyond the ray's last hit, 0: from outside of all
     bool on_one_thread;    ///< the search is too short to share
+    clx_beside beside;     ///< done when the search is
 } clx_search;
 
 /// Where a particle came to rest.

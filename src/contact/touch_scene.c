@@ -360,8 +360,9 @@ static int push_children(const clx_touch_scene *scene, const scene_node *node, c
     return top;
 }
 
-bool clx_touch_scene_first(const clx_touch_scene *scene, const clx_touch_body *moving,
-                           const clx_touch_path *path, clx_touch *touch)
+bool clx_touch_scene_first_among(const clx_touch_scene *scene, int32_t n,
+                                 const clx_touch_body *moving, const clx_touch_path *path,
+                                 clx_touch *touch)
 {
     waiting stack[MAX_DEPTH + 1];
     int top = 0;
@@ -379,7 +380,9 @@ bool clx_touch_scene_first(const clx_touch_scene *scene, const clx_touch_body *m
         }
         const scene_node *node = &scene->node[stack[top].node];
         if (node->child == 0) {
-            try_body(scene, node->body, moving, &rest, &best);
+            if (node->body < n) {
+                try_body(scene, node->body, moving, &rest, &best);
+            }
             continue;
         }
         top = push_children(scene, node, &box, &rest, stack, top);
@@ -388,6 +391,12 @@ bool clx_touch_scene_first(const clx_touch_scene *scene, const clx_touch_body *m
         *touch = best;
     }
     return best.body >= 0;
+}
+
+bool clx_touch_scene_first(const clx_touch_scene *scene, const clx_touch_body *moving,
+                           const clx_touch_path *path, clx_touch *touch)
+{
+    return clx_touch_scene_first_among(scene, scene->n, moving, path, touch);
 }
 
 static bool boxes_near(const double low[3], const double high[3], const scene_node *node)

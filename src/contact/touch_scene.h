@@ -28,6 +28,11 @@ const clx_touch_body *clx_touch_scene_body(const clx_touch_scene *scene, int32_t
 bool clx_touch_scene_first(const clx_touch_scene *scene, const clx_touch_body *moving,
                            const clx_touch_path *path, clx_touch *touch);
 
+/// The same as if only bodies 0 .. n - 1 were there.
+bool clx_touch_scene_first_among(const clx_touch_scene *scene, int32_t n,
+                                 const clx_touch_body *moving, const clx_touch_path *path,
+                                 clx_touch *touch);
+
 /// Called for each body; false ends the visit.
 typedef bool (*clx_touch_visit)(int32_t body, void *context);
 

@@ -11,6 +11,10 @@ static const double axes[2][3] = {{1.0, 0.7, 0.4}, {1.0, 0.5, 0.5}};
 
 static const char *const runs[] = {
     COMMON "n_particle=12;rays=6;orientations=3;target=mass",
+    /* Searches long enough to be shared: what follows a landing goes beside the next of them. */
+    COMMON "n_particle=12;rays=1500;orientations=2;envelope_every=1",
+    COMMON "n_particle=12;rays=1500;orientations=2;stop_size=1.3;envelope=surface_hull;"
+           "envelope=enclosing_sphere",
     COMMON SPHERE "n_particle=30;contact=spheres;origin=sphere;rays=4;orientations=2",
     COMMON SPHERE "n_particle=30;contact=march;flavour=release;rays=3;orientations=2",
     COMMON SPHERE "n_particle=30;contact=march;flavour=figures;coat_weight=1;coat_weight=2",

@@ -67,6 +67,7 @@ static void grow_both_ways(int32_t contact, double start)
         clx_search search = {.kit = &kit,
                              .group = &group,
                              .scene = scene,
+                             .n_body = clx_touch_scene_count(scene),
                              .start = start,
                              .n_orientation = 1 + i % 5};
         clx_rng rng = clx_rng_at(5, CLX_STREAM_TEST, (uint64_t)i);

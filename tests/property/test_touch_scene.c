@@ -21,11 +21,11 @@ static clx_touch_body random_body(clx_rng *rng, double spread)
     return body;
 }
 
-static bool first_of_all(const clx_touch_scene *scene, const clx_touch_body *moving,
+static bool first_of_all(const clx_touch_scene *scene, int32_t n, const clx_touch_body *moving,
                          const clx_touch_path *path, clx_touch *touch)
 {
     bool any = false;
-    for (int32_t i = 0; i < clx_touch_scene_count(scene); ++i) {
+    for (int32_t i = 0; i < n; ++i) {
         clx_touch other;
         if (clx_first_touch(moving, clx_touch_scene_body(scene, i), path, &other) &&
             (!any || other.t < touch->t)) {
@@ -50,7 +50,15 @@ static void check_query(const clx_touch_scene *scene, clx_rng *rng, double sprea
         path.t_low = spread * (clx_rng_uniform(rng) - 0.5);
     }
     clx_touch a, b;
-    const bool expected = first_of_all(scene, &moving, &path, &a);
+    const int32_t n = clx_touch_scene_count(scene);
+    const int32_t some = (int32_t)clx_rng_below(rng, n + 1);
+    const bool among = first_of_all(scene, some, &moving, &path, &a);
+    assert_int_equal(clx_touch_scene_first_among(scene, some, &moving, &path, &b), among);
+    if (among) {
+        assert_int_equal(a.body, b.body);
+        assert_true(a.t == b.t);
+    }
+    const bool expected = first_of_all(scene, n, &moving, &path, &a);
     assert_int_equal(clx_touch_scene_first(scene, &moving, &path, &b), expected);
     if (expected) {
         assert_int_equal(a.body, b.body);
@@ -150,7 +158,7 @@ static void equal_touches_name_the_lowest_number(void **state)
         const double x[3] = {2.0 * (i % 9) + 1.0, 2.0 * (double)(i / 9) + 1.0, 5.0};
         clx_touch_body_place(&body, x, unturned, 1.0);
         assert_true(clx_touch_scene_first(scene, &body, &path, &a));
-        assert_true(first_of_all(scene, &body, &path, &b));
+        assert_true(first_of_all(scene, clx_touch_scene_count(scene), &body, &path, &b));
         assert_int_equal(a.body, b.body);
     }
     clx_touch_scene_destroy(scene);
