@@ -7,7 +7,11 @@
 // it.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
     !defined(__SANITIZE_THREAD__)
+#if __GNUC__ >= 12
+#define CLX_FOR_EACH_MACHINE __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
 #define CLX_FOR_EACH_MACHINE __attribute__((target_clones("avx2", "default")))
+#endif
 #else
 #define CLX_FOR_EACH_MACHINE
 #endif

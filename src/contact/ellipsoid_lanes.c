@@ -6,9 +6,6 @@
 #include <assert.h>
 #include <stddef.h>
 
-typedef float floats __attribute__((vector_size(16)));
-typedef float floats_at __attribute__((vector_size(16), aligned(4), may_alias));
-
 /// A load of four takes `round` along, which is 0 for ellipsoids.
 static_assert(offsetof(clx_convex, round) == offsetof(clx_convex, semi_axes) + 24,
               "semi-axes and rounding of a shape stand in a row");
@@ -198,7 +195,8 @@ int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[
     read_side(batch->turn_a, shape_a, &a);
     read_side(batch->turn_b, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
-        m[k] = __builtin_convertvector(*(const floats_at *)batch->memory[k]->seen[0], clx_lanes);
+        m[k] =
+            __builtin_convertvector(*(const clx_floats_at *)batch->memory[k]->seen[0], clx_lanes);
     }
     lanes_transpose(m);
     for (int c = 0; c < 3; ++c) {

@@ -1,7 +1,12 @@
 #pragma once
-// Remembered facets of four pairs asked again side by side: the bits of clx_facet_again.
+// Remembered facets of four pairs asked again side by side: the bits of clx_facet_again, which is
+// the twin that tests compare; reasons and equations are in facet_memory.c. Inline, so that what a
+// contact does next shares the registers (dem/batch.c).
 #include "contact/convex.h"
+#include "contact/facet.h"
 #include "math/lanes.h"
+#include <assert.h>
+#include <stddef.h>
 
 /// Four pairs with memories; all four are filled (repeat one where there are fewer).
 typedef struct clx_pair_batch {
@@ -13,9 +18,149 @@ typedef struct clx_pair_batch {
     double point[3][CLX_LANES];
 } clx_pair_batch;
 
-/// Memories of kinds FACE_VERTEX and VERTEX_FACE. Returns which lanes are answered, as bits; what
-/// the others get is undefined.
-int clx_facet_faces_again(clx_pair_batch *batch);
+/// Their contacts, without rounding.
+typedef struct clx_meet_lanes {
+    clx_lanes gap, normal[3], point[3];
+} clx_meet_lanes;
+
+typedef float clx_floats __attribute__((vector_size(16)));
+typedef float clx_floats_at __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// sure, seen[0] to limit[0] stand in a row, which two loads of four floats rely on.
+static_assert(offsetof(clx_contact_memory, seen) == offsetof(clx_contact_memory, sure) + 4 &&
+                  offsetof(clx_contact_memory, limit) == offsetof(clx_contact_memory, sure) + 28,
+              "floats of a record stand in a row");
+
+CLX_INLINE void lanes_gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
+{
+    lanes_gather(out, p[0], p[1], p[2], p[3]);
+    lanes_gather(out + 4, p[0] + 4, p[1] + 4, p[2] + 4, p[3] + 4);
+    out[8] = (clx_lanes){p[0][8], p[1][8], p[2][8], p[3][8]};
+}
+
+CLX_INLINE clx_lanes lanes_widened(const float *p)
+{
+    const clx_floats f = *(const clx_floats_at *)p;
+    return __builtin_convertvector(f, clx_lanes);
+}
+
+/// sure, seen[0] (3), seen[1] (3), limit[0]; limit[1].
+CLX_INLINE void clx_gather_limits(const clx_pair_batch *batch, clx_lanes out[9])
+{
+    for (int k = 0; k < CLX_LANES; ++k) {
+        out[k] = lanes_widened(&batch->memory[k]->sure);
+        out[4 + k] = lanes_widened(&batch->memory[k]->seen[1][0]);
+        out[8][k] = (double)batch->memory[k]->limit[1];
+    }
+    lanes_transpose(out);
+    lanes_transpose(out + 4);
+}
+
+CLX_INLINE void clx_gather_data(const clx_pair_batch *batch, int from, clx_lanes out[4])
+{
+    lanes_gather(out, batch->memory[0]->data + from, batch->memory[1]->data + from,
+                 batch->memory[2]->data + from, batch->memory[3]->data + from);
+}
+
+CLX_INLINE clx_lanes clx_drift2(const clx_lanes x[3], const clx_lanes seen[3])
+{
+    const clx_lanes d[3] = {x[0] - seen[0], x[1] - seen[1], x[2] - seen[2]};
+    return lanes_dot(d, d);
+}
+
+/// Memories of kinds FACE_VERTEX and VERTEX_FACE. Returns which lanes are answered; what the others
+/// get is undefined.
+CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, const clx_lanes offset[3],
+                                     clx_meet_lanes *out)
+{
+    const double *own[CLX_LANES];
+    const double *other[CLX_LANES];
+    clx_lanes turn[9], data[8], seen[9], n[3], x[3], q[3], p[3], d[3];
+    clx_lanes sign, first = {0.0}, second = {0.0};
+    for (int k = 0; k < CLX_LANES; ++k) {
+        const bool is_a = batch->memory[k]->kind == CLX_FACET_FACE_VERTEX; // a has the face
+        own[k] = is_a ? batch->turn_a[k] : batch->turn_b[k];
+        other[k] = is_a ? batch->turn_b[k] : batch->turn_a[k];
+        sign[k] = is_a ? -1.0 : 1.0;
+    }
+    clx_gather_data(batch, 0, data);
+    clx_gather_data(batch, 4, data + 4);
+    lanes_gather_nine(own, turn);
+    lanes_mul(n, turn, data);
+    lanes_gather_nine(other, turn);
+    lanes_mul(x, turn, data + 4);
+    lanes_mul_t(q, turn, n);
+    for (int c = 0; c < 3; ++c) { // the offset goes on x, or is taken off what p is made of
+        first = lanes_pick(sign < 0.0, offset[c], lanes_all(0.0));
+        second = lanes_pick(sign < 0.0, lanes_all(0.0), offset[c]);
+        x[c] = x[c] + first;
+        d[c] = x[c] - second;
+    }
+    lanes_gather_nine(own, turn);
+    lanes_mul_t(p, turn, d);
+    clx_gather_limits(batch, seen);
+    const clx_lanes gap = lanes_dot(data, p) - data[3];
+    const clx_lanes margin = seen[7] + lanes_lesser(seen[0] * gap, lanes_all(0.0));
+    out->gap = gap;
+    for (int c = 0; c < 3; ++c) {
+        out->normal[c] = sign * n[c];
+        out->point[c] = x[c] + -0.5 * gap * n[c];
+    }
+    return (margin > 0.0) & (clx_drift2(p, seen + 1) <= margin * margin) &
+           (clx_drift2(q, seen + 4) <= seen[8] * seen[8]);
+}
 
 /// Memories of kind EDGE_EDGE.
-int clx_facet_edges_again(clx_pair_batch *batch);
+CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, const clx_lanes offset[3],
+                                     clx_meet_lanes *out)
+{
+    clx_lanes turn_a[9], turn_b[9], data[12], seen[9];
+    clx_lanes a[3], e[3], b[3], f[3], n[3], w[3], c[3], m[3], ma[3], mb[3], point[3], sign;
+    clx_gather_data(batch, 0, data);
+    clx_gather_data(batch, 4, data + 4);
+    clx_gather_data(batch, 8, data + 8);
+    lanes_gather_nine(batch->turn_a, turn_a);
+    lanes_mul(a, turn_a, data);
+    lanes_mul(e, turn_a, data + 3);
+    lanes_gather_nine(batch->turn_b, turn_b);
+    lanes_mul(b, turn_b, data + 6);
+    lanes_mul(f, turn_b, data + 9);
+    for (int k = 0; k < 3; ++k) {
+        b[k] = b[k] + offset[k];
+        w[k] = b[k] - a[k];
+    }
+    lanes_cross(n, e, f);
+    const clx_lanes n2 = lanes_dot(n, n);
+    const clx_lanes e2 = lanes_dot(e, e);
+    const clx_lanes f2 = lanes_dot(f, f);
+    clx_marks good = n2 > 1e-16 * e2 * f2;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        sign[k] = batch->memory[k]->n != 0 ? -1.0 : 1.0;
+    }
+    const clx_lanes inverse = 1.0 / lanes_root(n2);
+    for (int k = 0; k < 3; ++k) {
+        m[k] = sign * inverse * n[k];
+    }
+    const clx_lanes gap = lanes_dot(m, w);
+    lanes_cross(c, w, f);
+    const clx_lanes s = lanes_dot(c, n);
+    lanes_cross(c, w, e);
+    const clx_lanes t = lanes_dot(c, n);
+    const clx_lanes inside_a = lanes_lesser(s, n2 - s);
+    const clx_lanes inside_b = lanes_lesser(t, n2 - t);
+    lanes_axpy(point, a, s * (inverse * inverse), e);
+    lanes_mul_t(ma, turn_a, m);
+    lanes_mul_t(mb, turn_b, m);
+    clx_gather_limits(batch, seen);
+    const clx_lanes wanted = lanes_lesser(seen[0] * gap, lanes_all(0.0));
+    const clx_lanes wanted2 = wanted * wanted * n2;
+    good &= (inside_a > 0.0) & (inside_b > 0.0) & (inside_a * inside_a > wanted2 * f2) &
+            (inside_b * inside_b > wanted2 * e2) & (clx_drift2(ma, seen + 1) <= seen[7] * seen[7]) &
+            (clx_drift2(mb, seen + 4) <= seen[8] * seen[8]);
+    out->gap = gap;
+    for (int k = 0; k < 3; ++k) {
+        out->normal[k] = -1.0 * m[k];
+        out->point[k] = point[k] + 0.5 * gap * m[k];
+    }
+    return good;
+}

@@ -31,10 +31,11 @@ CLX_INLINE void read_periods(const clx_batch *p, clx_lanes period[2])
     period[1] = __builtin_convertvector((ints)both >> 16, clx_lanes);
 }
 
-CLX_FOR_EACH_MACHINE
-void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
+/// Offsets of b from a, with the radii as fourths of a and b.
+CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, clx_lanes a[4], clx_lanes b[4],
+                        clx_lanes r[3])
 {
-    clx_lanes a[4], b[4], period[2], r[3];
+    clx_lanes period[2];
     lanes_gather(a, p->a[0]->position, p->a[1]->position, p->a[2]->position, p->a[3]->position);
     lanes_gather(b, p->b[0]->position, p->b[1]->position, p->b[2]->position, p->b[3]->position);
     read_periods(p, period);
@@ -43,6 +44,13 @@ void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
     }
     r[0] = r[0] + dem->period[0] * period[0];
     r[1] = r[1] + dem->period[1] * period[1];
+}
+
+CLX_FOR_EACH_MACHINE
+void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
+{
+    clx_lanes a[4], b[4], r[3];
+    offsets(dem, p, a, b, r);
     store3(p->meet.offset[0], r);
 }
 
@@ -59,20 +67,16 @@ void clx_batch_arms(clx_batch *p)
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_batch_spheres(clx_batch *p)
+void clx_batch_spheres(const clast_dem *dem, clx_batch *p)
 {
-    clx_lanes r[3], n[3], arm[3], ra, rb;
+    clx_lanes a[4], b[4], r[3], n[3], arm[3];
     const clx_lanes zero = lanes_all(0.0);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        ra[k] = p->a[k]->radius;
-        rb[k] = p->b[k]->radius;
-    }
-    load3(p->meet.offset[0], r);
+    offsets(dem, p, a, b, r);
     const clx_lanes d = lanes_root(lanes_dot(r, r));
-    const clx_lanes distance = d - (ra + rb);
+    const clx_lanes distance = d - (a[3] + b[3]);
     const clx_lanes inverse = lanes_pick(d > 0.0, 1.0 / d, zero);
-    const clx_lanes lever_a = ra + 0.5 * distance;
-    const clx_lanes lever_b = -(rb + 0.5 * distance);
+    const clx_lanes lever_a = a[3] + 0.5 * distance;
+    const clx_lanes lever_b = -(b[3] + 0.5 * distance);
     lanes_store(p->meet.gap, distance);
     for (int c = 0; c < 3; ++c) {
         n[c] = inverse * r[c];
@@ -84,6 +88,50 @@ void clx_batch_spheres(clx_batch *p)
         arm[c] = lever_b * n[c];
     }
     store3(p->arm_b[0], arm);
+}
+
+/// As clx_pair_contact does for one.
+CLX_INLINE void add_rounding(const clast_dem *dem, const clx_batch *p, clx_meet_lanes *m)
+{
+    clx_lanes a, b;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        a[k] = dem->convex[p->link[k]->a].round;
+        b[k] = dem->convex[p->link[k]->b].round;
+    }
+    m->gap = m->gap - (a + b);
+    lanes_axpy(m->point, m->point, 0.5 * (b - a), m->normal);
+}
+
+CLX_INLINE int facets(const clast_dem *dem, clx_batch *p, bool edges)
+{
+    clx_lanes a[4], b[4], r[3], arm[3];
+    clx_meet_lanes m;
+    offsets(dem, p, a, b, r);
+    const clx_marks good =
+        edges ? clx_edges_again(&p->meet, r, &m) : clx_faces_again(&p->meet, r, &m);
+    if (dem->config.rounding > 0.0) {
+        add_rounding(dem, p, &m);
+    }
+    for (int c = 0; c < 3; ++c) {
+        arm[c] = m.point[c] - r[c];
+    }
+    lanes_store(p->meet.gap, m.gap);
+    store3(p->meet.normal[0], m.normal);
+    store3(p->meet.point[0], m.point);
+    store3(p->arm_b[0], arm);
+    return lanes_bits(good);
+}
+
+CLX_FOR_EACH_MACHINE
+int clx_batch_faces(const clast_dem *dem, clx_batch *p)
+{
+    return facets(dem, p, false);
+}
+
+CLX_FOR_EACH_MACHINE
+int clx_batch_edges(const clast_dem *dem, clx_batch *p)
+{
+    return facets(dem, p, true);
 }
 
 /// Four contacts and what the law works out for them.
@@ -164,30 +212,35 @@ CLX_INLINE void force(const clx_law *law, clx_lanes overlap, double dt, meetings
     }
 }
 
-/// Forces, torques and the links' displacements of the marked lanes.
-CLX_INLINE void write(const clx_batch *p, int lanes, const clx_lanes f[4],
+/// Forces, torques and the links' wakes and displacements. Lanes that repeat another write the same
+/// bytes to the same place.
+CLX_INLINE void write(const clx_batch *p, clx_marks touching, const clx_lanes f[4],
                       const clx_lanes torque_b[4], const clx_lanes torque_a[4],
                       const clx_lanes wake_slide[4])
 {
-    clx_pushed spare;
-    double unused[4];
-    clx_pushed *to[CLX_LANES];
-    double *link[CLX_LANES];
-    for (int k = 0; k < CLX_LANES; ++k) {
-        const bool is_on = (lanes >> k & 1) != 0;
-        to[k] = is_on ? p->to[k] : &spare;
-        link[k] = is_on ? &p->link[k]->wake : unused;
-    }
+    clx_pushed *const *to = p->to;
+    const int bits = lanes_bits(touching);
     lanes_scatter(f, to[0]->force, to[1]->force, to[2]->force, to[3]->force);
     lanes_scatter(torque_b, to[0]->torque_b, to[1]->torque_b, to[2]->torque_b, to[3]->torque_b);
     lanes_scatter(torque_a, to[0]->torque_a, to[1]->torque_a, to[2]->torque_a, to[3]->torque_a);
-    lanes_scatter(wake_slide, link[0], link[1], link[2], link[3]);
+    lanes_scatter(wake_slide, &p->link[0]->wake, &p->link[1]->wake, &p->link[2]->wake,
+                  &p->link[3]->wake);
+    for (int k = 0; k < CLX_LANES; ++k) {
+        p->link[k]->touches = (uint32_t)bits >> k & 1U;
+    }
 }
 
-CLX_INLINE void push_all(const clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
+CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
+{
+    return (clx_lanes)(m & (clx_marks)x);
+}
+
+CLX_INLINE void push_all(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     meetings m;
     clx_lanes f[4], torque_a[4], torque_b[4], slide[4];
+    const clx_lanes gap = lanes_load(p->meet.gap);
+    const clx_marks touching = ~(gap >= 0.0);
     lanes_gather(slide, &p->link[0]->wake, &p->link[1]->wake, &p->link[2]->wake,
                  &p->link[3]->wake); // wake, then slide
     load3(p->meet.normal[0], m.normal);
@@ -198,24 +251,26 @@ CLX_INLINE void push_all(const clast_dem *dem, const clx_batch *p, int lanes, bo
         m.slide[c] = slide[c + 1];
     }
     approach(dem, p, has_walls, &m);
-    force(&dem->law, -lanes_load(p->meet.gap), dem->config.time_step, &m);
+    force(&dem->law, -gap, dem->config.time_step, &m);
+    slide[0] = lanes_pick(touching, slide[0], lanes_load(p->travel) + gap);
     for (int c = 0; c < 3; ++c) {
-        f[c] = m.tangential[c] + m.push * m.normal[c];
-        slide[c + 1] = m.slide[c];
+        f[c] = where(touching, m.tangential[c] + m.push * m.normal[c]);
+        slide[c + 1] = where(touching, m.slide[c]);
+        m.tangential[c] = where(touching, m.tangential[c]);
     }
     const clx_lanes *turning = dem->config.normal_torque ? f : m.tangential;
     lanes_cross(torque_b, m.arm_b, turning);
     lanes_cross(torque_a, m.arm_a, turning);
     f[3] = torque_a[3] = torque_b[3] = lanes_all(0.0);
-    write(p, lanes, f, torque_b, torque_a, slide);
+    write(p, touching, f, torque_b, torque_a, slide);
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_batch_push(const clast_dem *dem, const clx_batch *p, int lanes, bool has_walls)
+void clx_batch_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (has_walls) {
-        push_all(dem, p, lanes, true);
+        push_all(dem, p, true);
     } else {
-        push_all(dem, p, lanes, false);
+        push_all(dem, p, false);
     }
 }

@@ -13,22 +13,24 @@ typedef enum {
 } clx_batch_kind;
 
 typedef struct clx_batch {
-    int n;                     ///< contacts in it; the lanes beyond repeat the first
+    int n;                     ///< contacts in it; the lanes beyond repeat the last
     clx_pushed *to[CLX_LANES]; ///< where what they do is written
-    clx_link *link[CLX_LANES]; ///< may wake now
+    clx_link *link[CLX_LANES]; ///< awake
     double travel[CLX_LANES];  ///< of both grains
     const clx_grain *a[CLX_LANES], *b[CLX_LANES];
     clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
     double arm_b[3][CLX_LANES]; ///< from b's centre to the contact point
 } clx_batch;
 
-/// Offsets of whole grains.
+/// Where pairs of spheres meet, and arms.
+void clx_batch_spheres(const clast_dem *dem, clx_batch *batch);
+
+/// Remembered facets of hulls, with rounding, and arms. Returns which lanes are answered, as bits.
+int clx_batch_faces(const clast_dem *dem, clx_batch *batch);
+int clx_batch_edges(const clast_dem *dem, clx_batch *batch);
+
+/// Offsets of whole grains; then, where contact points are known too, arms on b.
 void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
-
-/// Pairs of spheres; offsets are known.
-void clx_batch_spheres(clx_batch *batch);
-
-/// Arms on b of pairs whose contact points and offsets are known.
 void clx_batch_arms(clx_batch *batch);
 
 /// Whether clx_batch_push can do this law.
@@ -37,6 +39,7 @@ static inline bool clx_batch_has_law(const clx_law *law)
     return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
 }
 
-/// Forces of four contacts by the linear law: the twin of clx_law_force, with its bits. Writes what
-/// the marked lanes (bits) push, and their displacements. Walls are looked for if there may be any.
-void clx_batch_push(const clast_dem *dem, const clx_batch *batch, int lanes, bool has_walls);
+/// What four contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
+/// pushes, displacements and whether they touch; where one is apart, when it may wake. Walls are
+/// looked for if there may be any.
+void clx_batch_push(const clast_dem *dem, const clx_batch *batch, bool has_walls);

@@ -1,8 +1,9 @@
 // What all contacts do, once a step.
 //
-// Awake pairs are sorted by how they are answered and go on four at a time (batch.h); what lanes
-// cannot answer goes one by one. A contact writes its own slots only, so blocks run in any order.
-// Loads are summed afterwards, in motion.c, block by block where one thread sweeps over all.
+// Awake pairs are sorted by how they are answered, without a branch that a processor could guess
+// wrongly, and go on four at a time (batch.h); what lanes cannot answer goes one by one. A contact
+// writes its own slots only, so blocks run in any order. Loads are summed afterwards, in motion.c
+// or sweep.c.
 #include "dem/batch.h"
 
 #include "base/parallel.h"
@@ -13,17 +14,19 @@
 
 enum { BLOCK = 256 };
 
-static inline clx_batch_kind kind_of(const clx_link *link, const clx_grain *a, const clx_grain *b)
+/// How a pair of whole grains is answered.
+static inline clx_batch_kind kind_of(const clast_dem *dem, const clx_link *link)
 {
-    if (link->kind != CLX_FACET_NONE) {
-        return link->kind == CLX_FACET_EDGE_EDGE ? CLX_BATCH_EDGES : CLX_BATCH_FACES;
-    }
+    static const uint8_t remembered[] = {CLX_BATCH_ANY, CLX_BATCH_FACES, CLX_BATCH_FACES,
+                                         CLX_BATCH_EDGES};
     if (link->slot == 0) {
         return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
     }
-    return a->kind == CLAST_SHAPE_ELLIPSOID && b->kind == CLAST_SHAPE_ELLIPSOID
-               ? CLX_BATCH_ELLIPSOIDS
-               : CLX_BATCH_ANY;
+    if (link->kind == CLX_FACET_NONE && dem->grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
+        dem->grain[link->b].kind == CLAST_SHAPE_ELLIPSOID) {
+        return CLX_BATCH_ELLIPSOIDS;
+    }
+    return (clx_batch_kind)remembered[link->kind];
 }
 
 /// Lane k alone, by the plain way.
@@ -44,47 +47,11 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
     }
 }
 
-/// As clx_pair_contact does for one.
-static void add_rounding(const clast_dem *dem, clx_batch *p)
-{
-    clx_pair_batch *f = &p->meet;
-    for (int k = 0; k < CLX_LANES; ++k) {
-        const double round_a = dem->convex[p->link[k]->a].round;
-        const double round_b = dem->convex[p->link[k]->b].round;
-        f->gap[k] -= round_a + round_b;
-        for (int c = 0; c < 3; ++c) {
-            f->point[c][k] += 0.5 * (round_b - round_a) * f->normal[c][k];
-        }
-    }
-}
-
-static void take_poses(const clast_dem *dem, clx_batch *p)
-{
-    for (int k = 0; k < CLX_LANES; ++k) {
-        p->meet.turn_a[k] = p->a[k]->turn[0];
-        p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = &dem->list.memory[p->link[k]->slot];
-    }
-}
-
-/// Remembered facets; returns which lanes are answered.
-static int ask_facets(const clast_dem *dem, clx_batch *p, clx_batch_kind kind)
-{
-    take_poses(dem, p);
-    const int answered =
-        kind == CLX_BATCH_FACES ? clx_facet_faces_again(&p->meet) : clx_facet_edges_again(&p->meet);
-    if (dem->config.rounding > 0.0) {
-        add_rounding(dem, p);
-    }
-    return answered;
-}
-
 /// Remembered common normals; returns which lanes are answered.
 static int ask_normals(const clast_dem *dem, clx_batch *p)
 {
     const clx_convex *a[CLX_LANES];
     const clx_convex *b[CLX_LANES];
-    take_poses(dem, p);
     for (int k = 0; k < CLX_LANES; ++k) {
         a[k] = &dem->convex[p->link[k]->a];
         b[k] = &dem->convex[p->link[k]->b];
@@ -99,23 +66,49 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
     return answered;
 }
 
-/// Where the pairs of a batch meet.
-static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+/// Lanes that lanes could not answer, one by one.
+static void find_rest(clast_dem *dem, clx_batch *p, int answered)
 {
-    int answered = 0;
-    if (kind != CLX_BATCH_ANY) {
-        clx_batch_offsets(dem, p);
-        if (kind == CLX_BATCH_SPHERES) {
-            clx_batch_spheres(p);
-            return;
-        }
-        answered = kind == CLX_BATCH_ELLIPSOIDS ? ask_normals(dem, p) : ask_facets(dem, p, kind);
-        clx_batch_arms(p);
-    }
+    const int last = p->n - 1;
     for (int k = 0; k < p->n; ++k) {
         if ((answered >> k & 1) == 0) {
             find_one(dem, p, k);
         }
+    }
+    for (int k = p->n; k < CLX_LANES; ++k) {
+        p->meet.gap[k] = p->meet.gap[last];
+        for (int c = 0; c < 3; ++c) {
+            p->meet.normal[c][k] = p->meet.normal[c][last];
+            p->meet.point[c][k] = p->meet.point[c][last];
+            p->arm_b[c][k] = p->arm_b[c][last];
+        }
+    }
+}
+
+/// Where the pairs of a batch meet.
+static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+{
+    int answered = 0;
+    switch (kind) {
+    case CLX_BATCH_FACES:
+        answered = clx_batch_faces(dem, p);
+        break;
+    case CLX_BATCH_EDGES:
+        answered = clx_batch_edges(dem, p);
+        break;
+    case CLX_BATCH_SPHERES:
+        clx_batch_spheres(dem, p);
+        return;
+    case CLX_BATCH_ELLIPSOIDS:
+        clx_batch_offsets(dem, p);
+        answered = ask_normals(dem, p);
+        clx_batch_arms(p);
+        break;
+    default:
+        break;
+    }
+    if (answered != (1 << CLX_LANES) - 1) {
+        find_rest(dem, p, answered);
     }
 }
 
@@ -152,42 +145,33 @@ static void push_one(const clast_dem *dem, const clx_batch *p, int k)
     push_alone(dem, p->link[k], &t, p->to[k]);
 }
 
-/// Finds where the pairs meet and what those that touch do; empties the batch.
-static void finish(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
+/// By the laws that lanes do not know.
+static void push_each(clast_dem *dem, const clx_batch *p)
 {
-    int touching = 0;
-    for (int k = p->n; k < CLX_LANES; ++k) {
-        p->link[k] = p->link[0];
-        p->a[k] = p->a[0];
-        p->b[k] = p->b[0];
-    }
-    find_all(dem, p, kind);
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
             part(p, k);
         } else {
             p->link[k]->touches = 1;
-            touching |= 1 << k;
+            push_one(dem, p, k);
         }
     }
-    if (touching != 0 && clx_batch_has_law(&dem->law)) {
-        clx_batch_push(dem, p, touching, kind == CLX_BATCH_ANY);
-    } else {
-        for (int k = 0; k < p->n; ++k) {
-            if ((touching >> k & 1) != 0) {
-                push_one(dem, p, k);
-            }
-        }
-    }
-    p->n = 0;
 }
 
-/// Contacts ahead whose link, and whose memory and grains, are asked for in advance: a bed of 4000
-/// hulls does not stay in a second-level cache.
-enum { LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
+/// Links of the near list that are gone through at once; pairs ahead whose link, and whose memory
+/// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
+enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
+
+/// A piece of the near list, and which of its links are awake, by how they are answered.
+typedef struct {
+    const int32_t *link;
+    clx_pushed *push;
+    int n[CLX_N_BATCH];
+    uint16_t at[CLX_N_BATCH][PIECE];
+} piece;
 
 // Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
-// of it is dropped. `objdump -d` shows eight prefetches in clx_contacts_among.
+// of it is dropped.
 CLX_INLINE void fetch(const void *record, size_t bytes)
 {
     for (size_t at = 0; at < bytes; at += LINE) {
@@ -195,73 +179,93 @@ CLX_INLINE void fetch(const void *record, size_t bytes)
     }
 }
 
-/// The arrays that the loop over contacts reads: what is written there moves none of them.
-typedef struct {
-    const int32_t *near;
-    clx_link *link;
-    const clx_contact_memory *memory;
-    const clx_grain *grain;
-    const clx_item *item;
-    const double *travel;
-    clx_load *load;
-    int64_t n;
-} arrays;
-
-static inline int32_t grain_of(const arrays *s, int32_t item)
+/// Asks for what a pair of whole grains reads.
+CLX_INLINE void fetch_pair(const clast_dem *dem, const clx_link *link)
 {
-    return s->item != NULL ? s->item[item].grain : item;
+    if (link->slot != 0) {
+        fetch(&dem->list.memory[link->slot], sizeof *dem->list.memory + LINE / 2);
+    }
+    fetch(&dem->grain[link->b], sizeof *dem->grain);
+    fetch(&dem->near.load[link->b], sizeof *dem->near.load);
 }
 
-CLX_INLINE void fetch_ahead(const arrays *s, int64_t at)
+/// Sums of paths of a link's grains.
+static inline double travel_of(const clast_dem *dem, const clx_link *link)
 {
-    if (at + LINK_AHEAD < s->n) {
-        const clx_link *link = &s->link[s->near[at + REST_AHEAD]];
-        __builtin_prefetch(&s->link[s->near[at + LINK_AHEAD]]);
-        if (link->slot != 0) {
-            fetch(&s->memory[link->slot], sizeof *s->memory + LINE / 2);
+    const double own = dem->travel[clx_item_grain(dem, link->a)];
+    return own + (link->b >= 0 ? dem->travel[clx_item_grain(dem, link->b)] : 0.0);
+}
+
+/// Sorts out which of n links are awake. What they push is 0 until it is known.
+static void sort_awake(const clast_dem *dem, int n, piece *s)
+{
+    const clx_link *links = dem->list.link;
+    memset(s->n, 0, sizeof s->n);
+    memset(s->push, 0, (size_t)n * sizeof *s->push);
+    for (int i = 0; i < n; ++i) {
+        const clx_link *link = &links[s->link[i]];
+        if (i + LINK_AHEAD < n) {
+            __builtin_prefetch(&links[s->link[i + LINK_AHEAD]]);
         }
-        if (link->b >= 0) {
-            const int32_t b = grain_of(s, link->b);
-            fetch(&s->grain[b], sizeof *s->grain);
-            fetch(&s->load[b], sizeof *s->load);
+        const clx_batch_kind kind =
+            dem->item != NULL || link->b < 0 ? CLX_BATCH_ANY : kind_of(dem, link);
+        const bool is_awake =
+            !(travel_of(dem, link) < link->wake) && !clx_link_is_container(dem, link);
+        s->at[kind][s->n[kind]] = (uint16_t)i;
+        s->n[kind] += is_awake ? 1 : 0;
+    }
+}
+
+/// The batch that begins with the awake link `from` of a kind. Lanes beyond the last repeat it.
+static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
+                        clx_batch *p)
+{
+    const int last = s->n[kind] - 1;
+    p->n = last - from < CLX_LANES ? last - from + 1 : CLX_LANES;
+    for (int k = 0; k < CLX_LANES; ++k) {
+        const int i = s->at[kind][from + k < last ? from + k : last];
+        clx_link *link = &dem->list.link[s->link[i]];
+        p->to[k] = &s->push[i];
+        p->link[k] = link;
+        p->travel[k] = travel_of(dem, link);
+        p->a[k] = &dem->grain[clx_item_grain(dem, link->a)];
+        p->b[k] = link->b >= 0 ? &dem->grain[clx_item_grain(dem, link->b)] : &clx_immovable;
+        p->meet.turn_a[k] = p->a[k]->turn[0];
+        p->meet.turn_b[k] = p->b[k]->turn[0];
+        p->meet.memory[k] = &dem->list.memory[link->slot];
+    }
+}
+
+static void meet_piece(clast_dem *dem, int n, piece *s)
+{
+    const bool has_law = clx_batch_has_law(&dem->law);
+    clx_batch batch;
+    sort_awake(dem, n, s);
+    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        for (int from = 0; from < s->n[kind]; from += CLX_LANES) {
+            const int end = from + REST_AHEAD + CLX_LANES;
+            for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
+                 ++k) {
+                fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]]);
+            }
+            fill(dem, s, (clx_batch_kind)kind, from, &batch);
+            find_all(dem, &batch, (clx_batch_kind)kind);
+            if (has_law) {
+                clx_batch_push(dem, &batch, kind == CLX_BATCH_ANY);
+            } else {
+                push_each(dem, &batch);
+            }
         }
     }
 }
 
 void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push)
 {
-    clx_batch batch[CLX_N_BATCH];
-    const arrays s = {dem->near.link, dem->list.link, dem->list.memory, dem->grain,
-                      dem->item,      dem->travel,    dem->near.load,   dem->near.n};
-    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
-        batch[kind].n = 0;
-    }
-    for (int64_t at = begin; at < end; ++at) {
-        clx_link *link = &s.link[s.near[at]];
-        fetch_ahead(&s, at);
-        const int32_t a = grain_of(&s, link->a);
-        const int32_t b = link->b >= 0 ? grain_of(&s, link->b) : -1;
-        const double travel = s.travel[a] + (b >= 0 ? s.travel[b] : 0.0);
-        if (travel < link->wake || clx_link_is_container(dem, link)) {
-            continue;
-        }
-        const clx_grain *on_b = b >= 0 ? &s.grain[b] : &clx_immovable;
-        const clx_batch_kind kind =
-            s.item != NULL || b < 0 ? CLX_BATCH_ANY : kind_of(link, &s.grain[a], on_b);
-        clx_batch *p = &batch[kind];
-        p->to[p->n] = push + (at - begin);
-        p->link[p->n] = link;
-        p->travel[p->n] = travel;
-        p->a[p->n] = &s.grain[a];
-        p->b[p->n] = on_b;
-        if (++p->n == CLX_LANES) {
-            finish(dem, p, kind);
-        }
-    }
-    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
-        if (batch[kind].n > 0) {
-            finish(dem, &batch[kind], (clx_batch_kind)kind);
-        }
+    piece s;
+    for (int64_t at = begin; at < end; at += PIECE) {
+        s.link = dem->near.link + at;
+        s.push = push + (at - begin);
+        meet_piece(dem, (int)(end - at < PIECE ? end - at : PIECE), &s);
     }
 }
 

@@ -210,10 +210,6 @@ static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
     if (!near->is_gathered) {
         CLX_TRY(clx_near_gather(dem));
     }
-    if (!near->is_pushed) {
-        memset(near->push, 0, (size_t)near->n * sizeof *near->push);
-        near->is_pushed = true;
-    }
     clx_contacts(dem);
     if (verifies) {
         clx_verify(dem);

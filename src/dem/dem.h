@@ -96,7 +96,6 @@ typedef struct clx_near {
     int64_t load_capacity;
     bool is_due;
     bool is_gathered; ///< `in` is there
-    bool is_pushed;   ///< `push` is kept up by each step
 } clx_near;
 
 /// How a sweep is divided among threads (sweep.c).

@@ -133,7 +133,6 @@ clast_status clx_near_find(clast_dem *dem)
     CLX_TRY(give_slots(dem));
     near->is_due = false;
     near->is_gathered = false;
-    near->is_pushed = false;
     dem->sweeping.n_worker = 0;
 done:
     return status;

@@ -75,45 +75,38 @@ done:
     return status;
 }
 
-/// What a contact does to b: onto its load, or kept where b is late.
-CLX_INLINE void push_on(clast_dem *dem, int32_t b, int32_t k, const clx_pushed *push, bool touches)
+CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
 {
-    if (dem->sweeping.is_late[b / CLX_LANES] != 0) {
-        dem->near.push[k] = touches ? *push : (clx_pushed){0};
-    } else if (touches) {
-        clx_load *load = &dem->near.load[b];
-        lanes_store(load->force, lanes_load(load->force) + lanes_load(push->force));
-        lanes_store(load->torque, lanes_load(load->torque) + lanes_load(push->torque_b));
-    }
+    lanes_store(to->force, lanes_load(to->force) + lanes_load(force));
+    lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// What grain g's own contacts do, to it and to the others. `push` begins with its first link's.
-CLX_INLINE void spread(clast_dem *dem, int64_t g, const clx_pushed *push)
-{
-    clx_near *near = &dem->near;
-    const clx_link *links = dem->list.link;
-    clx_lanes own = lanes_all(0.0);
-    clx_lanes turning = lanes_all(0.0);
-    clx_load *load = &near->load[g];
-    for (int32_t k = near->begin[g]; k < near->begin[g + 1]; ++k, ++push) {
-        const clx_link *link = &links[near->link[k]];
-        if (link->touches != 0) {
-            own -= lanes_load(push->force);
-            turning -= lanes_load(push->torque_a);
-        }
-        if (link->b >= 0) {
-            push_on(dem, link->b, k, push, link->touches != 0);
-        }
-    }
-    lanes_store(load->force, lanes_load(load->force) + own);
-    lanes_store(load->torque, lanes_load(load->torque) + turning);
-}
-
+/// What the contacts of grains [begin, end), a block at most, do to them and to the others: onto
+/// their loads, or kept where the other is late. Pairs that do not touch push by 0, so that no
+/// branch has to be guessed.
 CLX_FOR_EACH_MACHINE
 static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pushed *push)
 {
+    clx_near *near = &dem->near;
+    const clx_link *links = dem->list.link;
+    const uint8_t *is_late = dem->sweeping.is_late;
+    clx_load own[BLOCK] = {0};
+    for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k, ++push) {
+        const clx_link *link = &links[near->link[k]];
+        clx_load *on_a = &own[link->a - begin];
+        lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
+        lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(push->torque_a));
+        if (link->b < 0) {
+            continue;
+        }
+        if (is_late[link->b / CLX_LANES] != 0) {
+            near->push[k] = *push;
+        } else {
+            add(&near->load[link->b], push->force, push->torque_b);
+        }
+    }
     for (int64_t g = begin; g < end; ++g) {
-        spread(dem, g, push + (dem->near.begin[g] - dem->near.begin[begin]));
+        add(&near->load[g], own[g - begin].force, own[g - begin].torque);
     }
 }
 
@@ -193,7 +186,6 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine)
     if (s->n_worker != n_worker) {
         CLX_TRY(divide(dem, n_worker));
     }
-    dem->near.is_pushed = false;
     clx_dem_for(dem, dem->n_grain, s->chunk, sweep_chunk, &c);
     int flag = all_flags(dem, (dem->n_grain + s->chunk - 1) / s->chunk);
     if (s->n_late > 0) {
