@@ -1,6 +1,8 @@
 /* Property: what holds for every aggregate, whatever its shapes and options. */
 #include "aggregates.h"
 
+#include "math/vec3.h"
+#include <clast/hull.h>
 #include <string.h>
 
 static const double axes[2][3] = {{1.0, 0.7, 0.4}, {1.0, 0.5, 0.5}};
@@ -131,12 +133,89 @@ static void another_repeat_is_another_aggregate(void **state)
     support_aggregate_free(&s);
 }
 
+enum { FINE = 5 };
+
+/// Distance of the nearest facet of the unit icosphere: scaled by its inverse it holds the ball.
+static double inner_radius(void)
+{
+    clast_mesh ball = {0};
+    double least = 1.0;
+    CHECK_OK(clast_mesh_ellipsoid((double[3]){1.0, 1.0, 1.0}, FINE, &ball));
+    for (int32_t t = 0; t < ball.n_tri; ++t) {
+        const double *a = ball.vert[ball.tri[t][0]];
+        double u[3], v[3], n[3];
+        v3_sub(u, ball.vert[ball.tri[t][1]], a);
+        v3_sub(v, ball.vert[ball.tri[t][2]], a);
+        v3_cross(n, u, v);
+        least = fmin(least, v3_dot(n, a) / v3_norm(n));
+    }
+    clast_mesh_free(&ball);
+    return least;
+}
+
+/// Volume of the hull (by qhull) of the first n grains' tessellations, each scaled about its
+/// centre.
+static double tessellated_hull(const clast_assembly *all, int32_t n, double scale)
+{
+    clast_mesh points = {0};
+    clast_mesh hull = {0};
+    clast_mass mass;
+    for (int32_t i = 0; i < n; ++i) {
+        clast_mesh grain = {0};
+        const clast_shape *shape = &all->shape[all->shape_id[i]];
+        CHECK_OK(clast_mesh_ellipsoid(shape->semi_axes, FINE, &grain));
+        clast_mesh_transform(&grain, scale * all->scale[i], all->orientation[i], all->position[i]);
+        CHECK_OK(clast_mesh_append(&points, &grain));
+        clast_mesh_free(&grain);
+    }
+    CHECK_OK(clast_mesh_hull(&points, &hull));
+    CHECK_OK(clast_mesh_mass(&hull, &mass));
+    clast_mesh_free(&hull);
+    clast_mesh_free(&points);
+    return mass.volume;
+}
+
+/* The hull of curved grains is refined to a gap of 2e-3 of its volume: so exact must the porosity
+   of a row be, told by tessellations inside the grains and around them. At the end it is exact. */
+static void porosity_of_rows_is_that_of_tessellated_grains(void **state)
+{
+    (void)state;
+    const double tolerance = 2e-3;
+    const double around = 1.0 / inner_radius();
+    const int32_t rows[] = {0, 1, 4, 16};
+    support_aggregate s;
+    clast_table history = {0};
+    clast_aggregate_result result;
+    support_aggregate_make(&s, axes, 2, COMMON "envelope_every=1;n_particle=16;rays=3");
+    clast_aggregate *a = support_aggregate_run(&s, 0);
+    const clast_assembly *all = clast_aggregate_assembly(a);
+    CHECK_OK(clast_aggregate_history(a, &history));
+    CHECK_OK(clast_aggregate_measure(a, &result));
+    const double *porosity = clast_table_numbers(&history, "porosity_surface_hull");
+    const double *solid = clast_table_numbers(&history, "solid_m3");
+    for (int k = 0; k < 4; ++k) {
+        const int32_t row = rows[k];
+        const double low = 1.0 - solid[row] / tessellated_hull(all, row + 1, 1.0);
+        const double high = 1.0 - solid[row] / tessellated_hull(all, row + 1, around);
+        const double slack = tolerance * (1.0 - low);
+        assert_true(high - low < 0.5 * slack); /* the tessellations are fine enough to tell */
+        assert_true(high - slack <= porosity[row] && porosity[row] <= low + slack);
+        if (row == 16) {
+            assert_true(low <= result.porosity[0] && result.porosity[0] <= high);
+        }
+    }
+    clast_table_free(&history);
+    clast_aggregate_destroy(a);
+    support_aggregate_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(going_on_changes_no_bit),
         cmocka_unit_test(another_repeat_is_another_aggregate),
+        cmocka_unit_test(porosity_of_rows_is_that_of_tessellated_grains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

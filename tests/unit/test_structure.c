@@ -88,6 +88,15 @@ static void mean_shadow_is_a_quarter_of_the_surface(void **state)
     CHECK_STATUS(clast_assembly_projected_area(&a, (double[3]){0, 0, 0}, 128, &area, &error),
                  CLAST_E_USAGE);
     clast_assembly_free(&a);
+
+    /* A plate along z shows |z|, whose mean is 1/2 exactly when the heights are the middles of
+     * equal parts. The middles of n lines miss at most a line's worth, 2 / n, of a convex shadow.
+     */
+    with_box(&a, 1.0, 1.0, 1e-6);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    CHECK_OK(clast_assembly_mean_projection(&a, 50, 1024, &area, &error));
+    CHECK_REL(area, 0.500001, 2.0 / 1024.0);
+    clast_assembly_free(&a);
 }
 
 static void extents_are_lengths_and_widths(void **state)
