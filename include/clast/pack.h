@@ -25,6 +25,14 @@ typedef enum {
     CLAST_PACK_BY_EITHER  ///< the reference program's way: whichever comes first
 } clast_pack_rule;
 
+/// Which grain has which density.
+typedef enum {
+    CLAST_PACK_DENSITY_SHAPE,  ///< one for all, or one for each shape
+    CLAST_PACK_DENSITY_CHANCE, ///< drawn for each grain by weight, whatever its shape and size
+    CLAST_PACK_DENSITY_CLASS,  ///< one for each class of the sieve curve
+    CLAST_PACK_DENSITY_LIST    ///< of the row of the list that the size is drawn from
+} clast_pack_density_of;
+
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of the process
 typedef struct clast_pack_config {
     clast_dem_config dem;
@@ -40,8 +48,10 @@ typedef struct clast_pack_config {
     bool ellipsoids; ///< take the mass-equivalent ellipsoid of every surface and clump
     bool form_law;   ///< stretch every grain to a form drawn from a law
     double flatness_mean, flatness_deviation, elongation_mean, elongation_deviation;
-    clast_f64_list density; ///< one for all shapes, or one each [kg/m3]
-    double mass;            ///< wanted [kg]
+    clast_f64_list density;        ///< [kg/m3]; 0: the shape's own (clast_material)
+    int32_t density_of;            ///< clast_pack_density_of
+    clast_f64_list density_weight; ///< chances of densities that are drawn
+    double mass;                   ///< wanted [kg]
     uint64_t seed;
     char *container;      ///< surface that holds the grains in place of domain; "": none
     char *container_unit; ///< of its coordinates
@@ -87,8 +97,8 @@ typedef struct clast_pack_input {
 /// A packing under way. Opaque.
 typedef struct clast_pack clast_pack;
 
-/// @return CLAST_E_CONFIG for weights that do not match the shapes, a mass that cannot fit under
-/// the place of generation, a lattice that holds no grain; what clast_dem_create and
+/// @return CLAST_E_CONFIG for weights or densities that do not match the shapes, a mass that cannot
+/// fit under the place of generation, a lattice that holds no grain; what clast_dem_create and
 /// clast_dem_add_shape refuse
 CLAST_API clast_status clast_pack_create(const clast_pack_config *config,
                                          const clast_pack_input *input, clast_pack **pack);

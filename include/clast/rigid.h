@@ -7,11 +7,13 @@ typedef struct clast_rigid_options {
 } clast_rigid_options;
 
 /// One rigid grain of an assembly's grains: spheres, ellipsoids, clumps (sphere by sphere) and
-/// convex surfaces, which are its parts. Density does not matter: a shape is of one material.
+/// convex surfaces, which are its parts.
 ///
 /// Volume, centroid and inertia are those of the union: the sum over parts, less what lies in
 /// several, which is integrated over 262,144 lines along x (exact along each, an even lattice
 /// across; error below 2e-4 of what is in common). Parts that only touch are summed exactly.
+/// `shape->own` has the mean density and, where densities differ, centre of mass and inertia; what
+/// several parts have in common is of the first of them (a core keeps its place in its coating).
 ///                                                              [docs/theory/dem.md "Rigid grains"]
 ///
 /// @param shape  empty; a mesh of the parts' surfaces (curved ones by 320 triangles of their

@@ -33,6 +33,14 @@ typedef struct clast_parts {
     clast_part *part; ///< [n]
 } clast_parts;
 
+/// What a shape's own material weighs.
+typedef struct clast_material {
+    double density;       ///< mean: mass over volume [kg/m3]; 0: not known
+    bool is_mixed;        ///< parts of several densities; then the two below tell where the mass is
+    double centre[3];     ///< of mass, in the shape's frame
+    double inertia[3][3]; ///< about that centre, at mean density 1
+} clast_material;
+
 /// A kind of grain in its own frame: centroid at the origin, one shape shared by many grains.
 ///
 /// A sphere or ellipsoid may carry a mesh too (for pictures and files); a mesh may carry spheres
@@ -49,6 +57,7 @@ typedef struct clast_shape {
     double length;           ///< maximum length (diameter of the point set)
     double bounding_radius;  ///< greatest distance of the surface from the centroid
     double inertia[3][3];    ///< about the centroid, unit density
+    clast_material own;      ///< of an aggregate that has densities of its own; or empty
     double source_origin[3]; ///< centroid in the source file's coordinates (point x of the file is
                              ///< x - source_origin here)
 } clast_shape;

@@ -5,7 +5,8 @@
 /// blanks; '#' starts a comment; a first line that is no number names the columns).
 ///
 /// A column `count`, `n`, `number`, `weight` or `mass` counts the row's particles; columns that
-/// begin with `low` and `high` are the ends of a bin. In phi units a size is 2^-phi mm.
+/// begin with `low` and `high` are the ends of a bin; `density` (kg/m3 unless its name ends in
+/// another unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
 ///
 /// @param column  name of the size column; "": the first
 /// @param unit    um, mm, m, phi, ...; "": what the column's name ends in (d_eq_um)

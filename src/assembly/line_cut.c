@@ -195,6 +195,30 @@ static void common(int32_t n, double (*x)[2], double m[3])
     add(m, -1.0, whole);
 }
 
+/// Mass of what each interval shares with those of earlier parts; `room` holds n intervals.
+static void surplus_of(int32_t n, double (*x)[2], const double *density, double (*room)[2],
+                       double m[3])
+{
+    m[0] = m[1] = m[2] = 0.0;
+    for (int32_t i = 1; i < n; ++i) {
+        double shared[3];
+        double twice[3];
+        int32_t k = 0;
+        for (int32_t j = 0; j < i; ++j) {
+            room[k][0] = fmax(x[i][0], x[j][0]);
+            room[k][1] = fmin(x[i][1], x[j][1]);
+            k += room[k][1] > room[k][0] ? 1 : 0;
+        }
+        v3_set(shared, 0.0, 0.0, 0.0);
+        for (int32_t j = 0; j < k; ++j) {
+            add(shared, 1.0, room[j]);
+        }
+        common(k, room, twice);
+        v3_sub(shared, shared, twice);
+        v3_axpy(m, m, density[i], shared);
+    }
+}
+
 /// The box in y and z of what boxes share; marks those that share any. False: nothing.
 static bool shared_box(int32_t n, body *b, double low[3], double high[3])
 {
@@ -250,21 +274,61 @@ static void add_line(double moments[10], const double m[3], double y, double z, 
     moments[9] += area * m[0] * y * z;
 }
 
+/// What a line meets, in the order of parts.
+typedef struct {
+    double (*x)[2];    ///< [n_part] intervals
+    double (*room)[2]; ///< [n_part]
+    double *density;   ///< [n_part] of these intervals
+} met;
+
+static void met_free(met *line)
+{
+    clx_free(line->x);
+    clx_free(line->room);
+    clx_free(line->density);
+}
+
+static clast_status met_alloc(int32_t n, met *line)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&line->x, n, sizeof *line->x));
+    CLX_TRY(clx_alloc(&line->room, n, sizeof *line->room));
+    CLX_TRY(clx_alloc(&line->density, n, sizeof *line->density));
+done:
+    return status;
+}
+
+/// Bodies on the line through y and z; how many.
+static int32_t meet(int32_t n_body, const body *b, const double *density, const double at[2],
+                    met *line)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < n_body; ++i) {
+        if (b[i].is_shared && cut(&b[i], at[0], at[1], line->x[n])) {
+            line->density[n++] = density != NULL ? density[i] : 1.0;
+        }
+    }
+    return n;
+}
+
 clast_status clx_common_moments(const clast_parts *parts, const clast_mesh *mesh,
-                                double moments[10])
+                                const double *density, double moments[10], double surplus[10])
 {
     clast_status status = CLAST_OK;
     body *b = NULL;
     double(*plane)[4] = NULL;
-    double(*x)[2] = NULL;
+    met on = {0};
     double low[3];
     double high[3];
     for (int k = 0; k < 10; ++k) {
         moments[k] = 0.0;
+        if (density != NULL) {
+            surplus[k] = 0.0;
+        }
     }
     CLX_TRY(clx_alloc(&b, parts->n, sizeof *b));
     CLX_TRY(clx_alloc(&plane, mesh->n_tri, sizeof *plane));
-    CLX_TRY(clx_alloc(&x, parts->n, sizeof *x));
+    CLX_TRY(met_alloc(parts->n, &on));
     make_bodies(parts, mesh, b, plane);
     if (!shared_box(parts->n, b, low, high)) {
         goto done;
@@ -274,21 +338,21 @@ clast_status clx_common_moments(const clast_parts *parts, const clast_mesh *mesh
     for (int32_t line = 0; line < LINES; ++line) {
         const double u = (line + 0.5) * STEP[0];
         const double v = (line + 0.5) * STEP[1];
-        const double y = low[1] + (u - floor(u)) * wide[0];
-        const double z = low[2] + (v - floor(v)) * wide[1];
-        int32_t n = 0;
+        const double at[2] = {low[1] + (u - floor(u)) * wide[0], low[2] + (v - floor(v)) * wide[1]};
         double m[3];
-        for (int32_t i = 0; i < parts->n; ++i) {
-            n += b[i].is_shared && cut(&b[i], y, z, x[n]) ? 1 : 0;
+        const int32_t n = meet(parts->n, b, density, at, &on);
+        if (n > 1 && density != NULL) { // before the intervals are sorted
+            surplus_of(n, on.x, on.density, on.room, m);
+            add_line(surplus, m, at[0], at[1], area);
         }
         if (n > 1) {
-            common(n, x, m);
-            add_line(moments, m, y, z, area);
+            common(n, on.x, m);
+            add_line(moments, m, at[0], at[1], area);
         }
     }
 done:
     clx_free(b);
     clx_free(plane);
-    clx_free(x);
+    met_free(&on);
     return status;
 }

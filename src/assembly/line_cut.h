@@ -10,5 +10,9 @@ double clx_part_reach(const clast_part *part);
 
 /// Moments about the origin of what parts have in common, counted once less than it has parts:
 /// volume, x, y, z, xx, yy, zz, xy, xz, yz. Zero without common boxes.
+///
+/// @param density  [parts->n], or NULL
+/// @param surplus  with density: moments of the mass that is too much when all parts are summed and
+///                 what they have in common is of the first of them; else NULL
 clast_status clx_common_moments(const clast_parts *parts, const clast_mesh *mesh,
-                                double moments[10]);
+                                const double *density, double moments[10], double surplus[10]);

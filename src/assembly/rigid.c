@@ -2,7 +2,8 @@
 //
 // What several parts have in common is found on lines along x, which meet a convex part in one
 // interval: the intervals' lengths less that of their union, and the moments of both, are exact on
-// a line; across, lines stand on an even lattice over the boxes that parts share.
+// a line; across, lines stand on an even lattice over the boxes that parts share. The same goes for
+// mass where parts differ in density.
 #include <clast/rigid.h>
 
 #include "assembly/line_cut.h"
@@ -18,6 +19,9 @@ enum { LEVEL = 2 }; // of the surfaces of spheres and ellipsoids: 320 triangles
 typedef struct {
     clast_parts parts;
     int64_t capacity;
+    double *density; ///< [parts.n]
+    int64_t density_capacity;
+    double now; ///< density of the grain whose parts are made
     clast_mesh mesh;
     double surface, hull; ///< volumes of surfaces and of what was taken of them
 } joined;
@@ -27,6 +31,8 @@ static clast_status next(joined *j, clast_part **part)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&j->parts.part, &j->capacity, j->parts.n + 1LL, sizeof *j->parts.part));
+    CLX_TRY(clx_grow(&j->density, &j->density_capacity, j->parts.n + 1LL, sizeof *j->density));
+    j->density[j->parts.n] = j->now;
     *part = &j->parts.part[j->parts.n];
     **part = (clast_part){.orientation = {1.0, 0.0, 0.0, 0.0},
                           .vert = {j->mesh.n_vert, j->mesh.n_vert},
@@ -106,6 +112,7 @@ static clast_status add_grain(joined *j, const clast_assembly *a, int32_t i,
     clast_status status = CLAST_OK;
     const clast_shape *shape = &a->shape[a->shape_id[i]];
     const double s = a->scale[i];
+    j->now = a->density[i];
     if (shape->kind == CLAST_SHAPE_MESH) {
         return add_surface(j, a, i, options);
     }
@@ -197,23 +204,50 @@ static void finish(const double v[10], clast_mass *mass)
     }
 }
 
-static clast_status union_mass(const joined *j, clast_mass *mass)
+/// Parts of densities that differ by more than the rounding of a file.
+static bool is_mixed(const joined *j)
+{
+    for (int32_t i = 1; i < j->parts.n; ++i) {
+        if (!(fabs(j->density[i] - j->density[0]) <= 1e-9 * j->density[0])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Volume and its moments; mass and its own, where densities differ.
+static clast_status union_mass(const joined *j, clast_mass *mass, clast_material *own)
 {
     clast_status status = CLAST_OK;
     double sum[10] = {0.0};
+    double heavy[10] = {0.0};
     double twice[10] = {0.0};
+    double surplus[10] = {0.0};
+    clast_mass weight;
+    *own = (clast_material){.density = j->density[0], .is_mixed = is_mixed(j)};
     for (int32_t i = 0; i < j->parts.n; ++i) {
-        double own[10];
-        CLX_TRY(own_moments(j, &j->parts.part[i], own));
+        double v[10];
+        CLX_TRY(own_moments(j, &j->parts.part[i], v));
         for (int k = 0; k < 10; ++k) {
-            sum[k] += own[k];
+            sum[k] += v[k];
+            heavy[k] += j->density[i] * v[k];
         }
     }
-    CLX_TRY(clx_common_moments(&j->parts, &j->mesh, twice));
+    CLX_TRY(
+        clx_common_moments(&j->parts, &j->mesh, own->is_mixed ? j->density : NULL, twice, surplus));
     for (int k = 0; k < 10; ++k) {
         sum[k] -= twice[k];
+        heavy[k] -= surplus[k];
     }
     finish(sum, mass);
+    if (own->is_mixed) {
+        own->density = heavy[0] / sum[0];
+        finish(heavy, &weight);
+        v3_sub(own->centre, weight.centroid, mass->centroid);
+        for (int k = 0; k < 3; ++k) {
+            v3_scale(own->inertia[k], 1.0 / own->density, weight.inertia[k]);
+        }
+    }
 done:
     return status;
 }
@@ -250,7 +284,7 @@ clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *na
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(add_grain(&j, assembly, i, options));
     }
-    CLX_TRY(union_mass(&j, &mass));
+    CLX_TRY(union_mass(&j, &mass, &made.own));
     CLX_TRY(clx_axes_from_inertia(mass.volume, mass.inertia, made.semi_axes));
     CLX_TRY(clx_alloc_text(&made.name, name));
     made.bounding_radius = centre(&j, mass.centroid);
@@ -273,5 +307,6 @@ done:
     clast_shape_free(&made);
     clast_mesh_free(&j.mesh);
     clx_free(j.parts.part);
+    clx_free(j.density);
     return status;
 }

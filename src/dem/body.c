@@ -3,6 +3,7 @@
 #include "dem/dem.h"
 #include <clast/hull.h>
 #include <clast/mesh_check.h>
+#include <string.h>
 
 /// Share of its hull's volume that a mesh may lack and still count as convex.
 static const double DENT = 1e-4;
@@ -78,7 +79,7 @@ static clast_status take_part(const clast_shape *shape, const clast_part *from, 
 {
     clast_status status = CLAST_OK;
     clast_mesh own = {0};
-    v3_copy(part->centre, from->position);
+    v3_sub(part->centre, from->position, shape->own.centre); // mechanics turns it about its mass
     v3_copy(part->semi_axes, from->semi_axes);
     q_matrix(part->turn, from->orientation);
     part->is_sphere = from->kind == CLAST_SHAPE_SPHERE;
@@ -127,8 +128,13 @@ clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32
     CLX_CHECK(dem->n_grain == 0 || (is_rigid ? dem->has_parts : !is_clump || dem->has_items),
               CLAST_E_USAGE, "%s: clumps and aggregates are added before the first grain",
               shape->name);
+    CLX_CHECK(is_rigid || !shape->own.is_mixed, CLAST_E_USAGE,
+              "shape %s has parts of several densities, and no parts", shape->name);
     CLX_TRY(clast_shape_copy(shape, &made.shape));
-    CLX_CHECK(invert(made.shape.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
+    made.reach = shape->bounding_radius + v3_norm(shape->own.centre);
+    memcpy(made.inertia, shape->own.is_mixed ? shape->own.inertia : shape->inertia,
+           sizeof made.inertia);
+    CLX_CHECK(invert(made.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
               "shape %s has no moments of inertia", shape->name);
     if (is_rigid) {
         CLX_TRY(take_parts(dem, &made));
@@ -153,7 +159,7 @@ done:
 
 void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
 {
-    measures[0] = dem->body[shape].shape.bounding_radius;
+    measures[0] = dem->body[shape].reach;
     measures[1] = dem->body[shape].shape.volume;
 }
 

@@ -99,7 +99,7 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
               (long long)number, sqrt(n));
     const clast_shape *shape = &dem->body[g->shape].shape;
     const clx_hull_core *core = dem->body[g->shape].core;
-    const double radius = g->scale * shape->bounding_radius;
+    const double radius = g->scale * dem->body[g->shape].reach;
     CLX_TRY(check_fit(dem, g, radius, number));
     CLX_CHECK(core == NULL || dem->config.rounding == 0.0 ||
                   dem->config.rounding < 0.5 * g->scale * core->inner,
@@ -155,7 +155,7 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     double in_body[3];
     double momentum[3];
     *g = (clx_grain){.mass = from->density * volume,
-                     .radius = s * body->shape.bounding_radius,
+                     .radius = s * body->reach,
                      .round_radius = cbrt(3.0 * volume / (4.0 * CLAST_PI)),
                      .scale = s,
                      .shape = from->shape,
@@ -170,7 +170,7 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     q_matrix(g->turn, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
     m3_mul_t(in_body, g->turn, from->spin);
-    m3_mul(momentum, body->shape.inertia, in_body);
+    m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
     m3_mul(m->angular, g->turn, momentum);
     set_drag(dem, &body->shape, m);

@@ -136,7 +136,9 @@ typedef struct clx_dem_part {
 /// A shape and what mechanics needs of it.
 typedef struct clx_dem_body {
     clast_shape shape;
-    double inverse_inertia[3][3]; ///< of the inertia at unit density and scale 1
+    double reach;                 ///< radius of a ball about the centre of mass that holds it
+    double inertia[3][3];         ///< about the centre of mass, at mean density 1 and scale 1
+    double inverse_inertia[3][3]; ///< of that
     clx_hull_core *core;          ///< of a mesh, else NULL
     double steiner[2]; ///< of a mesh: area, and its mean curvature integrated over the surface
     bool is_round;     ///< sphere: its turn does not matter
@@ -313,6 +315,9 @@ void clx_items_add(clast_dem *dem, int32_t g);
 
 /// Items of grain g where it is now.
 void clx_items_place(clast_dem *dem, int32_t g);
+
+/// From a grain's centre of mass, which mechanics moves, to the centre of its volume.
+void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3]);
 clast_status clx_items_begin_convex(clast_dem *dem);
 
 /// Walls and periods of the domain.

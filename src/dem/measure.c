@@ -44,7 +44,7 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
         double in_body[3];
         double l[3];
         m3_mul_t(in_body, dem->grain[i].turn, g->spin);
-        m3_mul(l, dem->body[g->shape].shape.inertia, in_body);
+        m3_mul(l, dem->body[g->shape].inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
         m3_mul(momentum, dem->grain[i].turn, l);
     }
@@ -55,6 +55,12 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->spin);
     m->potential_energy += dem->config.gravity *
                            (g->mass - dem->config.fluid_density * motion->volume) * g->position[2];
+    if (dem->body[g->shape].shape.own.is_mixed) {
+        double arm[3];
+        clx_dem_arm(dem, g, arm);
+        m->potential_energy -=
+            dem->config.gravity * dem->config.fluid_density * motion->volume * arm[2];
+    }
     v3_axpy(m->momentum, m->momentum, g->mass, g->velocity);
 }
 
@@ -156,6 +162,11 @@ clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out)
         double x[3];
         double q[4];
         v3_copy(x, g->position);
+        if (dem->body[g->shape].shape.own.is_mixed) {
+            double arm[3];
+            clx_dem_arm(dem, g, arm);
+            v3_add(x, x, arm);
+        }
         wrap(dem, x);
         memcpy(q, m->orientation, sizeof q);
         q_unit(q);

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include <clast/settling.h>
 #include <math.h>
+#include <string.h>
 
 enum { BLOCK = CLX_MOVE_BLOCK };
 
@@ -110,6 +111,32 @@ static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_mo
                                         clast_drag_coefficient(re, &form)
                                   : stokes;
     return 1.0 / (1.0 + dt * rate / g->mass);
+}
+
+void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
+{
+    double turn[3][3];
+    memcpy(turn, g->turn, sizeof turn);
+    m3_mul(arm, turn, dem->body[g->shape].shape.own.centre);
+    v3_scale(arm, -g->scale, arm);
+}
+
+/// Buoyancy and drag act at the centre of volume, the load at the centre of mass: what that turns.
+static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
+{
+    const clx_grain *g = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    const double dt = dem->config.time_step;
+    double arm[3];
+    double force[3] = {0.0, 0.0, dem->config.gravity * dem->config.fluid_density * m->volume};
+    double turning[3];
+    if (dem->config.fluid_viscosity > 0.0) {
+        v3_axpy(force, force, -g->mass * (1.0 / drag_factor(dem, g, m, dt) - 1.0) / dt,
+                g->velocity);
+    }
+    clx_dem_arm(dem, g, arm);
+    v3_cross(turning, arm, force);
+    v3_add(torque, torque, turning);
 }
 
 /// Moves one grain's centre; the speed that its surface had at most.
@@ -215,6 +242,9 @@ static inline clx_load load_of(const clast_dem *dem, int64_t g)
         }
         lanes_store(load.force, lanes_load(load.force) + own);
         lanes_store(load.torque, lanes_load(load.torque) + turning);
+    }
+    if (dem->item_begin != NULL && dem->body[dem->grain[g].shape].shape.own.is_mixed) {
+        add_fluid_torque(dem, g, load.torque);
     }
     return load;
 }

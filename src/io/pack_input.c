@@ -77,20 +77,6 @@ done:
     return status;
 }
 
-/// A grain of a packing is of one material.
-static clast_status check_density(const clast_assembly *a, const char *path)
-{
-    clast_status status = CLAST_OK;
-    for (int32_t i = 0; i < a->n_grain; ++i) {
-        CLX_CHECK(fabs(a->density[i] - a->density[0]) <= 1e-9 * a->density[0], CLAST_E_GEOMETRY,
-                  "%s: grain %d has another density (%g, not %g kg/m3); a grain of a packing is of "
-                  "one material",
-                  path, i, a->density[i], a->density[0]);
-    }
-done:
-    return status;
-}
-
 /// Whether an aggregate is made of spheres alone; how many.
 static bool is_of_spheres(const clast_assembly *a, int64_t *n)
 {
@@ -134,7 +120,18 @@ done:
     return status;
 }
 
-/// The rigid grain that an aggregate's state is: a clump where all its grains are spheres.
+static bool is_of_one_density(const clast_assembly *a)
+{
+    for (int32_t i = 1; i < a->n_grain; ++i) {
+        if (!(fabs(a->density[i] - a->density[0]) <= 1e-9 * a->density[0])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The rigid grain that an aggregate's state is: a clump where all its grains are spheres of one
+/// density.
 static clast_status read_aggregate(const clast_pack_config *config, const clast_assembly *a,
                                    const char *name, clast_shape *shape, clast_pack_hull *note)
 {
@@ -142,9 +139,10 @@ static clast_status read_aggregate(const clast_pack_config *config, const clast_
     const clast_rigid_options options = {.hull = config->hull, .faces = config->faces};
     clast_spheres spheres = {0};
     int64_t n = 0;
-    if (is_of_spheres(a, &n)) {
+    if (is_of_spheres(a, &n) && is_of_one_density(a)) {
         CLX_TRY(spheres_of(a, n, &spheres));
         CLX_TRY(clast_shape_clump(name, &spheres, shape));
+        shape->own.density = a->density[0];
     } else {
         double added = 0.0;
         CLX_TRY(clast_assembly_rigid(a, name, &options, shape, &added));
@@ -170,7 +168,6 @@ static clast_status read_clump(const clast_pack_config *config, const char *path
         CLX_TRY(clast_state_read(path, &state));
     }
     if (state.n_spheres == 0 && state.assembly != NULL) {
-        CLX_TRY(check_density(state.assembly, path));
         CLX_TRY(read_aggregate(config, state.assembly, name, shape, note));
     } else {
         CLX_TRY(clast_spheres_read(path, NULL, &spheres));
@@ -191,6 +188,7 @@ static clast_status make_ellipsoid(clast_shape *shape)
     }
     const clast_status status = clast_shape_ellipsoid(shape->name, shape->semi_axes, &made);
     if (status == CLAST_OK) {
+        made.own.density = shape->own.density;
         clast_shape_free(shape);
         *shape = made;
     }
@@ -246,6 +244,36 @@ done:
     return status;
 }
 
+/// Sizes and their curve. Where classes differ in density, the curve's shares of mass are divided
+/// by it: numbers of grains follow volumes.
+static clast_status load_sizes(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    const clast_grading_spread spread = (clast_grading_spread)config->spread;
+    const clast_grading_count count = (clast_grading_count)config->count;
+    clast_curve volumes = {0};
+    double *share = NULL;
+    CLX_TRY(clast_grading_load(config->curve, spread, count, &made->curve, &made->grading));
+    const int32_t n = made->curve.n_class;
+    if (config->density_of != CLAST_PACK_DENSITY_CLASS || config->density.n != n) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&share, n, sizeof *share));
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_CHECK(config->density.item[i] > 0.0, CLAST_E_CONFIG,
+                  "a density of 0 (density) is for density_of shape alone");
+        share[i] = made->curve.mass[i] / config->density.item[i];
+    }
+    CLX_TRY(clast_curve_make(n, made->curve.sieve, share, &volumes));
+    clast_grading_destroy(made->grading);
+    made->grading = NULL;
+    CLX_TRY(clast_grading_of_curve(&volumes, spread, count, &made->grading));
+done:
+    clx_free(share);
+    clast_curve_free(&volumes);
+    return status;
+}
+
 clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
 {
     clast_status status = CLAST_OK;
@@ -255,8 +283,7 @@ clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source 
     if (config->unit[0] != '\0') {
         CLX_TRY(clast_unit_factor(config->unit, "m", &factor));
     }
-    CLX_TRY(clast_grading_load(config->curve, (clast_grading_spread)config->spread,
-                               (clast_grading_count)config->count, &made.curve, &made.grading));
+    CLX_TRY(load_sizes(config, &made));
     CLX_TRY(clx_alloc(&made.shape, config->shapes.n, sizeof *made.shape));
     CLX_TRY(clx_alloc(&made.hull, config->shapes.n, sizeof *made.hull));
     for (int32_t i = 0; i < config->shapes.n; ++i) {
@@ -292,8 +319,11 @@ static bool is_shape_file(const char *text)
 /// The file of sizes within the option curve, or NULL.
 static const char *curve_file(const char *text)
 {
-    if (strncmp(text, "list:", 5) == 0) {
-        return text + 5;
+    static const char *const lists[] = {"list:", "masses:"};
+    for (int k = 0; k < 2; ++k) {
+        if (strncmp(text, lists[k], strlen(lists[k])) == 0) {
+            return text + strlen(lists[k]);
+        }
     }
     return clx_path_is(text, "csv") || clx_path_is(text, "txt") || clx_path_is(text, "tsv") ? text
                                                                                             : NULL;

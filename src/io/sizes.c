@@ -19,12 +19,14 @@ typedef struct {
     int32_t n_word;
     char word[COLUMN_LIMIT][WORD_LIMIT];
     int32_t low, high, count; ///< columns; high = low for plain sizes, count -1 for none
+    int32_t density;          ///< column, or -1
+    double density_factor;
     int32_t n_column;
     char unit[16];
     bool is_phi;
     double factor;
     clast_sizes sizes; ///< as far as read
-    int64_t low_room, high_room, count_room;
+    int64_t low_room, high_room, count_room, density_room;
 } reader;
 
 static bool is_mark(char c)
@@ -154,10 +156,31 @@ static int32_t find_size(const reader *r)
     return n == 1 ? found : -1;
 }
 
+/// The column of densities, and its unit: what follows "_" or "(" in its name.
+static clast_status find_density(reader *r)
+{
+    clast_status status = CLAST_OK;
+    char unit[32];
+    r->density = find_word(r, "density", false);
+    r->density_factor = 1.0;
+    if (r->density < 0) {
+        return CLAST_OK;
+    }
+    const char *rest = r->word[r->density] + strlen("density");
+    rest += strspn(rest, "_ (");
+    (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(rest, ")"), rest);
+    if (unit[0] != '\0') {
+        CLX_TRY(clast_unit_factor(unit, "kg/m^3", &r->density_factor));
+    }
+done:
+    return status;
+}
+
 static clast_status read_header(reader *r, const char *column)
 {
     clast_status status = CLAST_OK;
     r->count = -1;
+    CLX_TRY(find_density(r));
     for (int32_t i = 0; i < r->n_word; ++i) {
         r->count = r->count < 0 && is_count_name(r->word[i]) ? i : r->count;
     }
@@ -187,6 +210,7 @@ static clast_status begin(reader *r, const char *column, bool *is_header)
     clast_status status = CLAST_OK;
     *is_header = !is_number(r->word[0]) && !begins(r->word[0], "nan");
     r->n_column = r->n_word;
+    r->density = -1;
     if (*is_header) {
         CLX_TRY(read_header(r, column));
     } else {
@@ -235,6 +259,22 @@ static clast_status count_at(const reader *r, double *count)
     return CLAST_OK;
 }
 
+/// The density of the row that was added last.
+static clast_status add_density(reader *r)
+{
+    clast_status status = CLAST_OK;
+    clast_sizes *s = &r->sizes;
+    const char *word = r->word[r->density];
+    const double density = r->density_factor * strtod(word, NULL);
+    CLX_CHECK(is_number(word) && isfinite(density) && density > 0.0, CLAST_E_FORMAT,
+              "%s:%lld: the density '%s' is not a number above 0", r->name, (long long)r->line,
+              word);
+    CLX_TRY(clx_grow(&s->density, &r->density_room, s->n, sizeof *s->density));
+    s->density[s->n - 1] = density;
+done:
+    return status;
+}
+
 static clast_status add_row(reader *r, double low, double high, double count)
 {
     clast_status status = CLAST_OK;
@@ -264,6 +304,9 @@ static clast_status read_row(reader *r)
         CLX_TRY(count_at(r, &count));
     }
     CLX_TRY(add_row(r, low, high, count));
+    if (r->density >= 0) {
+        CLX_TRY(add_density(r));
+    }
 done:
     return status;
 }

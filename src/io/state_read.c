@@ -189,6 +189,24 @@ done:
     return status;
 }
 
+/// Where the mass of a shape of several densities is.
+static clast_status take_material(clx_h5 *h5, const char *folder, clast_material *own)
+{
+    clast_status status = CLAST_OK;
+    if (!has(h5, folder, "mass_centre")) {
+        return CLAST_OK;
+    }
+    own->is_mixed = true;
+    CLX_TRY(clx_h5_read_number(h5, folder, "mass_density", CLX_H5_F64, &own->density));
+    CLX_TRY(take_fixed(h5, folder, "mass_centre", 1, own->centre));
+    CLX_TRY(take_fixed(h5, folder, "mass_inertia", 2, own->inertia[0]));
+    CLX_CHECK(all_positive(&own->density, 1) && all_finite(own->centre, 3) &&
+                  all_finite(own->inertia[0], 9),
+              CLAST_E_FORMAT, "%s: a mass that no shape has", folder);
+done:
+    return status;
+}
+
 static clast_status check_part(const clast_part *p, const clast_mesh *mesh, const char *folder)
 {
     clast_status status = CLAST_OK;
@@ -250,6 +268,7 @@ static clast_status take_shape(clx_h5 *h5, const char *folder, clast_shape *shap
     CLX_TRY(take_kind(h5, folder, &made.kind));
     CLX_TRY(clx_h5_read_text(h5, folder, "name", &made.name));
     CLX_TRY(take_numbers(h5, folder, &made));
+    CLX_TRY(take_material(h5, folder, &made.own));
     if (has(h5, folder, "vert")) {
         CLX_TRY(take_mesh(h5, folder, &made.mesh));
     }

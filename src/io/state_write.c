@@ -99,6 +99,12 @@ static clast_status put_shape(clx_h5 *h5, const char *folder, const clast_shape 
     CLX_TRY(put((clx_place){h5, folder}, "semi_axes", CLX_H5_F64, 3, 1, shape->semi_axes));
     CLX_TRY(put((clx_place){h5, folder}, "inertia", CLX_H5_F64, 3, 3, shape->inertia));
     CLX_TRY(put((clx_place){h5, folder}, "source_origin", CLX_H5_F64, 3, 1, shape->source_origin));
+    if (shape->own.is_mixed) {
+        const clast_material *own = &shape->own;
+        CLX_TRY(put_f64(h5, folder, "mass_density", own->density));
+        CLX_TRY(put((clx_place){h5, folder}, "mass_centre", CLX_H5_F64, 3, 1, own->centre));
+        CLX_TRY(put((clx_place){h5, folder}, "mass_inertia", CLX_H5_F64, 3, 3, own->inertia));
+    }
     CLX_TRY(put_parts(h5, folder, shape));
 done:
     return status;

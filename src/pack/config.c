@@ -22,7 +22,8 @@
 
 const clast_field clast_pack_fields[] = {
     TEXT(curve, "U1",
-         "sizes: a published case (U1 U3 U5 U7 B30 B50 B70), a sieve curve's file, list:FILE, "
+         "sizes: a published case (U1 U3 U5 U7 B30 B50 B70), a sieve curve's file, list:FILE "
+         "(sizes, counts), masses:FILE (sizes, masses), "
          "uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], or one size"),
     CHOICE(spread, 0, "step|linear|means", "how sizes lie within a sieve class"),
     CHOICE(count, 0, "mean|exact", "grains of a class by its mean size (eq. 9), or by its mass"),
@@ -46,8 +47,16 @@ const clast_field clast_pack_fields[] = {
     NUMBER(flatness_deviation, 0.175, 0, 10, "-", "its standard deviation"),
     NUMBER(elongation_mean, 0.682, 1e-3, 1, "-", "mean elongation I/L of form_law"),
     NUMBER(elongation_deviation, 0.139, 0, 10, "-", "its standard deviation"),
-    {FIELD(F64_LIST, density), 0, 1e-6, 1e6, "kg/m^3",
-     "density of the grains (rho_p): one for all shapes, or one each", "2650"},
+    {FIELD(F64_LIST, density), 0, 0, 1e6, "kg/m^3",
+     "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); "
+     "0: those of the aggregate's own parts, as its state.h5 has them",
+     "2650"},
+    CHOICE(density_of, 0, "shape|chance|class|list",
+           "density lists one for each shape, or several to draw from whatever a grain's shape, or "
+           "one for each class of the sieve curve; list: column density of list:FILE or "
+           "masses:FILE, in place of density"),
+    {FIELD(F64_LIST, density_weight), 0, 0, DBL_MAX, "-",
+     "chance of each density (by number of grains) with density_of: chance; none: all equal", ""},
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)"),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL},

@@ -37,12 +37,6 @@ done:
     return status;
 }
 
-double clx_pack_density(const clast_pack *p, int32_t shape)
-{
-    const clast_f64_list *d = &p->config.density;
-    return d->item[d->n > 1 ? shape : 0];
-}
-
 static clast_form_law law_of(const clast_pack_config *c)
 {
     return (clast_form_law){.flatness_mean = c->flatness_mean,
@@ -163,7 +157,7 @@ clast_status clx_pack_draw(clast_pack *p, clx_pack_number *number, clast_dem_gra
         ++shape;
     }
     double at[2] = {p->unit_size[shape][0], p->unit_size[shape][1]};
-    *g = (clast_dem_grain){.shape = shape, .density = clx_pack_density(p, shape)};
+    *g = (clast_dem_grain){.shape = shape, .density = clx_pack_density(p, index, shape, size)};
     if (p->config.form_law) {
         CLX_TRY(stretch(p, index, &p->input.shape[shape], &number->form, at));
         g->shape = number->form;

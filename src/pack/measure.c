@@ -171,6 +171,7 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
     const int32_t n = clast_dem_n_grain(p->dem);
     double *size = NULL;
     double *volume = NULL;
+    double unit = 1.0;
     clast_grading_match match;
     CLX_CHECK(p->input.curve != NULL, CLAST_E_USAGE, "sizes follow no sieve curve");
     CLX_TRY(clx_alloc(&size, n, sizeof *size));
@@ -181,7 +182,8 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
         clast_dem_read_grain(p->dem, i, &g);
         clast_dem_shape_measures(p->dem, g.shape, measures);
         size[i] = g.scale * clx_pack_size_of(&p->dem->body[g.shape].shape, p->config.size_meaning);
-        volume[i] = g.scale * g.scale * g.scale * measures[1];
+        unit = i == 0 ? g.density : unit; // shares of mass: one density is none
+        volume[i] = g.scale * g.scale * g.scale * measures[1] * (g.density / unit);
     }
     const clast_grading_sample sample = {.n = n, .size = size, .volume = volume};
     CLX_TRY(clast_grading_compare(p->input.curve, p->input.grading, &sample, table, &match));

@@ -44,16 +44,6 @@ clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
     return o;
 }
 
-/// Least and greatest density of the grains.
-static void density_range(const clast_pack *p, double *low, double *high)
-{
-    *low = *high = clx_pack_density(p, 0);
-    for (int32_t i = 1; i < p->config.density.n; ++i) {
-        *low = fmin(*low, p->config.density.item[i]);
-        *high = fmax(*high, p->config.density.item[i]);
-    }
-}
-
 /// The bed at a porosity of 0.5 must stay below the place where grains are made.
 static clast_status check_room(const clast_pack *p)
 {
@@ -64,9 +54,8 @@ static clast_status check_room(const clast_pack *p)
     double room = 0.0;
     double light = 0.0;
     double heavy = 0.0;
-    CLX_CHECK(c->density.n == 1 || c->density.n == p->input.n_shape, CLAST_E_CONFIG,
-              "%d densities for %d shapes (density)", c->density.n, p->input.n_shape);
-    density_range(p, &light, &heavy);
+    CLX_TRY(clx_pack_check_densities(p));
+    clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL, CLAST_E_CONFIG, "a packing needs a floor");
@@ -300,7 +289,7 @@ int64_t clast_pack_expected_steps(const clast_pack *pack)
     }
     double light = 0.0;
     double heavy = 0.0;
-    density_range(pack, &light, &heavy);
+    clx_pack_densities(pack, &light, &heavy);
     const double g = fmax(1e-9, c->dem.gravity * (1.0 - c->dem.fluid_density / light));
     const double drop = (c->fill_high - c->fill_low) * c->dem.height;
     const double u = c->initial_speed;

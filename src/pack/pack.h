@@ -45,8 +45,14 @@ struct clast_pack {
 /// Sieve size of eq. 1 (meaning 0), or the volume-equivalent diameter.
 double clx_pack_size_of(const clast_shape *shape, int32_t meaning);
 
-/// Density of the grains of an input's shape.
-double clx_pack_density(const clast_pack *pack, int32_t shape);
+/// Density of grain `index` of an input's shape and this size: a function of the seed.
+double clx_pack_density(const clast_pack *pack, int64_t index, int32_t shape, double size);
+
+/// Least and greatest density of the grains.
+void clx_pack_densities(const clast_pack *pack, double *low, double *high);
+
+/// Refuses densities that do not match shapes, classes or list.
+clast_status clx_pack_check_densities(const clast_pack *pack);
 
 /// What is drawn for a grain, ready but for its place: size, shape, turn, velocities. Makes the
 /// form that it needs, unless it has one.

@@ -91,12 +91,20 @@ static bool are_same_parts(const clast_parts *a, const clast_parts *b)
     return same;
 }
 
+static bool is_same_material(const clast_material *a, const clast_material *b)
+{
+    return a->is_mixed == b->is_mixed &&
+           (!a->is_mixed || (a->density == b->density && are_same(3, a->centre, b->centre) &&
+                             are_same(9, a->inertia[0], b->inertia[0])));
+}
+
 static bool is_same_shape(const clast_shape *a, const clast_shape *b)
 {
     return a->kind == b->kind && strcmp(a->name, b->name) == 0 && a->volume == b->volume &&
            a->bounding_radius == b->bounding_radius && are_same(9, a->inertia[0], b->inertia[0]) &&
            are_same(3, a->semi_axes, b->semi_axes) && is_same_surface(&a->mesh, &b->mesh) &&
-           is_same_clump(&a->spheres, &b->spheres) && are_same_parts(&a->parts, &b->parts);
+           is_same_clump(&a->spheres, &b->spheres) && are_same_parts(&a->parts, &b->parts) &&
+           is_same_material(&a->own, &b->own);
 }
 
 /// The files of shapes may have changed since.

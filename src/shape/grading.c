@@ -27,6 +27,7 @@ typedef struct {
     double number;             ///< share of the grains
     double number_to, mass_to; ///< running shares up to and with this piece
     double cube;               ///< mean of (D / low)^3
+    double density;            ///< of its grains [kg/m3], or 0: not given
 } piece;
 
 struct clast_grading {
@@ -266,6 +267,10 @@ static clast_status fill_rows(const clast_sizes *sizes, bool by_mass, clast_grad
             piece *x = &g->item[g->n_piece++];
             set_piece(x, low, high, 1.0, 1.0, sizes->count[i]);
             x->number /= by_mass ? low * low * low * x->cube : 1.0;
+            if (sizes->density != NULL) {
+                x->density = sizes->density[i];
+                x->number /= by_mass ? x->density : 1.0;
+            }
         }
     }
     CLX_CHECK(g->n_piece > 0, CLAST_E_CONFIG, "list: no row holds a grain");
@@ -277,8 +282,9 @@ static int by_size(const void *a, const void *b)
 {
     const piece *x = a;
     const piece *y = b;
-    return x->low != y->low ? (x->low > y->low) - (x->low < y->low)
-                            : (x->high > y->high) - (x->high < y->high);
+    return x->low != y->low     ? (x->low > y->low) - (x->low < y->low)
+           : x->high != y->high ? (x->high > y->high) - (x->high < y->high)
+                                : (x->density > y->density) - (x->density < y->density);
 }
 
 clast_status clast_grading_of_sizes(const clast_sizes *sizes, bool by_mass, clast_grading **grading)
@@ -414,6 +420,23 @@ static double pieces_size(const clast_grading *g, bool by_mass, double share)
     const double from = i == 0 ? 0.0 : (by_mass ? x[-1].mass_to : x[-1].number_to);
     const double part = to > from ? fmin(1.0, fmax(0.0, (share - from) / (to - from))) : 1.0;
     return piece_size(x, by_mass ? piece_volume_place(x, part) : piece_place(x, part));
+}
+
+double clast_grading_draw_density(const clast_grading *grading, uint64_t seed, uint64_t index)
+{
+    clx_rng rng = clx_rng_at(seed, CLX_STREAM_GRADING, index);
+    return grading->kind == LAW_PIECES
+               ? grading->item[find_piece(grading, false, clx_rng_uniform(&rng))].density
+               : 0.0;
+}
+
+void clast_grading_densities(const clast_grading *grading, double *low, double *high)
+{
+    *low = *high = grading->n_piece > 0 ? grading->item[0].density : 0.0;
+    for (int64_t i = 1; i < grading->n_piece; ++i) {
+        *low = fmin(*low, grading->item[i].density);
+        *high = fmax(*high, grading->item[i].density);
+    }
 }
 
 /// Last piece that begins at or below this size, -1 for none.

@@ -22,5 +22,6 @@ void clast_sizes_free(clast_sizes *sizes)
     clx_free(sizes->low);
     clx_free(sizes->high);
     clx_free(sizes->count);
+    clx_free(sizes->density);
     *sizes = (clast_sizes){0};
 }

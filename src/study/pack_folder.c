@@ -112,7 +112,8 @@ done:
     return status;
 }
 
-/// A row a grain: its shape, form and size, as `clast fit --grains` and `clast shape` read them.
+/// A row a grain: its shape, form, size and density, as `clast fit --grains` and `clast shape` read
+/// them.
 static clast_status write_grains(const char *folder, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -121,21 +122,25 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
     double *flatness = NULL;
     double *elongation = NULL;
     double *size = NULL;
+    double *density = NULL;
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_table_init(&table, "grains", a.n_grain));
     CLX_TRY(clast_table_add_text(&table, "shape"));
     CLX_TRY(clast_table_add_number(&table, "flatness", "-", NULL));
     CLX_TRY(clast_table_add_number(&table, "elongation", "-", NULL));
     CLX_TRY(clast_table_add_number(&table, "sieve_size_m", "m", NULL));
+    CLX_TRY(clast_table_add_number(&table, "density_kg/m3", "kg/m3", NULL));
     flatness = clast_table_numbers(&table, "flatness");
     elongation = clast_table_numbers(&table, "elongation");
     size = clast_table_numbers(&table, "sieve_size_m");
+    density = clast_table_numbers(&table, "density_kg/m3");
     for (int32_t i = 0; i < a.n_grain; ++i) {
         const clast_shape *shape = &a.shape[a.shape_id[i]];
         const double *s = shape->semi_axes; // a >= b >= c
         CLX_TRY(clast_table_set_text(&table, 0, i, shape->name));
         flatness[i] = s[2] / s[1];
         elongation[i] = s[1] / s[0];
+        density[i] = a.density[i];
         size[i] = clast_form_sieve_size(2.0 * a.scale[i] * s[1], 2.0 * a.scale[i] * s[2]);
     }
     CLX_TRY(write_table(folder, "grains.csv", &table));

@@ -260,6 +260,73 @@ class Pack(Case):
         self.assert_fails(2, *SMALL, "--density", "1", "--density", "2", says=("2 densities for 1 shapes",))
         self.assert_fails(2, *SMALL, *pair[:4], "--density", "2650", "--density", "900", says=("900 kg/m3 do not sink",))
 
+    def rows(self, path):
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_density_goes_with_the_size(self):
+        bed = ["--width", "0.1m", "--height", "1m", "--mass", "0.5kg", "--max-steps", "1", "--json"]
+        # by class: the curve's shares are of mass, so the heavy class has fewer grains
+        sieve = self.folder / "curve.csv"
+        sieve.write_text("sieve_mm,retained\n4,0.5\n5,0.5\n6,0\n")
+        by_class = ["--curve", sieve, "--density", "5000", "--density", "2500", "--density-of", "class"]
+        run = self.folder / "class"
+        made = clast("pack", *by_class, *bed, "--spread", "means", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        mass = {5000.0: 0.0, 2500.0: 0.0}
+        for row in self.rows(run / "grains.csv"):
+            size, density = float(row["sieve_size_m"]), float(row["density_kg/m3"])
+            self.assertEqual(density, 5000 if size < 0.005 else 2500)
+            mass[density] += density * math.pi / 6 * size**3
+        self.assertAlmostEqual(sum(mass.values()) / made.json["mass"], 1, 9)
+        share = mass[5000.0] / made.json["mass"]
+        self.assertAlmostEqual(share, 0.5, delta=0.06)  # by volume alone it would be 2/3
+        achieved = [float(row["achieved_mass"]) for row in self.rows(run / "achieved.csv") if float(row["wanted_mass"]) > 0]
+        self.assertAlmostEqual(achieved[0], share, 9)
+        self.assert_fails(2, "pack", *by_class[:4], *by_class[6:], *bed, says=("1 densities for 2 classes",))
+        # by row of a list, in the unit that its column names; masses are divided by it
+        sizes = self.folder / "sizes.csv"
+        sizes.write_text("size_mm,mass,density_g/cm3\n5,1,2.65\n5,1,5.3\n6,2,2.65\n")
+        run = self.folder / "list"
+        made = clast("pack", "--curve", f"masses:{sizes}", "--density-of", "list", *bed, "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        kinds = {}
+        for row in self.rows(run / "grains.csv"):
+            kind = (round(float(row["sieve_size_m"]), 9), float(row["density_kg/m3"]))
+            kinds[kind] = kinds.get(kind, 0) + 1
+        self.assertEqual(set(kinds), {(0.005, 2650.0), (0.005, 5300.0), (0.006, 2650.0)})
+        self.assertAlmostEqual(kinds[0.005, 2650.0] / kinds[0.005, 5300.0], 2, delta=0.8)
+        sizes.write_text("size_mm,density\n5,-1\n")
+        self.assert_fails(3, "pack", "--curve", f"list:{sizes}", "--density-of", "list", *bed, says=("sizes.csv:2", "'-1'"))
+        sizes.write_text("size_mm\n5\n")
+        self.assert_fails(2, "pack", "--curve", f"list:{sizes}", "--density-of", "list", *bed, says=("column density",))
+
+    def test_aggregate_of_two_densities_keeps_them(self):
+        state = self.aggregate("coated", "--core", "sphere", "--core-size", "200um", "--core-density", "4700", "--coat", "sphere",
+                               "--size", "150um", "--coat-density", "1200", "--replicate", "3")
+        bed = ["--shapes", state, "--mass", "4g", "--shaking-time", "0.004s"]
+        self.assert_fails(2, *SMALL, *bed, says=("several densities", "give it density 0"))
+        self.assert_fails(2, *SMALL, "--density", "0", says=("no density of its own",))
+        whole = self.folder / "whole"
+        made = self.run_small(*bed, "--density", "0", "--json", "-o", whole)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertTrue(made.json["converged"])
+        core, coat = 4700 * 0.2**3, 1200 * 0.15**3
+        density = {float(row["density_kg/m3"]) for row in self.rows(whole / "grains.csv")}
+        self.assertEqual(len(density), 1)
+        self.assertIn(round(density.pop(), 6), [round((core + k * coat) / (0.2**3 + k * 0.15**3), 6) for k in range(1, 30)])
+        run = self.folder / "cut"
+        process = subprocess.Popen([os.environ["CLAST"], *map(str, [*SMALL, *bed]), "--density", "0", "--checkpoint-time", "0.02s",
+                                    "-o", str(run)], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not list(run.glob("checkpoint-0000*[1-9]*.h5")) and process.poll() is None:
+            time.sleep(0.002)
+        process.kill()
+        process.wait()
+        self.assertEqual(process.returncode, -9, "the run ended before it could be killed")
+        resumed = clast("pack", "--resume", run, "--json", "-j", "1")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        self.assertEqual(resumed.json["state_hash"], made.json["state_hash"])
+
     def test_kills_at_any_moment_lose_nothing(self):
         # checkpoints all the time, so that most kills hit one
         whole = self.run_small("--json")

@@ -405,6 +405,66 @@ static void density_goes_with_the_shape(void **state)
     end(&b);
 }
 
+/* 600 grains of two densities, drawn by weight whatever the size: shares within four standard
+ * errors, sizes the same as without. */
+static void density_is_drawn_by_weight(void **state)
+{
+    (void)state;
+    double density[2] = {2650.0, 4500.0};
+    double weight[2] = {3.0, 1.0};
+    double size[2][600];
+    int n_heavy = 0;
+    double large = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        bed b;
+        clast_pack *pack = NULL;
+        begin(&b);
+        double *const old = b.config.density.item;
+        b.config.spacing = 8.2e-3;
+        b.config.dem.width = 0.15;
+        b.config.dem.height = 0.3;
+        b.config.mass = 0.5;
+        b.config.density = (clast_f64_list){2, density};
+        b.config.density_of = CLAST_PACK_DENSITY_CHANCE;
+        b.config.density_weight = (clast_f64_list){2, weight};
+        if (k == 1) {
+            b.config.density = (clast_f64_list){1, old};
+            b.config.density_of = CLAST_PACK_DENSITY_SHAPE;
+            b.config.density_weight = (clast_f64_list){0, NULL};
+        }
+        CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+        CHECK_OK(clast_pack_advance(pack, 1));
+        assert_true(clast_dem_n_grain(clast_pack_dem(pack)) >= 600);
+        for (int32_t i = 0; i < 600; ++i) {
+            clast_dem_grain g;
+            clast_dem_read_grain(clast_pack_dem(pack), i, &g);
+            size[k][i] = g.scale;
+            assert_true(g.density == density[0] || (k == 0 && g.density == density[1]));
+            n_heavy += g.density == density[1] ? 1 : 0;
+            large += g.density == density[1] ? g.scale / 600.0 : 0.0;
+        }
+        clast_pack_destroy(pack);
+        pack = NULL;
+        if (k == 0) {
+            b.config.density_weight.n = 1; /* one weight for two densities */
+            CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+            b.config.density_weight.n = 2;
+            b.config.density_of = CLAST_PACK_DENSITY_CLASS; /* a law has no classes */
+            CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+            b.config.density_weight.n = 0;
+            CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+            b.config.density_of = CLAST_PACK_DENSITY_LIST; /* and no column */
+            CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+        }
+        b.config.density_weight = (clast_f64_list){0, NULL};
+        b.config.density = (clast_f64_list){1, old};
+        end(&b);
+    }
+    assert_memory_equal(size[0], size[1], sizeof size[0]);
+    assert_in_range(n_heavy, 150 - 42, 150 + 42); /* sqrt(600 / 4 * 3 / 4) = 10.6 */
+    CHECK_ABS(large * 600.0 / n_heavy, 6.8e-3, 4.0 * 0.7e-3 / sqrt((double)n_heavy));
+}
+
 /* In a closed container no grain leaves; one that is outside, whatever brought it there, ends the
  * run with its number. */
 static void leaving_grain_ends_the_run(void **state)
@@ -500,6 +560,7 @@ int main(void)
         cmocka_unit_test(fills_are_clear_of_each_other),
         cmocka_unit_test(waiting_grains_outlive_a_checkpoint),
         cmocka_unit_test(density_goes_with_the_shape),
+        cmocka_unit_test(density_is_drawn_by_weight),
         cmocka_unit_test(leaving_grain_ends_the_run),
         cmocka_unit_test(wide_grain_finds_the_axis),
         cmocka_unit_test(what_cannot_work_is_refused),
