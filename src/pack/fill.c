@@ -286,8 +286,10 @@ clast_status clx_pack_fill(clast_pack *p)
     CLX_TRY(keep_old(p, &f));
     CLX_TRY(fill_region(p, &f));
     CLX_TRY(clast_dem_add_grains(p->dem, f.n - f.n_old, f.grain + f.n_old));
-    ++p->n_fill;
-    p->fill_step = clast_dem_n_step(p->dem);
+    if (f.n > f.n_old) { // else grains of the last one are still in the way
+        ++p->n_fill;
+        p->fill_step = clast_dem_n_step(p->dem);
+    }
 done:
     clx_free(f.grain);
     clx_free(f.radius);

@@ -465,6 +465,30 @@ static void density_is_drawn_by_weight(void **state)
     CHECK_ABS(large * 600.0 / n_heavy, 6.8e-3, 4.0 * 0.7e-3 / sqrt((double)n_heavy));
 }
 
+/* A bed that reaches into the place where grains are made, by less than a radius, leaves no room
+ * for the next: that is told, once nothing has come for long. It was tried for ever. */
+static void bed_without_room_for_the_next_grain_ends(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *pack = NULL;
+    begin(&b);
+    clast_grading_destroy(b.grading);
+    CHECK_OK(clast_grading_uniform(0.03, 0.03, &b.grading));
+    b.input.grading = b.grading;
+    b.config.dem.width = 0.04;
+    b.config.dem.height = 0.08;
+    b.config.fill_low = 0.025 / 0.08;
+    b.config.mass = 0.04; /* two of 37 g */
+    b.config.dem.collision_time = 2e-3;
+    b.config.dem.time_step = 1e-4;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    CHECK_STATUS(clast_pack_advance(pack, 200000), CLAST_E_CONVERGE);
+    assert_non_null(strstr(clast_error_detail(), "grown into the place"));
+    clast_pack_destroy(pack);
+    end(&b);
+}
+
 /* In a closed container no grain leaves; one that is outside, whatever brought it there, ends the
  * run with its number. */
 static void leaving_grain_ends_the_run(void **state)
@@ -561,6 +585,7 @@ int main(void)
         cmocka_unit_test(waiting_grains_outlive_a_checkpoint),
         cmocka_unit_test(density_goes_with_the_shape),
         cmocka_unit_test(density_is_drawn_by_weight),
+        cmocka_unit_test(bed_without_room_for_the_next_grain_ends),
         cmocka_unit_test(leaving_grain_ends_the_run),
         cmocka_unit_test(wide_grain_finds_the_axis),
         cmocka_unit_test(what_cannot_work_is_refused),
