@@ -78,10 +78,12 @@ CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, const clx_lane
     clx_lanes turn[9], data[8], seen[9], n[3], x[3], q[3], p[3], d[3];
     clx_lanes sign, first = {0.0}, second = {0.0};
     for (int k = 0; k < CLX_LANES; ++k) {
-        const bool is_a = batch->memory[k]->kind == CLX_FACET_FACE_VERTEX; // a has the face
-        own[k] = is_a ? batch->turn_a[k] : batch->turn_b[k];
-        other[k] = is_a ? batch->turn_b[k] : batch->turn_a[k];
-        sign[k] = is_a ? -1.0 : 1.0;
+        // without a branch: which of the two has the face is anybody's guess
+        const double *const turn_of[2] = {batch->turn_a[k], batch->turn_b[k]};
+        const int has = batch->memory[k]->kind != CLX_FACET_FACE_VERTEX; // b has the face
+        own[k] = turn_of[has];
+        other[k] = turn_of[1 - has];
+        sign[k] = (double)(2 * has - 1);
     }
     clx_gather_data(batch, 0, data);
     clx_gather_data(batch, 4, data + 4);
@@ -135,7 +137,7 @@ CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, const clx_lane
     const clx_lanes f2 = lanes_dot(f, f);
     clx_marks good = n2 > 1e-16 * e2 * f2;
     for (int k = 0; k < CLX_LANES; ++k) {
-        sign[k] = batch->memory[k]->n != 0 ? -1.0 : 1.0;
+        sign[k] = 1.0 - 2.0 * (double)batch->memory[k]->n; // n is 0 or 1
     }
     const clx_lanes inverse = 1.0 / lanes_root(n2);
     for (int k = 0; k < 3; ++k) {

@@ -58,7 +58,7 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
     }
     const int answered = clx_ellipsoids_again(&p->meet, a, b);
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot];
+        clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot].record;
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
             memory->seen[0][c] = (float)p->meet.normal[c][k];
         }
@@ -165,6 +165,7 @@ enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
 /// A piece of the near list, and which of its links are awake, by how they are answered.
 typedef struct {
     const int32_t *link;
+    int64_t n_left; ///< links from there to the end of the near list
     clx_pushed *push;
     int n[CLX_N_BATCH];
     uint16_t at[CLX_N_BATCH][PIECE];
@@ -179,14 +180,16 @@ CLX_INLINE void fetch(const void *record, size_t bytes)
     }
 }
 
-/// Asks for what a pair of whole grains reads.
-CLX_INLINE void fetch_pair(const clast_dem *dem, const clx_link *link)
+/// Asks for what a pair of whole grains reads: faces two lines of their memory, spheres none.
+CLX_INLINE void fetch_pair(const clast_dem *dem, const clx_link *link, clx_batch_kind kind)
 {
-    if (link->slot != 0) {
-        fetch(&dem->list.memory[link->slot], sizeof *dem->list.memory + LINE / 2);
+    if (kind != CLX_BATCH_SPHERES) {
+        fetch(&dem->list.memory[link->slot], 2 * LINE);
+    }
+    if (kind == CLX_BATCH_EDGES) {
+        fetch((const char *)&dem->list.memory[link->slot] + 2 * LINE, LINE);
     }
     fetch(&dem->grain[link->b], sizeof *dem->grain);
-    fetch(&dem->near.load[link->b], sizeof *dem->near.load);
 }
 
 /// Sums of paths of a link's grains.
@@ -204,7 +207,7 @@ static void sort_awake(const clast_dem *dem, int n, piece *s)
     memset(s->push, 0, (size_t)n * sizeof *s->push);
     for (int i = 0; i < n; ++i) {
         const clx_link *link = &links[s->link[i]];
-        if (i + LINK_AHEAD < n) {
+        if (i + LINK_AHEAD < s->n_left) {
             __builtin_prefetch(&links[s->link[i + LINK_AHEAD]]);
         }
         const clx_batch_kind kind =
@@ -232,7 +235,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
         p->b[k] = link->b >= 0 ? &dem->grain[clx_item_grain(dem, link->b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = &dem->list.memory[link->slot];
+        p->meet.memory[k] = clx_link_memory(dem, link);
     }
 }
 
@@ -246,7 +249,7 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             const int end = from + REST_AHEAD + CLX_LANES;
             for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
                  ++k) {
-                fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]]);
+                fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]], (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
@@ -264,6 +267,7 @@ void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *
     piece s;
     for (int64_t at = begin; at < end; at += PIECE) {
         s.link = dem->near.link + at;
+        s.n_left = dem->near.n - at;
         s.push = push + (at - begin);
         meet_piece(dem, (int)(end - at < PIECE ? end - at : PIECE), &s);
     }

@@ -58,7 +58,7 @@ typedef struct clx_item {
                   ///< k-th part, which is no sphere
 } clx_item;
 
-/// Two items near each other: 48 bytes.
+/// Two items near each other: 64 bytes, a cache line, for the links between near ones are not read.
 typedef struct clx_link {
     int32_t a, b;         ///< b > a, or -1 - wall
     int16_t period[2];    ///< b's image: position + period * width
@@ -67,7 +67,14 @@ typedef struct clx_link {
     uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
     double wake;          ///< no touch before travel a + travel b gets here
     double slide[3];      ///< tangential displacement of b over a
+    double spare[2];
 } clx_link;
+
+/// A contact's memory, three cache lines: two hold all of a face with a vertex.
+typedef struct clx_memory_slot {
+    clx_contact_memory record;
+    double spare[6];
+} clx_memory_slot;
 
 enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 
@@ -184,7 +191,7 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
-    clx_contact_memory *memory; ///< [n_slot] of the links that have one; the first is not in use
+    clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]
     int64_t n_free, free_capacity;
@@ -281,7 +288,7 @@ static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
 /// The contact memory of a link, or NULL.
 static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
 {
-    return link->slot != 0 ? &dem->list.memory[link->slot] : NULL;
+    return link->slot != 0 ? &dem->list.memory[link->slot].record : NULL;
 }
 
 /// Whether a link's meeting has a closed form: both are spheres, or a sphere and a wall.

@@ -251,7 +251,7 @@ clast_status clx_list_give_slot(clx_list *l, clx_link *link)
         link->slot = (uint32_t)n & CLX_MOST_SLOTS;
     }
     link->kind = CLX_FACET_NONE;
-    l->memory[link->slot] = (clx_contact_memory){0};
+    l->memory[link->slot] = (clx_memory_slot){0};
 done:
     return status;
 }

@@ -76,7 +76,7 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
         CLX_TRY(clx_alloc(&s.memory, s.n_link * MEMORY, 1)); // zero for links without one
         for (int64_t k = 0; k < s.n_link; ++k) {
             if (l->link[k].slot != 0) {
-                memcpy(s.memory + k * MEMORY, &l->memory[l->link[k].slot], MEMORY);
+                memcpy(s.memory + k * MEMORY, &l->memory[l->link[k].slot].record, MEMORY);
             }
         }
     }
@@ -149,8 +149,8 @@ static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
         }
         if (!is_empty) {
             CLX_TRY(clx_list_give_slot(l, &l->link[k]));
-            memcpy(&l->memory[l->link[k].slot], bytes, MEMORY);
-            l->link[k].kind = l->memory[l->link[k].slot].kind & 3U;
+            memcpy(&l->memory[l->link[k].slot].record, bytes, MEMORY);
+            l->link[k].kind = l->memory[l->link[k].slot].record.kind & 3U;
         }
     }
 done:

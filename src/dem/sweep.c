@@ -13,8 +13,9 @@
 #include "dem/move.h"
 #include <string.h>
 
-/// Grains of a block, whose pushes stay in the first-level cache; chunks of a thread.
-enum { BLOCK = CLX_SWEEP_BLOCK, CHUNKS = 4 };
+/// Grains of a block, whose pushes stay in the first-level cache; chunks of a thread; links ahead
+/// whose other grain's load is asked for.
+enum { BLOCK = CLX_SWEEP_BLOCK, CHUNKS = 4, AHEAD = 8 };
 
 void clx_sweeping_free(clx_sweeping *s)
 {
@@ -93,6 +94,9 @@ static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pus
     clx_load own[BLOCK] = {0};
     for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k, ++push) {
         const clx_link *link = &links[near->link[k]];
+        if (k + AHEAD < near->n && links[near->link[k + AHEAD]].b >= 0) {
+            __builtin_prefetch(&near->load[links[near->link[k + AHEAD]].b]);
+        }
         clx_load *on_a = &own[link->a - begin];
         lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
         lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(push->torque_a));

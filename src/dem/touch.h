@@ -110,7 +110,7 @@ static inline void clx_find_again(const clast_dem *dem, const clx_link *link, cl
 {
     clx_contact_memory memory = {0};
     if (link->slot != 0) {
-        memory = dem->list.memory[link->slot];
+        memory = dem->list.memory[link->slot].record;
     }
     clx_dem_touch_find(dem, link, &memory, t);
 }

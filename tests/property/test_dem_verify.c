@@ -37,8 +37,9 @@ static void broken_memories_and_promises_are_seen(void **state)
     clast_dem *dem = bed_after(0, 2000);
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
         clx_link *link = &dem->list.link[k];
-        if (link->touches != 0 && link->slot != 0 && dem->list.memory[link->slot].kind == 1) {
-            dem->list.memory[link->slot].data[3] += 2e-8; /* the face's place */
+        if (link->touches != 0 && link->slot != 0 &&
+            dem->list.memory[link->slot].record.kind == 1) {
+            dem->list.memory[link->slot].record.data[3] += 2e-8; /* the face's place */
         } else if (link->touches == 0 && link->b >= 0) {
             link->wake += 0.02; /* farther than any listed pair */
         }
