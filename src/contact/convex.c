@@ -4,6 +4,7 @@
 #include "contact/ellipsoid_pair.h"
 #include "contact/facet.h"
 #include "contact/gjk.h"
+#include "contact/hull_round.h"
 #include "math/least.h"
 #include "math/vec3.h"
 
@@ -388,6 +389,10 @@ bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_contact_memory *
     }
     if (memory != NULL && pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL) {
         return hulls(pair, max_gap, memory, contact);
+    }
+    if (memory != NULL && (pair->a->kind != CLX_CONVEX_HULL || pair->b->kind != CLX_CONVEX_HULL) &&
+        clx_hull_round_contact(pair, memory, contact)) {
+        return add_rounding(pair, max_gap, contact);
     }
     return general(pair, max_gap, contact);
 }

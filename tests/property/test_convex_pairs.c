@@ -1,9 +1,11 @@
 /* Property: gaps and overlaps of random convex pairs equal those of the plain twins. */
 #include "support.h"
 
+#include "contact/hull_round.h"
 #include "gravel.h"
 #include "math/vec3.h"
 #include "ref_convex.h"
+#include <string.h>
 
 enum { N_CORE = 8 };
 
@@ -394,6 +396,120 @@ static void round_and_hull_equal_all_directions(void **state)
     }
 }
 
+/* From below by the supports along the normal, and no other normal that is known shows more; two
+ * points of the bodies are where it says. */
+static void check_by_bounds(const scene *s, const clx_contact *bare, const clx_contact *cold)
+{
+    clx_contact c = *bare;
+    const double away[3] = {-c.normal[0], -c.normal[1], -c.normal[2]};
+    const double other[3] = {-cold->normal[0], -cold->normal[1], -cold->normal[2]};
+    double x[3];
+    c.gap -= s->a.round + s->b.round;
+    v3_axpy(c.point, c.point, 0.5 * (s->b.round - s->a.round), c.normal);
+    CHECK_ABS(v3_norm(c.normal), 1.0, 1e-13);
+    CHECK_ABS(c.gap, cold->gap, 1e-10);
+    CHECK_ABS(ref_support_along(&s->pair, away), c.gap, 1e-13);
+    assert_true(ref_support_along(&s->pair, other) <= c.gap + 1e-12);
+    v3_axpy(x, c.point, 0.5 * c.gap, c.normal);
+    assert_true(outside(&s->a, s->turn[0], x) <= 1e-9);
+    v3_axpy(x, c.point, -0.5 * c.gap, c.normal);
+    v3_sub(x, x, s->pair.offset);
+    assert_true(outside(&s->b, s->turn[1], x) <= 1e-9);
+}
+
+/* b slides aside and turns about z of the world. */
+static void move_on(clx_rng *rng, const double normal[3], double jump, scene *s)
+{
+    double slide[3];
+    double turned[9];
+    clx_rng_direction(rng, slide);
+    v3_axpy(slide, slide, -v3_dot(slide, normal), normal);
+    v3_axpy(s->pair.offset, s->pair.offset, jump, slide);
+    for (int c = 0; c < 3; ++c) {
+        turned[c] = cos(jump) * s->turn[1][c] - sin(jump) * s->turn[1][c + 3];
+        turned[c + 3] = sin(jump) * s->turn[1][c] + cos(jump) * s->turn[1][c + 3];
+        turned[c + 6] = s->turn[1][c + 6];
+    }
+    memcpy(s->turn[1], turned, sizeof turned);
+}
+
+/* A hull and a round body on the way past each other: gaps by the hull's feature are proved without
+ * it, with all three features, apart and in shallow overlap. GJK's and EPA's own are some 1e-11 off
+ * for smooth bodies. */
+static void hulls_with_round_bodies_are_proved_by_bounds(void **state)
+{
+    (void)state;
+    static const double gaps[] = {1e-9, 1e-6, 1e-3, 0.1, -1e-9, -1e-6, -1e-4, -1e-3};
+    int n_feature[4] = {0};
+    int n_open = 0;
+    for (uint64_t i = 0; i < 320; ++i) {
+        clx_rng rng = clx_rng_at(21, CLX_STREAM_TEST, i);
+        clx_contact_memory memory = {0};
+        scene s;
+        s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], i % 5 == 0 ? 0.2 : 1.0);
+        s.b = random_round(&rng);
+        if (i % 2 == 0) {
+            const clx_convex swap = s.a;
+            s.a = s.b;
+            s.b = swap;
+        }
+        draw_poses(&rng, gaps[i % 8], &s);
+        for (int step = 0; step < 12; ++step) {
+            clx_contact cold, warm;
+            assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &cold));
+            if (clx_hull_round_contact(&s.pair, &memory, &warm)) {
+                ++n_feature[memory.n];
+                check_by_bounds(&s, &warm, &cold);
+            } else {
+                n_open += cold.gap > -1e-3 ? 1 : 0;
+            }
+            assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &warm));
+            CHECK_ABS(warm.gap, cold.gap, 1e-9);
+            for (int k = 0; k < 3;
+                 ++k) { /* of two normals of one gap the points differ by its root */
+                CHECK_ABS(warm.normal[k], cold.normal[k], 1e-4);
+            }
+            move_on(&rng, warm.normal, step % 3 == 0 ? 0.02 : 1e-4, &s);
+        }
+    }
+    assert_true(n_feature[1] > 100 && n_feature[2] > 100 && n_feature[3] > 100);
+    assert_true(n_open < 40); /* of 3840: flat bodies that pierce each other's planes */
+}
+
+/* Over a box's faces, edges and corners the gap to a ball is in closed form, also where the foot is
+ * just on the border of two features; memories of other places, or that never were, change nothing.
+ */
+static void ball_at_a_box_has_its_closed_form(void **state)
+{
+    (void)state;
+    const double half[3] = {0.5, 0.4, 0.3};
+    static const double at[] = {-1.5, -1.0, -0.5, 0.0, 0.999999999, 1.0, 1.000000001, 1.2};
+    clx_contact_memory memory = {0};
+    for (int i = 0; i < 512; ++i) {
+        scene s = {.a = clx_convex_hull(cores[N_CORE - 3], 1.0), .b = clx_convex_sphere(0.25)};
+        clx_contact c;
+        double out2 = 0.0;
+        double inside = -INFINITY;
+        for (int k = 0; k < 3; ++k) {
+            s.pair.offset[k] = half[k] * at[(i >> (3 * k)) & 7];
+            const double d = fabs(s.pair.offset[k]) - half[k];
+            inside = fmax(inside, d);
+            out2 += d > 0.0 ? d * d : 0.0;
+        }
+        for (int k = 0; k < 9; ++k) {
+            s.turn[0][k] = s.turn[1][k] = UNTURNED[k];
+        }
+        join(&s);
+        if (i % 16 == 15) {
+            memset(&memory, 0xff, sizeof memory);
+            memory.kind = 0;
+        }
+        assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &c));
+        CHECK_ABS(c.gap, (inside > 0.0 ? sqrt(out2) : inside) - 0.25, 1e-14);
+        assert_true(!(sqrt(out2) > 0.1) || (memory.n >= 1 && memory.n <= 3));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -404,6 +520,8 @@ int main(void)
         cmocka_unit_test(lattice_hulls_equal_all_axes),
         cmocka_unit_test(round_pairs_equal_all_directions),
         cmocka_unit_test(round_and_hull_equal_all_directions),
+        cmocka_unit_test(hulls_with_round_bodies_are_proved_by_bounds),
+        cmocka_unit_test(ball_at_a_box_has_its_closed_form),
     };
     return cmocka_run_group_tests(tests, make_cores, free_cores);
 }
