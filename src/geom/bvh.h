@@ -39,6 +39,10 @@ bool clx_bvh_is_closed(const clast_mesh *mesh);
 /// rounding, also for slivers and triangles that are segments or points.
 double clx_triangle_closest(double corner[3][3], const double point[3], double closest[3]);
 
+/// What a triangle adds to the number of times that a vertical ray upwards from a point leaves the
+/// solid: +1, -1 or 0, exact (simulation of simplicity). *is_on when the triangle holds the point.
+int clx_triangle_crossing(double corner[3][3], const double point[3], bool *is_on);
+
 /// Generalised winding number of the surface about a point (an open surface's fraction); needs
 /// bvh->moment.
 double clx_bvh_solid_angle(const clast_bvh *bvh, const double point[3]);

@@ -39,7 +39,7 @@ static bool box_holds(double corner[3][3], const double point[3])
 
 /// True if the point is exactly on the closed triangle (which may be a segment or a point): it is
 /// in the triangle's plane and box, and no projection shows it outside.
-static bool is_on(double corner[3][3], const double point[3])
+static bool is_on_triangle(double corner[3][3], const double point[3])
 {
     if (!box_holds(corner, point) || clx_orient3d(corner[0], corner[1], corner[2], point) != 0.0) {
         return false;
@@ -76,6 +76,21 @@ static int crossing(double corner[3][3], const double point[3])
     return below * s > 0.0 ? s : 0;
 }
 
+int clx_triangle_crossing(double corner[3][3], const double point[3], bool *is_on)
+{
+    const bool left = point[0] < corner[0][0] && point[0] < corner[1][0] && point[0] < corner[2][0];
+    const bool right =
+        point[0] > corner[0][0] && point[0] > corner[1][0] && point[0] > corner[2][0];
+    const bool front =
+        point[1] < corner[0][1] && point[1] < corner[1][1] && point[1] < corner[2][1];
+    const bool back = point[1] > corner[0][1] && point[1] > corner[1][1] && point[1] > corner[2][1];
+    if (left || right || front || back) {
+        return 0; // seen from above, the point is beside the triangle's box
+    }
+    *is_on = is_on_triangle(corner, point);
+    return *is_on ? 0 : crossing(corner, point);
+}
+
 /// Sum of the crossings of the ray; *is_on_surface as soon as a triangle holds the point.
 static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool *is_on_surface)
 {
@@ -96,7 +111,7 @@ static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool
             continue;
         }
         for (int32_t i = node->first; i < node->first + node->count; ++i) {
-            if (is_on(bvh->corner[i], point)) {
+            if (is_on_triangle(bvh->corner[i], point)) {
                 *is_on_surface = true;
                 return 0;
             }

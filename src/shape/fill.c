@@ -110,8 +110,7 @@ clast_status clx_fill_open(const clast_mesh *mesh, bool allow_open, clx_fill *fi
               "a surface of %d triangles bounds no solid; at least 4 are needed", mesh->n_tri);
     CLX_TRY(clx_fill_solid_make(mesh, &fill->solid));
     CLX_TRY(check_solid(fill, allow_open));
-    CLX_TRY(clast_bvh_create(fill->solid.mesh, &fill->bvh));
-    CLX_TRY(clx_fill_field_create(fill->bvh, &fill->field));
+    CLX_TRY(clx_fill_field_create(fill->solid.mesh, &fill->field));
     clast_mesh_bounds(fill->solid.mesh, fill->low, fill->high);
     fill->extent = v3_distance(fill->low, fill->high);
     v3_copy(fill->balls.middle, fill->field.middle);
@@ -124,7 +123,6 @@ void clx_fill_free(clx_fill *fill)
 {
     clx_ball_set_free(&fill->balls);
     clx_fill_field_free(&fill->field);
-    clast_bvh_destroy(fill->bvh);
     clx_fill_solid_free(&fill->solid);
     *fill = (clx_fill){0};
 }

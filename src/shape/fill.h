@@ -1,7 +1,6 @@
 #pragma once
 // What the parts of clast_fill share: the task, the spheres placed so far, the interface of a
 // strategy, the errors of a sphere set.
-#include <clast/bvh.h>
 #include <clast/fill.h>
 
 #include "base/status.h"
@@ -16,8 +15,7 @@ typedef struct clx_fill {
     const clast_monitor *monitor; ///< or NULL
     const clast_mesh *surface;    ///< as given
     clx_fill_solid solid;         ///< closed
-    clast_bvh *bvh;               ///< of the closed surface
-    clx_fill_field field;         ///< distances to it
+    clx_fill_field field;         ///< its distances and its inside
     clast_mass mass;              ///< of the solid
     double low[3], high[3];
     double extent; ///< diagonal of the box
@@ -87,7 +85,7 @@ enum { CLX_FILL_WITNESSES = 24 };
 typedef struct clx_fill_planes {
     int n;
     double value[CLX_FILL_WITNESSES];
-    double gradient[CLX_FILL_WITNESSES][3];
+    double gradient[3][CLX_FILL_WITNESSES];
     double away[CLX_FILL_WITNESSES][3];   ///< from the sphere's centre, or the triangle's corner 0
     double radius[CLX_FILL_WITNESSES];    ///< of the sphere; 0 for a point or a triangle
     double (*tri[CLX_FILL_WITNESSES])[3]; ///< corner 0 and edges; NULL for a sphere
@@ -95,5 +93,6 @@ typedef struct clx_fill_planes {
 
 /// Upper bound of the greatest, over the cube, least of the convex functions; at least one.
 ///
-/// `step` is where the least of the linear ones is greatest.
-double clx_fill_bound(const clx_fill_planes *planes, double h, double step[3]);
+/// `step` is where the least of the linear ones is greatest. Fills the list up to a multiple of
+/// four with functions that are nowhere the least.
+double clx_fill_bound(clx_fill_planes *planes, double h, double step[3]);

@@ -1,9 +1,16 @@
-// The spheres placed so far. A scan compares four spheres at a time in floats with the least
+// The spheres placed so far. A scan compares eight spheres at a time in floats with the least
 // distance so far, and measures in double only what may be nearer.
 #include "shape/fill_balls.h"
 
 #include "base/alloc.h"
+#include "base/machine.h"
 #include "math/vec3.h"
+#include <string.h>
+
+// Vectors stay within one function, so the calling convention does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+enum { LANES = CLX_BALL_LANES };
 
 // Share of the frame's unit that covers the rounding of its floats for points within ten units.
 static const double FRAME_ERROR = 1e-5;
@@ -18,15 +25,17 @@ void clx_ball_set_free(clx_ball_set *set)
 clast_status clx_ball_set_add(clx_ball_set *set, const double centre[3], double radius)
 {
     clast_status status = CLAST_OK;
-    const int64_t at = set->n / 4;
-    const int slot = set->n % 4;
-    CLX_CHECK(set->n < INT32_MAX - 4, CLAST_E_LIMIT, "more than 2^31 spheres");
+    const int64_t at = set->n / LANES;
+    const int slot = set->n % LANES;
+    CLX_CHECK(set->n < INT32_MAX - LANES, CLAST_E_LIMIT, "more than 2^31 spheres");
     CLX_TRY(clx_grow(&set->ball, &set->ball_capacity, set->n + 1, sizeof *set->ball));
     CLX_TRY(clx_grow(&set->group, &set->group_capacity, at + 1, sizeof *set->group));
     clx_ball_group *group = &set->group[at];
     if (slot == 0) {
-        const clx_float4 none = {INFINITY, INFINITY, INFINITY, INFINITY};
-        *group = (clx_ball_group){.x = none};
+        *group = (clx_ball_group){0};
+        for (int k = 0; k < LANES; ++k) {
+            group->x[k] = INFINITY;
+        }
     }
     group->x[slot] = (float)((centre[0] - set->middle[0]) * set->scale);
     group->y[slot] = (float)((centre[1] - set->middle[1]) * set->scale);
@@ -53,24 +62,42 @@ clast_status clx_ball_set_spheres(const clx_ball_set *set, clast_spheres *sphere
     return status;
 }
 
+/// First group from `group` on with a sphere that may be nearer than `reach`; its spheres that may,
+/// as negative numbers.
+CLX_FOR_EACH_MACHINE
+static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[3], float reach,
+                          int32_t may[LANES])
+{
+    const int32_t n = (set->n + LANES - 1) / LANES;
+    for (; group < n; ++group) {
+        const clx_ball_group *g = &set->group[group];
+        const clx_float8 dx = g->x - f[0];
+        const clx_float8 dy = g->y - f[1];
+        const clx_float8 dz = g->z - f[2];
+        const clx_float8 sum = g->radius + reach;
+        const clx_int8 near = sum * sum - (dx * dx + dy * dy + dz * dz) >= 0.0F;
+        int64_t any[LANES / 2];
+        memcpy(any, &near, sizeof any);
+        if ((any[0] | any[1] | any[2] | any[3]) != 0) {
+            memcpy(may, &near, sizeof near);
+            break;
+        }
+    }
+    return group;
+}
+
 double clx_ball_set_distance(const clx_ball_set *set, int32_t first, const double point[3],
                              double limit, int32_t *nearest)
 {
-    const float x = (float)((point[0] - set->middle[0]) * set->scale);
-    const float y = (float)((point[1] - set->middle[1]) * set->scale);
-    const float z = (float)((point[2] - set->middle[2]) * set->scale);
+    const float f[3] = {(float)((point[0] - set->middle[0]) * set->scale),
+                        (float)((point[1] - set->middle[1]) * set->scale),
+                        (float)((point[2] - set->middle[2]) * set->scale)};
     double best = limit;
-    float reach = (float)(best * set->scale + FRAME_ERROR);
-    for (int32_t g = first / 4; 4 * g < set->n; ++g) {
-        const clx_ball_group *group = &set->group[g];
-        const clx_float4 dx = group->x - x;
-        const clx_float4 dy = group->y - y;
-        const clx_float4 dz = group->z - z;
-        const clx_float4 sum = group->radius + reach;
-        const clx_float4 room = sum * sum - (dx * dx + dy * dy + dz * dz);
-        for (int k = 0; k < 4 && clx_any(room >= 0.0F); ++k) {
-            const int32_t i = 4 * g + k;
-            if (room[k] >= 0.0F && i >= first) {
+    int32_t may[LANES];
+    for (int32_t g = first / LANES; LANES * g < set->n; ++g) {
+        g = next_group(set, g, f, (float)(best * set->scale + FRAME_ERROR), may);
+        for (int32_t i = LANES * g; i < LANES * (g + 1) && i < set->n; ++i) {
+            if (may[i - LANES * g] != 0 && i >= first) {
                 const double d = v3_distance(point, set->ball[i]) - set->ball[i][3];
                 if (d < best) {
                     best = d;
@@ -78,7 +105,6 @@ double clx_ball_set_distance(const clx_ball_set *set, int32_t first, const doubl
                     if (best < 0.0) {
                         return best;
                     }
-                    reach = (float)(best * set->scale + FRAME_ERROR);
                 }
             }
         }

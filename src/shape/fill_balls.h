@@ -7,25 +7,24 @@
 typedef float clx_float4 __attribute__((vector_size(16)));
 
 typedef int32_t clx_int4 __attribute__((vector_size(16)));
-typedef int64_t clx_long2 __attribute__((vector_size(16)));
 
-/// True if any of four comparisons holds.
-static inline bool clx_any(clx_int4 mask)
-{
-    const clx_long2 halves = (clx_long2)mask;
-    return (halves[0] | halves[1]) != 0;
-}
+/// Eight: two SSE2 registers or one of AVX2; blocks of the heap are aligned to 16.
+typedef float clx_float8 __attribute__((vector_size(32), aligned(16)));
 
-/// Four spheres side by side in the float frame (x - middle) * scale.
+typedef int32_t clx_int8 __attribute__((vector_size(32), aligned(16)));
+
+enum { CLX_BALL_LANES = 8 };
+
+/// Spheres side by side in the float frame (x - middle) * scale.
 typedef struct clx_ball_group {
-    clx_float4 x, y, z, radius; ///< an empty slot has x = INFINITY
+    clx_float8 x, y, z, radius; ///< an empty slot has x = INFINITY
 } clx_ball_group;
 
 typedef struct clx_ball_set {
     double middle[3], scale; ///< the float frame; sizes in it are about 1
     int32_t n;
     double (*ball)[4];     ///< [n] centre and radius
-    clx_ball_group *group; ///< [ceil(n / 4)]
+    clx_ball_group *group; ///< [ceil(n / CLX_BALL_LANES)]
     int64_t ball_capacity, group_capacity;
 } clx_ball_set;
 

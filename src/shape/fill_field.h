@@ -1,40 +1,59 @@
 #pragma once
-// Fast distance to the surface for clast_fill.
-#include "geom/bvh.h"
+// Distances to the surface and its inside, for clast_fill.
 #include "math/vec3.h"
 #include "shape/fill_balls.h"
+#include <clast/mesh.h>
 
-/// Four children side by side, boxes as middle and half size, in floats; see fill_field.c for the
-/// frame.
+/// Children of a node, triangles of a leaf.
+enum { CLX_FILL_LANES = 8, CLX_FILL_DEPTH = 48 };
+
+/// Eight children side by side, boxes as middle and half size, in floats of the field's frame.
 typedef struct clx_fill_node {
-    clx_float4 middle[3], half[3]; ///< an empty slot has half = -INFINITY
-    int32_t child[4];              ///< node number; or -1 - leaf number
+    clx_float8 middle[3], half[3]; ///< an empty slot has middle = INFINITY
+    int32_t child[CLX_FILL_LANES]; ///< node number; or -1 - leaf number
 } clx_fill_node;
 
-/// Up to four triangles side by side: corner and edges; an empty slot is a point far away.
+/// Up to eight triangles side by side: corner and edges; an empty slot is a point far away.
 typedef struct clx_fill_leaf {
-    clx_float4 a[3], ab[3], ac[3];
+    clx_float8 a[3], ab[3], ac[3];
     int32_t first; ///< triangle
+    int32_t count;
 } clx_fill_leaf;
 
 typedef struct clx_fill_field {
-    double middle[3], scale; ///< float frame: (x - middle) * scale
+    const clast_mesh *mesh;  ///< borrowed: closed
+    double middle[3], scale; ///< float frame: (x - middle) * scale, within [-1/2, 1/2]
     double error;            ///< a distance may be too large by this much
     clx_fill_node *node;     ///< [n_node] root first
     clx_fill_leaf *leaf;     ///< [n_leaf]
+    int32_t *item;           ///< [n_tri] triangle of the mesh, in leaf order
     double (*tri)[3][3];     ///< [n_tri] in leaf order: corner 0, edges to corners 1 and 2
-    double *size;            ///< [n_tri] radius of the bounding sphere
+    double *size;            ///< [n_tri] radius of a sphere that holds the triangle
     int64_t n_node, n_leaf;
     int64_t node_capacity, leaf_capacity;
 } clx_fill_field;
 
-clast_status clx_fill_field_create(const clast_bvh *bvh, clx_fill_field *field);
+/// A float coordinate of the frame is off by at most 2^-24 of its size; three of them, and the
+/// rounding of the distance itself, stay below this share of the frame's unit and of the distance.
+static const double CLX_FILL_FRAME_ERROR = 1e-6;
+
+/// Builds the tree of a closed surface.
+///
+/// @return CLAST_E_GEOMETRY for coordinates that are not finite or a surface without size
+clast_status clx_fill_field_create(const clast_mesh *mesh, clx_fill_field *field);
 void clx_fill_field_free(clx_fill_field *field);
 
 /// Distance to the surface if at most max_distance, else INFINITY; closest and tri (its number in
 /// the field) are then untouched. Never less than the distance, and more by field->error at most.
 double clx_fill_field_distance(const clx_fill_field *field, const double point[3],
                                double max_distance, double closest[3], int32_t *tri);
+
+/// The same to the last bit of a double, slivers and far points included; `closest` may be NULL.
+double clx_fill_field_closest(const clx_fill_field *field, const double point[3],
+                              double max_distance, double closest[3]);
+
+/// True inside and on the closed surface: exact crossings, the bits of clast_bvh_inside.
+bool clx_fill_field_inside(const clx_fill_field *field, const double point[3]);
 
 /// Weights of the edges from corner 0 at the closest point; p is relative to that corner.
 static inline void clx_fill_triangle_weights(const double ab[3], const double ac[3],

@@ -15,7 +15,15 @@
 #include "base/alloc.h"
 #include <string.h>
 
-enum { SAMPLES = 2, LEVELS = 60, CUBE_LIMIT = 1 << 26, SHRINKS = 2, CLIMBS = 8, WAYS = 4 };
+enum {
+    SAMPLES = 2,
+    LEVELS = 60,
+    CUBE_LIMIT = 1 << 26,
+    SHRINKS = 2,
+    CLIMBS = 8,
+    WAYS = 4,
+    CUBES_AT_FIRST = 1 << 15
+};
 
 /// Greatest outer ball, and how far from the wall it may end, in half edges of the cube. Measured:
 /// 3 and 12 half edges cost more on scans and on smooth grains.
@@ -189,7 +197,7 @@ static bool is_inside(const search *s, const cube *c, const double point[3], dou
     for (int32_t up = c->parent; side == 0 && up >= 0; up = s->cubes[up].parent) {
         side = side_by(s, &s->blocks[up / 8], point, d);
     }
-    return side != 0 ? side > 0 : clast_bvh_inside(s->fill->bvh, point);
+    return side != 0 ? side > 0 : clx_fill_field_inside(&s->fill->field, point);
 }
 
 /// True when the wall's plane at a sample's nearest point parts the cube.
@@ -256,6 +264,7 @@ static void measure(search *s, const cube *c, clx_fill_sample *p)
     if (d > p->value) {
         return; // nearer to a sphere than to the surface: inside, for spheres are
     }
+    p->size = (float)fill->field.size[p->tri];
     p->surface = is_inside(s, c, p->at, d) ? d : -d;
     p->value = p->surface;
     if (p->surface < 0.0) {
@@ -346,6 +355,13 @@ static void witnesses_of(const search *s, const cube *c, const clx_fill_region *
 {
     const ptrdiff_t own = (c - s->cubes) / 8;
     const block *families[2] = {&s->blocks[own], c->parent >= 0 ? &s->blocks[c->parent / 8] : NULL};
+    for (int k = 0; k < 2 && families[k] != NULL; ++k) {
+        for (int i = 0; i < families[k]->n; ++i) { // all at once: the waits for memory overlap
+            const char *p = (const char *)&s->samples[families[k]->sample[i]];
+            __builtin_prefetch(p);
+            __builtin_prefetch(p + 64);
+        }
+    }
     for (int i = 0; i < c->n_sample; ++i) {
         clx_fill_witnesses_add(s->fill, region, &s->samples[c->sample[i]], w);
     }
@@ -366,9 +382,6 @@ static void bound_cube(search *s, int32_t number)
     cube *c = &s->cubes[number];
     clx_fill_region region = {.half = s->half[c->level]};
     bound_by_samples(s, c, &s->blocks[number / 8]);
-    if (c->parent >= 0) {
-        bound_by_samples(s, c, &s->blocks[c->parent / 8]);
-    }
     if (c->upper < second(s)) {
         return; // the samples' reach was enough to sink it
     }
@@ -488,6 +501,8 @@ static clast_status create(clx_fill *fill, void **state)
     CLX_TRY(clx_alloc(&s, 1, sizeof *s));
     s->fill = fill;
     s->floor = fill->floor;
+    CLX_TRY(clx_grow(&s->cubes, &s->cube_capacity, CUBES_AT_FIRST, sizeof *s->cubes));
+    CLX_TRY(clx_grow(&s->samples, &s->sample_capacity, CUBES_AT_FIRST / 2, sizeof *s->samples));
     CLX_TRY(plant(s));
     *state = s;
     s = NULL;
@@ -584,9 +599,9 @@ static void climb(search *s, clx_fill_sample *best)
 static bool is_confirmed(const search *s, clx_fill_sample *p)
 {
     double closest[3];
-    const bool inside = clast_bvh_inside(s->fill->bvh, p->at);
-    const double d =
-        clast_bvh_closest(s->fill->bvh, p->at, inside ? p->value : (double)INFINITY, closest, NULL);
+    const bool inside = clx_fill_field_inside(&s->fill->field, p->at);
+    const double d = clx_fill_field_closest(&s->fill->field, p->at,
+                                            inside ? p->value : (double)INFINITY, closest);
     if (inside && d >= p->value * (1.0 - 1e-12)) {
         p->value = lesser(d, p->value);
         return true;

@@ -109,10 +109,10 @@ done:
 /// Share of its radius by which a sphere leaves the surface, at least 0.
 static double protrusion_of(const clx_fill *fill, const double centre[3], double radius)
 {
-    const bool inside = clast_bvh_inside(fill->bvh, centre);
+    const bool inside = clx_fill_field_inside(&fill->field, centre);
     // inside, only a surface nearer than the radius matters: a short search
     const double reach = inside ? radius : (double)INFINITY;
-    const double d = clast_bvh_closest(fill->bvh, centre, reach, NULL, NULL);
+    const double d = clx_fill_field_closest(&fill->field, centre, reach, NULL);
     if (inside) {
         return d < radius ? (radius - d) / radius : 0.0;
     }

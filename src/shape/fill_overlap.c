@@ -53,7 +53,7 @@ static void lattice_kernel(int64_t begin, int64_t end, int32_t worker, void *con
             const double p[3] = {w->first[0] + w->step * (double)i,
                                  w->first[1] + w->step * (double)j,
                                  w->first[2] + w->step * (double)k};
-            w->open[row * w->n[0] + i] = clast_bvh_inside(w->fill->bvh, p);
+            w->open[row * w->n[0] + i] = clx_fill_field_inside(&w->fill->field, p);
         }
     }
 }
@@ -103,8 +103,8 @@ static void shrink_ball(const clx_fill *fill, const double point[3], const doubl
         r = next;
     }
     // Only a place for a sphere came from above; its radius is asked of the exact tree.
-    const bool inside = clast_bvh_inside(fill->bvh, ball);
-    const double d = clast_bvh_closest(fill->bvh, ball, INFINITY, NULL, NULL);
+    const bool inside = clx_fill_field_inside(&fill->field, ball);
+    const double d = clx_fill_field_closest(&fill->field, ball, INFINITY, NULL);
     ball[3] = inside ? d / (1.0 - fill->config->protrusion) : 0.0;
 }
 

@@ -170,7 +170,7 @@ static double radius_at(clx_fill *fill, const work *w, const double point[3], do
     if (w->published) {
         return wall_distance(&w->wall, point, limit);
     }
-    return fmin(limit, clast_bvh_closest(fill->bvh, point, limit, closest, NULL));
+    return fmin(limit, clx_fill_field_closest(&fill->field, point, limit, closest));
 }
 
 /// Next random point that is inside the surface and in no sphere, with its radius.
@@ -189,7 +189,7 @@ static clast_status candidate(clx_fill *fill, work *w, double ball[4], bool *fou
             ball[k] = w->low[k] + (w->high[k] - w->low[k]) * clx_rng_uniform(&rng);
         }
         const double limit = clx_ball_set_distance(&fill->balls, 0, ball, INFINITY, &nearest);
-        if (limit <= 0.0 || !clast_bvh_inside(fill->bvh, ball)) {
+        if (limit <= 0.0 || !clx_fill_field_inside(&fill->field, ball)) {
             continue;
         }
         ball[3] = radius_at(fill, w, ball, limit);
@@ -218,7 +218,7 @@ static clast_status next(clx_fill *fill, void *state, double ball[4], bool *foun
     work *w = state;
     *found = false;
     if (fill->balls.n == 0 && fill->config->first_at_centre &&
-        (w->published || clast_bvh_inside(fill->bvh, w->mean))) {
+        (w->published || clx_fill_field_inside(&fill->field, w->mean))) {
         v3_copy(ball, w->mean);
         ball[3] = radius_at(fill, w, ball, INFINITY);
         *found = ball[3] >= fill->floor;

@@ -233,8 +233,10 @@ static void sort_open(const clast_mesh *mesh, work *w)
     w->first[0] = 0;
 }
 
-/// Caps the open edges of a base mesh, which becomes part of solid->capped.
-static clast_status cap_holes(const clast_mesh *base, work *w, clx_fill_solid *solid)
+/// Caps the open edges of a base mesh, which becomes part of solid->capped with its vertices moved
+/// as `map` says.
+static clast_status cap_holes(const clast_mesh *base, const int32_t *map, work *w,
+                              clx_fill_solid *solid)
 {
     clast_status status = CLAST_OK;
     CLX_CHECK(base->n_vert + w->n_edge < INT32_MAX && base->n_tri + w->n_edge < INT32_MAX,
@@ -244,7 +246,11 @@ static clast_status cap_holes(const clast_mesh *base, work *w, clx_fill_solid *s
     CLX_TRY(clast_mesh_alloc(base->n_vert + (int32_t)w->n_edge, base->n_tri + (int32_t)w->n_edge,
                              &solid->capped));
     memcpy(solid->capped.vert, base->vert, (size_t)base->n_vert * sizeof *base->vert);
-    memcpy(solid->capped.tri, base->tri, (size_t)base->n_tri * sizeof *base->tri);
+    for (int32_t t = 0; t < base->n_tri; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            solid->capped.tri[t][k] = map[base->tri[t][k]];
+        }
+    }
     solid->capped.n_vert = base->n_vert;
     solid->capped.n_tri = base->n_tri;
     sort_open(base, w);
@@ -253,14 +259,12 @@ done:
     return status;
 }
 
-/// Copy of the mesh in which vertices of open edges that nearly agree are one.
-static clast_status weld_open(const clast_mesh *mesh, const work *w, clast_mesh *welded)
+/// Vertex that each vertex becomes when those of open edges that nearly agree are one.
+static clast_status weld_open(const clast_mesh *mesh, const work *w, int32_t *map)
 {
     clast_status status = CLAST_OK;
     int32_t *order = NULL;
-    int32_t *map = NULL;
     int32_t n = 0;
-    CLX_TRY(clx_alloc(&map, mesh->n_vert, sizeof *map));
     CLX_TRY(clx_alloc(&order, w->n_edge, sizeof *order));
     for (int64_t i = 0; i < w->n_edge; ++i) { // every open vertex is the start of an open edge
         const int32_t v = w->edge[i].from;
@@ -272,15 +276,52 @@ static clast_status weld_open(const clast_mesh *mesh, const work *w, clast_mesh 
     const clx_weld_rule rule = {
         .tolerance = WELD * clx_mesh_extent(mesh), .order = order, .n_order = n};
     CLX_TRY(clx_weld_map(mesh, &rule, map));
-    CLX_TRY(clast_mesh_copy(mesh, welded));
-    for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        for (int k = 0; k < 3; ++k) {
-            welded->tri[t][k] = map[mesh->tri[t][k]];
+done:
+    clx_free(order);
+    return status;
+}
+
+/// By lower vertex, then by higher.
+static int compare_edges(const void *a, const void *b)
+{
+    const open_edge *p = a;
+    const open_edge *q = b;
+    const int32_t low[2] = {p->from < p->to ? p->from : p->to, q->from < q->to ? q->from : q->to};
+    const int32_t high[2] = {p->from < p->to ? p->to : p->from, q->from < q->to ? q->to : q->from};
+    return low[0] != low[1] ? (low[0] > low[1]) - (low[0] < low[1])
+                            : (high[0] > high[1]) - (high[0] < high[1]);
+}
+
+/// Moves the open edges to the vertices they become and lets opposite ones cancel. Edges that were
+/// not open stay so: wherever they go, both directions go along.
+static clast_status close_seams(const int32_t *map, work *w, clx_fill_solid *solid)
+{
+    clast_status status = CLAST_OK;
+    open_edge *old = w->edge;
+    const int64_t n = w->n_edge;
+    w->edge = NULL;
+    w->n_edge = w->edge_capacity = 0;
+    *solid = (clx_fill_solid){0};
+    for (int64_t i = 0; i < n; ++i) {
+        old[i].from = map[old[i].from];
+        old[i].to = map[old[i].to];
+    }
+    qsort(old, (size_t)n, sizeof *old, compare_edges);
+    for (int64_t i = 0, end = 0; i < n; i = end) {
+        int64_t net = 0;
+        for (end = i; end < n && compare_edges(&old[i], &old[end]) == 0; ++end) {
+            net += old[end].from > old[end].to ? 1 : old[end].from < old[end].to ? -1 : 0;
+        }
+        if (net != 0) {
+            const bool upwards = old[i].from < old[i].to;
+            ++solid->n_open_edge;
+            solid->n_turned_edge += net > 1 || net < -1;
+            CLX_TRY(add_open(w, upwards ? old[i].from : old[i].to,
+                             upwards ? old[i].to : old[i].from, net));
         }
     }
 done:
-    clx_free(map);
-    clx_free(order);
+    clx_free(old);
     return status;
 }
 
@@ -288,23 +329,21 @@ clast_status clx_fill_solid_make(const clast_mesh *mesh, clx_fill_solid *solid)
 {
     clast_status status = CLAST_OK;
     work w = {0};
-    clast_mesh welded = {0};
+    int32_t *map = NULL;
     clx_fill_solid made = {.mesh = mesh};
     CLX_TRY(sort_edges(mesh, &w));
     CLX_TRY(find_open(mesh, &w, &made));
     if (w.n_edge > 0) {
-        CLX_TRY(weld_open(mesh, &w, &welded));
-        free_work(&w);
-        made = (clx_fill_solid){0};
-        CLX_TRY(sort_edges(&welded, &w));
-        CLX_TRY(find_open(&welded, &w, &made));
-        CLX_TRY(cap_holes(&welded, &w, &made));
+        CLX_TRY(clx_alloc(&map, mesh->n_vert, sizeof *map));
+        CLX_TRY(weld_open(mesh, &w, map));
+        CLX_TRY(close_seams(map, &w, &made));
+        CLX_TRY(cap_holes(mesh, map, &w, &made));
     }
     *solid = made;
     solid->mesh = made.capped.n_tri > 0 ? &solid->capped : mesh;
     made = (clx_fill_solid){0};
 done:
-    clast_mesh_free(&welded);
+    clx_free(map);
     clx_fill_solid_free(&made);
     free_work(&w);
     return status;

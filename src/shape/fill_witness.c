@@ -6,13 +6,12 @@
 #include "shape/fill_witness.h"
 
 #include "math/vec3.h"
-#include <string.h>
 
 void clx_fill_witnesses_clear(clx_fill_witnesses *w)
 {
     w->planes.n = 0;
     w->n_known = 0;
-    memset(w->known, 0x7f, sizeof w->known); // no name
+    w->digest = 0;
 }
 
 /// Bound by one witness, a sphere of radius r (0: a surface point): |x - p| - r over the cube.
@@ -30,27 +29,32 @@ static void add_plane(clx_fill_planes *planes, const clx_fill_region *c, const d
     if (planes->n < CLX_FILL_WITNESSES && d2 <= reach * reach) { // else above all known in the cube
         const int j = planes->n++;
         const double d = sqrt(d2);
+        // the cube's width along g, halved, is along / d
         const double along = h * (fabs(away[0]) + fabs(away[1]) + fabs(away[2]));
-        const double width = d > 0.0 ? along / d : h; // of the cube along g, halved
-        const double most = d > width ? d : width;
+        const double most = along < d2 ? d : d > 0.0 ? along / d : h;
         v3_copy(planes->away[j], away);
         planes->radius[j] = r;
         planes->tri[j] = NULL;
         planes->value[j] = most - r + h * h / (d + h);
-        v3_scale(planes->gradient[j], 1.0 / most, away);
+        const double per_most = 1.0 / most;
+        for (int k = 0; k < 3; ++k) {
+            planes->gradient[k][j] = per_most * away[k];
+        }
     }
 }
 
 /// True, and noted, when a sphere or triangle is new and there is room for it.
 static bool is_new(clx_fill_witnesses *w, int32_t name)
 {
-    clx_int4 same = {0};
-    for (int j = 0; j < CLX_FILL_WITNESSES / 4; ++j) { // all: no branch to predict
-        same |= w->known4[j] == name;
+    const uint64_t bit = (uint64_t)1 << ((uint32_t)name * 0x9e3779b1u >> 26);
+    bool is_known = w->n_known == CLX_FILL_WITNESSES;
+    for (int j = 0; (w->digest & bit) != 0 && j < w->n_known; ++j) { // few names share a bit
+        is_known = is_known || w->known[j] == name;
     }
-    if (clx_any(same) || w->n_known == CLX_FILL_WITNESSES) {
+    if (is_known) {
         return false;
     }
+    w->digest |= bit;
     w->known[w->n_known++] = name;
     return true;
 }
@@ -65,7 +69,7 @@ static void add_surface(const clx_fill *fill, clx_fill_witnesses *w, const clx_f
         return;
     }
     const int j = w->planes.n;
-    if (p->tri < 0 || field->size[p->tri] < c->half) {
+    if (p->tri < 0 || (double)p->size < c->half) {
         v3_sub(away, c->centre, p->nearest);
         add_plane(&w->planes, c, away, 0.0);
         return;
@@ -76,7 +80,7 @@ static void add_surface(const clx_fill *fill, clx_fill_witnesses *w, const clx_f
     add_plane(&w->planes, c, away, 0.0);
     if (w->planes.n > j) {
         const double h = c->half;
-        const double size = field->size[p->tri];
+        const double size = (double)p->size;
         w->planes.tri[j] = field->tri[p->tri];
         v3_copy(w->planes.away[j], from_corner);
         w->planes.value[j] -= h * h / (v3_norm(away) + h) * size / (size + h);

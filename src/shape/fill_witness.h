@@ -13,6 +13,7 @@ typedef struct clx_fill_sample {
     int32_t ball;        ///< the nearer sphere, or -1
     int32_t tri;         ///< nearest triangle of the field, with a known `surface`; -1: not known
     int32_t seen;
+    float size; ///< of that triangle, the radius of a sphere that holds it
 } clx_fill_sample;
 
 /// A cube, and what is known to bound f inside.
@@ -24,10 +25,8 @@ typedef struct clx_fill_region {
 
 typedef struct clx_fill_witnesses {
     clx_fill_planes planes;
-    union {
-        int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
-        clx_int4 known4[CLX_FILL_WITNESSES / 4];
-    };
+    uint64_t digest;                   ///< a bit for each name that is known, by its hash
+    int32_t known[CLX_FILL_WITNESSES]; ///< spheres, and -1 - triangles, taken already
     int n_known;
 } clx_fill_witnesses;
 
