@@ -16,4 +16,15 @@
 #define CLX_FOR_EACH_MACHINE
 #endif
 
+/// Whether the compiler can make what only a machine with vectors of eight doubles runs, in files
+/// of their own (CLX_WIDE of math/lanes.h).
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) &&                        \
+    !defined(__SANITIZE_THREAD__) && __GNUC__ >= 12
+#define CLX_MAKES_WIDE 1
+#define CLX_IS_WIDE    (__builtin_cpu_supports("x86-64-v4") != 0)
+#else
+#define CLX_MAKES_WIDE 0
+#define CLX_IS_WIDE    0
+#endif
+
 #define CLX_INLINE static inline __attribute__((always_inline))

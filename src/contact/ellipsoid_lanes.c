@@ -10,13 +10,6 @@
 static_assert(offsetof(clx_convex, round) == offsetof(clx_convex, semi_axes) + 24,
               "semi-axes and rounding of a shape stand in a row");
 
-CLX_INLINE void gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
-{
-    lanes_gather(out, p[0], p[1], p[2], p[3]);
-    lanes_gather(out + 4, p[0] + 4, p[1] + 4, p[2] + 4, p[3] + 4);
-    out[8] = (clx_lanes){p[0][8], p[1][8], p[2][8], p[3][8]};
-}
-
 /// clx_ellipsoid_matrix
 CLX_INLINE void matrix(const clx_lanes r[9], const clx_lanes axes[3], clx_lanes m[6])
 {
@@ -51,7 +44,7 @@ CLX_INLINE void read_side(const double *const turn[CLX_LANES], const clx_convex 
                           side *out)
 {
     clx_lanes r[9], axes[4];
-    gather_nine(turn, r);
+    clx_gather_nine(turn, r);
     lanes_gather(axes, shape[0]->semi_axes, shape[1]->semi_axes, shape[2]->semi_axes,
                  shape[3]->semi_axes);
     matrix(r, axes, out->matrix);
@@ -186,30 +179,31 @@ CLX_INLINE clx_marks follow(const side *a, const side *b, const clx_lanes offset
 }
 
 CLX_FOR_EACH_MACHINE
-int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const shape_a[CLX_LANES],
+int clx_ellipsoids_again(clx_pair_batch *batch, int from,
+                         const clx_convex *const shape_a[CLX_LANES],
                          const clx_convex *const shape_b[CLX_LANES])
 {
     side a, b;
+    const float *seen[CLX_LANES];
     clx_lanes offset[3], m[4], n[3], tip[3];
     clx_lanes s = lanes_all(0.0);
-    read_side(batch->turn_a, shape_a, &a);
-    read_side(batch->turn_b, shape_b, &b);
+    read_side(batch->turn_a + from, shape_a, &a);
+    read_side(batch->turn_b + from, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
-        m[k] =
-            __builtin_convertvector(*(const clx_floats_at *)batch->memory[k]->seen[0], clx_lanes);
+        seen[k] = batch->memory[from + k]->seen[0];
     }
-    lanes_transpose(m);
+    lanes_collect_floats(m, seen);
     for (int c = 0; c < 3; ++c) {
-        offset[c] = lanes_load(batch->offset[c]);
+        offset[c] = lanes_load(batch->offset[c] + from);
         m[c] = -m[c];
     }
     const clx_marks is_done = follow(&a, &b, offset, m, &s);
     (void)support(a.matrix, m, tip);
-    lanes_store(batch->gap, s);
+    lanes_store(batch->gap + from, s);
     for (int c = 0; c < 3; ++c) {
         n[c] = -1.0 * m[c];
-        lanes_store(batch->normal[c], n[c]);
-        lanes_store(batch->point[c], tip[c] + -0.5 * s * n[c]);
+        lanes_store(batch->normal[c] + from, n[c]);
+        lanes_store(batch->point[c] + from, tip[c] + -0.5 * s * n[c]);
     }
     return lanes_bits(is_done & (s > -(a.roundness + b.roundness)));
 }

@@ -3,8 +3,8 @@
 // clx_pair_contact.
 #include "contact/facet_lanes.h"
 
-/// Pairs of ellipsoids without rounding; a and b are their shapes. Returns which lanes are
-/// answered, as bits: those whose normal has moved little and whose overlap is shallow.
-/// What the others get is undefined; memories are the caller's to renew.
-int clx_ellipsoids_again(clx_pair_batch *batch, const clx_convex *const a[CLX_LANES],
+/// Four pairs of ellipsoids without rounding, from lane `from` on; a and b are their shapes.
+/// Returns which lanes are answered, as bits: those whose normal has moved little and whose overlap
+/// is shallow. What the others get is undefined; memories are the caller's to renew.
+int clx_ellipsoids_again(clx_pair_batch *batch, int from, const clx_convex *const a[CLX_LANES],
                          const clx_convex *const b[CLX_LANES]);

@@ -1,21 +1,24 @@
 #pragma once
-// Remembered facets of four pairs asked again side by side: the bits of clx_facet_again, which is
-// the twin that tests compare; reasons and equations are in facet_memory.c. Inline, so that what a
-// contact does next shares the registers (dem/batch.c).
+// Remembered facets of four pairs (eight) asked again side by side: the bits of clx_facet_again,
+// which is the twin that tests compare; reasons and equations are in facet_memory.c. Inline, so
+// that what a contact does next shares the registers (dem/batch.c).
 #include "contact/convex.h"
 #include "contact/facet.h"
 #include "math/lanes.h"
 #include <assert.h>
 #include <stddef.h>
 
-/// Four pairs with memories; all four are filled (repeat one where there are fewer).
+/// Pairs that go on side by side: all eight, or four after four.
+enum { CLX_BATCH = 8 };
+
+/// Pairs with memories; all fours that are asked are filled (repeat one where there are fewer).
 typedef struct clx_pair_batch {
-    const double *turn_a[CLX_LANES], *turn_b[CLX_LANES]; ///< [9] each
-    const clx_contact_memory *memory[CLX_LANES];
-    double offset[3][CLX_LANES]; ///< position of b minus that of a
-    double gap[CLX_LANES];       ///< from here on: the contacts, without rounding
-    double normal[3][CLX_LANES]; ///< from b to a
-    double point[3][CLX_LANES];
+    const double *turn_a[CLX_BATCH], *turn_b[CLX_BATCH]; ///< [9] each
+    const clx_contact_memory *memory[CLX_BATCH];
+    double offset[3][CLX_BATCH]; ///< position of b minus that of a
+    double gap[CLX_BATCH];       ///< from here on: the contacts, without rounding
+    double normal[3][CLX_BATCH]; ///< from b to a
+    double point[3][CLX_BATCH];
 } clx_pair_batch;
 
 /// Their contacts, without rounding.
@@ -23,43 +26,45 @@ typedef struct clx_meet_lanes {
     clx_lanes gap, normal[3], point[3];
 } clx_meet_lanes;
 
-typedef float clx_floats __attribute__((vector_size(16)));
-typedef float clx_floats_at __attribute__((vector_size(16), aligned(4), may_alias));
-
 /// sure, seen[0] to limit[0] stand in a row, which two loads of four floats rely on.
 static_assert(offsetof(clx_contact_memory, seen) == offsetof(clx_contact_memory, sure) + 4 &&
                   offsetof(clx_contact_memory, limit) == offsetof(clx_contact_memory, sure) + 28,
               "floats of a record stand in a row");
 
-CLX_INLINE void lanes_gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
+CLX_INLINE void clx_gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
 {
-    lanes_gather(out, p[0], p[1], p[2], p[3]);
-    lanes_gather(out + 4, p[0] + 4, p[1] + 4, p[2] + 4, p[3] + 4);
-    out[8] = (clx_lanes){p[0][8], p[1][8], p[2][8], p[3][8]};
-}
-
-CLX_INLINE clx_lanes lanes_widened(const float *p)
-{
-    const clx_floats f = *(const clx_floats_at *)p;
-    return __builtin_convertvector(f, clx_lanes);
+    const double *more[CLX_LANES];
+    for (int k = 0; k < CLX_LANES; ++k) {
+        more[k] = p[k] + 4;
+        out[8][k] = p[k][8];
+    }
+    lanes_collect(out, p);
+    lanes_collect(out + 4, more);
 }
 
 /// sure, seen[0] (3), seen[1] (3), limit[0]; limit[1].
-CLX_INLINE void clx_gather_limits(const clx_pair_batch *batch, clx_lanes out[9])
+CLX_INLINE void clx_gather_limits(const clx_contact_memory *const memory[CLX_LANES],
+                                  clx_lanes out[9])
 {
+    const float *first[CLX_LANES];
+    const float *second[CLX_LANES];
     for (int k = 0; k < CLX_LANES; ++k) {
-        out[k] = lanes_widened(&batch->memory[k]->sure);
-        out[4 + k] = lanes_widened(&batch->memory[k]->seen[1][0]);
-        out[8][k] = (double)batch->memory[k]->limit[1];
+        first[k] = &memory[k]->sure;
+        second[k] = memory[k]->seen[1];
+        out[8][k] = (double)memory[k]->limit[1];
     }
-    lanes_transpose(out);
-    lanes_transpose(out + 4);
+    lanes_collect_floats(out, first);
+    lanes_collect_floats(out + 4, second);
 }
 
-CLX_INLINE void clx_gather_data(const clx_pair_batch *batch, int from, clx_lanes out[4])
+CLX_INLINE void clx_gather_data(const clx_contact_memory *const memory[CLX_LANES], int from,
+                                clx_lanes out[4])
 {
-    lanes_gather(out, batch->memory[0]->data + from, batch->memory[1]->data + from,
-                 batch->memory[2]->data + from, batch->memory[3]->data + from);
+    const double *data[CLX_LANES];
+    for (int k = 0; k < CLX_LANES; ++k) {
+        data[k] = memory[k]->data + from;
+    }
+    lanes_collect(out, data);
 }
 
 CLX_INLINE clx_lanes clx_drift2(const clx_lanes x[3], const clx_lanes seen[3])
@@ -68,28 +73,29 @@ CLX_INLINE clx_lanes clx_drift2(const clx_lanes x[3], const clx_lanes seen[3])
     return lanes_dot(d, d);
 }
 
-/// Memories of kinds FACE_VERTEX and VERTEX_FACE. Returns which lanes are answered; what the others
-/// get is undefined.
-CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, const clx_lanes offset[3],
-                                     clx_meet_lanes *out)
+/// Memories of kinds FACE_VERTEX and VERTEX_FACE, from lane `from` on. Returns which lanes are
+/// answered; what the others get is undefined.
+CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, int from,
+                                     const clx_lanes offset[3], clx_meet_lanes *out)
 {
+    const clx_contact_memory *const *memory = batch->memory + from;
     const double *own[CLX_LANES];
     const double *other[CLX_LANES];
     clx_lanes turn[9], data[8], seen[9], n[3], x[3], q[3], p[3], d[3];
     clx_lanes sign, first = {0.0}, second = {0.0};
     for (int k = 0; k < CLX_LANES; ++k) {
         // without a branch: which of the two has the face is anybody's guess
-        const double *const turn_of[2] = {batch->turn_a[k], batch->turn_b[k]};
-        const int has = batch->memory[k]->kind != CLX_FACET_FACE_VERTEX; // b has the face
+        const double *const turn_of[2] = {batch->turn_a[from + k], batch->turn_b[from + k]};
+        const int has = memory[k]->kind != CLX_FACET_FACE_VERTEX; // b has the face
         own[k] = turn_of[has];
         other[k] = turn_of[1 - has];
         sign[k] = (double)(2 * has - 1);
     }
-    clx_gather_data(batch, 0, data);
-    clx_gather_data(batch, 4, data + 4);
-    lanes_gather_nine(own, turn);
+    clx_gather_data(memory, 0, data);
+    clx_gather_data(memory, 4, data + 4);
+    clx_gather_nine(own, turn);
     lanes_mul(n, turn, data);
-    lanes_gather_nine(other, turn);
+    clx_gather_nine(other, turn);
     lanes_mul(x, turn, data + 4);
     lanes_mul_t(q, turn, n);
     for (int c = 0; c < 3; ++c) { // the offset goes on x, or is taken off what p is made of
@@ -98,9 +104,9 @@ CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, const clx_lane
         x[c] = x[c] + first;
         d[c] = x[c] - second;
     }
-    lanes_gather_nine(own, turn);
+    clx_gather_nine(own, turn);
     lanes_mul_t(p, turn, d);
-    clx_gather_limits(batch, seen);
+    clx_gather_limits(memory, seen);
     const clx_lanes gap = lanes_dot(data, p) - data[3];
     const clx_lanes margin = seen[7] + lanes_lesser(seen[0] * gap, lanes_all(0.0));
     out->gap = gap;
@@ -113,18 +119,19 @@ CLX_INLINE clx_marks clx_faces_again(const clx_pair_batch *batch, const clx_lane
 }
 
 /// Memories of kind EDGE_EDGE.
-CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, const clx_lanes offset[3],
-                                     clx_meet_lanes *out)
+CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, int from,
+                                     const clx_lanes offset[3], clx_meet_lanes *out)
 {
+    const clx_contact_memory *const *memory = batch->memory + from;
     clx_lanes turn_a[9], turn_b[9], data[12], seen[9];
     clx_lanes a[3], e[3], b[3], f[3], n[3], w[3], c[3], m[3], ma[3], mb[3], point[3], sign;
-    clx_gather_data(batch, 0, data);
-    clx_gather_data(batch, 4, data + 4);
-    clx_gather_data(batch, 8, data + 8);
-    lanes_gather_nine(batch->turn_a, turn_a);
+    clx_gather_data(memory, 0, data);
+    clx_gather_data(memory, 4, data + 4);
+    clx_gather_data(memory, 8, data + 8);
+    clx_gather_nine(batch->turn_a + from, turn_a);
     lanes_mul(a, turn_a, data);
     lanes_mul(e, turn_a, data + 3);
-    lanes_gather_nine(batch->turn_b, turn_b);
+    clx_gather_nine(batch->turn_b + from, turn_b);
     lanes_mul(b, turn_b, data + 6);
     lanes_mul(f, turn_b, data + 9);
     for (int k = 0; k < 3; ++k) {
@@ -137,7 +144,7 @@ CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, const clx_lane
     const clx_lanes f2 = lanes_dot(f, f);
     clx_marks good = n2 > 1e-16 * e2 * f2;
     for (int k = 0; k < CLX_LANES; ++k) {
-        sign[k] = 1.0 - 2.0 * (double)batch->memory[k]->n; // n is 0 or 1
+        sign[k] = 1.0 - 2.0 * (double)memory[k]->n; // n is 0 or 1
     }
     const clx_lanes inverse = 1.0 / lanes_root(n2);
     for (int k = 0; k < 3; ++k) {
@@ -153,7 +160,7 @@ CLX_INLINE clx_marks clx_edges_again(const clx_pair_batch *batch, const clx_lane
     lanes_axpy(point, a, s * (inverse * inverse), e);
     lanes_mul_t(ma, turn_a, m);
     lanes_mul_t(mb, turn_b, m);
-    clx_gather_limits(batch, seen);
+    clx_gather_limits(memory, seen);
     const clx_lanes wanted = lanes_lesser(seen[0] * gap, lanes_all(0.0));
     const clx_lanes wanted2 = wanted * wanted * n2;
     good &= (inside_a > 0.0) & (inside_b > 0.0) & (inside_a * inside_a > wanted2 * f2) &

@@ -1,5 +1,5 @@
 #pragma once
-// Contacts of one kind, four side by side.
+// Contacts of one kind, up to eight side by side.
 #include "contact/facet_lanes.h"
 #include "dem/push.h"
 
@@ -13,13 +13,13 @@ typedef enum {
 } clx_batch_kind;
 
 typedef struct clx_batch {
-    int n;                     ///< contacts in it; the lanes beyond repeat the last
-    clx_pushed *to[CLX_LANES]; ///< where what they do is written
-    clx_link *link[CLX_LANES]; ///< awake
-    double travel[CLX_LANES];  ///< of both grains
-    const clx_grain *a[CLX_LANES], *b[CLX_LANES];
+    int n; ///< contacts in it, 1 to CLX_BATCH; the places beyond repeat the last
+    clx_pushed *to[CLX_BATCH]; ///< where what they do is written
+    clx_link *link[CLX_BATCH]; ///< awake
+    double travel[CLX_BATCH];  ///< of both grains
+    const clx_grain *a[CLX_BATCH], *b[CLX_BATCH];
     clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
-    double arm_b[3][CLX_LANES]; ///< from b's centre to the contact point
+    double arm_b[3][CLX_BATCH]; ///< from b's centre to the contact point
 } clx_batch;
 
 /// Where pairs of spheres meet, and arms.
@@ -39,7 +39,7 @@ static inline bool clx_batch_has_law(const clx_law *law)
     return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
 }
 
-/// What four contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
+/// What contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
 /// pushes, displacements and whether they touch; where one is apart, when it may wake. Walls are
 /// looked for if there may be any.
 void clx_batch_push(const clast_dem *dem, const clx_batch *batch, bool has_walls);

@@ -50,13 +50,16 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
 /// Remembered common normals; returns which lanes are answered.
 static int ask_normals(const clast_dem *dem, clx_batch *p)
 {
-    const clx_convex *a[CLX_LANES];
-    const clx_convex *b[CLX_LANES];
-    for (int k = 0; k < CLX_LANES; ++k) {
+    int answered = 0;
+    const clx_convex *a[CLX_BATCH];
+    const clx_convex *b[CLX_BATCH];
+    for (int k = 0; k < CLX_BATCH; ++k) {
         a[k] = &dem->convex[p->link[k]->a];
         b[k] = &dem->convex[p->link[k]->b];
     }
-    const int answered = clx_ellipsoids_again(&p->meet, a, b);
+    for (int from = 0; from < p->n; from += CLX_LANES) {
+        answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
+    }
     for (int k = 0; k < p->n; ++k) {
         clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot].record;
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
@@ -75,7 +78,7 @@ static void find_rest(clast_dem *dem, clx_batch *p, int answered)
             find_one(dem, p, k);
         }
     }
-    for (int k = p->n; k < CLX_LANES; ++k) {
+    for (int k = p->n; k < CLX_BATCH; ++k) {
         p->meet.gap[k] = p->meet.gap[last];
         for (int c = 0; c < 3; ++c) {
             p->meet.normal[c][k] = p->meet.normal[c][last];
@@ -107,7 +110,8 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     default:
         break;
     }
-    if (answered != (1 << CLX_LANES) - 1) {
+    const int all = (1 << p->n) - 1;
+    if ((answered & all) != all) {
         find_rest(dem, p, answered);
     }
 }
@@ -224,8 +228,8 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
                         clx_batch *p)
 {
     const int last = s->n[kind] - 1;
-    p->n = last - from < CLX_LANES ? last - from + 1 : CLX_LANES;
-    for (int k = 0; k < CLX_LANES; ++k) {
+    p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
+    for (int k = 0; k < CLX_BATCH; ++k) {
         const int i = s->at[kind][from + k < last ? from + k : last];
         clx_link *link = &dem->list.link[s->link[i]];
         p->to[k] = &s->push[i];
@@ -245,8 +249,8 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
     clx_batch batch;
     sort_awake(dem, n, s);
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
-        for (int from = 0; from < s->n[kind]; from += CLX_LANES) {
-            const int end = from + REST_AHEAD + CLX_LANES;
+        for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
+            const int end = from + REST_AHEAD + CLX_BATCH;
             for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
                  ++k) {
                 fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]], (clx_batch_kind)kind);

@@ -1,5 +1,5 @@
 #pragma once
-// Four doubles side by side, and vectors of three of them.
+// Four doubles side by side (eight in a few files), and vectors of three of them.
 //
 // Written with the compilers' vector types: one AVX2 register where a function is compiled for
 // that (base/machine.h), two SSE2 halves on any x86-64, NEON pairs on ARM. Every operation is the
@@ -13,15 +13,24 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
+#ifndef CLX_WIDE
 enum { CLX_LANES = 4 };
+#else // before the first include: eight lanes, for files that only such a machine runs
+#include <immintrin.h>
+enum { CLX_LANES = 8 };
+#endif
 
-typedef double clx_lanes __attribute__((vector_size(32)));
-typedef int64_t clx_marks __attribute__((vector_size(32))); ///< a lane is all ones, or 0
-typedef double clx_lanes_at __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double clx_lanes __attribute__((vector_size(8 * CLX_LANES)));
+typedef int64_t clx_marks __attribute__((vector_size(8 * CLX_LANES))); ///< a lane: all ones, or 0
+typedef double clx_lanes_at __attribute__((vector_size(8 * CLX_LANES), aligned(8), may_alias));
 
 CLX_INLINE clx_lanes lanes_all(double x)
 {
+#ifdef CLX_WIDE
+    return (clx_lanes){x, x, x, x, x, x, x, x};
+#else
     return (clx_lanes){x, x, x, x};
+#endif
 }
 
 CLX_INLINE clx_lanes lanes_load(const double *p)
@@ -42,13 +51,16 @@ CLX_INLINE clx_lanes lanes_pick(clx_marks m, clx_lanes yes, clx_lanes no)
 
 CLX_INLINE clx_lanes lanes_root(clx_lanes a)
 {
+#ifdef CLX_WIDE
+    return (clx_lanes)_mm512_sqrt_pd((__m512d)a);
+#else
     return (clx_lanes){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])};
+#endif
 }
 
 CLX_INLINE clx_lanes lanes_size(clx_lanes a)
 {
-    const clx_marks all_but_sign = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
-    return (clx_lanes)((clx_marks)a & all_but_sign);
+    return (clx_lanes)((clx_marks)a & INT64_MAX); // all but the sign
 }
 
 /// lesser_of of each lane (math/least.h).
@@ -57,15 +69,29 @@ CLX_INLINE clx_lanes lanes_lesser(clx_lanes a, clx_lanes b)
     return lanes_pick(a < b, a, b);
 }
 
-/// Which lanes are marked, as bits 0 to 3.
+/// Which lanes are marked, as bits.
 CLX_INLINE int lanes_bits(clx_marks m)
 {
+#ifdef CLX_WIDE
+    return (int)_mm512_movepi64_mask((__m512i)m);
+#else
     return (int)((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
+#endif
 }
 
-/// Rows become columns.
+/// Rows become columns, within each four lanes.
 CLX_INLINE void lanes_transpose(clx_lanes r[4])
 {
+#ifdef CLX_WIDE
+    const clx_lanes a = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
+    const clx_lanes b = __builtin_shufflevector(r[0], r[1], 1, 9, 3, 11, 5, 13, 7, 15);
+    const clx_lanes c = __builtin_shufflevector(r[2], r[3], 0, 8, 2, 10, 4, 12, 6, 14);
+    const clx_lanes d = __builtin_shufflevector(r[2], r[3], 1, 9, 3, 11, 5, 13, 7, 15);
+    r[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
+    r[1] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
+    r[2] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
+    r[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
+#else
     const clx_lanes a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6);
     const clx_lanes b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
     const clx_lanes c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6);
@@ -74,29 +100,75 @@ CLX_INLINE void lanes_transpose(clx_lanes r[4])
     r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
     r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
     r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+#endif
 }
 
+/// out[c] = element c of each record.
+CLX_INLINE void lanes_collect(clx_lanes out[4], const double *const record[CLX_LANES])
+{
+#ifdef CLX_WIDE
+    for (int k = 0; k < 4; ++k) {
+        const __m256d low = _mm256_loadu_pd(record[k]);
+        const __m256d high = _mm256_loadu_pd(record[k + 4]);
+        out[k] = (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+    }
+#else
+    for (int k = 0; k < 4; ++k) {
+        out[k] = lanes_load(record[k]);
+    }
+#endif
+    lanes_transpose(out);
+}
+
+/// The same of floats.
+CLX_INLINE void lanes_collect_floats(clx_lanes out[4], const float *const record[CLX_LANES])
+{
+#ifdef CLX_WIDE
+    for (int k = 0; k < 4; ++k) {
+        const __m256d low = _mm256_cvtps_pd(_mm_loadu_ps(record[k]));
+        const __m256d high = _mm256_cvtps_pd(_mm_loadu_ps(record[k + 4]));
+        out[k] = (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+    }
+#else
+    typedef float floats __attribute__((vector_size(16)));
+    typedef float floats_at __attribute__((vector_size(16), aligned(4), may_alias));
+    for (int k = 0; k < 4; ++k) {
+        const floats f = *(const floats_at *)record[k];
+        out[k] = __builtin_convertvector(f, clx_lanes);
+    }
+#endif
+    lanes_transpose(out);
+}
+
+/// The way back.
+CLX_INLINE void lanes_deal(const clx_lanes in[4], double *const record[CLX_LANES])
+{
+    clx_lanes r[4] = {in[0], in[1], in[2], in[3]};
+    lanes_transpose(r);
+    for (int k = 0; k < 4; ++k) {
+#ifdef CLX_WIDE
+        _mm256_storeu_pd(record[k], _mm512_castpd512_pd256((__m512d)r[k]));
+        _mm256_storeu_pd(record[k + 4], _mm512_extractf64x4_pd((__m512d)r[k], 1));
+#else
+        lanes_store(record[k], r[k]);
+#endif
+    }
+}
+
+#ifndef CLX_WIDE
 /// out[k] = element k of the four records.
 CLX_INLINE void lanes_gather(clx_lanes out[4], const double *a, const double *b, const double *c,
                              const double *d)
 {
-    out[0] = lanes_load(a);
-    out[1] = lanes_load(b);
-    out[2] = lanes_load(c);
-    out[3] = lanes_load(d);
-    lanes_transpose(out);
+    lanes_collect(out, (const double *const[4]){a, b, c, d});
 }
 
 /// The way back.
 CLX_INLINE void lanes_scatter(const clx_lanes in[4], double *a, double *b, double *c, double *d)
 {
-    clx_lanes r[4] = {in[0], in[1], in[2], in[3]};
-    lanes_transpose(r);
-    lanes_store(a, r[0]);
-    lanes_store(b, r[1]);
-    lanes_store(c, r[2]);
-    lanes_store(d, r[3]);
+    lanes_deal(in, (double *const[4]){a, b, c, d});
 }
+#endif
 
 CLX_INLINE clx_lanes lanes_dot(const clx_lanes a[3], const clx_lanes b[3])
 {

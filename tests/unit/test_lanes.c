@@ -63,48 +63,42 @@ static bool same(double a, double b)
     return a == b && !signbit(a) == !signbit(b);
 }
 
-/* The batch's contacts as plain numbers; which lanes are answered. */
-CLX_FOR_EACH_MACHINE
-static int ask_in_lanes(clx_pair_batch *batch, bool edges)
+static clast_dem *make_space(void)
 {
-    clx_meet_lanes m;
-    clx_lanes offset[3];
-    for (int c = 0; c < 3; ++c) {
-        offset[c] = lanes_load(batch->offset[c]);
-    }
-    const clx_marks answered =
-        edges ? clx_edges_again(batch, offset, &m) : clx_faces_again(batch, offset, &m);
-    lanes_store(batch->gap, m.gap);
-    for (int c = 0; c < 3; ++c) {
-        lanes_store(batch->normal[c], m.normal[c]);
-        lanes_store(batch->point[c], m.point[c]);
-    }
-    return lanes_bits(answered);
+    clast_dem *dem = NULL;
+    const clast_dem_config config = scene_space();
+    CHECK_OK(clast_dem_create(&config, &dem));
+    return dem;
 }
 
-/* Compares a batch with its pairs one by one; how many of them are answered. */
-static int compare_facets(meeting m[CLX_LANES], bool edges)
+/* Compares the first n of these pairs side by side with them one by one: four go through lanes of
+   four, eight through lanes of eight where the machine has them. How many are answered. */
+static int compare_facets(const clast_dem *dem, meeting m[CLX_BATCH], bool edges, int n_pair)
 {
-    clx_pair_batch batch;
+    clx_grain grain[2 * CLX_BATCH] = {0};
+    clx_link link[CLX_BATCH] = {0};
+    clx_batch p = {.n = n_pair};
     int n = 0;
-    for (int k = 0; k < CLX_LANES; ++k) {
-        batch.turn_a[k] = m[k].pair.turn_a;
-        batch.turn_b[k] = m[k].pair.turn_b;
-        batch.memory[k] = &m[k].memory;
-        for (int c = 0; c < 3; ++c) {
-            batch.offset[c][k] = m[k].pair.offset[c];
-        }
+    for (int k = 0; k < n_pair; ++k) {
+        p.link[k] = &link[k];
+        p.a[k] = &grain[2 * k];
+        p.b[k] = &grain[2 * k + 1];
+        v3_copy(grain[2 * k + 1].position, m[k].pair.offset);
+        p.meet.turn_a[k] = m[k].pair.turn_a;
+        p.meet.turn_b[k] = m[k].pair.turn_b;
+        p.meet.memory[k] = &m[k].memory;
     }
-    const int answered = ask_in_lanes(&batch, edges);
-    for (int k = 0; k < CLX_LANES; ++k) {
+    const int answered = edges ? clx_batch_edges(dem, &p) : clx_batch_faces(dem, &p);
+    const clx_pair_batch *batch = &p.meet;
+    for (int k = 0; k < n_pair; ++k) {
         clx_contact one;
         const bool is_answered = clx_facet_again(&m[k].pair, &m[k].memory, &one);
         assert_int_equal(is_answered, answered >> k & 1);
         if (is_answered) {
-            assert_true(same(one.gap, batch.gap[k]));
+            assert_true(same(one.gap, batch->gap[k]));
             for (int c = 0; c < 3; ++c) {
-                assert_true(same(one.normal[c], batch.normal[c][k]));
-                assert_true(same(one.point[c], batch.point[c][k]));
+                assert_true(same(one.normal[c], batch->normal[c][k]));
+                assert_true(same(one.point[c], batch->point[c][k]));
             }
             ++n;
         }
@@ -115,7 +109,8 @@ static int compare_facets(meeting m[CLX_LANES], bool edges)
 static void facets_in_lanes_are_facets_alone(void **state)
 {
     (void)state;
-    meeting queue[2][CLX_LANES];
+    meeting queue[2][CLX_BATCH];
+    clast_dem *dem = make_space();
     int filled[2] = {0, 0};
     int n_answered[2] = {0, 0};
     int n_asked[2] = {0, 0};
@@ -133,12 +128,14 @@ static void facets_in_lanes_are_facets_alone(void **state)
         to->pair.b = &to->b;
         to->pair.turn_a = to->turn[0][0];
         to->pair.turn_b = to->turn[1][0];
-        if (filled[kind] == CLX_LANES) {
-            n_answered[kind] += compare_facets(queue[kind], kind == 1);
-            n_asked[kind] += CLX_LANES;
+        if (filled[kind] == CLX_BATCH) {
+            n_answered[kind] += compare_facets(dem, queue[kind], kind == 1, CLX_BATCH);
+            n_asked[kind] += CLX_BATCH;
+            (void)compare_facets(dem, queue[kind], kind == 1, CLX_LANES);
             filled[kind] = 0;
         }
     }
+    clast_dem_destroy(dem);
     for (int kind = 0; kind < 2; ++kind) { /* both answers occur, often */
         assert_true(n_answered[kind] > 50);
         assert_true(n_asked[kind] - n_answered[kind] > 50);
@@ -191,7 +188,7 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
                 batch.offset[c][k] = m[k].pair.offset[c];
             }
         }
-        const int answered = clx_ellipsoids_again(&batch, a, b);
+        const int answered = clx_ellipsoids_again(&batch, 0, a, b);
         for (int k = 0; k < CLX_LANES; ++k) {
             clx_contact one;
             (void)clx_pair_contact(&m[k].pair, INFINITY, &m[k].memory, &one);
@@ -271,49 +268,57 @@ static void check_lane(const clx_batch *p, int k, const double slide[3], const c
     }
 }
 
+/* Contact k of a batch: two grains, or one at a wall, in touch or just apart. */
+static bool make_touch(clx_rng *rng, clx_batch *p, int k, clx_grain grain[2], clx_link *link)
+{
+    double n[3];
+    grain[0] = random_grain(rng);
+    grain[1] = random_grain(rng);
+    *link = (clx_link){.b = clx_rng_below(rng, 4) == 0 ? -1 : 1};
+    clx_rng_direction(rng, n);
+    fill3(rng, clx_rng_below(rng, 3) == 0 ? 0.0 : 1e-7, link->slide);
+    const bool is_apart = clx_rng_below(rng, 5) == 0;
+    link->touches = is_apart ? 1 : 0; /* as it was in the step before */
+    p->link[k] = link;
+    p->a[k] = &grain[0];
+    p->b[k] = link->b < 0 ? &clx_immovable : &grain[1];
+    p->meet.gap[k] = (is_apart ? 1e-6 : -1e-6) * clx_rng_uniform(rng);
+    p->travel[k] = clx_rng_uniform(rng);
+    for (int c = 0; c < 3; ++c) {
+        p->meet.normal[c][k] = -n[c];
+        p->meet.point[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(rng);
+        p->arm_b[c][k] = link->b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(rng);
+    }
+    return is_apart;
+}
+
 static void law_in_lanes_is_the_law_alone(void **state)
 {
     (void)state;
     clast_dem *dem = NULL;
     clast_dem_config config;
-    clx_pushed room[CLX_LANES] = {0};
+    clx_pushed room[CLX_BATCH] = {0};
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
     CHECK_OK(clast_dem_create(&config, &dem));
     for (uint64_t i = 0; i < 500; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
-        clx_grain grain[2 * CLX_LANES];
-        clx_link link[CLX_LANES];
-        clx_batch p = {.n = CLX_LANES};
-        clx_pushed alone[CLX_LANES] = {0};
-        double slide[CLX_LANES][3];
-        for (int k = 0; k < CLX_LANES; ++k) {
-            double n[3];
-            grain[2 * k] = random_grain(&rng);
-            grain[2 * k + 1] = random_grain(&rng);
-            link[k] = (clx_link){.b = clx_rng_below(&rng, 4) == 0 ? -1 : 1};
-            clx_rng_direction(&rng, n);
-            fill3(&rng, clx_rng_below(&rng, 3) == 0 ? 0.0 : 1e-7, link[k].slide);
-            v3_copy(slide[k], link[k].slide);
+        clx_grain grain[2 * CLX_BATCH];
+        clx_link link[CLX_BATCH];
+        const int n_pair = i % 2 == 0 ? CLX_BATCH : CLX_LANES; /* both widths */
+        clx_batch p = {.n = n_pair};
+        clx_pushed alone[CLX_BATCH] = {0};
+        double slide[CLX_BATCH][3];
+        for (int k = 0; k < n_pair; ++k) {
+            const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &link[k]);
             p.to[k] = &room[k];
-            p.link[k] = &link[k];
-            p.a[k] = &grain[2 * k];
-            p.b[k] = link[k].b < 0 ? &clx_immovable : &grain[2 * k + 1];
-            const bool is_apart = clx_rng_below(&rng, 5) == 0;
-            p.meet.gap[k] = (is_apart ? 1e-6 : -1e-6) * clx_rng_uniform(&rng);
-            p.travel[k] = clx_rng_uniform(&rng);
-            for (int c = 0; c < 3; ++c) {
-                p.meet.normal[c][k] = -n[c];
-                p.meet.point[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
-                p.arm_b[c][k] = link[k].b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(&rng);
-            }
-            link[k].touches = is_apart ? 1 : 0; /* as it was in the step before */
+            v3_copy(slide[k], link[k].slide);
             if (!is_apart) {
                 push_alone(dem, &p, k, slide[k], &alone[k]);
             }
         }
         clx_batch_push(dem, &p, true);
-        for (int k = 0; k < CLX_LANES; ++k) {
+        for (int k = 0; k < n_pair; ++k) {
             check_lane(&p, k, slide[k], &alone[k]);
         }
     }
