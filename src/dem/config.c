@@ -28,6 +28,20 @@ clast_status clx_dem_check_step(const clx_law *law, double time_step, double mas
                      time_step, mass, shortest, RESOLUTION, shortest / RESOLUTION);
 }
 
+/// An energy that no attraction takes would be ignored.
+static clast_status check_cohesion(const clast_dem_config *config)
+{
+    clast_status status = CLAST_OK;
+    const bool is_area = config->cohesion == CLAST_DEM_AREA;
+    const bool is_surface = config->cohesion == CLAST_DEM_DMT || config->cohesion == CLAST_DEM_JKR;
+    CLX_CHECK(is_area || config->cohesion_energy == 0.0, CLAST_E_CONFIG,
+              "cohesion_energy %g J/m3 acts with cohesion area alone", config->cohesion_energy);
+    CLX_CHECK(is_surface || config->surface_energy == 0.0, CLAST_E_CONFIG,
+              "surface_energy %g J/m2 acts with cohesion dmt or jkr alone", config->surface_energy);
+done:
+    return status;
+}
+
 clast_status clx_dem_check(const clast_dem_config *config)
 {
     clast_status status = CLAST_OK;
@@ -42,6 +56,7 @@ clast_status clx_dem_check(const clast_dem_config *config)
     CLX_CHECK(config->domain == CLAST_DEM_OPEN || config->width > 0.0, CLAST_E_CONFIG, "width %g m",
               config->width);
     CLX_CHECK(config->height > 0.0, CLAST_E_CONFIG, "height %g m", config->height);
+    CLX_TRY(check_cohesion(config));
 done:
     return status;
 }

@@ -565,6 +565,13 @@ static void what_cannot_work_is_refused(void **state)
     CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_GEOMETRY);
     assert_non_null(strstr(clast_error_detail(), "more than the width"));
     b.config.dem.width = 0.05;
+    b.config.dem.surface_energy = 0.1; /* of no cohesion: it was ignored */
+    CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "cohesion dmt or jkr alone"));
+    b.config.dem.surface_energy = 0.0;
+    b.config.dem.cohesion_energy = 100.0;
+    CHECK_STATUS(clast_pack_create(&b.config, &b.input, &pack), CLAST_E_CONFIG);
+    b.config.dem.cohesion_energy = 0.0;
     b.config.fill_high = 0.61; /* 1 mm high */
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     CHECK_STATUS(clast_pack_advance(pack, 10), CLAST_E_CONFIG);
