@@ -173,6 +173,17 @@ static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *
     return status;
 }
 
+/// A bed that holds more solid than room is not the one that the grains lie in.
+static clast_status check_bed(const clast_porosity_bulk *bulk)
+{
+    return bulk->porosity >= -1e-2 ? CLAST_OK
+                                   : cli_fail(CLAST_E_GEOMETRY,
+                                              "grains take %.4g times the room of this bed between "
+                                              "z = %g and %g: it is smaller than what holds them, "
+                                              "or in another unit (--bed)",
+                                              1.0 - bulk->porosity, bulk->z_low, bulk->z_high);
+}
+
 static clast_status measure(subject *s, const clast_porosity_options *options,
                             const porosity_config *config, findings *f)
 {
@@ -181,6 +192,7 @@ static clast_status measure(subject *s, const clast_porosity_options *options,
     clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
     if (status == CLAST_OK) {
         status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
+        status = status == CLAST_OK ? check_bed(&f->bulk) : status;
     }
     if (status == CLAST_OK) {
         status = measure_contacts(assembly, bed, config->gap, f);

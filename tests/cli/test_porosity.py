@@ -82,6 +82,8 @@ class Porosity(Case):
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,50,50", "--layer", 0.1, says=["no slice is denser"])
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 0.1, "--trim", 1, says=["leaves nothing"])
         self.assert_fails(3, "porosity", path, "--bed", "box:0,0,2,2", "--layer", 1e-9, says=["slices"])
+        # a smaller bed than the grains lie in had a porosity of -1.13
+        self.assert_fails(3, "porosity", path, "--bed", "box:0,0,1,1", "--layer", 0.1, says=["grains take 2.1", "times the room"])
         self.assert_fails(3, "porosity", self.folder / "absent.csv", "--bed", "box:0,0,2,2", says=["absent.csv"])
         empty = self.folder / "empty.csv"
         empty.write_text("x,y,z,radius\n")
