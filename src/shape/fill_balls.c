@@ -75,7 +75,8 @@ static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[
         const clx_float8 dy = g->y - f[1];
         const clx_float8 dz = g->z - f[2];
         const clx_float8 sum = g->radius + reach;
-        const clx_int8 near = sum * sum - (dx * dx + dy * dy + dz * dz) >= 0.0F;
+        const clx_float8 room = sum * sum - (dx * dx + dy * dy + dz * dz);
+        const clx_int8 near = ~((clx_int8)room >> 31); // room >= 0, see fill_field.c
         int64_t any[LANES / 2];
         memcpy(any, &near, sizeof any);
         if ((any[0] | any[1] | any[2] | any[3]) != 0) {
