@@ -253,6 +253,7 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             const int end = from + REST_AHEAD + CLX_BATCH;
             for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
                  ++k) {
+                // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.ArraySubscript): k < n[kind]
                 fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]], (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
