@@ -253,7 +253,6 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             const int end = from + REST_AHEAD + CLX_BATCH;
             for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
                  ++k) {
-                // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.ArraySubscript): k < n[kind]
                 fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]], (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
@@ -269,7 +268,7 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
 
 void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push)
 {
-    piece s;
+    piece s = {0};
     for (int64_t at = begin; at < end; at += PIECE) {
         s.link = dem->near.link + at;
         s.n_left = dem->near.n - at;

@@ -94,7 +94,7 @@ double clx_ball_set_distance(const clx_ball_set *set, int32_t first, const doubl
                         (float)((point[1] - set->middle[1]) * set->scale),
                         (float)((point[2] - set->middle[2]) * set->scale)};
     double best = limit;
-    int32_t may[LANES];
+    int32_t may[LANES] = {0};
     for (int32_t g = first / LANES; LANES * g < set->n; ++g) {
         g = next_group(set, g, f, (float)(best * set->scale + FRAME_ERROR), may);
         for (int32_t i = LANES * g; i < LANES * (g + 1) && i < set->n; ++i) {

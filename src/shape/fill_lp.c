@@ -130,12 +130,11 @@ CLX_INLINE bool improve(simplex *s, const clx_fill_planes *planes, double h, dou
     if (!(most > tolerance)) {
         return false;
     }
-    lanes column = all(0.0);
+    lanes column = s->inverse[SUM];
     if (side > 0) { // u+ where y is below -h, u- where it is above h
         column = s->y[side - 1] < 0.0 ? s->inverse[side - 1] : -s->inverse[side - 1];
         entering = NOBODY;
     } else {
-        column = s->inverse[SUM];
         for (int k = 0; k < 3; ++k) {
             column += planes->gradient[k][entering] * s->inverse[k];
         }
