@@ -284,6 +284,7 @@ clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *na
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(add_grain(&j, assembly, i, options));
     }
+    CLX_CHECK(j.density != NULL, CLAST_E_GEOMETRY, "%s: an assembly without parts", name);
     CLX_TRY(union_mass(&j, &mass, &made.own));
     CLX_TRY(clx_axes_from_inertia(mass.volume, mass.inertia, made.semi_axes));
     CLX_TRY(clx_alloc_text(&made.name, name));
