@@ -45,17 +45,23 @@ CLX_INLINE boxes boxes_of_leaf(const clx_fill_leaf *leaf)
     return b;
 }
 
+/// Of a node's children, or of a leaf's triangles.
+CLX_INLINE boxes boxes_of(const clx_fill_node *node, const clx_fill_leaf *leaf)
+{
+    boxes b;
+    if (leaf != NULL) {
+        return boxes_of_leaf(leaf);
+    }
+    memcpy(&b, node, sizeof b);
+    return b;
+}
+
 /// Marks the boxes that may be within d of a point, all in the frame.
 CLX_FOR_EACH_MACHINE
 static void mark_near(const clx_fill_node *node, const clx_fill_leaf *leaf, const float f[3],
                       float d, int32_t mark[LANES])
 {
-    boxes b;
-    if (leaf != NULL) {
-        b = boxes_of_leaf(leaf);
-    } else {
-        memcpy(&b, node, sizeof b);
-    }
+    const boxes b = boxes_of(node, leaf);
     const float error = (float)CLX_FILL_FRAME_ERROR;
     const float padded = d * (1.0F + error) + error;
     const float limit = 4.0F * padded * padded;
@@ -74,12 +80,7 @@ CLX_FOR_EACH_MACHINE
 static void mark_above(const clx_fill_node *node, const clx_fill_leaf *leaf, const float f[3],
                        int32_t mark[LANES])
 {
-    boxes b;
-    if (leaf != NULL) {
-        b = boxes_of_leaf(leaf);
-    } else {
-        memcpy(&b, node, sizeof b);
-    }
+    const boxes b = boxes_of(node, leaf);
     const float error = (float)CLX_FILL_FRAME_ERROR;
     const clx_int8 meets = (magnitude(b.middle[0] - f[0]) - b.half[0] <= error) &
                            (magnitude(b.middle[1] - f[1]) - b.half[1] <= error) &
