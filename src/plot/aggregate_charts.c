@@ -259,7 +259,20 @@ done:
     return status;
 }
 
-/// Share of the wanted grains that are finer, straight within each bin.
+/// A size, or a bin of sizes, and how many grains of it are wanted.
+typedef struct {
+    double low, high, count;
+} size_bin;
+
+static int by_bin(const void *a, const void *b)
+{
+    const size_bin *p = a;
+    const size_bin *q = b;
+    return p->low != q->low ? (p->low > q->low) - (p->low < q->low)
+                            : (p->high > q->high) - (p->high < q->high);
+}
+
+/// Share of the wanted grains that are finer, straight within each bin; a list comes in any order.
 static clast_status wanted_line(const clast_table *wanted, line *out)
 {
     clast_status status = CLAST_OK;
@@ -269,25 +282,30 @@ static clast_status wanted_line(const clast_table *wanted, line *out)
         clast_table_numbers(wanted, clast_table_find(wanted, "wanted") >= 0 ? "wanted" : "count");
     double total = 0.0;
     double sum = 0.0;
+    size_bin *bins = NULL;
     line l = {.label = "wanted"};
     CLX_CHECK(low != NULL && high != NULL && count != NULL, CLAST_E_FORMAT,
               "table %s: wanted sizes need the columns low_m, high_m and count (or wanted)",
               wanted->name);
     CLX_TRY(room(&l, 2 * wanted->n_row));
+    CLX_TRY(clx_alloc(&bins, wanted->n_row, sizeof *bins));
     for (int64_t i = 0; i < wanted->n_row; ++i) {
+        bins[i] = (size_bin){low[i], high[i], count[i]};
         total += count[i];
     }
+    qsort(bins, (size_t)wanted->n_row, sizeof *bins, by_bin);
     for (int64_t i = 0; i < wanted->n_row && total > 0.0; ++i) {
-        l.x[l.n] = low[i];
+        l.x[l.n] = bins[i].low;
         l.y[l.n++] = sum / total;
-        sum += count[i];
-        l.x[l.n] = high[i];
+        sum += bins[i].count;
+        l.x[l.n] = bins[i].high;
         l.y[l.n++] = sum / total;
     }
     thin(&l);
     *out = l;
     l = (line){0};
 done:
+    clx_free(bins);
     free_line(&l);
     return status;
 }

@@ -81,6 +81,17 @@ class Results(Case):
         self.assertTrue(printable["resolved"])
         self.assertEqual((run / "printable.stl").stat().st_size, 84 + 50 * printable["n_triangle"])
 
+    def test_the_chart_of_sizes_knows_no_order_of_the_list(self):
+        charts = []
+        for name, sizes in (("mixed", (30, 50, 40, 30, 50, 40)), ("sorted", (30, 30, 40, 40, 50, 50))):
+            listed = self.folder / f"{name}.csv"
+            listed.write_text("size_um\n" + "".join(f"{size}\n" for size in sizes))
+            result = clast("aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--sizes",
+                           listed, "-o", self.folder / name, *QUICK)
+            self.assertEqual(result.code, 0, result.err)
+            charts.append((self.folder / name / "sizes.svg").read_text())
+        self.assertEqual(charts[0], charts[1])
+
     def test_an_earlier_run_is_not_overwritten(self):
         run = self.folder / "run"
         command = (*SPHERES, "--no-picture", "-o", run)
