@@ -196,8 +196,12 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     for (int64_t i = 0; i < s->n_known; ++i) {
         memcpy(&dem->list.anchor[i], &s->anchor[i * CLX_SAVED_ANCHOR],
                CLX_SAVED_ANCHOR * sizeof(double));
-        CLX_CHECK(isfinite(dem->list.anchor[i].margin) && isfinite(dem->list.anchor[i].position[0]),
-                  CLAST_E_FORMAT, "anchor %lld of the checkpoint is not finite", (long long)i);
+        bool is_whole = true;
+        for (int k = 0; k < CLX_SAVED_ANCHOR; ++k) { // a margin left is seen by a comparison
+            is_whole = is_whole && isfinite(s->anchor[i * CLX_SAVED_ANCHOR + k]);
+        }
+        CLX_CHECK(is_whole, CLAST_E_FORMAT, "anchor %lld of the checkpoint is not finite",
+                  (long long)i);
     }
     for (int64_t i = 0; i < s->n_known; ++i) {
         // asked at the first step where it is not known; the bound of a turn is wider than its

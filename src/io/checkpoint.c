@@ -114,7 +114,8 @@ clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *ste
     listing list = {0};
     char *found = NULL;
     CLX_TRY(list_steps(folder, &list));
-    CLX_CHECK(list.n > 0, CLAST_E_IO, "%s holds no checkpoint", folder);
+    CLX_CHECK(list.n > 0, CLAST_E_IO, "%s holds no checkpoint (a run that has ended keeps none)",
+              folder);
     for (int64_t i = 0; i < list.n; ++i) {
         CLX_TRY(path_of(folder, list.step[i], &found));
         status = clx_h5_verify(found);
@@ -133,7 +134,9 @@ clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *ste
         clx_free(found);
         found = NULL;
     }
-    status = clx_fail(CLAST_E_IO, "%s holds %" PRId64 " checkpoints, all damaged", folder, list.n);
+    status =
+        clx_fail(CLAST_E_IO, "%s holds %" PRId64 " checkpoints, all damaged: begin the run anew",
+                 folder, list.n);
 done:
     clx_free(found);
     clx_free(list.step);

@@ -45,8 +45,12 @@ static clast_status take_series(clast_pack *p, const clast_table *from)
                       strcmp(from->column[c].name, p->series.column[c].name) == 0,
                   CLAST_E_FORMAT, "column %d of the checkpoint's time series is not %s", c,
                   p->series.column[c].name);
-        memcpy(p->series.column[c].number, from->column[c].number,
-               (size_t)from->n_row * sizeof(double));
+        for (int64_t i = 0; i < from->n_row; ++i) {
+            p->series.column[c].number[i] = from->column[c].number[i];
+            CLX_CHECK(isfinite(from->column[c].number[i]), CLAST_E_FORMAT,
+                      "row %lld of the checkpoint's time series: %s is not finite", (long long)i,
+                      from->column[c].name);
+        }
     }
 done:
     return status;
@@ -147,7 +151,7 @@ clast_status clx_pack_restore(clast_pack *p, const clx_pack_saved *s)
                   s->count[8] >= p->input.n_shape && s->count[8] <= INT32_MAX &&
                   s->n_waiting <= INT32_MAX && s->count[6] == s->count[1] + s->n_waiting &&
                   s->count[7] >= 0 && isfinite(s->number[0]) && isfinite(s->number[1]) &&
-                  isfinite(s->number[3]),
+                  isfinite(s->number[2]) && isfinite(s->number[3]),
               CLAST_E_FORMAT, "the checkpoint's process is not one");
     CLX_TRY(check_shapes(p, s->shape));
     for (int64_t i = p->input.n_shape; i < s->count[8]; ++i) {

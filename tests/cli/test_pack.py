@@ -323,13 +323,21 @@ class Pack(Case):
         process.kill()
         process.wait()
         self.assertEqual(process.returncode, -9, "the run ended before it could be killed")
-        resumed = clast("pack", "--resume", run, "--json", "-j", "1")
+        resumed = clast("pack", "--resume", run, "--json", "-j", "4")
         self.assertEqual(resumed.code, 0, resumed.err)
         self.assertEqual(resumed.json["state_hash"], made.json["state_hash"])
+        # the same bytes for any number of threads, and for a run that went on with another
+        for threads in ("1", "2", "4"):
+            other = self.folder / f"threads-{threads}"
+            again = clast(*SMALL, *bed, "--density", "0", "--checkpoint-time", "0.02s", "-j", threads, "-o", other)
+            self.assertEqual(again.code, 0, again.err)
+            for name in ("state.h5", "series.csv", "summary.json", "grains.csv"):
+                self.assertEqual((other / name).read_bytes(), (run / name).read_bytes(), f"{name}, {threads} threads")
 
     def test_kills_at_any_moment_lose_nothing(self):
         # checkpoints all the time, so that most kills hit one
-        whole = self.run_small("--json")
+        kept = self.folder / "whole"
+        whole = self.run_small("--checkpoint-time", "0s", "--json", "-o", kept)
         run = self.folder / "run"
         first = [os.environ["CLAST"], *SMALL, "--checkpoint-time", "0s", "-o", str(run)]
         again = [os.environ["CLAST"], "pack", "--resume", str(run), "--quiet", "-j", "1"]
@@ -348,6 +356,10 @@ class Pack(Case):
         self.assertEqual(resumed.code, 0, resumed.err)
         self.assertEqual(resumed.json["state_hash"], whole.json["state_hash"])
         self.assertEqual([p.name for p in run.iterdir() if "checkpoint" in p.name], [])
+        for name in ("series.csv", "grains.csv", "profile.csv", "summary.json"):
+            self.assertEqual((run / name).read_bytes(), (kept / name).read_bytes(), name)
+        self.assertEqual((run / "state.h5").read_bytes(), (kept / "state.h5").read_bytes())
+        self.assert_fails(3, "pack", "--resume", run, says=("no checkpoint", "has ended"))
 
     def test_killed_before_the_first_grain_it_goes_on(self):
         whole = self.run_small("--json")

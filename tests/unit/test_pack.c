@@ -208,6 +208,77 @@ static void restored_packing_ends_the_same(void **state)
     }
 }
 
+/* A number that is none, anywhere in a checkpoint, is refused: an anchor's would never be left, and
+ * the lists would miss contacts from then on. */
+static void numbers_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *first = NULL;
+    clx_pack_saved saved = {0};
+    begin_with(&b, CLAST_SHAPE_MESH);
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &first));
+    CHECK_OK(clast_pack_advance(first, 14000));
+    CHECK_OK(clx_pack_save(first, &saved));
+    saved.count[CLX_PACK_COUNTS - 1] = 1;
+    assert_true(saved.dem.n_grain > 1 && saved.dem.n_known > 1 && saved.dem.n_link > 1);
+    assert_true(saved.series->n_row > 1);
+    const struct {
+        const char *name;
+        double *at;
+        int n;
+    } all[] = {{"grain", saved.dem.grain + CLX_SAVED_GRAIN, CLX_SAVED_GRAIN},
+               {"anchor", saved.dem.anchor + CLX_SAVED_ANCHOR, CLX_SAVED_ANCHOR},
+               {"limit", saved.dem.limit + 1, 1},
+               {"link", saved.dem.link + CLX_SAVED_LINK, CLX_SAVED_LINK},
+               {"number", saved.number, CLX_PACK_NUMBERS},
+               {"time", saved.series->column[1].number, 2},
+               {"energy", saved.series->column[7].number, 2}};
+    for (size_t a = 0; a < sizeof all / sizeof all[0]; ++a) {
+        for (int k = 0; k < all[a].n; ++k) {
+            const double kept = all[a].at[k];
+            clast_pack *second = NULL;
+            all[a].at[k] = (double)NAN;
+            CHECK_OK(clast_pack_create(&b.config, &b.input, &second));
+            if (clx_pack_restore(second, &saved) != CLAST_E_FORMAT) {
+                fail_msg("a checkpoint with NaN for %s %d is taken", all[a].name, k);
+            }
+            assert_non_null(strstr(clast_error_detail(), "checkpoint"));
+            clast_pack_destroy(second);
+            all[a].at[k] = kept;
+        }
+    }
+    clx_pack_saved_free(&saved);
+    clast_pack_destroy(first);
+    end(&b);
+}
+
+/* Grains that a checkpoint puts into each other are thrown apart, and the run is stopped with their
+ * names. */
+static void overlap_in_a_checkpoint_ends_with_a_line(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *first = NULL;
+    clast_pack *second = NULL;
+    clx_pack_saved saved = {0};
+    begin(&b);
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &first));
+    CHECK_OK(clast_pack_advance(first, 3000));
+    CHECK_OK(clx_pack_save(first, &saved));
+    saved.count[CLX_PACK_COUNTS - 1] = 1;
+    memcpy(saved.dem.grain + CLX_SAVED_GRAIN, saved.dem.grain, 3 * sizeof(double));
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &second));
+    CHECK_OK(clx_pack_restore(second, &saved));
+    CHECK_STATUS(clast_pack_advance(second, 1000), CLAST_E_CONVERGE);
+    assert_non_null(strstr(clast_error_detail(), "explodes in step 30"));
+    assert_non_null(strstr(clast_error_detail(), "grains that overlapped from the start"));
+    clx_pack_saved_free(&saved);
+    clast_pack_destroy(second);
+    clast_pack_destroy(first);
+    end(&b);
+}
+
 /* A bed of many small grains and few wide ones, poured in several fills. */
 static void begin_mixed(bed *b, int generator)
 {
@@ -587,6 +658,8 @@ int main(void)
         cmocka_unit_test(fill_is_clear_and_where_it_belongs),
         cmocka_unit_test(phases_follow_one_another),
         cmocka_unit_test(restored_packing_ends_the_same),
+        cmocka_unit_test(numbers_that_are_none_are_refused),
+        cmocka_unit_test(overlap_in_a_checkpoint_ends_with_a_line),
         cmocka_unit_test(grains_that_wait_are_made),
         cmocka_unit_test(fills_are_clear_of_each_other),
         cmocka_unit_test(waiting_grains_outlive_a_checkpoint),
