@@ -69,7 +69,7 @@ static double farthest_from(const double m[3], const double c[2], double *t)
         const double first = v[0] * c[0] + v[1] * c[1] + hv;
         const double second =
             -f + h + ((v[0] * mv[0] + v[1] * mv[1]) - hv * hv) * inverse - h; // f'' = -u.c + h''
-        if (f > best) {
+        if (f > best - 1e-15 * fabs(f)) { // of equals the later one: its angle has more digits
             best = f;
             *t = angle;
         }
@@ -83,28 +83,71 @@ static double farthest_from(const double m[3], const double c[2], double *t)
     return best;
 }
 
+/// True if the distance from the origin has one maximum on the ellipse about c, because the origin
+/// lies beyond its evolute, which reaches (a a - b b) / b from the centre.
+static bool has_one_farthest(const double m[3], const double c[2])
+{
+    const double apart = m[0] - m[1];
+    const double square = apart * apart + 4.0 * m[2] * m[2]; // (a a - b b)^2
+    const double least = 0.5 * (m[0] + m[1] - sqrt(square)); // b b
+    return least > 0.0 && (c[0] * c[0] + c[1] * c[1]) * least > square;
+}
+
+/// Newton from outward for the one maximum; false if it is not found within a few steps.
+static bool climb_outward(const double m[3], const double c[2], double u[2])
+{
+    const double r = sqrt(c[0] * c[0] + c[1] * c[1]);
+    u[0] = c[0] / r;
+    u[1] = c[1] / r;
+    for (int step = 0; step < 12; ++step) {
+        const double v[2] = {-u[1], u[0]};
+        const double mu[2] = {m[0] * u[0] + m[2] * u[1], m[2] * u[0] + m[1] * u[1]};
+        const double mv[2] = {m[0] * v[0] + m[2] * v[1], m[2] * v[0] + m[1] * v[1]};
+        const double h = sqrt(u[0] * mu[0] + u[1] * mu[1]);
+        const double hv = (v[0] * mu[0] + v[1] * mu[1]) / h;
+        const double first = v[0] * c[0] + v[1] * c[1] + hv;
+        const double second =
+            ((v[0] * mv[0] + v[1] * mv[1]) - hv * hv) / h - h - (u[0] * c[0] + u[1] * c[1]);
+        if (!(second < 0.0)) {
+            return false;
+        }
+        const double move = fmin(fmax(-first / second, -0.5), 0.5);
+        const double x = u[0] + move * v[0];
+        const double y = u[1] + move * v[1];
+        const double inverse = 1.0 / sqrt(x * x + y * y);
+        u[0] = x * inverse;
+        u[1] = y * inverse;
+        if (fabs(move) <= 1e-9) { // Newton doubles digits: the next step would be below rounding
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Deepest point of a round shape in a cylinder, relative to the position; its distance from the
 /// axis.
 static double round_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])
 {
     double matrix[6];
-    double best = -INFINITY;
-    double at = 0.0;
     clx_ellipsoid_matrix(body->turn, body->shape->semi_axes, matrix);
     const double flat[3] = {matrix[0], matrix[1], matrix[5]};
-    const double outward = atan2(c[1], c[0]);
-    for (int k = 0; k < 8; ++k) {
-        double t = outward + k * CLAST_PI / 4.0;
-        const double f = farthest_from(flat, c, &t);
-        if (f > best) {
-            best = f;
-            at = t;
+    if (!has_one_farthest(flat, c) || !climb_outward(flat, c, u)) {
+        const double outward = atan2(c[1], c[0]);
+        double best = -INFINITY;
+        double at = 0.0;
+        for (int k = 0; k < 8; ++k) {
+            double t = outward + k * CLAST_PI / 4.0;
+            const double f = farthest_from(flat, c, &t);
+            if (f > best) {
+                best = f;
+                at = t;
+            }
         }
+        u[0] = cos(at);
+        u[1] = sin(at);
     }
-    u[0] = cos(at);
-    u[1] = sin(at);
     clx_ellipsoid_tip(matrix, (const double[3]){u[0], u[1], 0.0}, tip);
-    return best;
+    return u[0] * (c[0] + tip[0]) + u[1] * (c[1] + tip[1]);
 }
 
 static double hull_reach(const clx_placed *body, const double c[2], double u[2], double tip[3])

@@ -195,7 +195,7 @@ static void planes_touch_the_deepest_point(void **state)
 static void cylinder_touches_the_deepest_point(void **state)
 {
     (void)state;
-    for (uint64_t i = 0; i < 200; ++i) {
+    for (uint64_t i = 0; i < 400; ++i) {
         clx_rng rng = clx_rng_at(11, CLX_STREAM_TEST, i);
         double q[4], m[3][3], turn[9];
         clx_rng_orientation(&rng, q);
@@ -228,6 +228,7 @@ static void cylinder_touches_the_deepest_point(void **state)
         const double x[2] = {body.position[0] - 3.0 + c.point[0] - 0.5 * c.gap * -c.normal[0],
                              body.position[1] - 2.0 + c.point[1] - 0.5 * c.gap * -c.normal[1]};
         CHECK_ABS(sqrt(x[0] * x[0] + x[1] * x[1]), 10.0 - c.gap, 1e-9); // the deepest point
+        CHECK_ABS(x[0] * c.normal[1] - x[1] * c.normal[0], 0.0, 4e-14); // outward of it
     }
     clx_hull_core *box = support_box_core(2.0, 2.0, 2.0);
     const clx_convex hull = clx_convex_hull(box, 1.0);
