@@ -89,6 +89,12 @@ typedef struct clx_pushed {
     double torque_a[4];           ///< to be taken off
 } clx_pushed;
 
+/// What a block of items has in the near list.
+typedef struct clx_near_block {
+    int32_t n;
+    bool wants_memory; ///< some link has none yet and needs one
+} clx_near_block;
+
 /// The links that may touch before some grain's path exceeds its `until`: what a step looks at.
 typedef struct clx_near {
     int32_t n;
@@ -100,7 +106,8 @@ typedef struct clx_near {
     double *until;     ///< [n_grain]
     clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
-    int64_t load_capacity;
+    clx_near_block *block;
+    int64_t load_capacity, block_capacity;
     bool is_due;
     bool is_gathered; ///< `in` is there
 } clx_near;
@@ -108,13 +115,14 @@ typedef struct clx_near {
 /// How a sweep is divided among threads (sweep.c).
 typedef struct clx_sweeping {
     int32_t n_worker; ///< 0: to be divided anew
-    int32_t chunk;    ///< grains of each
+    int32_t n_chunk;
+    int32_t *bound;   ///< [n_chunk + 1] first grain of each chunk
     int32_t most;     ///< links of a block of grains
     uint8_t *is_late; ///< [grains / CLX_LANES] fours that move when all chunks are done
     int32_t *late;    ///< [n_late] their first grains
     int32_t n_late;
     clx_pushed *push; ///< [n_worker][most] of the block that a worker is at
-    int64_t late_capacity[2], push_capacity;
+    int64_t bound_capacity, late_capacity[2], push_capacity;
 } clx_sweeping;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;

@@ -22,13 +22,19 @@ void clx_near_free(clx_near *near)
     clx_free(near->in);
     clx_free(near->until);
     clx_free(near->load);
+    clx_free(near->block);
     *near = (clx_near){0};
 }
 
-static void advance(clast_dem *dem)
+/// Items that are gone through at once: 64, so that few blocks have a link that wants a memory.
+enum { BLOCK = 64 };
+
+static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_dem *dem = context;
     const double dt = dem->config.time_step;
-    for (int32_t g = 0; g < dem->n_grain; ++g) {
+    (void)worker;
+    for (int64_t g = begin; g < end; ++g) {
         const clx_grain *grain = &dem->grain[g];
         const double speed =
             v3_norm(grain->velocity) +
@@ -39,25 +45,53 @@ static void advance(clast_dem *dem)
     }
 }
 
-/// Numbers of the links that may wake.
+/// Links of a block of items that may wake, to where the block's listed links begin; how many come
+/// before each item's, and whether one of them has no memory yet and needs it.
+static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_dem *dem = context;
+    clx_near *near = &dem->near;
+    const clx_list *l = &dem->list;
+    int32_t *to = near->link + l->begin[begin];
+    clx_near_block *block = &near->block[begin / BLOCK];
+    int32_t n = 0;
+    bool wants = false;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        const double own = near->until[clx_item_grain(dem, (int32_t)i)];
+        near->begin[i] = n;
+        for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
+            const clx_link *link = &l->link[k];
+            const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
+            const bool may_wake = link->wake <= own + other;
+            to[n] = (int32_t)k;
+            n += may_wake ? 1 : 0;
+            wants = wants || (may_wake && link->slot == 0 && !clx_link_is_round(dem, link));
+        }
+    }
+    *block = (clx_near_block){.n = n, .wants_memory = wants};
+}
+
+/// Numbers of the links that may wake: what the blocks found, one after the other.
 static clast_status pick(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
     const clx_list *l = &dem->list;
     CLX_CHECK(l->n_link <= INT32_MAX, CLAST_E_LIMIT, "%lld pairs of grains", (long long)l->n_link);
+    CLX_TRY(clx_grow_lines(&near->link, &near->capacity, l->n_link + 1, sizeof *near->link));
+    CLX_TRY(clx_grow(&near->block, &near->block_capacity, dem->n_item / BLOCK + 1,
+                     sizeof *near->block));
+    clx_dem_for(dem, dem->n_item, BLOCK, pick_block, dem);
     near->n = 0;
-    for (int32_t i = 0; i < dem->n_item; ++i) {
-        const double own = near->until[clx_item_grain(dem, i)];
-        near->begin[i] = near->n;
-        CLX_TRY(clx_grow_lines(&near->link, &near->capacity,
-                               near->n + (l->begin[i + 1] - l->begin[i]) + 1, sizeof *near->link));
-        for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
-            const clx_link *link = &l->link[k];
-            const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
-            near->link[near->n] = (int32_t)k;
-            near->n += link->wake <= own + other ? 1 : 0;
+    for (int32_t i = 0; i < dem->n_item; i += BLOCK) {
+        const int32_t end = i + BLOCK < dem->n_item ? i + BLOCK : dem->n_item;
+        const int32_t n = near->block[i / BLOCK].n;
+        memmove(near->link + near->n, near->link + l->begin[i], (size_t)n * sizeof *near->link);
+        for (int32_t k = i; k < end; ++k) {
+            near->begin[k] += near->n;
         }
+        near->n += n;
     }
     near->begin[dem->n_item] = near->n;
 done:
@@ -106,10 +140,13 @@ static clast_status give_slots(clast_dem *dem)
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
     const clx_near *near = &dem->near;
-    for (int32_t k = 0; k < near->n && !dem->all_round; ++k) {
-        clx_link *link = &l->link[near->link[k]];
-        if (link->slot == 0 && !clx_link_is_round(dem, link)) {
-            CLX_TRY(clx_list_give_slot(l, link));
+    for (int32_t i = 0; i < dem->n_item && !dem->all_round; i += BLOCK) {
+        const int32_t end = near->begin[i + BLOCK < dem->n_item ? i + BLOCK : dem->n_item];
+        for (int32_t k = near->begin[i]; k < end && near->block[i / BLOCK].wants_memory; ++k) {
+            clx_link *link = &l->link[near->link[k]];
+            if (link->slot == 0 && !clx_link_is_round(dem, link)) {
+                CLX_TRY(clx_list_give_slot(l, link));
+            }
         }
     }
 done:
@@ -126,7 +163,7 @@ clast_status clx_near_find(clast_dem *dem)
     CLX_TRY(clx_grow(&near->until, &near->until_capacity, n_grain + 1, sizeof *near->until));
     CLX_TRY(clx_grow_lines(&near->load, &near->load_capacity, n_grain + 1, sizeof *near->load));
     memset(near->load, 0, (size_t)n_grain * sizeof *near->load);
-    advance(dem);
+    clx_dem_for(dem, n_grain, BLOCK, advance, dem);
     CLX_TRY(pick(dem));
     CLX_TRY(clx_grow_lines(&near->push, &near->push_capacity, (int64_t)near->n + 1,
                            sizeof *near->push));

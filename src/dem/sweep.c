@@ -4,21 +4,22 @@
 // asks where it is. So a block of grains meets its neighbours and moves at once: what contacts do
 // stays in the first-level cache, grains in the second.
 //
-// Threads take chunks of grains. A grain that one of an earlier chunk pushes is late: it stays
-// where it is, what is done to it is kept in near.push, and it moves when all chunks are done. No
-// other chunk reads a grain that is not late. The sums have the order of motion.c, so chunks and
-// threads change no bit.
+// Each thread takes one chunk of grains: what lies on a border of chunks costs more. A grain that
+// one of an earlier chunk pushes is late: it stays where it is, what is done to it is kept in
+// near.push, and it moves when all chunks are done. No other chunk reads a grain that is not late.
+// The sums have the order of motion.c, so chunks and threads change no bit.
 #include "base/lines.h"
 #include "base/parallel.h"
 #include "dem/move.h"
 #include <string.h>
 
-/// Grains of a block, whose pushes stay in the first-level cache; chunks of a thread; links ahead
-/// whose other grain's load is asked for.
-enum { BLOCK = CLX_SWEEP_BLOCK, CHUNKS = 4, AHEAD = 8 };
+/// Grains of a block, whose pushes stay in the first-level cache; links ahead whose other grain's
+/// load is asked for.
+enum { BLOCK = CLX_SWEEP_BLOCK, AHEAD = 8 };
 
 void clx_sweeping_free(clx_sweeping *s)
 {
+    clx_free(s->bound);
     clx_free(s->is_late);
     clx_free(s->late);
     clx_free(s->push);
@@ -33,10 +34,12 @@ static void find_late(clast_dem *dem)
     const int32_t n_four = (dem->n_grain + CLX_LANES - 1) / CLX_LANES;
     memset(s->is_late, 0, (size_t)n_four);
     s->n_late = 0;
-    for (int32_t k = 0; k < near->n && s->n_worker > 1; ++k) {
-        const clx_link *link = &dem->list.link[near->link[k]];
-        if (link->b >= 0 && link->a / s->chunk != link->b / s->chunk) {
-            s->is_late[link->b / CLX_LANES] = 1;
+    for (int32_t c = 0; c + 1 < s->n_chunk; ++c) {
+        for (int32_t k = near->begin[s->bound[c]]; k < near->begin[s->bound[c + 1]]; ++k) {
+            const int32_t b = dem->list.link[near->link[k]].b;
+            if (b >= s->bound[c + 1]) {
+                s->is_late[b / CLX_LANES] = 1;
+            }
         }
     }
     for (int32_t f = 0; f < n_four; ++f) {
@@ -46,20 +49,39 @@ static void find_late(clast_dem *dem)
     }
 }
 
+/// Chunks of whole blocks with about the same work each: a grain counts as one of its pairs.
+static void set_bounds(clast_dem *dem)
+{
+    clx_sweeping *s = &dem->sweeping;
+    const clx_near *near = &dem->near;
+    const int32_t n = dem->n_grain;
+    const int64_t all = (int64_t)n + near->n;
+    s->most = 0;
+    s->bound[0] = 0;
+    int32_t c = 0;
+    for (int32_t i = 0; i < n; i += BLOCK) {
+        const int32_t end = i + BLOCK < n ? i + BLOCK : n;
+        const int32_t links = near->begin[end] - near->begin[i];
+        s->most = links > s->most ? links : s->most;
+        while (c + 1 < s->n_chunk && (int64_t)i + near->begin[i] >= all * (c + 1) / s->n_chunk) {
+            s->bound[++c] = i;
+        }
+    }
+    while (c < s->n_chunk) {
+        s->bound[++c] = n;
+    }
+}
+
 static clast_status divide(clast_dem *dem, int32_t n_worker)
 {
     clast_status status = CLAST_OK;
     clx_sweeping *s = &dem->sweeping;
     const clx_near *near = &dem->near;
-    const int32_t n = dem->n_grain;
-    const int32_t n_four = n / CLX_LANES + 1;
-    const int32_t n_chunk = n_worker > 1 ? n_worker * CHUNKS : 1;
-    s->chunk = (n / n_chunk / BLOCK + 1) * BLOCK;
-    s->most = 0;
-    for (int32_t i = 0; i < n; i += BLOCK) {
-        const int32_t links = near->begin[i + BLOCK < n ? i + BLOCK : n] - near->begin[i];
-        s->most = links > s->most ? links : s->most;
-    }
+    const int32_t n_four = dem->n_grain / CLX_LANES + 1;
+    const int32_t n_block = dem->n_grain / BLOCK + 1;
+    s->n_chunk = n_worker < n_block ? n_worker : n_block;
+    CLX_TRY(clx_grow(&s->bound, &s->bound_capacity, s->n_chunk + 1, sizeof *s->bound));
+    set_bounds(dem);
     CLX_TRY(clx_grow(&s->is_late, &s->late_capacity[0], n_four, sizeof *s->is_late));
     CLX_TRY(clx_grow(&s->late, &s->late_capacity[1], n_four, sizeof *s->late));
     CLX_TRY(
@@ -136,16 +158,19 @@ static int sweep_block(const clx_moving *c, int64_t begin, int64_t end, clx_push
     return flag;
 }
 
-static void sweep_chunk(int64_t begin, int64_t end, int32_t worker, void *context)
+static void sweep_chunks(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const clx_moving *c = context;
     const clx_sweeping *s = &c->dem->sweeping;
-    int flag = 0;
-    for (int64_t g = begin; g < end; g += BLOCK) {
-        flag |= sweep_block(c, g, g + BLOCK < end ? g + BLOCK : end,
-                            s->push + (int64_t)worker * s->most);
+    for (int64_t k = begin; k < end; ++k) {
+        const int64_t last = s->bound[k + 1];
+        int flag = 0;
+        for (int64_t g = s->bound[k]; g < last; g += BLOCK) {
+            flag |= sweep_block(c, g, g + BLOCK < last ? g + BLOCK : last,
+                                s->push + (int64_t)worker * s->most);
+        }
+        c->dem->block_flag[k] = (uint8_t)flag;
     }
-    c->dem->block_flag[begin / s->chunk] = (uint8_t)flag;
 }
 
 /// Late grains: what was kept for them, then their own.
@@ -190,8 +215,8 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine)
     if (s->n_worker != n_worker) {
         CLX_TRY(divide(dem, n_worker));
     }
-    clx_dem_for(dem, dem->n_grain, s->chunk, sweep_chunk, &c);
-    int flag = all_flags(dem, (dem->n_grain + s->chunk - 1) / s->chunk);
+    clx_dem_for(dem, s->n_chunk, 1, sweep_chunks, &c);
+    int flag = all_flags(dem, s->n_chunk);
     if (s->n_late > 0) {
         clx_dem_for(dem, s->n_late, BLOCK, move_late, &c);
         flag |= all_flags(dem, (s->n_late + BLOCK - 1) / BLOCK);
