@@ -34,7 +34,7 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
     clx_link *link = p->link[k];
-    clx_contact_memory *memory = clx_link_memory(dem, link);
+    clx_contact_memory *memory = clx_near_memory(dem, link);
     clx_dem_touch_find(dem, link, memory, &t);
     if (memory != NULL) {
         link->kind = memory->kind & 3U;
@@ -61,7 +61,7 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
         answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
     }
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *memory = &dem->list.memory[p->link[k]->slot].record;
+        clx_contact_memory *memory = clx_near_memory(dem, p->link[k]);
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
             memory->seen[0][c] = (float)p->meet.normal[c][k];
         }
@@ -164,12 +164,13 @@ static void push_each(clast_dem *dem, const clx_batch *p)
 
 /// Links of the near list that are gone through at once; pairs ahead whose link, and whose memory
 /// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
-enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, LINE = 64 };
+enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, PAIR_AHEAD = 24, GRAIN_AHEAD = 16, LINE = 64 };
 
 /// A piece of the near list, and which of its links are awake, by how they are answered.
 typedef struct {
     const int32_t *link;
-    int64_t n_left; ///< links from there to the end of the near list
+    clx_near_pair *pair; ///< the same links, packed, or NULL
+    int64_t n_left;      ///< links from there to the end of the near list
     clx_pushed *push;
     int n[CLX_N_BATCH];
     uint16_t at[CLX_N_BATCH][PIECE];
@@ -203,16 +204,32 @@ static inline double travel_of(const clast_dem *dem, const clx_link *link)
     return own + (link->b >= 0 ? dem->travel[clx_item_grain(dem, link->b)] : 0.0);
 }
 
+CLX_INLINE clx_link *link_of(const clast_dem *dem, const piece *s, int i)
+{
+    return s->pair != NULL ? &s->pair[i].link : &dem->list.link[s->link[i]];
+}
+
+/// Asks for a packed link some places ahead, and for the other grain of one nearer by.
+CLX_INLINE void fetch_packed(const clast_dem *dem, const piece *s, int i)
+{
+    if (i + PAIR_AHEAD < s->n_left) {
+        fetch(&s->pair[i + PAIR_AHEAD], sizeof *s->pair);
+        const int32_t b = s->pair[i + GRAIN_AHEAD].link.b;
+        fetch(&dem->grain[b < 0 ? 0 : b], sizeof *dem->grain);
+    }
+}
+
 /// Sorts out which of n links are awake. What they push is 0 until it is known.
 static void sort_awake(const clast_dem *dem, int n, piece *s)
 {
-    const clx_link *links = dem->list.link;
     memset(s->n, 0, sizeof s->n);
     memset(s->push, 0, (size_t)n * sizeof *s->push);
     for (int i = 0; i < n; ++i) {
-        const clx_link *link = &links[s->link[i]];
-        if (i + LINK_AHEAD < s->n_left) {
-            __builtin_prefetch(&links[s->link[i + LINK_AHEAD]]);
+        const clx_link *link = link_of(dem, s, i);
+        if (s->pair != NULL) {
+            fetch_packed(dem, s, i);
+        } else if (i + LINK_AHEAD < s->n_left) {
+            __builtin_prefetch(&dem->list.link[s->link[i + LINK_AHEAD]]);
         }
         const clx_batch_kind kind =
             dem->item != NULL || link->b < 0 ? CLX_BATCH_ANY : kind_of(dem, link);
@@ -231,7 +248,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
     p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
     for (int k = 0; k < CLX_BATCH; ++k) {
         const int i = s->at[kind][from + k < last ? from + k : last];
-        clx_link *link = &dem->list.link[s->link[i]];
+        clx_link *link = link_of(dem, s, i);
         p->to[k] = &s->push[i];
         p->link[k] = link;
         p->travel[k] = travel_of(dem, link);
@@ -239,7 +256,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
         p->b[k] = link->b >= 0 ? &dem->grain[clx_item_grain(dem, link->b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = clx_link_memory(dem, link);
+        p->meet.memory[k] = clx_near_memory(dem, link);
     }
 }
 
@@ -251,9 +268,9 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
             const int end = from + REST_AHEAD + CLX_BATCH;
-            for (int k = from + REST_AHEAD; k < end && k < s->n[kind] && kind != CLX_BATCH_ANY;
-                 ++k) {
-                fetch_pair(dem, &dem->list.link[s->link[s->at[kind][k]]], (clx_batch_kind)kind);
+            for (int k = from + REST_AHEAD;
+                 k < end && k < s->n[kind] && kind != CLX_BATCH_ANY && s->pair == NULL; ++k) {
+                fetch_pair(dem, link_of(dem, s, s->at[kind][k]), (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
@@ -271,6 +288,7 @@ void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *
     piece s = {0};
     for (int64_t at = begin; at < end; at += PIECE) {
         s.link = dem->near.link + at;
+        s.pair = dem->near.is_packed ? dem->near.pair + at : NULL;
         s.n_left = dem->near.n - at;
         s.push = push + (at - begin);
         meet_piece(dem, (int)(end - at < PIECE ? end - at : PIECE), &s);

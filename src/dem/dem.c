@@ -207,6 +207,7 @@ static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
+    clx_near_unpack(dem);
     if (!near->is_gathered) {
         CLX_TRY(clx_near_gather(dem));
     }
@@ -232,6 +233,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
+        if (dem->list.is_due || dem->near.is_due) {
+            clx_near_unpack(dem);
+        }
         if (dem->list.is_due) {
             CLX_TRY(clx_list_refresh(dem));
         }
@@ -244,10 +248,12 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
+            clx_near_unpack(dem);
             return clx_explain_explosion(dem);
         }
     }
 done:
+    clx_near_unpack(dem);
     return status;
 }
 

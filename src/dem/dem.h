@@ -13,6 +13,7 @@
 #include "contact/wall_mesh.h"
 #include "dem/law.h"
 #include "math/vec3.h"
+#include <assert.h>
 #include <clast/dem.h>
 
 /// What contacts read of a grain: 192 bytes, in fours of doubles that lanes load at once.
@@ -58,7 +59,7 @@ typedef struct clx_item {
                   ///< k-th part, which is no sphere
 } clx_item;
 
-/// Two items near each other: 64 bytes, a cache line, for the links between near ones are not read.
+/// Two items near each other: 48 bytes.
 typedef struct clx_link {
     int32_t a, b;         ///< b > a, or -1 - wall
     int16_t period[2];    ///< b's image: position + period * width
@@ -67,7 +68,6 @@ typedef struct clx_link {
     uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
     double wake;          ///< no touch before travel a + travel b gets here
     double slide[3];      ///< tangential displacement of b over a
-    double spare[2];
 } clx_link;
 
 /// A contact's memory, three cache lines: two hold all of a face with a vertex.
@@ -77,6 +77,13 @@ typedef struct clx_memory_slot {
 } clx_memory_slot;
 
 enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
+
+/// A link and its memory in three cache lines, for a sweep.
+typedef struct clx_near_pair {
+    clx_link link; ///< first, so that a pointer to it is one to the pair
+    clx_contact_memory memory;
+} clx_near_pair;
+static_assert(sizeof(clx_near_pair) == 192, "a pair takes three lines");
 
 /// Force and torque on a grain, in fours.
 typedef struct clx_load {
@@ -107,8 +114,11 @@ typedef struct clx_near {
     clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
     clx_near_block *block;
-    int64_t load_capacity, block_capacity;
+    clx_near_pair
+        *pair; ///< [n] while is_packed: the links and memories of the list are out of date
+    int64_t load_capacity, block_capacity, pair_capacity;
     bool is_due;
+    bool is_packed;
     bool is_gathered; ///< `in` is there
 } clx_near;
 
@@ -299,6 +309,21 @@ static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const cl
     return link->slot != 0 ? &dem->list.memory[link->slot].record : NULL;
 }
 
+/// Link k of the near list, where it is up to date.
+static inline clx_link *clx_near_link(const clast_dem *dem, int32_t k)
+{
+    return dem->near.is_packed ? &dem->near.pair[k].link : &dem->list.link[dem->near.link[k]];
+}
+
+/// The contact memory of a link of the near list, or NULL.
+static inline clx_contact_memory *clx_near_memory(const clast_dem *dem, clx_link *link)
+{
+    if (!dem->near.is_packed) {
+        return clx_link_memory(dem, link);
+    }
+    return link->slot != 0 ? &((clx_near_pair *)(void *)link)->memory : NULL;
+}
+
 /// Whether a link's meeting has a closed form: both are spheres, or a sphere and a wall.
 static inline bool clx_link_is_round(const clast_dem *dem, const clx_link *link)
 {
@@ -354,6 +379,10 @@ clast_status clx_list_reserve(clx_list *list, int64_t n_item);
 /// Lists the links that may touch soon, and gives memories to those that need one.
 clast_status clx_near_find(clast_dem *dem);
 void clx_near_free(clx_near *near);
+
+/// Copies the near list's links and memories side by side, and what they have become back.
+clast_status clx_near_pack(clast_dem *dem);
+void clx_near_unpack(clast_dem *dem);
 
 /// Which links load each grain as b.
 clast_status clx_near_gather(clast_dem *dem);

@@ -4,6 +4,10 @@
 // Each grain gets some path in advance (`until`); links whose wake lies beyond what both may go are
 // left out until a grain has used up its advance. A link that is here and still sleeps costs a
 // comparison, one that is not costs nothing, and whether it is here changes no result.
+//
+// A sweep works on copies that stand in a row, links with their memories: memory hands out what it
+// is asked for in order several times faster than lines here and there. The list has them back
+// before it is brought up to date, and whenever somebody outside may look.
 #include "dem/dem.h"
 
 #include "base/lines.h"
@@ -23,11 +27,13 @@ void clx_near_free(clx_near *near)
     clx_free(near->until);
     clx_free(near->load);
     clx_free(near->block);
+    clx_free(near->pair);
     *near = (clx_near){0};
 }
 
-/// Items that are gone through at once: 64, so that few blocks have a link that wants a memory.
-enum { BLOCK = 64 };
+/// Items that are gone through at once, 64, so that few blocks have a link that wants a memory;
+/// links that are copied at once.
+enum { BLOCK = 64, PACK = 1024 };
 
 static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
 {
@@ -105,7 +111,7 @@ static void gather(clast_dem *dem)
     int32_t *begin = near->in_begin;
     memset(begin, 0, ((size_t)dem->n_grain + 2) * sizeof *begin);
     for (int32_t k = 0; k < near->n; ++k) {
-        const int32_t b = dem->list.link[near->link[k]].b;
+        const int32_t b = clx_near_link(dem, k)->b;
         if (b >= 0) {
             ++begin[clx_item_grain(dem, b) + 2];
         }
@@ -114,7 +120,7 @@ static void gather(clast_dem *dem)
         begin[g + 1] += begin[g];
     }
     for (int32_t k = 0; k < near->n; ++k) {
-        const int32_t b = dem->list.link[near->link[k]].b;
+        const int32_t b = clx_near_link(dem, k)->b;
         if (b >= 0) {
             near->in[begin[clx_item_grain(dem, b) + 1]++] = k;
         }
@@ -151,6 +157,54 @@ static clast_status give_slots(clast_dem *dem)
     }
 done:
     return status;
+}
+
+static void pack_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_dem *dem = context;
+    const clx_list *l = &dem->list;
+    (void)worker;
+    for (int64_t k = begin; k < end; ++k) {
+        clx_near_pair *pair = &dem->near.pair[k];
+        pair->link = l->link[dem->near.link[k]];
+        if (pair->link.slot != 0) {
+            pair->memory = l->memory[pair->link.slot].record;
+        }
+    }
+}
+
+static void unpack_block(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_dem *dem = context;
+    clx_list *l = &dem->list;
+    (void)worker;
+    for (int64_t k = begin; k < end; ++k) {
+        const clx_near_pair *pair = &dem->near.pair[k];
+        l->link[dem->near.link[k]] = pair->link;
+        if (pair->link.slot != 0) {
+            l->memory[pair->link.slot].record = pair->memory;
+        }
+    }
+}
+
+clast_status clx_near_pack(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_near *near = &dem->near;
+    CLX_TRY(clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + 1,
+                           sizeof *near->pair));
+    clx_dem_for(dem, near->n, PACK, pack_block, dem);
+    near->is_packed = true;
+done:
+    return status;
+}
+
+void clx_near_unpack(clast_dem *dem)
+{
+    if (dem->near.is_packed) {
+        clx_dem_for(dem, dem->near.n, PACK, unpack_block, dem);
+        dem->near.is_packed = false;
+    }
 }
 
 clast_status clx_near_find(clast_dem *dem)

@@ -36,7 +36,7 @@ static void find_late(clast_dem *dem)
     s->n_late = 0;
     for (int32_t c = 0; c + 1 < s->n_chunk; ++c) {
         for (int32_t k = near->begin[s->bound[c]]; k < near->begin[s->bound[c + 1]]; ++k) {
-            const int32_t b = dem->list.link[near->link[k]].b;
+            const int32_t b = clx_near_link(dem, k)->b;
             if (b >= s->bound[c + 1]) {
                 s->is_late[b / CLX_LANES] = 1;
             }
@@ -111,13 +111,12 @@ CLX_FOR_EACH_MACHINE
 static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pushed *push)
 {
     clx_near *near = &dem->near;
-    const clx_link *links = dem->list.link;
     const uint8_t *is_late = dem->sweeping.is_late;
     clx_load own[BLOCK] = {0};
     for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k, ++push) {
-        const clx_link *link = &links[near->link[k]];
-        if (k + AHEAD < near->n && links[near->link[k + AHEAD]].b >= 0) {
-            __builtin_prefetch(&near->load[links[near->link[k + AHEAD]].b]);
+        const clx_link *link = clx_near_link(dem, k);
+        if (k + AHEAD < near->n && clx_near_link(dem, k + AHEAD)->b >= 0) {
+            __builtin_prefetch(&near->load[clx_near_link(dem, k + AHEAD)->b]);
         }
         clx_load *on_a = &own[link->a - begin];
         lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
@@ -211,6 +210,9 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine)
     clast_status status = CLAST_OK;
     clx_sweeping *s = &dem->sweeping;
     clx_moving c = clx_move_begin(dem);
+    if (!dem->all_round && !dem->near.is_packed) {
+        CLX_TRY(clx_near_pack(dem));
+    }
     const int32_t n_worker = clx_dem_is_serial(dem) ? 1 : clx_parallel_workers();
     if (s->n_worker != n_worker) {
         CLX_TRY(divide(dem, n_worker));
