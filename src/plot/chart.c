@@ -40,20 +40,30 @@ static void draw_notes(clx_figure *f)
     }
 }
 
+/// Nothing is drawn further than `beyond` points from the plotting area.
+static void clip(const clx_figure *f, double beyond)
+{
+    cairo_reset_clip(f->canvas->cr);
+    cairo_rectangle(f->canvas->cr, f->left - beyond, f->top - beyond,
+                    f->right - f->left + 2.0 * beyond, f->bottom - f->top + 2.0 * beyond);
+    cairo_clip(f->canvas->cr);
+}
+
 static void draw(clx_figure *f)
 {
     cairo_t *cr = f->canvas->cr;
     clx_figure_lay_out(f);
     clx_figure_grid(f);
     cairo_save(cr);
-    cairo_rectangle(cr, f->left, f->top, f->right - f->left, f->bottom - f->top);
-    cairo_clip(cr);
+    clip(f, 0.0);
     if (f->chart->heat != NULL && f->has_value) {
         clx_figure_heat(f);
     }
-    for (int32_t i = 0; i < f->chart->n_series; ++i) {
+    for (int32_t i = 0; i < f->chart->n_series; ++i) { // a point on the frame is shown whole
+        clip(f, f->chart->series[i].kind == CLAST_SERIES_POINTS ? CLX_POINT_REACH : 0.0);
         clx_figure_series(f, &f->chart->series[i]);
     }
+    clip(f, 0.0);
     draw_marks(f);
     draw_notes(f);
     cairo_restore(cr);

@@ -8,6 +8,7 @@
 static const double CLX_FONT = 10.0;     // points: axis labels
 static const double CLX_FONT_TICK = 9.0; // points: numbers at ticks, legend
 static const double CLX_FONT_TITLE = 12.0;
+static const double CLX_POINT_REACH = 4.0; // more than a point's radius
 
 typedef struct clx_figure {
     clx_canvas *canvas;
@@ -35,6 +36,7 @@ void clx_figure_value_bar(clx_figure *figure);
 /// Legend rows above the plot (they can hide nothing); returns their height.
 double clx_figure_legend(clx_figure *figure, bool draw);
 
-/// One series, clipped by the caller to the plotting area.
+/// One series, clipped by the caller to the plotting area, points to CLX_POINT_REACH around it.
+/// Points whose middle lies outside are left out, and their bars end at the frame.
 void clx_figure_series(clx_figure *figure, const clast_series *series);
 void clx_figure_heat(clx_figure *figure);

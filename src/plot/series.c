@@ -44,6 +44,20 @@ static void draw_band(clx_figure *f, const clast_series *e)
     cairo_fill(cr);
 }
 
+/// Height on the page, at most at the frame.
+static double framed(const clx_figure *f, double value)
+{
+    return fmax(f->top, fmin(f->bottom, clx_figure_y(f, value)));
+}
+
+/// Whether a point's middle is in the plotting area, whose frame counts, whatever was rounded.
+static bool is_shown(const clx_figure *f, double x, double y)
+{
+    const double slack = 1e-3;
+    return x >= f->left - slack && x <= f->right + slack && y >= f->top - slack &&
+           y <= f->bottom + slack;
+}
+
 static void draw_points(clx_figure *f, const clast_series *e)
 {
     cairo_t *cr = f->canvas->cr;
@@ -54,16 +68,19 @@ static void draw_points(clx_figure *f, const clast_series *e)
             continue;
         }
         const double x = clx_figure_x(f, e->x[i]);
+        const double y = clx_figure_y(f, e->y[i]);
+        if (!is_shown(f, x, y)) {
+            continue;
+        }
         if (e->value != NULL && f->has_value) {
             double rgb[3];
             clx_colour_sequence(clx_ticks_place(&f->value, e->value[i]), rgb);
             clx_canvas_colour(f->canvas, rgb, 1.0);
         }
         if (e->low != NULL && e->high != NULL) {
-            clx_canvas_line(f->canvas, x, clx_figure_y(f, e->low[i]), x,
-                            clx_figure_y(f, e->high[i]));
+            clx_canvas_line(f->canvas, x, framed(f, e->low[i]), x, framed(f, e->high[i]));
         }
-        cairo_arc(cr, x, clx_figure_y(f, e->y[i]), radius, 0.0, 2.0 * CLAST_PI);
+        cairo_arc(cr, x, y, radius, 0.0, 2.0 * CLAST_PI);
         cairo_fill(cr);
     }
 }

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include "plot/ticks.h"
+#include <cairo.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +101,50 @@ static void charts_come_in_three_formats_with_equal_bytes(void **state)
     }
 }
 
+/* Pixels of a chart that are no grey: its points. */
+static int64_t coloured(const char *path)
+{
+    cairo_surface_t *image = cairo_image_surface_create_from_png(path);
+    assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+    const unsigned char *byte = cairo_image_surface_get_data(image);
+    int64_t n = 0;
+    for (int y = 0; y < cairo_image_surface_get_height(image); ++y) {
+        for (int x = 0; x < cairo_image_surface_get_width(image); ++x) {
+            const unsigned char *p = byte + y * cairo_image_surface_get_stride(image) + 4L * x;
+            n += p[0] > p[2] + 60 || p[2] > p[0] + 60 ? 1 : 0;
+        }
+    }
+    cairo_surface_destroy(image);
+    return n;
+}
+
+static int64_t coloured_with_point(double x, double y)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/point.png", support_scratch());
+    const clast_series series = {.kind = CLAST_SERIES_POINTS, .x = &x, .y = &y, .n = 1};
+    const clast_chart chart = {.x = {.low = 0.0, .high = 1.0},
+                               .y = {.low = 0.0, .high = 1.0},
+                               .series = &series,
+                               .n_series = 1};
+    CHECK_OK(clast_chart_write(&chart, path));
+    return coloured(path);
+}
+
+/* Half of each was cut off; the frame's own line, half a point wide, lies on them. */
+static void points_on_the_frame_are_whole(void **state)
+{
+    (void)state;
+    const double inside = (double)coloured_with_point(0.37, 0.43);
+    assert_true(inside > 80.0); /* radius 3 points of two pixels: 113 */
+    for (int k = 0; k < 4; ++k) {
+        const double part = (double)coloured_with_point(k % 2, k / 2) / inside;
+        assert_true(part > 0.6 && part <= 1.1);
+    }
+    assert_int_equal(coloured_with_point(1.001, 0.5), 0);
+    assert_int_equal(coloured_with_point(0.5, -0.001), 0);
+}
+
 static void heat_maps_have_a_colour_bar(void **state)
 {
     (void)state;
@@ -125,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ticks_are_round_numbers),
         cmocka_unit_test(charts_come_in_three_formats_with_equal_bytes),
+        cmocka_unit_test(points_on_the_frame_are_whole),
         cmocka_unit_test(heat_maps_have_a_colour_bar),
         cmocka_unit_test(empty_axis_and_unknown_format_are_refused),
     };
