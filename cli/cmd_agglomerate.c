@@ -234,16 +234,6 @@ static clast_status draw(const clast_table *h, const char *path, const char *con
     return clast_chart_write(&chart, path);
 }
 
-static clast_status write_summary(json_t *out, const char *folder)
-{
-    char path[4096];
-    (void)snprintf(path, sizeof path, "%s/summary.json", folder);
-    if (json_dump_file(out, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0) {
-        return cli_fail(CLAST_E_DISK, "cannot write %s", path);
-    }
-    return CLAST_OK;
-}
-
 static clast_status write_folder(const clast_agglomeration *r, json_t *out, const char *end,
                                  const char *folder)
 {
@@ -266,7 +256,7 @@ static clast_status write_folder(const clast_agglomeration *r, json_t *out, cons
         status = draw(&r->history, path, (const char *const[]){"M2", "exact_M2", NULL},
                       "sum of squared monomer numbers (-)");
     }
-    return status == CLAST_OK ? write_summary(out, folder) : status;
+    return status == CLAST_OK ? cli_write_summary(out, folder) : status;
 }
 
 static clast_status run(const cli_common *common, void *values)

@@ -286,18 +286,12 @@ static clast_status write_folder(const clast_decomposition *r, const clast_cloud
                                  const clast_domain *domain, const config *c, json_t *summary,
                                  const char *folder)
 {
-    char path[4096];
     (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     clast_status status = write_tables(r, cloud->n, folder);
     if (status == CLAST_OK) {
         status = write_pictures(r, cloud, domain, c, folder);
     }
-    (void)snprintf(path, sizeof path, "%s/summary.json", folder);
-    if (status == CLAST_OK &&
-        json_dump_file(summary, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0) {
-        status = cli_fail(CLAST_E_DISK, "cannot write %s", path);
-    }
-    return status;
+    return status == CLAST_OK ? cli_write_summary(summary, folder) : status;
 }
 
 /// events_by_n.csv and its chart.

@@ -1,7 +1,9 @@
 // clast porosity: profile and bulk porosity of any assembly.
 #include "command.h"
 #include "json.h"
+#include "manifest.h"
 
+#include <clast/manifest.h>
 #include <clast/porosity_chart.h>
 #include <math.h>
 #include <stdio.h>
@@ -100,15 +102,22 @@ static void subject_free(subject *s)
     clast_table_free(&s->contacts);
 }
 
+/// The file that is measured: a folder's state.h5.
+static clast_status state_path(const char *input, char path[4096])
+{
+    struct stat info;
+    const bool is_folder = stat(input, &info) == 0 && S_ISDIR(info.st_mode);
+    const int n = snprintf(path, 4096, is_folder ? "%s/state.h5" : "%s", input);
+    return n > 0 && n < 4096 ? CLAST_OK : cli_fail(CLAST_E_IO, "%s: the path is too long", input);
+}
+
 /// The grains, and the run's own bed and contact forces where it has them.
 static clast_status read_input(const char *input, subject *s)
 {
     char path[4096];
-    struct stat info;
-    const bool is_folder = stat(input, &info) == 0 && S_ISDIR(info.st_mode);
-    const int n = snprintf(path, sizeof path, is_folder ? "%s/state.h5" : "%s", input);
-    if (n < 0 || (size_t)n >= sizeof path) {
-        return cli_fail(CLAST_E_IO, "%s: the path is too long", input);
+    const clast_status found = state_path(input, path);
+    if (found != CLAST_OK) {
+        return found;
     }
     if (!ends_with(path, ".h5")) {
         return from_spheres(path, &s->assembly);
@@ -246,10 +255,8 @@ static int64_t local_moments(const clast_table *local, double *mean, double *dev
     return n;
 }
 
-static json_t *to_json(const clast_assembly *assembly, const porosity_config *config,
-                       const findings *f)
+static json_t *profile_json(const findings *f)
 {
-    json_t *object = json_object();
     json_t *rows = json_array();
     const double *low = clast_table_numbers(&f->profile, "z_low_m");
     const double *high = clast_table_numbers(&f->profile, "z_high_m");
@@ -260,6 +267,13 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
         cli_json_number(row, "porosity", porosity[k]);
         (void)json_array_append_new(rows, row);
     }
+    return rows;
+}
+
+static json_t *to_json(const clast_assembly *assembly, const porosity_config *config,
+                       const findings *f)
+{
+    json_t *object = json_object();
     cli_json_text(object, "method", config->method == CLAST_POROSITY_EXACT ? "exact" : "spheres");
     cli_json_count(object, "n_grain", assembly->n_grain);
     cli_json_number(object, "bulk", f->bulk.porosity);
@@ -292,7 +306,6 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
         }
         (void)json_object_set_new(object, "stress", stress);
     }
-    (void)json_object_set_new(object, "profile", rows);
     return object;
 }
 
@@ -312,8 +325,9 @@ static clast_status make_folder(const char *folder)
     return CLAST_OK;
 }
 
-static clast_status write_folder(const char *folder, const clast_assembly *assembly,
-                                 const findings *f)
+/// Tables and charts.
+static clast_status write_findings(const char *folder, const clast_assembly *assembly,
+                                   const findings *f)
 {
     char path[4096];
     clast_status status = make_folder(folder);
@@ -355,11 +369,69 @@ static clast_status write_folder(const char *folder, const clast_assembly *assem
     return status;
 }
 
+/// Whether results would go where a run keeps its own summary, manifest and profile.
+static clast_status check_output(const cli_common *common)
+{
+    struct stat out;
+    if (common->output == NULL || stat(common->output, &out) != 0) {
+        return CLAST_OK;
+    }
+    for (int32_t i = 0; i < common->n_argument; ++i) {
+        const char *input = common->argument[i];
+        const char *slash = strrchr(input, '/');
+        struct stat in;
+        char folder[4096];
+        if (stat(input, &in) == 0 && !S_ISDIR(in.st_mode)) { // the folder of state.h5
+            (void)snprintf(folder, sizeof folder, "%.*s", slash != NULL ? (int)(slash - input) : 1,
+                           slash != NULL ? input : ".");
+            if (!ends_with(input, ".h5") || stat(folder, &in) != 0) {
+                continue;
+            }
+        }
+        if (in.st_ino == out.st_ino && in.st_dev == out.st_dev) {
+            return cli_fail(CLAST_E_USAGE,
+                            "-o %s is the run's own folder, whose summary.json and manifest.json "
+                            "would be lost; name another, such as %s/porosity",
+                            common->output, common->output);
+        }
+    }
+    return CLAST_OK;
+}
+
+/// File of --bed mesh:FILE,UNIT, or "".
+static void bed_file(const char *bed, char path[4096])
+{
+    const char *comma = strrchr(bed, ',');
+    const char *end = comma != NULL ? comma : bed + strlen(bed);
+    path[0] = '\0';
+    if (strncmp(bed, "mesh:", 5) == 0) {
+        (void)snprintf(path, 4096, "%.*s", (int)(end - bed - 5), bed + 5);
+    }
+}
+
+/// Says where the results came from: the state of every run, the bed's surface.
+static clast_status write_manifest(const cli_common *common, const porosity_config *config,
+                                   clast_manifest *manifest)
+{
+    char path[4096];
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < common->n_argument && manifest != NULL && status == CLAST_OK; ++i) {
+        status = state_path(common->argument[i], path);
+        status = status == CLAST_OK ? clast_manifest_input(manifest, "run", path) : status;
+    }
+    bed_file(config->bed, path);
+    const cli_input inputs[] = {{"bed", path}, {NULL, NULL}};
+    return status == CLAST_OK ? cli_manifest_end(common, manifest, fields, config, 0, inputs)
+                              : status;
+}
+
 static clast_status print(const cli_common *common, const porosity_config *config,
                           const clast_assembly *assembly, const findings *f)
 {
     if (common->json) {
-        return cli_print_json(to_json(assembly, config, f));
+        json_t *object = to_json(assembly, config, f);
+        (void)json_object_set_new(object, "profile", profile_json(f));
+        return cli_print_json(object);
     }
     (void)printf("%d grains, %s\n", assembly->n_grain,
                  config->method == CLAST_POROSITY_EXACT ? "true shapes"
@@ -478,25 +550,32 @@ static json_t *mean_json(const clast_mean *m)
     return object;
 }
 
+static json_t *several_json(const cli_common *common, const ensemble *e)
+{
+    const clast_mean bulk = clast_mean_of(e->n, e->bulk);
+    const clast_mean coordination = clast_mean_of(e->n, e->coordination);
+    json_t *object = json_object();
+    json_t *runs = json_array();
+    for (int32_t i = 0; i < e->n; ++i) {
+        json_t *run = json_object();
+        cli_json_text(run, "run", common->argument[i]);
+        cli_json_number(run, "bulk", e->bulk[i]);
+        cli_json_number(run, "coordination", e->coordination[i]);
+        (void)json_array_append_new(runs, run);
+    }
+    cli_json_count(object, "n_run", e->n);
+    (void)json_object_set_new(object, "runs", runs);
+    (void)json_object_set_new(object, "bulk", mean_json(&bulk));
+    (void)json_object_set_new(object, "coordination", mean_json(&coordination));
+    return object;
+}
+
 static clast_status print_several(const cli_common *common, const ensemble *e)
 {
     const clast_mean bulk = clast_mean_of(e->n, e->bulk);
     const clast_mean coordination = clast_mean_of(e->n, e->coordination);
     if (common->json) {
-        json_t *object = json_object();
-        json_t *runs = json_array();
-        for (int32_t i = 0; i < e->n; ++i) {
-            json_t *run = json_object();
-            cli_json_text(run, "run", common->argument[i]);
-            cli_json_number(run, "bulk", e->bulk[i]);
-            cli_json_number(run, "coordination", e->coordination[i]);
-            (void)json_array_append_new(runs, run);
-        }
-        cli_json_count(object, "n_run", e->n);
-        (void)json_object_set_new(object, "runs", runs);
-        (void)json_object_set_new(object, "bulk", mean_json(&bulk));
-        (void)json_object_set_new(object, "coordination", mean_json(&coordination));
-        return cli_print_json(object);
+        return cli_print_json(several_json(common, e));
     }
     for (int32_t i = 0; i < e->n; ++i) {
         (void)printf("%-32s %.6f\n", common->argument[i], e->bulk[i]);
@@ -512,18 +591,33 @@ static clast_status print_several(const cli_common *common, const ensemble *e)
     return CLAST_OK;
 }
 
-static clast_status run_several(const cli_common *common, const porosity_config *config)
+/// Keeps the summary; the object is dropped.
+static clast_status keep_summary(const char *folder, json_t *object)
+{
+    const clast_status status = cli_write_summary(object, folder);
+    json_decref(object);
+    return status;
+}
+
+static clast_status write_several(const cli_common *common, const ensemble *e)
+{
+    char path[4096];
+    clast_status status = make_folder(common->output);
+    status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.csv") : status;
+    status = status == CLAST_OK ? clast_table_write_csv(&e->band, path) : status;
+    status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.svg") : status;
+    status = status == CLAST_OK ? clast_porosity_band_chart_write(&e->band, e->unit, path) : status;
+    return status == CLAST_OK ? keep_summary(common->output, several_json(common, e)) : status;
+}
+
+static clast_status run_several(const cli_common *common, const porosity_config *config,
+                                clast_manifest *manifest)
 {
     ensemble e = {0};
-    char path[4096];
     clast_status status = gather(common, config, &e);
     if (status == CLAST_OK && common->output != NULL) {
-        status = make_folder(common->output);
-        status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.csv") : status;
-        status = status == CLAST_OK ? clast_table_write_csv(&e.band, path) : status;
-        status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.svg") : status;
-        status =
-            status == CLAST_OK ? clast_porosity_band_chart_write(&e.band, e.unit, path) : status;
+        status = write_several(common, &e);
+        status = status == CLAST_OK ? write_manifest(common, config, manifest) : status;
     }
     if (status == CLAST_OK) {
         status = print_several(common, &e);
@@ -535,23 +629,36 @@ static clast_status run_several(const cli_common *common, const porosity_config 
     return status;
 }
 
-static clast_status run(const cli_common *common, void *context)
+static clast_status run_one(const cli_common *common, const porosity_config *config,
+                            clast_manifest *manifest)
 {
-    const porosity_config *config = context;
     subject s = {0};
     findings found = {0};
-    if (common->n_argument > 1) {
-        return run_several(common, config);
-    }
     clast_status status = measure_run(common->argument[0], config, &s, &found);
     if (status == CLAST_OK && common->output != NULL) {
-        status = write_folder(common->output, &s.assembly, &found);
+        status = write_findings(common->output, &s.assembly, &found);
+        status = status == CLAST_OK
+                     ? keep_summary(common->output, to_json(&s.assembly, config, &found))
+                     : status;
+        status = status == CLAST_OK ? write_manifest(common, config, manifest) : status;
     }
     if (status == CLAST_OK) {
         status = print(common, config, &s.assembly, &found);
     }
     findings_free(&found);
     subject_free(&s);
+    return status;
+}
+
+static clast_status run(const cli_common *common, void *context)
+{
+    clast_manifest *manifest = NULL;
+    clast_status status = check_output(common);
+    status = status == CLAST_OK ? cli_manifest_begin(common, &manifest) : status;
+    if (status == CLAST_OK) {
+        status = (common->n_argument > 1 ? run_several : run_one)(common, context, manifest);
+    }
+    clast_manifest_destroy(manifest);
     return status;
 }
 
@@ -570,11 +677,12 @@ const cli_command cli_porosity = {
         "the\n"
         "mean profile with its band. Runs of clast pack know their contact forces: stress (Love,\n"
         "Weber) between the same heights, and by height in stress_profile.csv.\n"
-        "-o FOLDER writes profile.csv, profile.svg, fabric.csv (directions of contacts and "
-        "grains),\n"
-        "coordination.csv where contacts are known, local.csv with --local, radial.csv and .svg "
-        "with\n"
-        "--rings, pores.csv and .svg with --pores.",
+        "-o FOLDER (not the run's own) writes summary.json, manifest.json, profile.csv, "
+        "profile.svg,\n"
+        "fabric.csv (directions of contacts and grains), coordination.csv where contacts are "
+        "known,\n"
+        "local.csv with --local, radial.csv and .svg with --rings, pores.csv and .svg with "
+        "--pores.",
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,

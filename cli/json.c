@@ -1,6 +1,8 @@
 // JSON on stdout.
 #include "json.h"
 
+#include "command.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -13,6 +15,19 @@ clast_status cli_print_json(json_t *object)
     (void)putchar('\n');
     json_decref(object);
     return failed != 0 ? CLAST_E_DISK : CLAST_OK;
+}
+
+clast_status cli_write_summary(const json_t *object, const char *folder)
+{
+    char path[4096];
+    const int n = snprintf(path, sizeof path, "%s/summary.json", folder);
+    if (object == NULL) {
+        return CLAST_E_MEMORY;
+    }
+    return n > 0 && n < (int)sizeof path &&
+                   json_dump_file(object, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0
+               ? CLAST_OK
+               : cli_fail(CLAST_E_DISK, "cannot write %s", path);
 }
 
 void cli_json_number(json_t *object, const char *key, double value)

@@ -1,5 +1,6 @@
 """CLI: clast porosity on lattices and on other people's packings."""
 import csv
+import json
 import struct
 import unittest
 
@@ -73,6 +74,50 @@ class Porosity(Case):
             self.assertTrue((out / name).stat().st_size > 100, name)
         self.assert_fails(2, "porosity", path, "--bed", "box:0,0,4,4", "--layer", 0.1, "--rings", 5,
                           says=["cylindrical bed"])
+
+    def test_folder_says_what_it_holds_and_where_it_came_from(self):
+        path, one, two = self.lattice(3), self.folder / "one", self.folder / "two"
+        bed = ["--bed", "periodic:0,0,3,3", "--layer", 0.1]
+        found = clast("porosity", path, *bed, "--json", "-o", one)
+        self.assertEqual(found.code, 0, found.err)
+        summary = json.loads((one / "summary.json").read_text())
+        rows = found.json.pop("profile")
+        self.assertEqual(len(rows), 31)
+        self.assertEqual(summary, {k: v for k, v in found.json.items() if k != "profile"})
+        manifest = json.loads((one / "manifest.json").read_text())
+        self.assertEqual((manifest["command"], manifest["outcome"]), ("porosity", "done"))
+        self.assertEqual((manifest["config"]["layer"], manifest["config"]["bed"]), (0.1, "periodic:0,0,3,3"))
+        self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path))])
+        report = clast("report", one, "-o", self.folder / "report.html")
+        self.assertEqual(report.code, 0, report.err)
+        self.assertIn("Bulk porosity", (self.folder / "report.html").read_text())
+        # several runs have their mean; a container's file is an input
+        found = clast("porosity", path, path, *bed, "--json", "-o", two)
+        self.assertEqual(json.loads((two / "summary.json").read_text()), found.json)
+        manifest = json.loads((two / "manifest.json").read_text())
+        self.assertEqual([i["role"] for i in manifest["inputs"]], ["run", "run"])
+        box = self.folder / "box.off"
+        corners = [(x, y, z) for z in (0, 3) for y in (0, 3) for x in (0, 3)]
+        faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7),
+                 (1, 7, 5)]
+        box.write_text("OFF\n8 12 0\n" + "".join("%g %g %g\n" % c for c in corners) + "".join("3 %d %d %d\n" % f for f in faces))
+        found = clast("porosity", path, "--bed", f"mesh:{box},m", "--layer", 0.1, "-o", two)
+        self.assertEqual(found.code, 0, found.err)
+        manifest = json.loads((two / "manifest.json").read_text())
+        self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path)), ("bed", str(box))])
+
+    def test_a_runs_own_folder_is_left_alone(self):
+        run = self.folder / "bed"
+        made = clast("pack", "--curve", "6 mm", "--mass", "3g", "--width", "40mm", "--height", "0.1m", "--max-steps", 9000, "--quiet",
+                     "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        before = {p.name: p.read_bytes() for p in run.iterdir()}
+        for words in ((run,), (run / "state.h5",), (run, run)):
+            self.assert_fails(2, "porosity", *words, "-o", run, says=("the run's own folder", "name another"))
+        self.assert_fails(2, "porosity", "state.h5", "-o", ".", says=("the run's own folder",), cwd=run)
+        self.assertEqual(before, {p.name: p.read_bytes() for p in run.iterdir()})
+        inside = clast("porosity", run, "--cut", "0.95", "-o", run / "porosity")
+        self.assertEqual(inside.code, 0, inside.err)
 
     def test_bad_input(self):
         path = self.lattice(2)
