@@ -43,7 +43,11 @@ CLAST_API clast_status clast_fit_data_mixture(const clast_table *beds, const cla
                                               const clast_porosity_fit_config *config,
                                               clast_fit_data *data);
 
-/// Any other table: every number column but the target is a candidate.
+/// Any other table: candidates are the columns of numbers that `columns` names; without names all
+/// but the target, and in the results of a study (columns run, ..., exit_code, ...) those between
+/// run and exit_code, that is what was varied, unless `use` names features.
+///
+/// @return CLAST_E_FORMAT for a name without a column of numbers, or when there is no candidate
 CLAST_API clast_status clast_fit_data_columns(const clast_table *beds,
                                               const clast_porosity_fit_config *config,
                                               clast_fit_data *data);

@@ -12,7 +12,9 @@ const clast_field clast_porosity_fit_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, target), 0, 0, 0, "-", "column with the measured porosity",
      "porosity"},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
-     "columns of the form: flatness,elongation or L,I,S (else known by their names)", ""},
+     "columns of the form: flatness,elongation or L,I,S (else known by their names); with features "
+     "columns: the candidates",
+     ""},
     {FIELD(CLAST_FIELD_TEXT, group), 0, 0, 0, "-",
      "column that names the bed, in the table of beds and in that of the grains", "bed"},
     {FIELD(CLAST_FIELD_I32, n_term), 2, 1, 20, "-", "features of the model", NULL},
@@ -267,6 +269,56 @@ static bool has_numbers(const clast_column *column, int64_t n_row)
     return false;
 }
 
+/// Whether a name is one of a,b,...
+static bool is_listed(const char *list, const char *name)
+{
+    const size_t n = strlen(name);
+    const char *at = list;
+    while (at != NULL) {
+        at += *at == ',' ? 1 : 0;
+        const char *next = strchr(at, ',');
+        const size_t length = next != NULL ? (size_t)(next - at) : strlen(at);
+        if (length == n && strncmp(at, name, n) == 0) {
+            return true;
+        }
+        at = next;
+    }
+    return false;
+}
+
+/// Names of a list that are no columns of numbers.
+static clast_status check_list(const clast_table *beds, const char *list)
+{
+    clast_status status = CLAST_OK;
+    for (const char *at = list; at != NULL && *at != '\0';) {
+        char name[256];
+        const char *next = strchr(at, ',');
+        (void)snprintf(name, sizeof name, "%.*s", next != NULL ? (int)(next - at) : (int)strlen(at),
+                       at);
+        CLX_CHECK(clast_table_numbers(beds, name) != NULL, CLAST_E_FORMAT,
+                  "table %s has no column of numbers '%s' (columns)", beds->name, name);
+        at = next != NULL ? next + 1 : NULL;
+    }
+done:
+    return status;
+}
+
+/// Candidates: those named; else all but the target, and in a study's table what was varied alone:
+/// its runs' other results, from exit_code on, are measured with the porosity, not known before.
+static bool is_candidate(const clast_table *beds, int32_t c,
+                         const clast_porosity_fit_config *config)
+{
+    const clast_column *column = &beds->column[c];
+    const int32_t run = clast_table_find(beds, "run");
+    const int32_t code = clast_table_find(beds, "exit_code");
+    const bool is_study = run == 0 && code > run && config->use[0] == '\0';
+    if (column->number == NULL || strcmp(column->name, config->target) == 0) {
+        return false;
+    }
+    return config->columns[0] != '\0' ? is_listed(config->columns, column->name)
+                                      : !is_study || (c > run && c < code);
+}
+
 clast_status clast_fit_data_columns(const clast_table *beds,
                                     const clast_porosity_fit_config *config, clast_fit_data *data)
 {
@@ -275,12 +327,14 @@ clast_status clast_fit_data_columns(const clast_table *beds,
     const double *porosity = NULL;
     int64_t n = 0;
     CLX_TRY(target_of(beds, config->target, &porosity));
+    CLX_TRY(check_list(beds, config->columns));
     CLX_TRY(begin(CLAST_MODEL_COLUMNS, beds->n_row, &d));
     for (int64_t row = 0; row < beds->n_row; ++row) {
         const char *fault = porosity_fault(porosity[row]);
         for (int32_t c = 0; c < beds->n_column && fault == NULL; ++c) {
             const clast_column *column = &beds->column[c];
-            if (has_numbers(column, beds->n_row) && !isfinite(column->number[row])) {
+            if (is_candidate(beds, c, config) && has_numbers(column, beds->n_row) &&
+                !isfinite(column->number[row])) {
                 fault = "a cell is missing or infinite";
             }
         }
@@ -294,7 +348,7 @@ clast_status clast_fit_data_columns(const clast_table *beds,
     for (int32_t c = 0; c < beds->n_column; ++c) {
         const clast_column *from = &beds->column[c];
         const bool is_taken = clast_table_find(&d.beds, from->name) >= 0;
-        if (from->number == NULL || from->number == porosity) {
+        if (!is_candidate(beds, c, config)) {
             continue;
         }
         CLX_CHECK(!is_taken, CLAST_E_FORMAT,
@@ -306,6 +360,9 @@ clast_status clast_fit_data_columns(const clast_table *beds,
             to[k] = from->number[(int64_t)d.beds.column[0].number[k] - 1];
         }
     }
+    CLX_CHECK(d.beds.n_column > 2, CLAST_E_FORMAT,
+              "table %s: no column of numbers is a candidate; name some with --columns",
+              beds->name);
     *data = d;
     d = (clast_fit_data){0};
 done:

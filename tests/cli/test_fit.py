@@ -66,6 +66,31 @@ class Fit(Case):
         self.assertAlmostEqual(answer.json["beds"][0]["porosity"], 0.4 - 0.06 + 0.005, places=12)
         self.assertIn("1 of 2 rows left out", answer.err)
 
+    def test_results_of_a_study_are_no_features(self):
+        # the bulk porosity's best feature was the same bed's porosity_untrimmed
+        rows = ["run,width,seed,exit_code,mass,porosity_bulk,z_low,porosity_untrimmed"]
+        for k in range(1, 25):
+            width, porosity = 0.04 + 0.01 * (k % 7), 0.36 + 0.002 * (k % 7) + 1e-4 * math.sin(k * k)
+            z_low = "nan" if k == 5 else "0"
+            rows.append(f"{k},{width!r},{k % 3},0,{0.1 + k / 7!r},{porosity!r},{z_low},{porosity + 0.01!r}")
+        path = self.write("\n".join(rows) + "\n", "results.csv")
+        fit = clast("fit", path, "--target", "porosity_bulk", "--n-term", 1, "--json")
+        self.assertEqual(fit.code, 0, fit.err)
+        self.assertEqual((fit.json["n_candidate"], fit.json["n_bed"]), (2, 24))
+        self.assertEqual(fit.json["terms"][1]["term"], "width")
+        for words in (("--columns", "mass,porosity_untrimmed"), ("--use", "porosity_untrimmed")):
+            fit = clast("fit", path, "--target", "porosity_bulk", "--features", "columns", *words, "--n-term", 1, "--json")
+            self.assertEqual(fit.code, 0, fit.err)
+            self.assertEqual(fit.json["terms"][1]["term"], "porosity_untrimmed")
+        # another porosity as the target is that column and no other
+        other = clast("fit", path, "--target", "porosity_untrimmed", "--n-term", 1, "--json")
+        self.assertAlmostEqual(other.json["terms"][0]["coefficient"] - clast(
+            "fit", path, "--target", "porosity_bulk", "--n-term", 1, "--json").json["terms"][0]["coefficient"], 0.01, 12)
+        self.assert_fails(3, "fit", path, "--target", "porosity_bulk", "--features", "columns", "--columns", "mass,breadth",
+                          says=("breadth", "columns"))
+        none = self.write("run,exit_code,porosity_bulk\n" + "".join(f"{k},0,0.{k}\n" for k in range(30, 60)), "none.csv")
+        self.assert_fails(3, "fit", none, "--target", "porosity_bulk", says=("no column of numbers is a candidate", "--columns"))
+
     def test_a_studys_folder_holds_the_grains_of_its_beds(self):
         rows = []
         study = self.folder / "study"
