@@ -301,6 +301,17 @@ class Pack(Case):
         sizes.write_text("size_mm\n5\n")
         self.assert_fails(2, "pack", "--curve", f"list:{sizes}", "--density-of", "list", *bed, says=("column density",))
 
+    def test_example_of_heavy_minerals(self):
+        # higher, so that one fill makes all of its grains
+        run = self.folder / "heavy"
+        made = clast("pack", "examples/packing/heavy-minerals.yaml", "--height", "0.3m", "--max-steps", "1", "--json", "-o", run, cwd=ROOT)
+        self.assertEqual(made.code, 0, made.err)
+        density = [float(row["density_kg/m3"]) for row in self.rows(run / "grains.csv")]
+        self.assertEqual(set(density), {2650.0, 4700.0})
+        self.assertGreater(len(density), 400)
+        self.assertAlmostEqual(density.count(4700.0) / len(density), 0.1, delta=3 * math.sqrt(0.09 / len(density)))
+        self.assertGreaterEqual(made.json["mass"], 1e-3)
+
     def test_aggregate_of_two_densities_keeps_them(self):
         state = self.aggregate("coated", "--core", "sphere", "--core-size", "200um", "--core-density", "4700", "--coat", "sphere",
                                "--size", "150um", "--coat-density", "1200", "--replicate", "3")

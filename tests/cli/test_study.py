@@ -59,7 +59,7 @@ class Study(Case):
         """Every study of examples/packing plans its runs; no run is done (there is no thousandth)."""
         expected = {"table4": 24, "table5": 24, "table6": 21, "table7": 18, "table8": 12, "table11": 12, "forms": 378,
                     "forms-10": 10, "mixtures": 104}
-        studies = [p for p in sorted((ROOT / "examples/packing").glob("*.yaml")) if p.stem not in ("cylinder", "periodic")]
+        studies = [p for p in sorted((ROOT / "examples/packing").glob("*.yaml")) if p.stem not in ("cylinder", "periodic", "heavy-minerals")]
         self.assertGreater(len(studies), len(expected))
         for path in studies:
             done = clast("study", path, "-o", self.folder / path.stem, "--shard", "1000/1000", "--json")
