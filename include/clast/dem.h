@@ -56,7 +56,7 @@ typedef struct clast_dem_config {
     double time_step;        ///< [s]
     double gravity;          ///< [m/s2], along -z
     double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]
-    double fluid_viscosity;  ///< drag in fluid at rest; 0: none [Pa s]
+    double fluid_viscosity;  ///< drag, torque of fluid at rest; 0: none [Pa s]
     int32_t domain;          ///< clast_dem_domain
     double width, depth;     ///< along x and y; depth 0: as width [m]
     double height;           ///< of the lid, and of generation [m]

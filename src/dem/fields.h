@@ -99,7 +99,7 @@
          0,                                                                                        \
          1e6,                                                                                      \
          "Pa s",                                                                                   \
-         "viscosity for drag in fluid at rest; 0: no drag, as published",                          \
+         "viscosity for drag and torque of a fluid at rest; 0: none, as published",                \
          NULL},                                                                                    \
         {CLX_DEM_AT(TYPE, IN, rounding, F64),                                                      \
          0,                                                                                        \

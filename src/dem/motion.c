@@ -11,6 +11,7 @@
 #include "dem/move.h"
 
 #include "base/parallel.h"
+#include "dem/fluid.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -78,12 +79,18 @@ static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double 
     if (!dem->config.gyroscopic) {
         turn_plainly(body, g, m, impulse, g->turn);
         v3_scale(g->spin, factor, g->spin);
+        if (dem->config.fluid_viscosity > 0.0) {
+            clx_fluid_slow(dem, i, dt, g->spin);
+        }
         turn_by(g->spin, dt, m->orientation);
     } else {
         double half[4];
         double middle[3][3];
         v3_add(m->angular, m->angular, impulse);
         v3_scale(m->angular, factor, m->angular);
+        if (dem->config.fluid_viscosity > 0.0) {
+            clx_fluid_slow(dem, i, dt, m->angular);
+        }
         for (int k = 0; k < 4; ++k) {
             half[k] = m->orientation[k];
         }
@@ -202,7 +209,9 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
     double speed = shift(c, i, load->force);
     const bool is_fine = speed * dt <= c->stride * g->radius;
     if (g->kind == CLAST_SHAPE_SPHERE) {
-        turn_round(g, &dem->motion[i], load->torque, c->damping, dt);
+        const double kept =
+            dem->config.fluid_viscosity > 0.0 ? clx_fluid_spin_factor(dem, g, dt) : 1.0;
+        turn_round(g, &dem->motion[i], load->torque, c->damping * kept, dt);
     } else {
         turn_body(dem, i, load->torque, c->damping, dt);
         speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);

@@ -387,6 +387,28 @@ static void drag_ends_at_terminal_velocity(void **state)
     clast_dem_destroy(dem);
 }
 
+/* Stokes' torque 8 pi mu R^3 w on the moment 2/5 m R^2: spin falls by 1/e in rho R^2 / (15 mu); a
+ * step is implicit. */
+static void spin_dies_out_by_stokes(void **state)
+{
+    (void)state;
+    clast_dem_config c = scene_space();
+    c.fluid_viscosity = 0.02;
+    clast_dem *dem = make(&c);
+    clast_dem_grain ball = at(0.0, 0.0, 0.0);
+    const double time = DENSITY * RADIUS * RADIUS / (15.0 * c.fluid_viscosity);
+    const int64_t n = (int64_t)(1.5 * time / c.time_step);
+    ball.spin[0] = 10.0;
+    ball.spin[2] = -20.0;
+    CHECK_OK(clast_dem_add_grains(dem, 1, &ball));
+    CHECK_OK(clast_dem_step(dem, n));
+    clast_dem_read_grain(dem, 0, &ball);
+    CHECK_REL(ball.spin[0], 10.0 * pow(1.0 + c.time_step / time, -(double)n), 1e-10);
+    CHECK_REL(ball.spin[2], -2.0 * ball.spin[0], 1e-12);
+    CHECK_REL(ball.spin[0], 10.0 * exp(-1.5), 2.0 * c.time_step / time);
+    clast_dem_destroy(dem);
+}
+
 /* Eq. 14 integrates to A w (1 - cos w t); eq. 15 leaves c_d^t of a speed. */
 static void drive_shakes_and_damps(void **state)
 {
@@ -554,6 +576,7 @@ int main(void)
         cmocka_unit_test(jkr_neck_takes_its_work),
         cmocka_unit_test(rolling_friction_slows_a_rolling_sphere),
         cmocka_unit_test(drag_ends_at_terminal_velocity),
+        cmocka_unit_test(spin_dies_out_by_stokes),
         cmocka_unit_test(drive_shakes_and_damps),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(overlapping_starts_are_refused),

@@ -415,6 +415,54 @@ static void heavy_end_swings_down_in_a_fluid(void **state)
     clast_shape_free(&bell);
 }
 
+/* About its axis and across it the spin dies out by its own moment, in the exact steps of Stokes'
+ * torque on the sphere of its volume, with momentum or spin as the state. */
+static void its_spin_dies_out(void **state)
+{
+    (void)state;
+    clast_shape bell = {0};
+    clast_dem_config c = scene_space();
+    two_densities(&bell);
+    c.fluid_viscosity = 0.02;
+    const double torque = 8.0 * CLAST_PI * 0.02 * 0.75 / CLAST_PI * bell.volume;
+    for (int k = 0; k < 6; ++k) {
+        const int axis = k % 3;
+        const double share = c.time_step * torque / (2000.0 * bell.own.inertia[axis][axis]);
+        clast_dem_grain g = bell_at(0.0, 0.0);
+        c.gyroscopic = k < 3;
+        g.spin[axis] = 5.0;
+        clast_dem *dem = scene_bodies(&c, &bell, 1, &g);
+        assert_non_null(dem);
+        CHECK_OK(clast_dem_step(dem, 2000));
+        clast_dem_read_grain(dem, 0, &g);
+        CHECK_REL(g.spin[axis], 5.0 * pow(1.0 + share, -2000.0), 1e-9);
+        assert_true(g.spin[axis] < 4.9);
+        clast_dem_destroy(dem);
+    }
+    clast_shape_free(&bell);
+}
+
+/* In oil it comes to rest heavy end down, where without the torque it swings for ever. */
+static void it_stops_swinging_in_oil(void **state)
+{
+    (void)state;
+    clast_shape bell = {0};
+    clast_dem_config c = scene_space();
+    clast_dem_grain g = bell_at(0.0, 0.0);
+    two_densities(&bell);
+    c.gravity = 10.0;
+    c.fluid_density = 1000.0;
+    c.fluid_viscosity = 0.1;
+    clast_dem *dem = scene_bodies(&c, &bell, 1, &g);
+    assert_non_null(dem);
+    CHECK_OK(clast_dem_step(dem, (int64_t)(1.0 / c.time_step)));
+    clast_dem_read_grain(dem, 0, &g);
+    CHECK_ABS(2.0 * atan2(g.orientation[2], g.orientation[0]), 0.5 * CLAST_PI, 1e-4);
+    CHECK_ABS(v3_norm(g.spin), 0.0, 1e-3);
+    clast_dem_destroy(dem);
+    clast_shape_free(&bell);
+}
+
 /* Falling heavy end down it comes to the speed at which drag carries mass less buoyancy; a step
  * takes the coefficient of the speed before its drag, 2 % more, which inertia's share of drag
  * feels. */
@@ -561,6 +609,8 @@ int main(void)
         cmocka_unit_test(core_keeps_its_place_in_its_coating),
         cmocka_unit_test(two_densities_are_where_they_look),
         cmocka_unit_test(heavy_end_swings_down_in_a_fluid),
+        cmocka_unit_test(its_spin_dies_out),
+        cmocka_unit_test(it_stops_swinging_in_oil),
         cmocka_unit_test(it_sinks_at_its_own_weight),
         cmocka_unit_test(unequal_ones_keep_their_momenta),
         cmocka_unit_test(threads_change_no_bit_of_two_densities),
