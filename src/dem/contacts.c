@@ -164,7 +164,7 @@ static void push_each(clast_dem *dem, const clx_batch *p)
 
 /// Links of the near list that are gone through at once; pairs ahead whose link, and whose memory
 /// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
-enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, PAIR_AHEAD = 24, GRAIN_AHEAD = 16, LINE = 64 };
+enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, PAIR_AHEAD = 12, GRAIN_AHEAD = 8, LINE = 64 };
 
 /// A piece of the near list, and which of its links are awake, by how they are answered.
 typedef struct {
