@@ -7,6 +7,9 @@ usage: tools/paper_packing.py [--clast build/release/clast] [--runs FOLDER...] [
                which only some shards were run (build/paper-packing unless said)
 --run STUDY... runs these studies in the first of them (resumable; without names: the scaled-down ones, some hours on one core)
 --keep-cases   leaves the timings of cases A and P as the page has them (they want an idle machine)
+--u1 FOLDER DENSE  is what `clast pack examples/packing/periodic.yaml --max-steps N -j 2 -o FOLDER` left, N from the page's last table but one,
+               and nanoseconds a grain-step of the settled bed of 20,000 (`bench_tiles 5 1 2`): the page then has them and what follows;
+               without it the page keeps what it has
 packing.csv is the record of all beds: a bed found in a FOLDER replaces its row, others stay. The page comes from the record, so
 it can be made anew without running anything. Cases A and P (two GPL scans of ../shared) and known packings are run each time.
 """
@@ -310,16 +313,18 @@ def cases(command):
                   "our us a grain-step", "ratio", "our porosity"), rows)
 
 
-def kept_cases():
-    """The table of cases as the page has it."""
+def kept(head):
+    """The table as the page has it, or nothing."""
     lines = (ROOT / "docs/validation/packing.md").read_text(encoding="utf-8").splitlines()
-    first = next(i for i, line in enumerate(lines) if line.startswith("| case "))
+    first = next((i for i, line in enumerate(lines) if line.startswith(f"| {head} ")), None)
+    if first is None:
+        return ""
     last = next(i for i in range(first, len(lines)) if not lines[i].startswith("|"))
     return "\n".join(lines[first:last])
 
 
 def full_u1(command):
-    """Grain-steps of U1 at L = 0.2 m, 16 kg, 6 s from one fill of the process itself."""
+    """Grain-steps of U1 at L = 0.2 m, 16 kg, 6 s from one fill of the process itself: table, while pouring, after."""
     one = clast(command, "pack", "examples/packing/periodic.yaml", "--max-steps", 1)
     share = one["mass"] / 16
     fills = math.ceil(1 / share)
@@ -335,9 +340,25 @@ def full_u1(command):
     rows = [("grains", f"{grains[-1]:.0f}"), ("fills", fills), ("steps", f"{fills * per_fill + 6.1 / 5e-6:.3g}"),
             ("grain-steps while pouring", f"{pouring:.3g}"), ("grain-steps after", f"{rest:.3g}"),
             ("`--max-steps` of a tenth of all grain-steps", f"{step:.0f}")]
-    rows += [(f"hours of one core at {ns} ns a grain-step", f"{(pouring + rest) * ns * 1e-9 / 3600:.2f}")
-             for ns in (150, 200, 250, 300, 400)]
-    return table(("U1, L = 0.2 m, 16 kg, 6 s", ""), rows)
+    rows += [(f"hours at {ns} ns a grain-step", f"{(pouring + rest) * ns * 1e-9 / 3600:.2f}") for ns in (100, 150, 200, 250, 300)]
+    return table(("U1, L = 0.2 m, 16 kg, 6 s", ""), rows), pouring, rest
+
+
+def part_of_u1(folder, dense, pouring, rest):
+    """What a part of the full bed took, and what the whole would."""
+    with open(folder / "summary.json", encoding="utf-8") as file:
+        end = json.load(file)
+    with open(folder / "manifest.json", encoding="utf-8") as file:
+        run = json.load(file)
+    rate = run["wall_s"] / end["grain_steps"]
+    rows = [("threads", run["threads"]), ("processor", f"{run['host']['processor']}, {run['host']['cores']} cores"),
+            ("steps", end["n_step"]), ("grains at its end", end["n_grain"]),
+            ("grain-steps", f"{end['grain_steps']:.3g} ({100 * end['grain_steps'] / (pouring + rest):.1f} % of all)"),
+            ("wall, CPU s", f"{run['wall_s']:.0f}, {run['cpu_s']:.0f}"), ("wall ns a grain-step", f"{1e9 * rate:.0f}"),
+            ("wall ns a grain-step of the settled bed of 20,000, shaken", f"{dense:g}"),
+            ("hours, all grain-steps at the part's rate", f"{(pouring + rest) * rate / 3600:.2f}"),
+            ("hours, pouring at the part's rate, the rest at the settled bed's", f"{(pouring * rate + rest * 1e-9 * dense) / 3600:.2f}")]
+    return table(("part of U1, measured", ""), rows)
 
 
 def known(command):
@@ -408,7 +429,7 @@ def draw_forms(record, library):
                series, x_range=(.8, reach + .2))
 
 
-def page(record, command, timed):
+def page(record, command, timed, measured):
     return f"""# Packings: the paper beside ours
 
 Made by `tools/paper_packing.py` (`make paper-packing`); every bed is a row of `packing.csv`. Paper: Rettinger, Rüde, Vollmer and Frings,
@@ -497,10 +518,13 @@ leaves points empty where two grains' spheres would cross, so a fill of long gra
 
 ## U1 at full size: what it takes
 
-Not run here, nor a tenth of it: this is arithmetic on the number of grains in a fill, to be multiplied by a measured time a
-grain-step (`clast bench P1 P1_20K -j 1`, and `-j 2` for two threads). The paper-like program: 9.8 days of one core.
+The whole was not run here. The grain-steps are arithmetic on the number of grains in a fill; what a part of them took is measured below, where
+it was run (`clast pack examples/packing/periodic.yaml --max-steps N -j 2`, `build/release/bench/bench_tiles 5 1 2`). The paper-like
+program: 9.8 days of one core.
 
-{full_u1(command)}
+{full_u1(command)[0]}
+
+{measured or "No part of it was run."}
 
 ## Known packings
 
@@ -514,16 +538,18 @@ def main():
     parser.add_argument("--runs", type=pathlib.Path, nargs="+", default=[ROOT / "build/paper-packing"])
     parser.add_argument("--run", nargs="*")
     parser.add_argument("--keep-cases", action="store_true")
+    parser.add_argument("--u1", nargs=2, metavar=("FOLDER", "DENSE"))
     args = parser.parse_args()
     for study in (args.run or SMALL) if args.run is not None else ():
         subprocess.run([args.clast, "study", f"examples/packing/{study}.yaml", "-o", str(args.runs[0] / study)], check=True, cwd=ROOT)
-    timed = kept_cases() if args.keep_cases else cases(args.clast)
+    timed = kept("case") if args.keep_cases else cases(args.clast)
+    measured = part_of_u1(pathlib.Path(args.u1[0]), float(args.u1[1]), *full_u1(args.clast)[1:]) if args.u1 else kept("part of U1, measured")
     record = Record(args.runs)
     record.write()
     library = pathlib.Path(args.clast).resolve().parent / "libclast.so"
     draw_curves(record, library)
     draw_forms(record, library)
-    text = page(record, args.clast, timed)
+    text = page(record, args.clast, timed, measured)
     (ROOT / "docs/validation/packing.md").write_text(text, encoding="utf-8")
     print(f"packing: {len(record.beds)} beds in docs/validation/packing.csv, page docs/validation/packing.md")
 
