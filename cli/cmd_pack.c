@@ -99,7 +99,7 @@ static void print_text(const clast_pack_result *r)
                      r->dem.verified.worst);
     }
     (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
-                 r->grain_steps > 0.0 ? 1e9 * r->step_s / r->grain_steps : 0.0);
+                 r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : 0.0);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
 }
 

@@ -134,8 +134,9 @@ typedef struct clast_pack_result {
     uint64_t hash;
     int32_t n_fill;
     int64_t n_waited;      ///< grains that found no place in one fill and were made in a later one
-    double wall_s, step_s; ///< clock of the run; of the stepping alone
-    double grain_steps;    ///< sum over steps of the grains that were there
+    double wall_s, step_s; ///< clock since the run began or was resumed; of the stepping alone
+    double clocked_steps;  ///< grain-steps that step_s is of
+    double grain_steps;    ///< sum over all steps of the grains that were there
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]

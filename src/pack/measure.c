@@ -154,6 +154,7 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .n_waited = pack->n_waited,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
+                           .clocked_steps = pack->clocked_steps,
                            .grain_steps = pack->grain_steps};
     int32_t first = -1;
     clast_dem_measure(pack->dem, &r.dem);

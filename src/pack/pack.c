@@ -251,6 +251,7 @@ clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
         CLX_TRY(clast_dem_step(pack->dem, n));
         pack->step_s += clx_clock() - before;
         pack->grain_steps += (double)n * clast_dem_n_grain(pack->dem);
+        pack->clocked_steps += (double)n * clast_dem_n_grain(pack->dem);
         n_step -= n;
     }
 done:

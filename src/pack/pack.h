@@ -37,7 +37,7 @@ struct clast_pack {
     int64_t phase_step; ///< when the phase began
     double last_height; ///< at the last look
     bool converged;
-    double grain_steps;
+    double grain_steps, clocked_steps;
     clast_table series;
     double step_s, wall_s; ///< clocks, which no result depends on
 };

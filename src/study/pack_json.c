@@ -87,7 +87,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     if (times) {
         put(o, "wall_s", r->wall_s);
         put(o, "ns_per_grain_step",
-            r->grain_steps > 0.0 ? 1e9 * r->step_s / r->grain_steps : (double)NAN);
+            r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : (double)NAN);
     }
     dumped = json_dumps(o, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
     CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");

@@ -186,6 +186,11 @@ static void check_restored(clast_shape_kind kind)
         assert_true(clast_dem_hash(clast_pack_dem(second)) ==
                     clast_dem_hash(clast_pack_dem(whole)));
         check_same_saves(second, whole);
+        clast_pack_result r = {0};
+        CHECK_OK(clast_pack_measure(second, &r)); /* its clock is of its own steps */
+        CHECK_REL(r.clocked_steps, r.grain_steps - saved.number[2], 1e-12);
+        assert_true(r.clocked_steps > 0.0 && r.clocked_steps < r.grain_steps);
+        clast_pack_result_free(&r);
         clast_pack_destroy(second);
         /* what no packing writes is refused */
         second = NULL;
