@@ -7,9 +7,9 @@ usage: tools/paper_packing.py [--clast build/release/clast] [--runs FOLDER...] [
                which only some shards were run (build/paper-packing unless said)
 --run STUDY... runs these studies in the first of them (resumable; without names: the scaled-down ones, some hours on one core)
 --keep-cases   leaves the timings of cases A and P as the page has them (they want an idle machine)
---u1 FOLDER DENSE  is what `clast pack examples/packing/periodic.yaml --max-steps N -j 2 -o FOLDER` left, N from the page's last table but one,
-               and nanoseconds a grain-step of the settled bed of 20,000 (`bench_tiles 5 1 2`): the page then has them and what follows;
-               without it the page keeps what it has
+--u1 DENSE FOLDER [MANIFEST...]  FOLDER is what `clast pack examples/packing/periodic.yaml --max-steps N -j 2 -o FOLDER` left, N from the page's table of U1, with the
+               manifests of its earlier parts where it was resumed; DENSE: wall nanoseconds a grain-step of dense beds, by comma (the
+               settled bed of 20,000, `bench_tiles 5 1 2`; the run's own last stretch). The page then has them and what follows; without it the page keeps what it has
 packing.csv is the record of all beds: a bed found in a FOLDER replaces its row, others stay. The page comes from the record, so
 it can be made anew without running anything. Cases A and P (two GPL scans of ../shared) and known packings are run each time.
 """
@@ -344,20 +344,22 @@ def full_u1(command):
     return table(("U1, L = 0.2 m, 16 kg, 6 s", ""), rows), pouring, rest
 
 
-def part_of_u1(folder, dense, pouring, rest):
+def part_of_u1(dense, folder, earlier, pouring, rest):
     """What a part of the full bed took, and what the whole would."""
     with open(folder / "summary.json", encoding="utf-8") as file:
         end = json.load(file)
-    with open(folder / "manifest.json", encoding="utf-8") as file:
-        run = json.load(file)
-    rate = run["wall_s"] / end["grain_steps"]
+    parts = []
+    for path in [*earlier, folder / "manifest.json"]:
+        with open(path, encoding="utf-8") as file:
+            parts.append(json.load(file))
+    run, wall, cpu = parts[-1], sum(part["wall_s"] for part in parts), sum(part["cpu_s"] for part in parts)
+    rate = wall / end["grain_steps"]
     rows = [("threads", run["threads"]), ("processor", f"{run['host']['processor']}, {run['host']['cores']} cores"),
             ("steps", end["n_step"]), ("grains at its end", end["n_grain"]),
             ("grain-steps", f"{end['grain_steps']:.3g} ({100 * end['grain_steps'] / (pouring + rest):.1f} % of all)"),
-            ("wall, CPU s", f"{run['wall_s']:.0f}, {run['cpu_s']:.0f}"), ("wall ns a grain-step", f"{1e9 * rate:.0f}"),
-            ("wall ns a grain-step of the settled bed of 20,000, shaken", f"{dense:g}"),
+            ("wall, CPU s", f"{wall:.0f}, {cpu:.0f}"), ("wall ns a grain-step", f"{1e9 * rate:.0f}"),
             ("hours, all grain-steps at the part's rate", f"{(pouring + rest) * rate / 3600:.2f}"),
-            ("hours, pouring at the part's rate, the rest at the settled bed's", f"{(pouring * rate + rest * 1e-9 * dense) / 3600:.2f}")]
+            *((f"hours, pouring at the part's rate, the rest at {ns:g} ns", f"{(pouring * rate + rest * 1e-9 * ns) / 3600:.2f}") for ns in dense)]
     return table(("part of U1, measured", ""), rows)
 
 
@@ -519,8 +521,8 @@ leaves points empty where two grains' spheres would cross, so a fill of long gra
 ## U1 at full size: what it takes
 
 The whole was not run here. The grain-steps are arithmetic on the number of grains in a fill; what a part of them took is measured below, where
-it was run (`clast pack examples/packing/periodic.yaml --max-steps N -j 2`, `build/release/bench/bench_tiles 5 1 2`). The paper-like
-program: 9.8 days of one core.
+it was run (`clast pack examples/packing/periodic.yaml --max-steps N -j 2`). The rest of it is a dense bed: at the rate of the part's last stretch, from 20,000
+grains on, or at that of a settled bed of 20,000 (`bench_tiles 5 1 2`). The paper-like program: 9.8 days of one core.
 
 {full_u1(command)[0]}
 
@@ -538,12 +540,15 @@ def main():
     parser.add_argument("--runs", type=pathlib.Path, nargs="+", default=[ROOT / "build/paper-packing"])
     parser.add_argument("--run", nargs="*")
     parser.add_argument("--keep-cases", action="store_true")
-    parser.add_argument("--u1", nargs=2, metavar=("FOLDER", "DENSE"))
+    parser.add_argument("--u1", nargs="+", metavar=("DENSE", "FOLDER"))
     args = parser.parse_args()
     for study in (args.run or SMALL) if args.run is not None else ():
         subprocess.run([args.clast, "study", f"examples/packing/{study}.yaml", "-o", str(args.runs[0] / study)], check=True, cwd=ROOT)
     timed = kept("case") if args.keep_cases else cases(args.clast)
-    measured = part_of_u1(pathlib.Path(args.u1[0]), float(args.u1[1]), *full_u1(args.clast)[1:]) if args.u1 else kept("part of U1, measured")
+    measured = kept("part of U1, measured")
+    if args.u1:
+        folder, *earlier = map(pathlib.Path, args.u1[1:])
+        measured = part_of_u1([float(ns) for ns in args.u1[0].split(",")], folder, earlier, *full_u1(args.clast)[1:])
     record = Record(args.runs)
     record.write()
     library = pathlib.Path(args.clast).resolve().parent / "libclast.so"
