@@ -187,6 +187,15 @@ done:
     return status;
 }
 
+static clast_status series_row_due(clast_pack *p)
+{
+    const int64_t step = clast_dem_n_step(p->dem);
+    const int64_t n = p->series.n_row;
+    const bool is_due = step % steps_of(p, p->config.series_time) == 0 &&
+                        (n == 0 || clast_table_numbers(&p->series, "step")[n - 1] < (double)step);
+    return is_due ? clx_pack_series_row(p) : CLAST_OK;
+}
+
 /// What is due at this step, before it is taken.
 static clast_status decide(clast_pack *p)
 {
@@ -203,11 +212,7 @@ static clast_status decide(clast_pack *p)
     if (p->phase == CLAST_PACK_DAMP) {
         CLX_TRY(look(p));
     }
-    if (step % steps_of(p, p->config.series_time) == 0 &&
-        (p->series.n_row == 0 ||
-         clast_table_numbers(&p->series, "step")[p->series.n_row - 1] < (double)step)) {
-        CLX_TRY(clx_pack_series_row(p));
-    }
+    CLX_TRY(series_row_due(p));
 done:
     return status;
 }
@@ -238,21 +243,25 @@ clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     const int64_t most = pack->config.max_steps;
-    while (n_step > 0) {
+    while (n_step > 0 && !clast_pack_is_over(pack)) {
         CLX_TRY(decide(pack));
-        const int64_t step = clast_dem_n_step(pack->dem);
-        if (pack->phase == CLAST_PACK_DONE || (most > 0 && step >= most)) {
+        if (pack->phase == CLAST_PACK_DONE) {
             break;
         }
+        const int64_t left = most > 0 ? most - clast_dem_n_step(pack->dem) : INT64_MAX;
         int64_t n = quiet_steps(pack);
         n = n < n_step ? n : n_step;
-        n = most > 0 && most - step < n ? most - step : n;
+        n = n < left ? n : left;
         const double before = clx_clock();
         CLX_TRY(clast_dem_step(pack->dem, n));
         pack->step_s += clx_clock() - before;
         pack->grain_steps += (double)n * clast_dem_n_grain(pack->dem);
         pack->clocked_steps += (double)n * clast_dem_n_grain(pack->dem);
         n_step -= n;
+    }
+    /* nothing is decided at the last step, however it was reached: only its row is written */
+    if (clast_pack_is_over(pack)) {
+        CLX_TRY(series_row_due(pack));
     }
 done:
     pack->wall_s += clx_clock() - begun;

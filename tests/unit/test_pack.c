@@ -213,6 +213,32 @@ static void restored_packing_ends_the_same(void **state)
     }
 }
 
+/* Who advances it by the clock may stop right at the last step: same rows and grains as in one go,
+ * and no more at another call. */
+static void rounds_that_end_at_the_last_step_change_nothing(void **state)
+{
+    (void)state;
+    bed b;
+    begin(&b);
+    b.config.max_steps = 4000; /* a row of the series and a look for new grains are due there */
+    clast_pack *whole = NULL;
+    clast_pack *rounds = NULL;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &whole));
+    CHECK_OK(clast_pack_advance(whole, INT64_MAX));
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &rounds));
+    while (!clast_pack_is_over(rounds)) {
+        CHECK_OK(clast_pack_advance(rounds, 1000));
+    }
+    const clast_table *series = clast_pack_series(rounds);
+    CHECK_REL(clast_table_numbers(series, "step")[series->n_row - 1], 4000.0, 0.0);
+    check_same_saves(rounds, whole);
+    CHECK_OK(clast_pack_advance(rounds, 1));
+    check_same_saves(rounds, whole);
+    clast_pack_destroy(rounds);
+    clast_pack_destroy(whole);
+    end(&b);
+}
+
 /* A number that is none, anywhere in a checkpoint, is refused: an anchor's would never be left, and
  * the lists would miss contacts from then on. */
 static void numbers_that_are_none_are_refused(void **state)
@@ -663,6 +689,7 @@ int main(void)
         cmocka_unit_test(fill_is_clear_and_where_it_belongs),
         cmocka_unit_test(phases_follow_one_another),
         cmocka_unit_test(restored_packing_ends_the_same),
+        cmocka_unit_test(rounds_that_end_at_the_last_step_change_nothing),
         cmocka_unit_test(numbers_that_are_none_are_refused),
         cmocka_unit_test(overlap_in_a_checkpoint_ends_with_a_line),
         cmocka_unit_test(grains_that_wait_are_made),
