@@ -171,9 +171,12 @@ typedef struct {
     const int32_t *link;
     clx_near_pair *pair; ///< the same links, packed, or NULL
     int64_t n_left;      ///< links from there to the end of the near list
-    clx_pushed *push;
+    clx_pushed *push;    ///< of each link, or of each awake one
+    bool is_dense;       ///< the latter
+    int n_awake;
+    uint16_t awake[PIECE + 1]; ///< their places in the piece, rising; room for one to be dropped
     int n[CLX_N_BATCH];
-    uint16_t at[CLX_N_BATCH][PIECE];
+    uint16_t at[CLX_N_BATCH][PIECE]; ///< places in `awake`
 } piece;
 
 // Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
@@ -219,11 +222,14 @@ CLX_INLINE void fetch_packed(const clast_dem *dem, const piece *s, int i)
     }
 }
 
-/// Sorts out which of n links are awake. What they push is 0 until it is known.
+/// Sorts out which of n links are awake. Others push by 0, where they have a place.
 static void sort_awake(const clast_dem *dem, int n, piece *s)
 {
     memset(s->n, 0, sizeof s->n);
-    memset(s->push, 0, (size_t)n * sizeof *s->push);
+    s->n_awake = 0;
+    if (!s->is_dense) {
+        memset(s->push, 0, (size_t)n * sizeof *s->push);
+    }
     for (int i = 0; i < n; ++i) {
         const clx_link *link = link_of(dem, s, i);
         if (s->pair != NULL) {
@@ -235,8 +241,10 @@ static void sort_awake(const clast_dem *dem, int n, piece *s)
             dem->item != NULL || link->b < 0 ? CLX_BATCH_ANY : kind_of(dem, link);
         const bool is_awake =
             !(travel_of(dem, link) < link->wake) && !clx_link_is_container(dem, link);
-        s->at[kind][s->n[kind]] = (uint16_t)i;
+        s->at[kind][s->n[kind]] = (uint16_t)s->n_awake;
+        s->awake[s->n_awake] = (uint16_t)i;
         s->n[kind] += is_awake ? 1 : 0;
+        s->n_awake += is_awake ? 1 : 0;
     }
 }
 
@@ -247,9 +255,10 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
     const int last = s->n[kind] - 1;
     p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
     for (int k = 0; k < CLX_BATCH; ++k) {
-        const int i = s->at[kind][from + k < last ? from + k : last];
+        const int rank = s->at[kind][from + k < last ? from + k : last];
+        const int i = s->awake[rank];
         clx_link *link = link_of(dem, s, i);
-        p->to[k] = &s->push[i];
+        p->to[k] = &s->push[s->is_dense ? rank : i];
         p->link[k] = link;
         p->travel[k] = travel_of(dem, link);
         p->a[k] = &dem->grain[clx_item_grain(dem, link->a)];
@@ -270,7 +279,7 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             const int end = from + REST_AHEAD + CLX_BATCH;
             for (int k = from + REST_AHEAD;
                  k < end && k < s->n[kind] && kind != CLX_BATCH_ANY && s->pair == NULL; ++k) {
-                fetch_pair(dem, link_of(dem, s, s->at[kind][k]), (clx_batch_kind)kind);
+                fetch_pair(dem, link_of(dem, s, s->awake[s->at[kind][k]]), (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
@@ -283,23 +292,39 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
     }
 }
 
-void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push)
+static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piece *s)
 {
-    piece s = {0};
-    for (int64_t at = begin; at < end; at += PIECE) {
-        s.link = dem->near.link + at;
-        s.pair = dem->near.is_packed ? dem->near.pair + at : NULL;
-        s.n_left = dem->near.n - at;
-        s.push = push + (at - begin);
-        meet_piece(dem, (int)(end - at < PIECE ? end - at : PIECE), &s);
+    s->link = dem->near.link + at;
+    s->pair = dem->near.is_packed ? dem->near.pair + at : NULL;
+    s->n_left = dem->near.n - at;
+    s->push = push;
+}
+
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
+                           int32_t *awake)
+{
+    piece s;
+    int32_t n_awake = 0;
+    s.is_dense = true;
+    for (int32_t at = begin; at < end; at += PIECE) {
+        begin_piece(dem, at, push + n_awake, &s);
+        meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s);
+        for (int k = 0; k < s.n_awake; ++k) {
+            awake[n_awake + k] = at + s.awake[k];
+        }
+        n_awake += s.n_awake;
     }
+    return n_awake;
 }
 
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
+    piece s;
     (void)worker;
-    clx_contacts_among(dem, begin, end, dem->near.push + begin);
+    s.is_dense = false;
+    begin_piece(dem, begin, dem->near.push + begin, &s);
+    meet_piece(dem, (int)(end - begin), &s);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.
@@ -353,7 +378,7 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 void clx_contacts(clast_dem *dem)
 {
-    clx_dem_for(dem, dem->near.n, BLOCK, meet_block, dem);
+    clx_dem_for(dem, dem->near.n, PIECE, meet_block, dem);
     if (dem->container != NULL) {
         clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }

@@ -233,10 +233,8 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
-        if (dem->list.is_due || dem->near.is_due) {
-            clx_near_unpack(dem);
-        }
         if (dem->list.is_due) {
+            clx_near_unpack(dem);
             CLX_TRY(clx_list_refresh(dem));
         }
         if (dem->near.is_due) {

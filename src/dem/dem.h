@@ -102,11 +102,20 @@ typedef struct clx_near_block {
     bool wants_memory; ///< some link has none yet and needs one
 } clx_near_block;
 
+/// Links that were packed, by their numbers in the list.
+typedef struct clx_near_row {
+    int32_t n;
+    int32_t *link;       ///< [n] rising
+    int32_t *begin;      ///< [n_item + 1]
+    clx_near_pair *pair; ///< [n]
+    int64_t capacity, item_capacity, pair_capacity;
+} clx_near_row;
+
 /// The links that may touch before some grain's path exceeds its `until`: what a step looks at.
 typedef struct clx_near {
     int32_t n;
     int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step; 0 where nothing touches
+    clx_pushed *push;  ///< [n] of the last step; a sweep keeps what it does to late grains here
     int32_t *begin;    ///< [n_item + 1] first of each item's own
     int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
     int32_t *in;       ///< [n] their numbers, rising
@@ -115,7 +124,8 @@ typedef struct clx_near {
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
     clx_near_block *block;
     clx_near_pair
-        *pair; ///< [n] while is_packed: the links and memories of the list are out of date
+        *pair;        ///< [n] while is_packed: the links and memories of the list are out of date
+    clx_near_row old; ///< what was packed before, while it is packed anew
     int64_t load_capacity, block_capacity, pair_capacity;
     bool is_due;
     bool is_packed;
@@ -132,7 +142,8 @@ typedef struct clx_sweeping {
     int32_t *late;    ///< [n_late] their first grains
     int32_t n_late;
     clx_pushed *push; ///< [n_worker][most] of the block that a worker is at
-    int64_t bound_capacity, late_capacity[2], push_capacity;
+    int32_t *awake;   ///< [n_worker][most] its awake links
+    int64_t bound_capacity, late_capacity[2], push_capacity, awake_capacity;
 } clx_sweeping;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
@@ -399,8 +410,10 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 /// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some links of the near list; what link k does goes to push[k - begin].
-void clx_contacts_among(clast_dem *dem, int64_t begin, int64_t end, clx_pushed *push);
+/// The same for some links of the near list: numbers of the awake ones, rising, and what each does.
+/// Both have room for all. Returns how many; the others do nothing.
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
+                           int32_t *awake);
 
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);

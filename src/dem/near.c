@@ -6,8 +6,9 @@
 // comparison, one that is not costs nothing, and whether it is here changes no result.
 //
 // A sweep works on copies that stand in a row, links with their memories: memory hands out what it
-// is asked for in order several times faster than lines here and there. The list has them back
-// before it is brought up to date, and whenever somebody outside may look.
+// is asked for in order several times faster than lines here and there. A new near list is packed
+// out of the old one where it can; the list has all back before it is brought up to date, and
+// whenever somebody outside may look.
 #include "dem/dem.h"
 
 #include "base/lines.h"
@@ -28,6 +29,9 @@ void clx_near_free(clx_near *near)
     clx_free(near->load);
     clx_free(near->block);
     clx_free(near->pair);
+    clx_free(near->old.link);
+    clx_free(near->old.begin);
+    clx_free(near->old.pair);
     *near = (clx_near){0};
 }
 
@@ -51,6 +55,27 @@ static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
+/// Where an item's links stood in what was packed before.
+typedef struct {
+    int32_t at, end;
+} old_range;
+
+static old_range old_of(const clx_near *near, int64_t i)
+{
+    return near->is_packed ? (old_range){near->old.begin[i], near->old.begin[i + 1]}
+                           : (old_range){0};
+}
+
+/// Link k of the list, out of the old row where it stands at the range's begin.
+static inline const clx_link *link_now(const clast_dem *dem, int64_t k, old_range *old)
+{
+    const clx_near_row *row = &dem->near.old;
+    if (old->at < old->end && row->link[old->at] == k) {
+        return &row->pair[old->at++].link;
+    }
+    return &dem->list.link[k];
+}
+
 /// Links of a block of items that may wake, to where the block's listed links begin; how many come
 /// before each item's, and whether one of them has no memory yet and needs it.
 static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -65,9 +90,10 @@ static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         const double own = near->until[clx_item_grain(dem, (int32_t)i)];
+        old_range old = old_of(near, i);
         near->begin[i] = n;
         for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
-            const clx_link *link = &l->link[k];
+            const clx_link *link = link_now(dem, k, &old);
             const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
             const bool may_wake = link->wake <= own + other;
             to[n] = (int32_t)k;
@@ -159,40 +185,77 @@ done:
     return status;
 }
 
+/// Out of the list.
+static inline void take(const clx_list *l, int32_t k, clx_near_pair *pair)
+{
+    pair->link = l->link[k];
+    if (pair->link.slot != 0) {
+        pair->memory = l->memory[pair->link.slot].record;
+    }
+}
+
+/// Back into the list.
+static inline void give(clx_list *l, int32_t k, const clx_near_pair *pair)
+{
+    l->link[k] = pair->link;
+    if (pair->link.slot != 0) {
+        l->memory[pair->link.slot].record = pair->memory;
+    }
+}
+
 static void pack_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    const clx_list *l = &dem->list;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        clx_near_pair *pair = &dem->near.pair[k];
-        pair->link = l->link[dem->near.link[k]];
-        if (pair->link.slot != 0) {
-            pair->memory = l->memory[pair->link.slot].record;
+        take(&dem->list, dem->near.link[k], &dem->near.pair[k]);
+    }
+}
+
+/// Rows of a block of items out of the old ones, which are in order: what has left goes back to the
+/// list, what is new comes from there.
+static void pack_again(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_dem *dem = context;
+    const clx_near *near = &dem->near;
+    const clx_near_row *row = &near->old;
+    int32_t at = row->begin[begin];
+    (void)worker;
+    for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k) {
+        for (; at < row->begin[end] && row->link[at] < near->link[k]; ++at) {
+            give(&dem->list, row->link[at], &row->pair[at]);
         }
+        if (at < row->begin[end] && row->link[at] == near->link[k]) {
+            near->pair[k] = row->pair[at++];
+        } else {
+            take(&dem->list, near->link[k], &near->pair[k]);
+        }
+    }
+    for (; at < row->begin[end]; ++at) {
+        give(&dem->list, row->link[at], &row->pair[at]);
     }
 }
 
 static void unpack_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    clx_list *l = &dem->list;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        const clx_near_pair *pair = &dem->near.pair[k];
-        l->link[dem->near.link[k]] = pair->link;
-        if (pair->link.slot != 0) {
-            l->memory[pair->link.slot].record = pair->memory;
-        }
+        give(&dem->list, dem->near.link[k], &dem->near.pair[k]);
     }
+}
+
+static clast_status grow_row(clx_near *near)
+{
+    return clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + 1,
+                          sizeof *near->pair);
 }
 
 clast_status clx_near_pack(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
-    CLX_TRY(clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + 1,
-                           sizeof *near->pair));
+    CLX_TRY(grow_row(near));
     clx_dem_for(dem, near->n, PACK, pack_block, dem);
     near->is_packed = true;
 done:
@@ -207,11 +270,34 @@ void clx_near_unpack(clast_dem *dem)
     }
 }
 
+/// What is packed becomes the old row, whose room is used for the next, or the other way round.
+static void turn_rows(clx_near *near)
+{
+    const clx_near_row row = {.n = near->n,
+                              .link = near->link,
+                              .begin = near->begin,
+                              .pair = near->pair,
+                              .capacity = near->capacity,
+                              .item_capacity = near->item_capacity,
+                              .pair_capacity = near->pair_capacity};
+    near->n = near->old.n;
+    near->link = near->old.link;
+    near->begin = near->old.begin;
+    near->pair = near->old.pair;
+    near->capacity = near->old.capacity;
+    near->item_capacity = near->old.item_capacity;
+    near->pair_capacity = near->old.pair_capacity;
+    near->old = row;
+}
+
 clast_status clx_near_find(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
     const int64_t n_grain = dem->n_grain;
+    if (near->is_packed) {
+        turn_rows(near);
+    }
     CLX_TRY(clx_grow(&near->begin, &near->item_capacity, (int64_t)dem->n_item + 1,
                      sizeof *near->begin));
     CLX_TRY(clx_grow(&near->until, &near->until_capacity, n_grain + 1, sizeof *near->until));
@@ -222,9 +308,16 @@ clast_status clx_near_find(clast_dem *dem)
     CLX_TRY(clx_grow_lines(&near->push, &near->push_capacity, (int64_t)near->n + 1,
                            sizeof *near->push));
     CLX_TRY(give_slots(dem));
+    if (near->is_packed) {
+        CLX_TRY(grow_row(near));
+        clx_dem_for(dem, dem->n_item, BLOCK, pack_again, dem);
+    }
     near->is_due = false;
     near->is_gathered = false;
     dem->sweeping.n_worker = 0;
 done:
+    if (status != CLAST_OK && near->is_packed) {
+        turn_rows(near); // what is packed is still whole
+    }
     return status;
 }

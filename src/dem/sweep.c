@@ -23,10 +23,12 @@ void clx_sweeping_free(clx_sweeping *s)
     clx_free(s->is_late);
     clx_free(s->late);
     clx_free(s->push);
+    clx_free(s->awake);
     *s = (clx_sweeping){0};
 }
 
-/// Marks the fours that some earlier chunk pushes, and lists them.
+/// Marks the fours that some earlier chunk pushes, and lists them; nothing is kept for them yet. (A
+/// link that falls asleep has parted: what it left is 0.)
 static void find_late(clast_dem *dem)
 {
     clx_sweeping *s = &dem->sweeping;
@@ -45,6 +47,12 @@ static void find_late(clast_dem *dem)
     for (int32_t f = 0; f < n_four; ++f) {
         if (s->is_late[f] != 0) {
             s->late[s->n_late++] = f * CLX_LANES;
+        }
+    }
+    for (int32_t k = 0; k < near->n && s->n_late > 0; ++k) {
+        const int32_t b = clx_near_link(dem, k)->b;
+        if (b >= 0 && s->is_late[b / CLX_LANES] != 0) {
+            near->push[k] = (clx_pushed){0};
         }
     }
 }
@@ -86,6 +94,8 @@ static clast_status divide(clast_dem *dem, int32_t n_worker)
     CLX_TRY(clx_grow(&s->late, &s->late_capacity[1], n_four, sizeof *s->late));
     CLX_TRY(
         clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
+    CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->awake));
     s->n_worker = n_worker;
     find_late(dem);
     if (s->n_late > 0 && !near->is_gathered) {
@@ -104,19 +114,19 @@ CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// What the contacts of grains [begin, end), a block at most, do to them and to the others: onto
-/// their loads, or kept where the other is late. Pairs that do not touch push by 0, so that no
-/// branch has to be guessed.
+/// What the awake links of grains [begin, end), a block at most, do to them and to the others: onto
+/// their loads, or kept where the other is late.
 CLX_FOR_EACH_MACHINE
-static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pushed *push)
+static void spread_all(clast_dem *dem, int64_t begin, int64_t end, int32_t n_awake,
+                       const int32_t *awake, const clx_pushed *push)
 {
     clx_near *near = &dem->near;
     const uint8_t *is_late = dem->sweeping.is_late;
     clx_load own[BLOCK] = {0};
-    for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k, ++push) {
-        const clx_link *link = clx_near_link(dem, k);
-        if (k + AHEAD < near->n && clx_near_link(dem, k + AHEAD)->b >= 0) {
-            __builtin_prefetch(&near->load[clx_near_link(dem, k + AHEAD)->b]);
+    for (int32_t k = 0; k < n_awake; ++k, ++push) {
+        const clx_link *link = clx_near_link(dem, awake[k]);
+        if (k + AHEAD < n_awake && clx_near_link(dem, awake[k + AHEAD])->b >= 0) {
+            __builtin_prefetch(&near->load[clx_near_link(dem, awake[k + AHEAD])->b]);
         }
         clx_load *on_a = &own[link->a - begin];
         lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
@@ -125,7 +135,7 @@ static void spread_all(clast_dem *dem, int64_t begin, int64_t end, const clx_pus
             continue;
         }
         if (is_late[link->b / CLX_LANES] != 0) {
-            near->push[k] = *push;
+            near->push[awake[k]] = *push;
         } else {
             add(&near->load[link->b], push->force, push->torque_b);
         }
@@ -143,12 +153,16 @@ static int move_and_clear(const clx_moving *c, int64_t g, int n)
     return flag;
 }
 
-static int sweep_block(const clx_moving *c, int64_t begin, int64_t end, clx_pushed *push)
+static int sweep_block(const clx_moving *c, int64_t begin, int64_t end, int32_t worker)
 {
     clast_dem *dem = c->dem;
+    const int64_t room = (int64_t)worker * dem->sweeping.most;
+    clx_pushed *push = dem->sweeping.push + room;
+    int32_t *awake = dem->sweeping.awake + room;
     int flag = 0;
-    clx_contacts_among(dem, dem->near.begin[begin], dem->near.begin[end], push);
-    spread_all(dem, begin, end, push);
+    const int32_t n =
+        clx_contacts_among(dem, dem->near.begin[begin], dem->near.begin[end], push, awake);
+    spread_all(dem, begin, end, n, awake, push);
     for (int64_t g = begin; g < end; g += CLX_LANES) {
         if (dem->sweeping.is_late[g / CLX_LANES] == 0) {
             flag |= move_and_clear(c, g, clx_lanes_from(g, end));
@@ -165,8 +179,7 @@ static void sweep_chunks(int64_t begin, int64_t end, int32_t worker, void *conte
         const int64_t last = s->bound[k + 1];
         int flag = 0;
         for (int64_t g = s->bound[k]; g < last; g += BLOCK) {
-            flag |= sweep_block(c, g, g + BLOCK < last ? g + BLOCK : last,
-                                s->push + (int64_t)worker * s->most);
+            flag |= sweep_block(c, g, g + BLOCK < last ? g + BLOCK : last, worker);
         }
         c->dem->block_flag[k] = (uint8_t)flag;
     }
