@@ -4,10 +4,11 @@
 // asks where it is. So a block of grains meets its neighbours and moves at once: what contacts do
 // stays in the first-level cache, grains in the second.
 //
-// Each thread takes one chunk of grains: what lies on a border of chunks costs more. A grain that
-// one of an earlier chunk pushes is late: it stays where it is, what is done to it is kept in
-// near.push, and it moves when all chunks are done. No other chunk reads a grain that is not late.
-// The sums have the order of motion.c, so chunks and threads change no bit.
+// Each thread takes one large chunk of grains, since what lies on a border of chunks costs more,
+// and then small ones while there are any: threads are never equally fast. A grain that one of an
+// earlier chunk pushes is late: it stays where it is, what is done to it is kept in near.push, and
+// it moves when all chunks are done. No other chunk reads a grain that is not late. The sums have
+// the order of motion.c, so chunks and threads change no bit.
 #include "base/lines.h"
 #include "base/parallel.h"
 #include "dem/move.h"
@@ -16,6 +17,10 @@
 /// Grains of a block, whose pushes stay in the first-level cache; links ahead whose other grain's
 /// load is asked for.
 enum { BLOCK = CLX_SWEEP_BLOCK, AHEAD = 8 };
+
+/// Share of the work that is left for whoever is done first, in SMALL chunks a worker.
+static const double REST = 0.08;
+enum { SMALL = 3 };
 
 void clx_sweeping_free(clx_sweeping *s)
 {
@@ -57,13 +62,35 @@ static void find_late(clast_dem *dem)
     }
 }
 
-/// Chunks of whole blocks with about the same work each: a grain counts as one of its pairs.
-static void set_bounds(clast_dem *dem)
+/// Work of grains [begin, end): moving one costs about as much as five links that sleep, and one
+/// that touches as twelve (profile of P1).
+static int64_t work_of(const clast_dem *dem, int32_t begin, int32_t end)
+{
+    enum { MOVE = 5, TOUCH = 12 };
+    const clx_near *near = &dem->near;
+    int64_t work = (int64_t)MOVE * (end - begin) + near->begin[end] - near->begin[begin];
+    for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k) {
+        work += TOUCH * (int64_t)clx_near_link(dem, k)->touches;
+    }
+    return work;
+}
+
+/// Share of the work that is in the chunks before chunk c: one for each worker, then small ones for
+/// whoever is done first.
+static double share_before(int32_t c, int32_t n_worker)
+{
+    return c <= n_worker ? (1.0 - REST) * c / n_worker
+                         : 1.0 - REST * (1.0 - (double)(c - n_worker) / (SMALL * n_worker));
+}
+
+/// Chunks of whole blocks.
+static void set_bounds(clast_dem *dem, int32_t n_worker)
 {
     clx_sweeping *s = &dem->sweeping;
     const clx_near *near = &dem->near;
     const int32_t n = dem->n_grain;
-    const int64_t all = (int64_t)n + near->n;
+    const double all = s->n_chunk > 1 ? (double)work_of(dem, 0, n) : 0.0;
+    int64_t before = 0;
     s->most = 0;
     s->bound[0] = 0;
     int32_t c = 0;
@@ -71,9 +98,10 @@ static void set_bounds(clast_dem *dem)
         const int32_t end = i + BLOCK < n ? i + BLOCK : n;
         const int32_t links = near->begin[end] - near->begin[i];
         s->most = links > s->most ? links : s->most;
-        while (c + 1 < s->n_chunk && (int64_t)i + near->begin[i] >= all * (c + 1) / s->n_chunk) {
+        while (c + 1 < s->n_chunk && (double)before >= all * share_before(c + 1, n_worker)) {
             s->bound[++c] = i;
         }
+        before += c + 1 < s->n_chunk ? work_of(dem, i, end) : 0;
     }
     while (c < s->n_chunk) {
         s->bound[++c] = n;
@@ -87,9 +115,10 @@ static clast_status divide(clast_dem *dem, int32_t n_worker)
     const clx_near *near = &dem->near;
     const int32_t n_four = dem->n_grain / CLX_LANES + 1;
     const int32_t n_block = dem->n_grain / BLOCK + 1;
-    s->n_chunk = n_worker < n_block ? n_worker : n_block;
+    s->n_chunk = n_worker == 1 ? 1 : (1 + SMALL) * n_worker;
+    s->n_chunk = s->n_chunk < n_block ? s->n_chunk : n_block;
     CLX_TRY(clx_grow(&s->bound, &s->bound_capacity, s->n_chunk + 1, sizeof *s->bound));
-    set_bounds(dem);
+    set_bounds(dem, n_worker);
     CLX_TRY(clx_grow(&s->is_late, &s->late_capacity[0], n_four, sizeof *s->is_late));
     CLX_TRY(clx_grow(&s->late, &s->late_capacity[1], n_four, sizeof *s->late));
     CLX_TRY(
