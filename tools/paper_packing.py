@@ -501,7 +501,7 @@ Ten single forms at L = 0.1 m, 4 kg, t_s = 1 s (`forms-10`):
 
 {table_11(record, command)}
 
-Scaled down: `table11-small` (L = 100 mm, 1.1 kg), else the exact beds of `rounding-small` (0.5 kg); both are shaken for 1 s, the paper's for 6 s.
+Scaled down: `table11-small` (L = 140 mm, 2.1 kg), else the exact beds of `rounding-small` (0.5 kg); both are shaken for 1 s, the paper's for 6 s.
 
 ## Rounded edges
 

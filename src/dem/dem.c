@@ -66,8 +66,9 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width : fmin(c->width, depth);
     if (c->domain == CLAST_DEM_PERIODIC) {
         CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
-                  "grain %lld reaches %g m across, more than half the period of %g m",
-                  (long long)number, 2.0 * radius, narrow);
+                  "grain %lld reaches %g m across, %g m with its skin, more than half the period "
+                  "of %g m",
+                  (long long)number, 2.0 * radius, 2.0 * radius * (1.0 + c->skin), narrow);
     } else if (c->domain != CLAST_DEM_OPEN) {
         CLX_CHECK(2.0 * radius <= narrow, CLAST_E_GEOMETRY,
                   "grain %lld reaches %g m across, the domain only %g m", (long long)number,
