@@ -174,7 +174,7 @@ typedef struct {
     clx_pushed *push;    ///< of each link, or of each awake one
     bool is_dense;       ///< the latter
     int n_awake;
-    uint16_t awake[PIECE + 1]; ///< their places in the piece, rising; room for one to be dropped
+    uint16_t awake[PIECE]; ///< their places in the piece, rising
     int n[CLX_N_BATCH];
     uint16_t at[CLX_N_BATCH][PIECE]; ///< places in `awake`
 } piece;
