@@ -195,7 +195,7 @@ clast_status clx_pack_check_draws(clast_pack *p)
                   "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "
                   "domain, or another seed if few grains are as large",
                   (long long)i, 2.0 * reach,
-                  d->domain == CLAST_DEM_PERIODIC ? "half the period" : "the width",
+                  d->domain == CLAST_DEM_PERIODIC ? "half the period, less the skin," : "the width",
                   fmin(d->width, d->depth > 0.0 ? d->depth : d->width));
         mass += g.density * measures[1] * g.scale * g.scale * g.scale;
     }
