@@ -303,7 +303,7 @@ static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piec
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
                            int32_t *awake)
 {
-    piece s;
+    piece s = {0};
     int32_t n_awake = 0;
     s.is_dense = true;
     for (int32_t at = begin; at < end; at += PIECE) {
@@ -320,7 +320,7 @@ int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushe
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    piece s;
+    piece s = {0};
     (void)worker;
     s.is_dense = false;
     begin_piece(dem, begin, dem->near.push + begin, &s);
