@@ -1,8 +1,8 @@
 // GJK with the subproblem by signed volumes.
 //
 // Work is in units of the bodies, so all tolerances are relative to them: the same grains in metres
-// or millimetres take the same path. The squared distance must fall in every step; when rounding
-// keeps it from falling, the best iterate so far is the answer.
+// or millimetres take the same path. The squared distance must fall in every step, and never below
+// what the best support proves; when rounding breaks either, the best iterate so far is the answer.
 #include "contact/gjk.h"
 
 #include "math/least.h"
@@ -284,6 +284,9 @@ clx_gjk_answer clx_gjk(clx_gjk_pair *pair, double max_gap, clx_simplex *simplex,
     for (int step = 0; step < MAX_STEP && n_stall < MAX_STALL; ++step) {
         double x[3] = {0.0, 0.0, 0.0};
         const double d2 = reduce(&trial, x);
+        if (sqrt(d2) < best_bound - tolerance) {
+            break; // nearer than a plane that parts the bodies: a sliver's rounding
+        }
         n_stall = d2 < best2 ? 0 : n_stall + 1; // the direction may still gain when d2 cannot
         best2 = lesser_of(best2, d2);
         if (d2 <= touching2) {
