@@ -19,15 +19,19 @@ clast_status cli_print_json(json_t *object)
 
 clast_status cli_write_summary(const json_t *object, const char *folder)
 {
-    char path[4096];
+    char path[4096], part[4096 + 8];
     const int n = snprintf(path, sizeof path, "%s/summary.json", folder);
     if (object == NULL) {
         return CLAST_E_MEMORY;
     }
-    return n > 0 && n < (int)sizeof path &&
-                   json_dump_file(object, path, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0
-               ? CLAST_OK
-               : cli_fail(CLAST_E_DISK, "cannot write %s", path);
+    (void)snprintf(part, sizeof part, "%s.part", path);
+    if (n > 0 && n < (int)sizeof path &&
+        json_dump_file(object, part, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+        rename(part, path) == 0) {
+        return CLAST_OK;
+    }
+    (void)remove(part);
+    return cli_fail(CLAST_E_DISK, "cannot write %s", path);
 }
 
 void cli_json_number(json_t *object, const char *key, double value)

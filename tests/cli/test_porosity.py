@@ -1,6 +1,7 @@
 """CLI: clast porosity on lattices and on other people's packings."""
 import csv
 import json
+import os
 import struct
 import unittest
 
@@ -91,6 +92,13 @@ class Porosity(Case):
         report = clast("report", one, "-o", self.folder / "report.html")
         self.assertEqual(report.code, 0, report.err)
         self.assertIn("Bulk porosity", (self.folder / "report.html").read_text())
+        # a summary is replaced, not written over: who holds the old one keeps it
+        old = self.folder / "old.json"
+        os.link(one / "summary.json", old)
+        self.assertEqual(clast("porosity", path, *bed, "--cut", 0.4, "-o", one).code, 0)
+        self.assertEqual(json.loads(old.read_text()), summary)
+        self.assertNotEqual(json.loads((one / "summary.json").read_text()), summary)
+        self.assertEqual([p.name for p in one.iterdir() if p.suffix == ".part"], [])
         # several runs have their mean; a container's file is an input
         found = clast("porosity", path, path, *bed, "--json", "-o", two)
         self.assertEqual(json.loads((two / "summary.json").read_text()), found.json)
