@@ -12,7 +12,7 @@ static clast_status resume(const cli_common *common, const clast_aggregate_confi
 {
     const clast_status status =
         cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields, config,
-                                           sizeof *config));
+                                           sizeof *config, NULL));
     return status != CLAST_OK
                ? status
                : clast_aggregate_resume(config->resume, common->comm, monitor, report);

@@ -9,9 +9,11 @@
 static clast_status resume(const cli_common *common, const clast_pack_config *config,
                            const clast_monitor *monitor, clast_pack_result *result)
 {
-    const clast_status status =
-        cli_resume_check(common, config->resume, clast_pack_fields, config, sizeof *config);
-    return status != CLAST_OK ? status : clast_pack_resume(config->resume, monitor, result);
+    const clast_status status = cli_resume_check(common, config->resume, clast_pack_fields, config,
+                                                 sizeof *config, "max_steps");
+    return status != CLAST_OK
+               ? status
+               : clast_pack_resume(config->resume, config->max_steps, monitor, result);
 }
 
 /// One line for the hull of a surface.
@@ -138,7 +140,8 @@ static const char details[] =
     "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, grains.csv, summary.json, "
     "manifest.json,\n"
     "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
-    "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.";
+    "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.\n"
+    "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.";
 
 const cli_command cli_pack = {
     .name = "pack",

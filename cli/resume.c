@@ -19,7 +19,8 @@ static bool differs(const clast_field *field, const void *a, const void *b)
 }
 
 clast_status cli_resume_check(const cli_common *common, const char *folder,
-                              const clast_field *fields, const void *config, size_t size)
+                              const clast_field *fields, const void *config, size_t size,
+                              const char *free_option)
 {
     const char *changed = NULL;
     void *fresh = calloc(1, size);
@@ -29,7 +30,9 @@ clast_status cli_resume_check(const cli_common *common, const char *folder,
     clast_status status = clast_fields_default(fields, fresh);
     if (status == CLAST_OK) {
         for (const clast_field *f = fields; f->name != NULL && changed == NULL; ++f) {
-            const bool is_other = strcmp(f->name, "resume") != 0 && differs(f, config, fresh);
+            const bool is_free = strcmp(f->name, "resume") == 0 ||
+                                 (free_option != NULL && strcmp(f->name, free_option) == 0);
+            const bool is_other = !is_free && differs(f, config, fresh);
             changed = is_other ? f->name : NULL;
         }
         clast_fields_free(fields, fresh);

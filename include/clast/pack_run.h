@@ -14,9 +14,14 @@
 CLAST_API clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
                                       const clast_monitor *monitor, clast_pack_result *result);
 
-/// Goes on from the newest whole checkpoint of a folder.
-CLAST_API clast_status clast_pack_resume(const char *folder, const clast_monitor *monitor,
-                                         clast_pack_result *result);
+/// Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps
+/// had ended early. Ends in the same bytes as one run of that many steps.
+///
+/// @param max_steps  in place of the run's own; 0: the run's own, and after an early end none
+/// @return CLAST_E_IO when there is nothing to go on from, CLAST_E_USAGE when the run has done
+///         max_steps already, else as clast_pack_run
+CLAST_API clast_status clast_pack_resume(const char *folder, int64_t max_steps,
+                                         const clast_monitor *monitor, clast_pack_result *result);
 
 /// The result as one JSON object, names of DESIGN section 7. Free it with clast_text_free.
 ///

@@ -113,6 +113,9 @@ clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *ste
     clast_status status = CLAST_OK;
     listing list = {0};
     char *found = NULL;
+    if (n_damaged != NULL) {
+        *n_damaged = 0;
+    }
     CLX_TRY(list_steps(folder, &list));
     CLX_CHECK(list.n > 0, CLAST_E_IO, "%s holds no checkpoint (a run that has ended keeps none)",
               folder);
@@ -123,10 +126,10 @@ clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *ste
             *path = found;
             found = NULL;
             *step = list.step[i];
-            if (n_damaged != NULL) {
-                *n_damaged = (int32_t)i;
-            }
             goto done;
+        }
+        if (n_damaged != NULL) {
+            ++*n_damaged;
         }
         if (status == CLAST_E_MEMORY) {
             goto done;

@@ -124,23 +124,38 @@ void clx_pack_checkpoint_free(clx_pack_checkpoint *found)
     *found = (clx_pack_checkpoint){0};
 }
 
+/// The configuration of the packing in found->path.
+static clast_status take_config(clx_pack_checkpoint *found)
+{
+    clast_status status = CLAST_OK;
+    clx_h5 *h5 = NULL;
+    CLX_TRY(clx_h5_open(found->path, &h5));
+    CLX_TRY(clx_state_take_head(h5, NULL, NULL));
+    CLX_CHECK(clx_h5_has(h5, "/pack"), CLAST_E_FORMAT, "%s is no checkpoint of a packing",
+              found->path);
+    CLX_TRY(clx_h5_read_text(h5, "/", "config", &found->config));
+done:
+    clx_h5_close(h5);
+    return status;
+}
+
 clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *found)
 {
     clast_status status = CLAST_OK;
-    clx_pack_checkpoint made = {0};
-    clx_h5 *h5 = NULL;
     int64_t step = 0;
-    CLX_TRY(clx_checkpoint_newest(folder, &made.path, &step, NULL));
-    CLX_TRY(clx_h5_open(made.path, &h5));
-    CLX_TRY(clx_state_take_head(h5, NULL, NULL));
-    CLX_CHECK(clx_h5_has(h5, "/pack"), CLAST_E_FORMAT, "%s is no checkpoint of a packing",
-              made.path);
-    CLX_TRY(clx_h5_read_text(h5, "/", "config", &made.config));
-    *found = made;
-    made = (clx_pack_checkpoint){0};
+    CLX_TRY(clx_checkpoint_newest(folder, &found->path, &step, &found->n_damaged));
+    CLX_TRY(take_config(found));
 done:
-    clx_h5_close(h5);
-    clx_pack_checkpoint_free(&made);
+    return status;
+}
+
+clast_status clx_pack_end_find(const char *path, clx_pack_checkpoint *found)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_h5_verify(path));
+    CLX_TRY(clx_alloc_text(&found->path, path));
+    CLX_TRY(take_config(found));
+done:
     return status;
 }
 

@@ -3,10 +3,11 @@
 #include "base/status.h"
 #include <clast/pack.h>
 
-/// Newest whole checkpoint of a folder, opened: its configuration (clx_free it).
+/// A state to go on from, with its configuration.
 typedef struct clx_pack_checkpoint {
     char *path;
     char *config;
+    int32_t n_damaged; ///< checkpoints that are damaged, known even when none is whole
 } clx_pack_checkpoint;
 
 /// FOLDER/state.h5: grains, contacts, series, bed, configuration, and all to go on from.
@@ -15,8 +16,13 @@ clast_status clx_pack_state_write(const char *path, const char *config, clast_pa
 /// The same as a checkpoint of this step.
 clast_status clx_pack_checkpoint_write(const char *folder, const char *config, clast_pack *pack);
 
+/// Newest whole checkpoint of a folder. Free `found` whatever the status.
+///
 /// @return CLAST_E_IO when there is no whole one
 clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *found);
+
+/// The same of a state.h5, where a run ended. CLAST_E_IO when there is none.
+clast_status clx_pack_end_find(const char *path, clx_pack_checkpoint *found);
 void clx_pack_checkpoint_free(clx_pack_checkpoint *found);
 
 /// Fills a fresh packing from it. CLAST_E_FORMAT when it is none of this configuration's.

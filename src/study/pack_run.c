@@ -10,9 +10,11 @@
 #include <clast/config.h>
 #include <clast/manifest.h>
 #include <clast/pack_file.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct {
     const clast_pack_config *config;
@@ -214,21 +216,45 @@ done:
     return status;
 }
 
-clast_status clast_pack_resume(const char *folder, const clast_monitor *monitor,
+/// Where to go on: a checkpoint, else the state that max_steps ended with.
+static clast_status find(const char *folder, clx_pack_checkpoint *found, bool *is_end)
+{
+    clast_status status = CLAST_OK;
+    char path[CLX_PACK_PATH];
+    *is_end = false;
+    CLX_TRY(clx_pack_path(path, folder, "state.h5"));
+    status = clx_pack_checkpoint_find(folder, found);
+    if (status == CLAST_E_IO && found->n_damaged == 0 && access(path, F_OK) == 0) {
+        *is_end = true;
+        status = clx_pack_end_find(path, found);
+    }
+done:
+    return status;
+}
+
+clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clast_monitor *monitor,
                                clast_pack_result *result)
 {
     clast_status status = CLAST_OK;
     clast_pack_config config = {0};
     clx_pack_checkpoint found = {0};
     bool has_config = false;
+    bool is_end = false;
     run r = {.config = &config, .folder = folder, .monitor = monitor};
-    CLX_TRY(clx_pack_checkpoint_find(folder, &found));
+    CLX_TRY(find(folder, &found, &is_end));
     CLX_TRY(clast_fields_default(clast_pack_fields, &config));
     has_config = true;
     CLX_TRY(clast_config_parse(found.path, found.config, clast_pack_fields, &config));
+    config.max_steps = max_steps > 0 || is_end ? max_steps : config.max_steps;
     CLX_TRY(prepare(&r));
     CLX_TRY(clast_manifest_note(r.manifest, "resumed", "yes"));
     CLX_TRY(clx_pack_checkpoint_read(&found, r.pack));
+    CLX_CHECK(!is_end || clast_pack_phase_of(r.pack) != CLAST_PACK_DONE, CLAST_E_IO,
+              "%s has ended: its bed is done, and there is no checkpoint to go on from", folder);
+    const int64_t step = clast_dem_n_step(clast_pack_dem(r.pack));
+    CLX_CHECK(max_steps == 0 || step < max_steps, CLAST_E_USAGE,
+              "%s has done %" PRId64 " steps; give a --max-steps above that, or none", folder, step);
+    CLX_TRY(write_manifest(&r, "running"));
     status = finish(&r, go(&r), result);
 done:
     free_run(&r);

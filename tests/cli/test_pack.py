@@ -372,6 +372,32 @@ class Pack(Case):
         self.assertEqual((run / "state.h5").read_bytes(), (kept / "state.h5").read_bytes())
         self.assert_fails(3, "pack", "--resume", run, says=("no checkpoint", "has ended"))
 
+    def test_an_early_end_goes_on(self):
+        whole, far = self.folder / "whole", self.folder / "far"
+        self.assertEqual(self.run_small("-o", whole).code, 0)
+        self.assertEqual(self.run_small("--max-steps", "3000", "-o", far).code, 0)
+        for steps in ("1300", "2000"):  # between two rows of the series, and at one
+            run = self.folder / f"run-{steps}"
+            self.assertEqual(self.run_small("--max-steps", steps, "-o", run).code, 0)
+            self.assert_fails(2, "pack", "--resume", run, "--max-steps", steps, says=(f"done {steps} steps", "--max-steps"))
+            for more, wanted in ((("--max-steps", "3000"), far), ((), whole)):
+                again = clast("pack", "--resume", run, *more, "--quiet", "-j", "1")
+                self.assertEqual(again.code, 0, again.err)
+                for name in ("state.h5", "series.csv", "grains.csv", "summary.json"):
+                    self.assertEqual((run / name).read_bytes(), (wanted / name).read_bytes(), f"{name}, {steps} {more}")
+        self.assert_fails(3, "pack", "--resume", run, says=("no checkpoint", "has ended"))
+        # one that was stopped takes a later end, too
+        run = self.folder / "cut"
+        process = subprocess.Popen([os.environ["CLAST"], *SMALL, "--max-steps", "9000", "--checkpoint-time", "0s", "-o", str(run)],
+                                   cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (run / "checkpoint-000000000000.h5").exists() and process.poll() is None:
+            pass
+        process.kill()
+        process.wait()
+        again = clast("pack", "--resume", run, "--max-steps", "3000", "--quiet")
+        self.assertEqual(again.code, 0, again.err)
+        self.assertEqual(sorted(p.name for p in run.glob("checkpoint-*")), [])
+
     def test_killed_before_the_first_grain_it_goes_on(self):
         whole = self.run_small("--json")
         run = self.folder / "run"
