@@ -1,4 +1,5 @@
 // clast porosity: profile and bulk porosity of any assembly.
+#include "bed_runs.h"
 #include "command.h"
 #include "json.h"
 #include "manifest.h"
@@ -54,7 +55,7 @@ static const clast_field fields[] = {
 };
 #undef FIELD
 
-enum { PORE_BINS = 50, MOST_RUNS = 64 };
+enum { PORE_BINS = 50 };
 
 static bool ends_with(const char *text, const char *end)
 {
@@ -506,89 +507,23 @@ static clast_status measure_run(const char *input, const porosity_config *config
     return status == CLAST_OK ? measure(s, &options, config, found) : status;
 }
 
-/// What several runs have in common.
-typedef struct {
-    int32_t n;
-    clast_table profile[MOST_RUNS];
-    double bulk[MOST_RUNS], coordination[MOST_RUNS];
-    char unit[16];
-    clast_table band;
-} ensemble;
-
-static clast_status gather(const cli_common *common, const porosity_config *config, ensemble *e)
+static clast_status gather(const cli_common *common, const porosity_config *config,
+                           cli_bed_runs *runs)
 {
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
         subject s = {0};
         findings found = {0};
         status = measure_run(common->argument[i], config, &s, &found);
-        if (status == CLAST_OK && i > 0 && strcmp(s.assembly.unit, e->unit) != 0) {
-            status = cli_fail(CLAST_E_USAGE, "%s is in %s, the runs before in %s",
-                              common->argument[i], s.assembly.unit, e->unit);
-        }
         if (status == CLAST_OK) {
-            (void)snprintf(e->unit, sizeof e->unit, "%s", s.assembly.unit);
-            e->bulk[i] = found.bulk.porosity;
-            e->coordination[i] = found.mean_coordination;
-            e->profile[i] = found.profile;
-            found.profile = (clast_table){0};
-            e->n = i + 1;
+            status = cli_bed_runs_add(runs, common->argument[i], s.assembly.unit,
+                                      to_json(&s.assembly, config, &found), &found.profile,
+                                      &found.radial);
         }
         findings_free(&found);
         subject_free(&s);
     }
-    return status == CLAST_OK ? clast_porosity_mean_profile(e->n, e->profile, &e->band) : status;
-}
-
-static json_t *mean_json(const clast_mean *m)
-{
-    json_t *object = json_object();
-    cli_json_number(object, "mean", m->mean);
-    cli_json_number(object, "deviation", m->deviation);
-    cli_json_number(object, "low", m->low);
-    cli_json_number(object, "high", m->high);
-    return object;
-}
-
-static json_t *several_json(const cli_common *common, const ensemble *e)
-{
-    const clast_mean bulk = clast_mean_of(e->n, e->bulk);
-    const clast_mean coordination = clast_mean_of(e->n, e->coordination);
-    json_t *object = json_object();
-    json_t *runs = json_array();
-    for (int32_t i = 0; i < e->n; ++i) {
-        json_t *run = json_object();
-        cli_json_text(run, "run", common->argument[i]);
-        cli_json_number(run, "bulk", e->bulk[i]);
-        cli_json_number(run, "coordination", e->coordination[i]);
-        (void)json_array_append_new(runs, run);
-    }
-    cli_json_count(object, "n_run", e->n);
-    (void)json_object_set_new(object, "runs", runs);
-    (void)json_object_set_new(object, "bulk", mean_json(&bulk));
-    (void)json_object_set_new(object, "coordination", mean_json(&coordination));
-    return object;
-}
-
-static clast_status print_several(const cli_common *common, const ensemble *e)
-{
-    const clast_mean bulk = clast_mean_of(e->n, e->bulk);
-    const clast_mean coordination = clast_mean_of(e->n, e->coordination);
-    if (common->json) {
-        return cli_print_json(several_json(common, e));
-    }
-    for (int32_t i = 0; i < e->n; ++i) {
-        (void)printf("%-32s %.6f\n", common->argument[i], e->bulk[i]);
-    }
-    (void)printf("bulk porosity       %.6f +- %.6f   mean and deviation of %d runs\n", bulk.mean,
-                 bulk.deviation, e->n);
-    (void)printf("                    %.6f to %.6f   95 %% interval of the mean\n", bulk.low,
-                 bulk.high);
-    if (isfinite(coordination.mean)) {
-        (void)printf("mean coordination   %.4f +- %.4f\n", coordination.mean,
-                     coordination.deviation);
-    }
-    return CLAST_OK;
+    return status;
 }
 
 /// Keeps the summary; the object is dropped.
@@ -599,33 +534,28 @@ static clast_status keep_summary(const char *folder, json_t *object)
     return status;
 }
 
-static clast_status write_several(const cli_common *common, const ensemble *e)
+static clast_status write_several(const cli_common *common, const porosity_config *config,
+                                  const cli_bed_runs *runs, clast_manifest *manifest)
 {
-    char path[4096];
     clast_status status = make_folder(common->output);
-    status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.csv") : status;
-    status = status == CLAST_OK ? clast_table_write_csv(&e->band, path) : status;
-    status = status == CLAST_OK ? path_in(path, common->output, "mean_profile.svg") : status;
-    status = status == CLAST_OK ? clast_porosity_band_chart_write(&e->band, e->unit, path) : status;
-    return status == CLAST_OK ? keep_summary(common->output, several_json(common, e)) : status;
+    status = status == CLAST_OK ? cli_bed_runs_write(runs, common->output) : status;
+    status = status == CLAST_OK ? keep_summary(common->output, cli_bed_runs_json(runs)) : status;
+    return status == CLAST_OK ? write_manifest(common, config, manifest) : status;
 }
 
 static clast_status run_several(const cli_common *common, const porosity_config *config,
                                 clast_manifest *manifest)
 {
-    ensemble e = {0};
-    clast_status status = gather(common, config, &e);
+    cli_bed_runs runs = {0};
+    clast_status status = gather(common, config, &runs);
     if (status == CLAST_OK && common->output != NULL) {
-        status = write_several(common, &e);
-        status = status == CLAST_OK ? write_manifest(common, config, manifest) : status;
+        status = write_several(common, config, &runs, manifest);
     }
     if (status == CLAST_OK) {
-        status = print_several(common, &e);
+        status =
+            common->json ? cli_print_json(cli_bed_runs_json(&runs)) : cli_bed_runs_print(&runs);
     }
-    for (int32_t i = 0; i < e.n; ++i) {
-        clast_table_free(&e.profile[i]);
-    }
-    clast_table_free(&e.band);
+    cli_bed_runs_free(&runs);
     return status;
 }
 
@@ -673,10 +603,13 @@ const cli_command cli_porosity = {
         "The bed ends where n(z), from above, falls through --cut; bulk is the porosity between\n"
         "floor + trim and top - trim (Rettinger et al., section 4.4, eq. 16). As published:\n"
         "  cylinder  --method spheres                 periodic  --method spheres --trim 31.5mm\n"
-        "Several RUNs are realisations of one bed: mean, deviation, 95 % interval; -o FOLDER has "
+        "Several RUNs are realisations of one bed: mean, deviation, 95 % interval of every "
+        "number;\n"
+        "-o FOLDER has them in means.csv, and the mean profile with its band (with --rings over "
         "the\n"
-        "mean profile with its band. Runs of clast pack know their contact forces: stress (Love,\n"
-        "Weber) between the same heights, and by height in stress_profile.csv.\n"
+        "radius, too); tables of grains, pores and directions are written for one RUN alone.\n"
+        "Runs of clast pack know their contact forces: stress (Love, Weber) between the same\n"
+        "heights, and by height in stress_profile.csv.\n"
         "-o FOLDER (not the run's own) writes summary.json, manifest.json, profile.csv, "
         "profile.svg,\n"
         "fabric.csv (directions of contacts and grains), coordination.csv where contacts are "
@@ -686,7 +619,7 @@ const cli_command cli_porosity = {
     .fields = fields,
     .config_size = sizeof(porosity_config),
     .n_min = 1,
-    .n_max = MOST_RUNS,
+    .n_max = CLI_MOST_RUNS,
     .writes_folder = true,
     .run = run,
 };

@@ -7,8 +7,8 @@
 /// not be made) gives CLAST_E_MEMORY.
 clast_status cli_print_json(json_t *object);
 
-/// Writes the object to summary.json of the folder, whole or not at all (what was there then stays).
-/// Borrows it; NULL gives CLAST_E_MEMORY.
+/// Writes the object to summary.json of the folder, whole or not at all (what was there then
+/// stays). Borrows it; NULL gives CLAST_E_MEMORY.
 clast_status cli_write_summary(const json_t *object, const char *folder);
 
 /// As json_object_set_new, but a number that is not finite becomes null.

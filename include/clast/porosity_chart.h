@@ -17,7 +17,8 @@ CLAST_API clast_status clast_radial_chart_write(const clast_table *radial, const
 CLAST_API clast_status clast_pore_chart_write(const clast_table *pores, const char *unit,
                                               const char *path);
 
-/// Mean profile of several runs with its interval, of clast_porosity_mean_profile.
+/// Mean profile over height or radius of several runs with its interval, of
+/// clast_porosity_mean_profile.
 CLAST_API clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
                                                        const char *path);
 

@@ -13,7 +13,8 @@ clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
 /// Newest checkpoint that is whole: its path (clx_free it) and step; damaged ones are passed over
 /// and counted.
 ///
-/// @param n_damaged  checkpoints newer than it that are damaged, all when none is whole; may be NULL
+/// @param n_damaged  checkpoints newer than it that are damaged, all when none is whole; may be
+/// NULL
 /// @return CLAST_E_IO if the folder cannot be read or holds no whole checkpoint
 clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
                                    int32_t *n_damaged);

@@ -99,7 +99,9 @@ clast_status clast_porosity_band_chart_write(const clast_table *band, const char
     const double *high = clast_table_numbers(band, "high");
     CLX_CHECK(mean != NULL && low != NULL && high != NULL, CLAST_E_USAGE,
               "the table is no mean of profiles");
-    CLX_TRY(over_make(band, "z_low_m", "z_high_m", "height", unit, &o));
+    const bool is_radial = clast_table_numbers(band, "r_low_m") != NULL;
+    CLX_TRY(is_radial ? over_make(band, "r_low_m", "r_high_m", "distance from the axis", unit, &o)
+                      : over_make(band, "z_low_m", "z_high_m", "height", unit, &o));
     const clast_series series[] = {{.kind = CLAST_SERIES_BAND,
                                     .label = "95 % of the mean",
                                     .x = o.x,
@@ -113,7 +115,9 @@ clast_status clast_porosity_band_chart_write(const clast_table *band, const char
                                     .y = mean,
                                     .n = o.n,
                                     .colour = 0}};
-    CLX_TRY(draw("Porosity over height, all runs", &o, &porosity_axis, 2, series, path));
+    CLX_TRY(
+        draw(is_radial ? "Porosity over the radius, all runs" : "Porosity over height, all runs",
+             &o, &porosity_axis, 2, series, path));
 done:
     clx_free(o.x);
     return status;
@@ -162,6 +166,7 @@ clast_status clast_radial_chart_write(const clast_table *radial, const char *uni
     const clast_series series[] = {
         {.kind = CLAST_SERIES_LINE, .x = o.x, .y = porosity, .n = n, .colour = 0},
         {.kind = CLAST_SERIES_POINTS,
+         .label = "rings, error of their volume",
          .x = o.x,
          .y = porosity,
          .low = bar,

@@ -24,21 +24,22 @@ clast_mean clast_mean_of(int32_t n, const double *value)
     return m;
 }
 
-/// Whether the slices of all profiles are those of the longest.
-static clast_status check(int32_t n, const clast_table *profile, const clast_table *longest)
+/// Whether the slices or rings of all profiles are those of the longest.
+static clast_status check(int32_t n, const clast_table *profile, const clast_table *longest,
+                          const char *const bound[2])
 {
     clast_status status = CLAST_OK;
-    const double *edge = clast_table_numbers(longest, "z_low_m");
-    const double *top = clast_table_numbers(longest, "z_high_m");
+    const double *edge = clast_table_numbers(longest, bound[0]);
+    const double *top = clast_table_numbers(longest, bound[1]);
     for (int32_t i = 0; i < n; ++i) {
-        const double *low = clast_table_numbers(&profile[i], "z_low_m");
+        const double *low = clast_table_numbers(&profile[i], bound[0]);
         CLX_CHECK(low != NULL && edge != NULL && top != NULL &&
                       clast_table_numbers(&profile[i], "porosity") != NULL,
                   CLAST_E_USAGE, "table %d is no porosity profile", i);
         for (int64_t k = 0; k < profile[i].n_row; ++k) {
             CLX_CHECK(fabs(low[k] - edge[k]) <= 1e-6 * (top[k] - edge[k]), CLAST_E_USAGE,
                       "slice %lld of bed %d begins at %g m, that of another at %g m; give the same "
-                      "--layer and --floor",
+                      "--layer, --floor and container",
                       (long long)k, i + 1, low[k], edge[k]);
         }
     }
@@ -48,19 +49,25 @@ done:
 
 clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile, clast_table *band)
 {
-    static const char *const name[] = {"z_low_m", "z_high_m", "porosity", "deviation",
-                                       "low",     "high",     "n"};
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double *value = NULL;
     const clast_table *longest = &profile[0];
     CLX_CHECK(n > 0, CLAST_E_USAGE, "a mean of no profile");
+    const bool is_radial = clast_table_numbers(&profile[0], "r_low_m") != NULL;
+    const char *const name[] = {is_radial ? "r_low_m" : "z_low_m",
+                                is_radial ? "r_high_m" : "z_high_m",
+                                "porosity",
+                                "deviation",
+                                "low",
+                                "high",
+                                "n"};
     for (int32_t i = 1; i < n; ++i) {
         longest = profile[i].n_row > longest->n_row ? &profile[i] : longest;
     }
-    CLX_TRY(check(n, profile, longest));
+    CLX_TRY(check(n, profile, longest, name));
     CLX_TRY(clx_alloc(&value, n, sizeof *value));
-    CLX_TRY(clast_table_init(&made, "mean_profile", longest->n_row));
+    CLX_TRY(clast_table_init(&made, is_radial ? "mean_radial" : "mean_profile", longest->n_row));
     for (int c = 0; c < 7; ++c) {
         CLX_TRY(clast_table_add_number(&made, name[c], c < 2 ? "m" : "-", NULL));
     }
@@ -69,8 +76,8 @@ clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile, 
             value[i] = k < profile[i].n_row ? clast_table_numbers(&profile[i], "porosity")[k] : 1.0;
         }
         const clast_mean m = clast_mean_of(n, value);
-        const double row[7] = {clast_table_numbers(longest, "z_low_m")[k],
-                               clast_table_numbers(longest, "z_high_m")[k],
+        const double row[7] = {clast_table_numbers(longest, name[0])[k],
+                               clast_table_numbers(longest, name[1])[k],
                                m.mean,
                                n > 1 ? m.deviation : 0.0,
                                n > 1 ? m.low : m.mean,

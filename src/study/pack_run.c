@@ -253,7 +253,8 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
               "%s has ended: its bed is done, and there is no checkpoint to go on from", folder);
     const int64_t step = clast_dem_n_step(clast_pack_dem(r.pack));
     CLX_CHECK(max_steps == 0 || step < max_steps, CLAST_E_USAGE,
-              "%s has done %" PRId64 " steps; give a --max-steps above that, or none", folder, step);
+              "%s has done %" PRId64 " steps; give a --max-steps above that, or none", folder,
+              step);
     CLX_TRY(write_manifest(&r, "running"));
     status = finish(&r, go(&r), result);
 done:

@@ -424,7 +424,7 @@ class Pack(Case):
         flat = self.folder / "flat.obj"
         flat.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n")
         self.assert_fails(3, *SMALL, "--shapes", flat, says=("flat.obj",))
-        self.assert_fails(3, *SMALL, "--shapes", flat, "--no-hull", says=("flat.obj",))
+        self.assert_fails(3, *SMALL, "--shapes", flat, "--no-hull", says=("flat.obj", "2 triangles is open", "hull: yes"))
         self.assert_fails(2, *SMALL, "--shapes", "ellipsoid:1,1,0", says=("three axes above 0",))
 
     def drum(self, height=80):

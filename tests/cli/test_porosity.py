@@ -114,6 +114,43 @@ class Porosity(Case):
         manifest = json.loads((two / "manifest.json").read_text())
         self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path)), ("bed", str(box))])
 
+    def test_every_number_of_several_runs_has_its_mean(self):
+        runs = []
+        for k, radius in enumerate((0.5, 0.48, 0.45)):
+            rows = [(x + 0.5, y + 0.5, z + 0.5, radius) for z in range(4) for y in range(-3, 3) for x in range(-3, 3)]
+            runs.append(self.spheres(rows, f"runs{k}.csv"))
+        options = ["--bed", "cylinder:4.5", "--layer", 0.1, "--cut", 0.9, "--gap", 0.11, "--local", "--rings", 4, "--pores", 500, "--json"]
+        alone = []
+        for run in runs:
+            found = clast("porosity", run, *options)
+            self.assertEqual(found.code, 0, found.err)
+            alone.append(found.json)
+        folder = self.folder / "means"
+        found = clast("porosity", *runs, *options, "-o", folder)
+        self.assertEqual(found.code, 0, found.err)
+        numbers = [k for k, v in alone[0].items() if isinstance(v, (int, float)) and k != "profile"]
+        self.assertLessEqual({"bulk", "local_mean", "local_deviation", "pore_mean", "coordination", "top"}, set(numbers))
+        rows = list(csv.DictReader((folder / "means.csv").read_text().splitlines()))
+        self.assertEqual(len({r["quantity"] for r in rows}), len(rows))
+        rows = {r["quantity"]: r for r in rows}
+        for group, keys in (("", numbers), ("fabric", list(alone[0]["fabric"]))):
+            for key in keys:
+                values = [(a[group] if group else a)[key] for a in alone]
+                mean = sum(values) / 3
+                half = 4.302652729911275 * (sum((v - mean) ** 2 for v in values) / 2 / 3) ** 0.5
+                ours = (found.json[group] if group else found.json)[key]
+                self.assertAlmostEqual(ours["mean"], mean, 9, key)
+                self.assertAlmostEqual(ours["high"] - ours["mean"], half, 8, key)
+                self.assertAlmostEqual(float(rows[key]["mean"]), mean, 9, key)
+        self.assertEqual([r["bulk"] for r in found.json["runs"]], [a["bulk"] for a in alone])
+        rings = list(csv.DictReader((folder / "mean_radial.csv").read_text().splitlines()))
+        self.assertEqual(len(rings), 4)
+        self.assertEqual([r["n"] for r in rings], ["3"] * 4)
+        self.assertGreater(float(rings[1]["deviation"]), 0)
+        self.assertGreater((folder / "mean_radial.svg").stat().st_size, 1000)
+        text = clast("porosity", *runs, *options[:-1])
+        self.assertIn("local_mean", text.out)
+
     def test_a_runs_own_folder_is_left_alone(self):
         run = self.folder / "bed"
         made = clast("pack", "--curve", "6 mm", "--mass", "3g", "--width", "40mm", "--height", "0.1m", "--max-steps", 9000, "--quiet",

@@ -476,9 +476,9 @@ static void hulls_with_round_bodies_are_proved_by_bounds(void **state)
     assert_true(n_open < 40); /* of 3840: flat bodies that pierce each other's planes */
 }
 
-/* Apart, GJK's own answer to a hull and a smooth body is the feature's: it ends among slivers, whose
- * rounding must not be taken for a nearer point, nor for overlap (once in 5000 pairs, up to 0.2 of
- * a size off). */
+/* Apart, GJK's own answer to a hull and a smooth body is the feature's: it ends among slivers,
+ * whose rounding must not be taken for a nearer point, nor for overlap (once in 5000 pairs, up to
+ * 0.2 of a size off). */
 static void cold_and_feature_agree_apart(void **state)
 {
     (void)state;
