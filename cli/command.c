@@ -65,6 +65,9 @@ static clast_status set_field(parser *p, const char *name, const char *value)
         return near != NULL ? usage_error(p, "unknown option --%s (did you mean --%s?)", name, near)
                             : usage_error(p, "unknown option --%s", name);
     }
+    if (value[0] == '\0') {
+        return usage_error(p, "--%s has an empty value; leave it out for its default", name);
+    }
     const bool append = is_list(f) && touch(p, f);
     return clast_field_set(f, p->config, value, append);
 }

@@ -146,8 +146,9 @@ done:
 
 static clast_status bad_range(const clast_field *f, const char *text)
 {
-    return clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%g, %g] %s", f->name, text, f->low, f->high,
-                    f->unit != NULL && strcmp(f->unit, "-") != 0 ? f->unit : "");
+    const bool has_unit = f->unit != NULL && strcmp(f->unit, "-") != 0;
+    return clx_fail(CLAST_E_CONFIG, "%s: %s is outside [%g, %g]%s%s", f->name, text, f->low,
+                    f->high, has_unit ? " " : "", has_unit ? f->unit : "");
 }
 
 static clast_status parse_number(const clast_field *f, const char *text, double *value)

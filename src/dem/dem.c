@@ -174,6 +174,10 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
     m3_mul(m->angular, g->turn, momentum);
+    if (body->shape.kind == CLAST_SHAPE_SPHERE) { // never turned, so none may depend on it
+        memset(g->turn, 0, sizeof g->turn);
+        g->turn[0][0] = g->turn[1][1] = g->turn[2][2] = 1.0;
+    }
     set_drag(dem, &body->shape, m);
     dem->stride = fmax(dem->stride, clx_law_speed(&dem->law, g->mass, g->round_radius, g->radius) *
                                         dem->config.time_step / g->radius);

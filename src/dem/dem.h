@@ -270,7 +270,7 @@ struct clast_dem {
     clx_list list;
     clx_near near;
     clx_sweeping sweeping;
-    clast_dem_verification verified; ///< since the simulation was made or restored
+    clast_dem_verification verified; ///< in all steps so far
 };
 
 static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)

@@ -54,7 +54,9 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
                        .n_known = l->n_known,
                        .n_link = l->n_link,
                        .memory_width = MEMORY,
-                       .is_due = l->is_due};
+                       .is_due = l->is_due,
+                       .verified = {(double)dem->verified.n, (double)dem->verified.n_off,
+                                    (double)dem->verified.n_bad, dem->verified.worst}};
     CLX_TRY(clx_alloc(&s.shape, s.n_grain, sizeof *s.shape));
     CLX_TRY(clx_alloc(&s.grain, s.n_grain * CLX_SAVED_GRAIN, sizeof *s.grain));
     CLX_TRY(clx_alloc(&s.anchor, s.n_known * CLX_SAVED_ANCHOR, sizeof *s.anchor));
@@ -215,6 +217,12 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     dem->list.is_due = s->is_due;
     dem->list.n_refresh = s->n_refresh;
     dem->step = s->step;
+    for (int k = 0; k < 4; ++k) {
+        CLX_CHECK(s->verified[k] >= 0.0 && s->verified[k] < 9e15, CLAST_E_FORMAT,
+                  "the checkpoint's compared contacts are not counted");
+    }
+    dem->verified = (clast_dem_verification){(int64_t)s->verified[0], (int64_t)s->verified[1],
+                                             (int64_t)s->verified[2], s->verified[3]};
     dem->n_started = dem->n_grain;
 done:
     return status;

@@ -9,13 +9,14 @@ typedef struct clx_dem_saved {
     int64_t step, n_refresh;
     int64_t n_grain, n_known, n_link;
     bool is_due;
-    int32_t *shape; ///< [n_grain]
-    double *grain;  ///< [n_grain][19] position, velocity, spin, orientation, angular momentum,
-                    ///< scale, density, travel
-    double *anchor; ///< [n_known][8] of items: position, orientation, margin
-    double *limit;  ///< [n_known] paths up to which they are not asked; NULL in older checkpoints
-    int32_t *id;    ///< [n_link][5] a, b, image in x and y, flags
-    double *link;   ///< [n_link][4] wake, slide
+    double verified[4]; ///< contacts compared, off, bad; worst: all 0 where none were
+    int32_t *shape;     ///< [n_grain]
+    double *grain;      ///< [n_grain][19] position, velocity, spin, orientation, angular momentum,
+                        ///< scale, density, travel
+    double *anchor;     ///< [n_known][8] of items: position, orientation, margin
+    double *limit; ///< [n_known] paths up to which they are not asked; NULL in older checkpoints
+    int32_t *id;   ///< [n_link][5] a, b, image in x and y, flags
+    double *link;  ///< [n_link][4] wake, slide
     int32_t memory_width; ///< bytes of a contact memory
     uint8_t
         *memory; ///< [n_link][memory_width] contact memories, or NULL while all items are spheres

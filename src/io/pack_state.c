@@ -50,6 +50,10 @@ static clast_status put_pack(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_h5_write_number(h5, "/pack", "step", CLX_H5_I64, &s->dem.step));
     CLX_TRY(clx_h5_write_number(h5, "/pack", "n_refresh", CLX_H5_I64, &s->dem.n_refresh));
     CLX_TRY(clx_h5_write_number(h5, "/pack", "is_due", CLX_H5_I32, &is_due));
+    if (s->dem.verified[0] > 0.0) {
+        const int64_t four[1] = {4};
+        CLX_TRY(clx_h5_write(h5, "/pack/verified", CLX_H5_F64, 1, four, s->dem.verified));
+    }
     for (int k = 0; k < n; ++k) {
         const int64_t shape[2] = {a[k].n, a[k].width};
         CLX_TRY(clx_h5_write(h5, a[k].name, a[k].type, a[k].width == 1 ? 1 : 2, shape, a[k].data));
@@ -208,6 +212,10 @@ static clast_status take_pack(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_h5_read_number(h5, "/pack", "n_refresh", CLX_H5_I64, &s->dem.n_refresh));
     CLX_TRY(clx_h5_read_number(h5, "/pack", "is_due", CLX_H5_I32, &is_due));
     s->dem.is_due = is_due != 0;
+    if (clx_h5_has(h5, "/pack/verified")) {
+        const int64_t four[1] = {4};
+        CLX_TRY(clx_h5_read(h5, "/pack/verified", CLX_H5_F64, 1, four, s->dem.verified));
+    }
 done:
     return status;
 }

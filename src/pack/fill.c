@@ -224,8 +224,9 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
     f->refused = fmin(f->refused, radius);
     CLX_CHECK(f->n > 0, CLAST_E_CONFIG,
               "no grain fits between %g and %g m: grain %lld needs more room than the domain has "
-              "(it reaches %g m across, spacing %g m)",
-              f->low, f->high, (long long)number->index, 2.0 * radius, p->spacing);
+              "(it reaches %g m across, spacing %g m); take a taller or wider domain%s",
+              f->low, f->high, (long long)number->index, 2.0 * radius, p->spacing,
+              p->config.spacing > 2.0 * radius ? ", or a smaller spacing" : "");
 done:
     return status;
 }

@@ -178,6 +178,10 @@ static double reach_limit(const clast_dem_config *d)
                                              : (double)INFINITY;
 }
 
+/// Draws after which the number of all grains is estimated, and the most that are taken on.
+static const int64_t SAMPLE = 1 << 20;
+static const double MOST_GRAINS = 1e8;
+
 clast_status clx_pack_check_draws(clast_pack *p)
 {
     clast_status status = CLAST_OK;
@@ -198,6 +202,10 @@ clast_status clx_pack_check_draws(clast_pack *p)
                   d->domain == CLAST_DEM_PERIODIC ? "half the period, less the skin," : "the width",
                   fmin(d->width, d->depth > 0.0 ? d->depth : d->width));
         mass += g.density * measures[1] * g.scale * g.scale * g.scale;
+        CLX_CHECK(i != SAMPLE || p->config.mass / mass * (double)i <= MOST_GRAINS, CLAST_E_CONFIG,
+                  "%g kg of such grains are about %.2g, at most %g are packed; take less mass or "
+                  "larger grains",
+                  p->config.mass, p->config.mass / mass * (double)i, MOST_GRAINS);
     }
 done:
     return status;

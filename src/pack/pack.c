@@ -59,12 +59,11 @@ static clast_status check_room(const clast_pack *p)
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL, CLAST_E_CONFIG, "a packing needs a floor");
-    CLX_CHECK(c->fill_low < c->fill_high, CLAST_E_CONFIG, "fill_low %g is not below fill_high %g",
-              c->fill_low, c->fill_high);
     clast_bed_volumes(&bed, 1, edge, &room);
     CLX_CHECK(0.5 * heavy * room >= c->mass, CLAST_E_CONFIG,
               "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
-              "made (fill_low of height), takes %g kg; take a taller or wider domain",
+              "made (fill_low of height), takes %g kg; take a taller or wider domain, or a greater "
+              "fill_low",
               c->mass, edge[1], 0.5 * heavy * room);
     CLX_CHECK(light > c->dem.fluid_density || c->dem.gravity <= 0.0, CLAST_E_CONFIG,
               "grains of %g kg/m3 do not sink in a fluid of %g kg/m3", light, c->dem.fluid_density);
@@ -78,6 +77,7 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     clast_status status = CLAST_OK;
     clast_pack *made = NULL;
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
+    CLX_TRY(clx_pack_check(config));
     made->config = *config;
     made->input = *input;
     CLX_TRY(clx_pack_contain(made));

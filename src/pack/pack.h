@@ -51,6 +51,9 @@ double clx_pack_density(const clast_pack *pack, int64_t index, int32_t shape, do
 /// Least and greatest density of the grains.
 void clx_pack_densities(const clast_pack *pack, double *low, double *high);
 
+/// Refuses options that contradict one another, or that nothing would heed.
+clast_status clx_pack_check(const clast_pack_config *config);
+
 /// Refuses densities that do not match shapes, classes or list.
 clast_status clx_pack_check_densities(const clast_pack *pack);
 

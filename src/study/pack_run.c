@@ -101,6 +101,9 @@ static clast_status frame(run *r, int64_t per_frame)
     return clx_pack_write_frame(r->folder, step / per_frame, r->pack);
 }
 
+/// Rounds that frames cut short are quick whatever the aim, which would double for ever.
+#define MOST_STEPS (INT64_C(1) << 30)
+
 static clast_status go(run *r)
 {
     clast_status status = CLAST_OK;
@@ -114,7 +117,7 @@ static clast_status go(run *r)
         CLX_TRY(clast_pack_advance(r->pack, round_steps(r, aim, per_frame)));
         CLX_TRY(frame(r, per_frame));
         const double took = clx_clock() - before;
-        aim = took < 0.1 ? aim * 2 : took > 0.4 && aim > 1 ? aim / 2 : aim;
+        aim = took < 0.1 && aim < MOST_STEPS ? aim * 2 : took > 0.4 && aim > 1 ? aim / 2 : aim;
         if (talk(r)) {
             CLX_TRY(save(r));
             status = CLAST_E_STOPPED;
@@ -203,6 +206,9 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
 {
     clast_status status = CLAST_OK;
     run r = {.config = config, .folder = folder, .monitor = monitor};
+    CLX_CHECK(folder != NULL || config->frame_time == 0.0, CLAST_E_USAGE,
+              "frame_time %g s: frames are written into a run's folder; give one (-o)",
+              config->frame_time);
     CLX_TRY(prepare(&r));
     if (folder != NULL) {
         CLX_TRY(check_free(folder));

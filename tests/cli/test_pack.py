@@ -398,6 +398,36 @@ class Pack(Case):
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual(sorted(p.name for p in run.glob("checkpoint-*")), [])
 
+    def test_balls_in_a_container_go_on_in_the_same_bytes(self):
+        bed = ["pack", "--container", self.cup(), "--container-unit", "mm", "--curve", "8 mm", "--mass", "10g", "--shapes", "sphere", "-j", "1",
+               "--shapes", ROOT / "data/standin63/grain05.ply", "--verify", "100", "--quiet"]
+        whole, run = self.folder / "whole", self.folder / "run"
+        self.assertEqual(clast(*bed, "--max-steps", "24000", "-o", whole).code, 0)
+        self.assertEqual(clast(*bed, "--max-steps", "14000", "-o", run).code, 0)
+        again = clast("pack", "--resume", run, "--max-steps", "24000", "--quiet", "-j", "1")
+        self.assertEqual(again.code, 0, again.err)
+        self.assertGreater(json.loads((whole / "summary.json").read_text())["verified"]["n"], 0)
+        for name in ("state.h5", "series.csv", "summary.json"):
+            self.assertEqual((run / name).read_bytes(), (whole / name).read_bytes(), name)
+
+    def test_frames_at_every_step(self):
+        run = self.folder / "run"
+        result = self.run_small("--max-steps", "150", "--frame-time", "5us", "-o", run)  # more rounds than bits of their length
+        self.assertEqual(result.code, 0, result.err)
+        self.assertEqual(len(list((run / "frames").glob("*.vtu"))), 150)
+
+    def test_options_without_effect_are_refused(self):
+        small = self.cup()
+        for options, says in ((("--young", "1e6"), "law hertz"), (("--law", "hertz", "--collision-time", "1ms"), "law linear"),
+                              (("--flatness-mean", "0.5"), "form_law"), (("--cohesion", "jkr"), "surface_energy"),
+                              (("--cohesion", "area"), "cohesion_energy"), (("--depth", "10mm"), "cylinder"),
+                              (("--container-unit", "mm"), "without a container"), (("--frame-time", "1ms"), "-o"),
+                              (("--container", small, "--container-unit", "mm", "--domain", "box"), "in place of domain"),
+                              (("--wall-friction", "-0.5"), "it is -1"), (("--trim", "-0.5"), "it is -1"),
+                              (("--first-low", "0.5", "--first-high", "0.3"), "first_high"), (("--resume", ""), "empty"),
+                              (("--spacing", "1m"), "smaller spacing"), (("--shapes", "ellipsoid:1,1,1e-9"), "larger grains")):
+            self.assert_fails(2, "pack", "--curve", "8 mm", "--mass", "4g", "--max-steps", "10", *options, says=(says,))
+
     def test_killed_before_the_first_grain_it_goes_on(self):
         whole = self.run_small("--json")
         run = self.folder / "run"

@@ -1,0 +1,72 @@
+// What a packing's options must be to one another.
+#include "pack/pack.h"
+
+#include <clast/porosity.h>
+#include <math.h>
+
+/// Several mean "as the other" by -1 alone.
+static clast_status check_sentinel(const char *name, double value)
+{
+    return value >= 0.0 || value == -1.0
+               ? CLAST_OK
+               : clx_fail(CLAST_E_CONFIG, "%s %g: it is -1, or not below 0", name, value);
+}
+
+static clast_status check_fills(const clast_pack_config *c)
+{
+    clast_status status = CLAST_OK;
+    const double low = c->first_low >= 0.0 ? c->first_low : c->fill_low;
+    const double high = c->first_high >= 0.0 ? c->first_high : c->fill_high;
+    CLX_TRY(check_sentinel("first_low", c->first_low));
+    CLX_TRY(check_sentinel("first_high", c->first_high));
+    CLX_CHECK(c->fill_low < c->fill_high, CLAST_E_CONFIG, "fill_low %g is not below fill_high %g",
+              c->fill_low, c->fill_high);
+    CLX_CHECK(low < high, CLAST_E_CONFIG,
+              "the first fill begins at %g of the height (first_low), not below %g (first_high)",
+              low, high);
+done:
+    return status;
+}
+
+/// Options that the law, the domain or the forms leave without effect.
+static clast_status check_unused(const clast_pack_config *c, const clast_pack_config *usual)
+{
+    clast_status status = CLAST_OK;
+    const clast_dem_config *d = &c->dem;
+    const clast_dem_config *u = &usual->dem;
+    const bool has_container = c->container != NULL && c->container[0] != '\0';
+    CLX_CHECK(!has_container || (d->domain == u->domain && d->width == u->width &&
+                                 d->depth == u->depth && d->height == u->height),
+              CLAST_E_CONFIG,
+              "container holds the grains in place of domain, width, depth and height: leave those "
+              "out");
+    CLX_CHECK(has_container || c->container_unit == NULL || c->container_unit[0] == '\0',
+              CLAST_E_CONFIG, "container_unit %s without a container", c->container_unit);
+    CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
+              "depth %g m: a cylinder has a width alone", d->depth);
+    CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,
+              "young %g Pa acts with law hertz alone", d->young);
+    CLX_CHECK(d->law == CLAST_DEM_LINEAR || d->collision_time == u->collision_time, CLAST_E_CONFIG,
+              "collision_time %g s acts with law linear alone", d->collision_time);
+    CLX_CHECK(c->form_law || (c->flatness_mean == usual->flatness_mean &&
+                              c->flatness_deviation == usual->flatness_deviation &&
+                              c->elongation_mean == usual->elongation_mean &&
+                              c->elongation_deviation == usual->elongation_deviation),
+              CLAST_E_CONFIG, "means and deviations of flatness and elongation act with form_law");
+done:
+    return status;
+}
+
+clast_status clx_pack_check(const clast_pack_config *config)
+{
+    clast_pack_config usual = {0};
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_fields_default(clast_pack_fields, &usual));
+    CLX_TRY(check_fills(config));
+    CLX_TRY(check_sentinel("wall_friction", config->dem.wall_friction));
+    CLX_TRY(check_sentinel("trim", config->trim));
+    CLX_TRY(check_unused(config, &usual));
+done:
+    clast_fields_free(clast_pack_fields, &usual);
+    return status;
+}
