@@ -511,10 +511,18 @@ static clast_status gather(const cli_common *common, const porosity_config *conf
                            cli_bed_runs *runs)
 {
     clast_status status = CLAST_OK;
+    clast_bed_kind kind = CLAST_BED_CYLINDER;
     for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
         subject s = {0};
         findings found = {0};
         status = measure_run(common->argument[i], config, &s, &found);
+        if (status == CLAST_OK && i > 0 && s.bed.kind != kind) {
+            status = cli_fail(CLAST_E_USAGE,
+                              "%s and %s lie in containers of two kinds: they are no realisations "
+                              "of one bed",
+                              common->argument[0], common->argument[i]);
+        }
+        kind = s.bed.kind;
         if (status == CLAST_OK) {
             status = cli_bed_runs_add(runs, common->argument[i], s.assembly.unit,
                                       to_json(&s.assembly, config, &found), &found.profile,

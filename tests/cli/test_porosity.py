@@ -148,6 +148,13 @@ class Porosity(Case):
         self.assertEqual([r["n"] for r in rings], ["3"] * 4)
         self.assertGreater(float(rings[1]["deviation"]), 0)
         self.assertGreater((folder / "mean_radial.svg").stat().st_size, 1000)
+        run = self.folder / "bed"
+        self.assertEqual(clast("pack", "--curve", "8 mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--max-steps", "30000",
+                               "--domain", "box", "-o", run, "-q").code, 0)
+        other = self.folder / "other"
+        self.assertEqual(clast("pack", "--curve", "8 mm", "--mass", "12g", "--width", "40mm", "--height", "0.1m", "--max-steps", "30000",
+                               "-o", other, "-q").code, 0)
+        self.assert_fails(2, "porosity", run, other, "--cut", "0.9", says=("two kinds",))
         text = clast("porosity", *runs, *options[:-1])
         self.assertIn("local_mean", text.out)
 
