@@ -2,6 +2,7 @@
 #include "bed_runs.h"
 
 #include "command.h"
+#include "folder.h"
 #include "json.h"
 
 #include <clast/porosity_chart.h>
@@ -25,18 +26,47 @@ typedef struct {
     quantity of[MOST_QUANTITIES];
 } quantities;
 
+/// Numbers of an object, and of the objects in it, at most.
+static size_t size_of(const json_t *found)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    size_t n = json_object_size(found);
+    json_object_foreach((json_t *)found, key, value)
+    {
+        n += json_object_size(value); // 0 for what is no object
+    }
+    return n;
+}
+
+static clast_status check(const cli_bed_runs *runs, const char *name, const char *unit,
+                          const json_t *found)
+{
+    if (found == NULL) {
+        return CLAST_E_MEMORY;
+    }
+    if (runs->n == CLI_MOST_RUNS) {
+        return cli_fail(CLAST_E_USAGE, "more than %d runs", CLI_MOST_RUNS);
+    }
+    if (size_of(found) > MOST_QUANTITIES) {
+        return cli_fail(CLAST_E_LIMIT, "%s: more than %d numbers", name, MOST_QUANTITIES);
+    }
+    return runs->n == 0 || strcmp(unit, runs->unit) == 0
+               ? CLAST_OK
+               : cli_fail(CLAST_E_USAGE, "%s is in %s, the runs before in %s", name, unit,
+                          runs->unit);
+}
+
 clast_status cli_bed_runs_add(cli_bed_runs *runs, const char *name, const char *unit, json_t *found,
                               clast_table *profile, clast_table *radial)
 {
     const int32_t i = runs->n;
-    if (found == NULL || i == CLI_MOST_RUNS || (i > 0 && strcmp(unit, runs->unit) != 0)) {
+    const clast_status status = check(runs, name, unit, found);
+    if (status != CLAST_OK) {
         json_decref(found);
         clast_table_free(profile);
         clast_table_free(radial);
-        return found == NULL        ? CLAST_E_MEMORY
-               : i == CLI_MOST_RUNS ? cli_fail(CLAST_E_USAGE, "more than %d runs", i)
-                                    : cli_fail(CLAST_E_USAGE, "%s is in %s, the runs before in %s",
-                                               name, unit, runs->unit);
+        return status;
     }
     cli_json_text(found, "run", name);
     runs->found[i] = found;
@@ -76,7 +106,7 @@ static void gather(const cli_bed_runs *runs, const char *group, quantities *q)
         }
         if (json_is_object(value)) {
             gather(runs, key, q);
-        } else if (!json_is_string(value) && q->n < MOST_QUANTITIES) {
+        } else if (!json_is_string(value)) {
             q->of[q->n++] = (quantity){group, key, clast_mean_of(runs->n, number)};
         }
     }
@@ -155,17 +185,10 @@ clast_status cli_bed_runs_print(const cli_bed_runs *runs)
     return CLAST_OK;
 }
 
-static clast_status path_in(char path[4096], const char *folder, const char *name)
-{
-    const int n = snprintf(path, 4096, "%s/%s", folder, name);
-    return n > 0 && n < 4096 ? CLAST_OK
-                             : cli_fail(CLAST_E_DISK, "%s: the path is too long", folder);
-}
-
 static clast_status write_table(const char *folder, const char *name, const clast_table *table)
 {
-    char path[4096];
-    const clast_status status = path_in(path, folder, name);
+    char path[CLI_PATH];
+    const clast_status status = cli_folder_path(path, folder, name);
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
@@ -196,11 +219,11 @@ static clast_status write_means(const cli_bed_runs *runs, const char *folder)
 static clast_status write_band(const cli_bed_runs *runs, const clast_table *profile,
                                const char *folder, const char *csv, const char *svg)
 {
-    char path[4096];
+    char path[CLI_PATH];
     clast_table band = {0};
     clast_status status = clast_porosity_mean_profile(runs->n, profile, &band);
     status = status == CLAST_OK ? write_table(folder, csv, &band) : status;
-    status = status == CLAST_OK ? path_in(path, folder, svg) : status;
+    status = status == CLAST_OK ? cli_folder_path(path, folder, svg) : status;
     status = status == CLAST_OK ? clast_porosity_band_chart_write(&band, runs->unit, path) : status;
     clast_table_free(&band);
     return status;

@@ -1,6 +1,7 @@
 // clast porosity: profile and bulk porosity of any assembly.
 #include "bed_runs.h"
 #include "command.h"
+#include "folder.h"
 #include "json.h"
 #include "manifest.h"
 
@@ -115,7 +116,7 @@ static clast_status state_path(const char *input, char path[4096])
 /// The grains, and the run's own bed and contact forces where it has them.
 static clast_status read_input(const char *input, subject *s)
 {
-    char path[4096];
+    char path[CLI_PATH];
     const clast_status found = state_path(input, path);
     if (found != CLAST_OK) {
         return found;
@@ -310,13 +311,6 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     return object;
 }
 
-static clast_status path_in(char path[4096], const char *folder, const char *name)
-{
-    const int n = snprintf(path, 4096, "%s/%s", folder, name);
-    return n > 0 && n < 4096 ? CLAST_OK
-                             : cli_fail(CLAST_E_DISK, "%s: the path is too long", folder);
-}
-
 static clast_status make_folder(const char *folder)
 {
     struct stat info;
@@ -330,7 +324,7 @@ static clast_status make_folder(const char *folder)
 static clast_status write_findings(const char *folder, const clast_assembly *assembly,
                                    const findings *f)
 {
-    char path[4096];
+    char path[CLI_PATH];
     clast_status status = make_folder(folder);
     const struct {
         const char *name;
@@ -341,29 +335,29 @@ static clast_status write_findings(const char *folder, const clast_assembly *ass
                  {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
-            status = path_in(path, folder, files[k].name);
+            status = cli_folder_path(path, folder, files[k].name);
             status = status == CLAST_OK ? clast_table_write_csv(files[k].table, path) : status;
         }
     }
     if (status == CLAST_OK) {
-        status = path_in(path, folder, "profile.svg");
+        status = cli_folder_path(path, folder, "profile.svg");
     }
     if (status == CLAST_OK) {
         status = clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path);
     }
     if (status == CLAST_OK && f->radial.n_column > 0) {
-        status = path_in(path, folder, "radial.svg");
+        status = cli_folder_path(path, folder, "radial.svg");
         status = status == CLAST_OK ? clast_radial_chart_write(&f->radial, assembly->unit, path)
                                     : status;
     }
     if (status == CLAST_OK && f->stress_profile.n_column > 0) {
-        status = path_in(path, folder, "stress.svg");
+        status = cli_folder_path(path, folder, "stress.svg");
         status = status == CLAST_OK
                      ? clast_stress_chart_write(&f->stress_profile, assembly->unit, path)
                      : status;
     }
     if (status == CLAST_OK && f->pores.sizes.n_column > 0) {
-        status = path_in(path, folder, "pores.svg");
+        status = cli_folder_path(path, folder, "pores.svg");
         status = status == CLAST_OK ? clast_pore_chart_write(&f->pores.sizes, assembly->unit, path)
                                     : status;
     }
@@ -414,7 +408,7 @@ static void bed_file(const char *bed, char path[4096])
 static clast_status write_manifest(const cli_common *common, const porosity_config *config,
                                    clast_manifest *manifest)
 {
-    char path[4096];
+    char path[CLI_PATH];
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < common->n_argument && manifest != NULL && status == CLAST_OK; ++i) {
         status = state_path(common->argument[i], path);
