@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "study/aggregate_fit_chart.h"
 #include "study/aggregate_folder.h"
+#include "study/run_folder.h"
 #include <clast/aggregate_file.h>
 #include <clast/manifest.h>
 #include <clast/table_file.h>
@@ -142,7 +143,7 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
     CLX_TRY(clast_aggregate_load(config, &source));
     if (folder != NULL) {
         CLX_TRY(clx_folder_take(folder, config->force));
-        CLX_TRY(clx_folder_start(monitor, &manifest));
+        CLX_TRY(clx_folder_start("aggregate", monitor, &manifest));
         CLX_TRY(note_inputs(config, manifest));
     }
     CLX_TRY(clast_aggregate_fit_run(config, &source.input, monitor, fit, &nodes));

@@ -32,13 +32,6 @@ clast_status clx_folder_clear_checkpoints(const char *folder);
 /// missing.
 clast_status clx_folder_saved(const clast_state *state, clast_aggregate_saved *saved);
 
-/// Makes sure that no earlier run is overwritten or mixed in: CLAST_E_USAGE when the folder holds
-/// one, ended or not. With force that run's own files are removed (others stay).
-clast_status clx_folder_take(const char *folder, bool force);
-
-/// A manifest of this command line.
-clast_status clx_folder_start(const clast_monitor *monitor, clast_manifest **manifest);
-
 /// Everything that a finished run leaves but its states.
 typedef struct clx_folder_results {
     const clast_aggregate_config *config;

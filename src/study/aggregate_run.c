@@ -8,6 +8,7 @@
 #include "base/queue.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
+#include "study/run_folder.h"
 #include <clast/aggregate_file.h>
 #include <clast/config.h>
 #include <clast/manifest.h>
@@ -255,7 +256,7 @@ static clast_status start_manifest(run *r)
 {
     clast_status status = CLAST_OK;
     char ranks[32];
-    CLX_TRY(clx_folder_start(r->monitor, &r->manifest));
+    CLX_TRY(clx_folder_start("aggregate", r->monitor, &r->manifest));
     CLX_TRY(note_inputs(r));
     (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
     CLX_TRY(clast_manifest_note(r->manifest, "ranks", ranks));

@@ -1,9 +1,10 @@
 // A run folder before its run: free, or freed of an earlier run when that was asked for.
-#include "study/aggregate_folder.h"
+#include "study/run_folder.h"
 
 #include "base/alloc.h"
 #include "io/checkpoint.h"
 #include "io/folder.h"
+#include "study/aggregate_folder.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -90,9 +91,10 @@ done:
     return status;
 }
 
-clast_status clx_folder_start(const clast_monitor *monitor, clast_manifest **manifest)
+clast_status clx_folder_start(const char *command, const clast_monitor *monitor,
+                              clast_manifest **manifest)
 {
     return monitor != NULL && monitor->n_word > 0
-               ? clast_manifest_create("aggregate", monitor->n_word, monitor->word, manifest)
-               : clast_manifest_create("aggregate", 0, NULL, manifest);
+               ? clast_manifest_create(command, monitor->n_word, monitor->word, manifest)
+               : clast_manifest_create(command, 0, NULL, manifest);
 }
