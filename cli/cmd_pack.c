@@ -141,7 +141,8 @@ static const char details[] =
     "manifest.json,\n"
     "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
     "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.\n"
-    "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.";
+    "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
+    "A folder that holds a run is refused: go on with it, or replace it with --force.";
 
 const cli_command cli_pack = {
     .name = "pack",

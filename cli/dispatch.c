@@ -1,6 +1,7 @@
 // Finds the subcommand and runs it.
 #include "command.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -96,6 +97,10 @@ static int answer(int argc, char **argv)
 
 int cli_main(int argc, char **argv, const clast_comm *comm)
 {
+#ifdef SIGXFSZ
+    (void)signal(SIGXFSZ,
+                 SIG_IGN); // a file above the limit (ulimit -f) is an error like a full disk
+#endif
     for (const cli_command *const *c = commands; argc > 1 && *c != NULL; ++c) {
         const int words = words_matched(*c, argc, argv);
         if (words > 0) {

@@ -80,6 +80,7 @@ typedef struct clast_pack_config {
     double frame_time;       ///< between pictures of the state for ParaView; 0: only the end [s]
     double checkpoint_time;  ///< between checkpoints, of the clock [s]
     char *resume;            ///< run folder to go on with
+    bool force;              ///< replace an earlier run in the output folder
 } clast_pack_config;
 
 CLAST_API extern const clast_field clast_pack_fields[];

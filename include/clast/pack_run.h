@@ -10,7 +10,7 @@
 /// @param folder   NULL for no files    @param monitor  may be NULL
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, result is untouched;
 ///         CLAST_E_CONVERGE when the run explodes or is never still; CLAST_E_USAGE when the folder
-///         holds an unfinished run
+///         holds a run, finished or not, and config->force is not set
 CLAST_API clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
                                       const clast_monitor *monitor, clast_pack_result *result);
 

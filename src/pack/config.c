@@ -101,6 +101,7 @@ const clast_field clast_pack_fields[] = {
     NUMBER(series_time, 0.01, 1e-12, 1e9, "s", "between rows of series.csv"),
     NUMBER(frame_time, 0, 0, 1e9, "s", "between frames for ParaView; 0: the end only"),
     NUMBER(checkpoint_time, 120, 0, 1e9, "s", "between checkpoints, by the clock"),
+    FLAG(force, 0, "replace an earlier run in the output folder; refused without this"),
     TEXT(resume, "", "go on with the run in this folder"),
     {0},
 };

@@ -7,6 +7,7 @@
 #include "io/checkpoint.h"
 #include "io/pack_state.h"
 #include "study/pack_folder.h"
+#include "study/run_folder.h"
 #include <clast/config.h>
 #include <clast/manifest.h>
 #include <clast/pack_file.h>
@@ -39,7 +40,7 @@ static void free_run(run *r)
 static clast_status note_inputs(run *r)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clast_manifest_create("pack", 0, NULL, &r->manifest));
+    CLX_TRY(clx_folder_start("pack", r->monitor, &r->manifest));
     CLX_TRY(clast_manifest_config(r->manifest, clast_pack_fields, r->config));
     clast_manifest_seed(r->manifest, r->config->seed);
     for (int32_t i = 0; i < clast_pack_n_file(r->config); ++i) {
@@ -172,20 +173,6 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
     return status;
 }
 
-/// Refuses to write over a run that has not ended.
-static clast_status check_free(const char *folder)
-{
-    clast_status status = CLAST_OK;
-    clx_pack_checkpoint found = {0};
-    const clast_status there = clx_pack_checkpoint_find(folder, &found);
-    CLX_CHECK(there == CLAST_E_IO, CLAST_E_USAGE,
-              "%s holds a run that has not ended; go on with --resume %s, or choose another folder",
-              folder, folder);
-done:
-    clx_pack_checkpoint_free(&found);
-    return status;
-}
-
 /// Loads all that can be wrong before anything is written.
 static clast_status prepare(run *r)
 {
@@ -205,16 +192,20 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
                             const clast_monitor *monitor, clast_pack_result *result)
 {
     clast_status status = CLAST_OK;
-    run r = {.config = config, .folder = folder, .monitor = monitor};
+    clast_pack_config own = *config; // borrowed texts; force is no property of the result
+    run r = {.config = &own, .folder = folder, .monitor = monitor};
+    own.force = false;
     CLX_CHECK(folder != NULL || config->frame_time == 0.0, CLAST_E_USAGE,
               "frame_time %g s: frames are written into a run's folder; give one (-o)",
               config->frame_time);
+    CLX_CHECK(folder != NULL || !config->force, CLAST_E_USAGE,
+              "force: there is no output folder (-o) whose run it could replace");
     CLX_TRY(prepare(&r));
     if (folder != NULL) {
-        CLX_TRY(check_free(folder));
+        CLX_TRY(clx_folder_take(folder, config->force));
         CLX_TRY(clx_folder_make(folder));
+        CLX_TRY(save(&r)); // first, so that a folder with a manifest can be gone on with
         CLX_TRY(write_manifest(&r, "running"));
-        CLX_TRY(save(&r));
     }
     status = finish(&r, go(&r), result);
 done:
@@ -258,10 +249,13 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     CLX_CHECK(!is_end || clast_pack_phase_of(r.pack) != CLAST_PACK_DONE, CLAST_E_IO,
               "%s has ended: its bed is done, and there is no checkpoint to go on from", folder);
     const int64_t step = clast_dem_n_step(clast_pack_dem(r.pack));
-    CLX_CHECK(max_steps == 0 || step < max_steps, CLAST_E_USAGE,
+    CLX_CHECK(max_steps == 0 || step < max_steps || (step == max_steps && !is_end), CLAST_E_USAGE,
               "%s has done %" PRId64 " steps; give a --max-steps above that, or none", folder,
               step);
     CLX_TRY(write_manifest(&r, "running"));
+    if (is_end) { // a new state.h5 may outlive a kill alone, without the other results
+        CLX_TRY(save(&r));
+    }
     status = finish(&r, go(&r), result);
 done:
     free_run(&r);

@@ -11,12 +11,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// What runs and fits leave, but their numbered states.
+/// What runs and fits leave, but their numbered states and frames.
 static const char *const left[] = {
-    "aggregate.stl", "density.svg",   "diameter.svg",  "fit.csv",         "fit.svg",
-    "history.csv",   "history.svg",   "manifest.json", "picture.png",     "printable.json",
-    "printable.stl", "radial.csv",    "report.html",   "sizes.csv",       "sizes.svg",
-    "state.h5",      "structure.csv", "summary.json",  "history_band.csv"};
+    "achieved.csv",  "achieved.svg",    "aggregate.stl", "density.svg", "diameter.svg",
+    "energy.svg",    "fit.csv",         "fit.svg",       "frames.pvd",  "grains.csv",
+    "history.csv",   "history.svg",     "manifest.json", "picture.png", "printable.json",
+    "printable.stl", "profile.csv",     "profile.svg",   "radial.csv",  "report.html",
+    "series.csv",    "sizes.csv",       "sizes.svg",     "state.h5",    "structure.csv",
+    "summary.json",  "history_band.csv"};
 
 /// state-0002.h5 and so on.
 static bool is_state(const char *name)
@@ -35,6 +37,40 @@ static bool is_left(const char *name)
     return is_state(name);
 }
 
+/// frames/frame-000012.vtu and so on.
+static bool is_frame(const char *name)
+{
+    return strncmp(name, "frame-", 6) == 0 && strspn(name + 6, "0123456789") >= 6 &&
+           strcmp(name + 6 + strspn(name + 6, "0123456789"), ".vtu") == 0;
+}
+
+static clast_status remove_frames(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    clx_folder entries = {0};
+    char frames[CLX_PATH_LIMIT];
+    char path[CLX_PATH_LIMIT];
+    struct stat found;
+    CLX_TRY(clx_folder_join(frames, folder, "frames"));
+    if (lstat(frames, &found) != 0 || !S_ISDIR(found.st_mode)) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_folder_list(frames, &entries));
+    for (int32_t i = 0; i < entries.n; ++i) {
+        if (is_frame(entries.name[i])) {
+            CLX_TRY(clx_folder_join(path, frames, entries.name[i]));
+            CLX_CHECK(unlink(path) == 0, CLAST_E_DISK, "cannot remove %s: %s", path,
+                      clx_errno_text());
+        }
+    }
+    // Somebody's own files in it stay.
+    CLX_CHECK(rmdir(frames) == 0 || errno == ENOTEMPTY || errno == EEXIST, CLAST_E_DISK,
+              "cannot remove %s: %s", frames, clx_errno_text());
+done:
+    clx_folder_free(&entries);
+    return status;
+}
+
 static clast_status remove_left(const char *folder)
 {
     clast_status status = CLAST_OK;
@@ -48,6 +84,7 @@ static clast_status remove_left(const char *folder)
                       clx_errno_text());
         }
     }
+    CLX_TRY(remove_frames(folder));
     CLX_TRY(clx_folder_clear_checkpoints(folder));
 done:
     clx_folder_free(&entries);

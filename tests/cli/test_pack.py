@@ -174,7 +174,6 @@ class Pack(Case):
 
     def test_full_disk_leaves_the_last_good_checkpoint(self):
         def limit():  # files of at most 40 kB: what a full disk answers, without the rights to mount one
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
 
         whole = self.run_small("--json")
@@ -397,6 +396,45 @@ class Pack(Case):
         again = clast("pack", "--resume", run, "--max-steps", "3000", "--quiet")
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual(sorted(p.name for p in run.glob("checkpoint-*")), [])
+
+    def test_results_that_cannot_be_written_come_when_gone_on_with(self):
+        far, run = self.folder / "far", self.folder / "run"
+        self.assertEqual(self.run_small("--max-steps", "3000", "-o", far).code, 0)
+        self.assertEqual(self.run_small("--max-steps", "2000", "-o", run).code, 0)
+        (run / "series.csv").unlink()
+        (run / "series.csv").mkdir()  # state.h5 comes before it
+        self.assert_fails(4, "pack", "--resume", run, "--max-steps", "3000", says=("series.csv",))
+        self.assertEqual((run / "state.h5").read_bytes(), (far / "state.h5").read_bytes())
+        (run / "series.csv").rmdir()
+        again = clast("pack", "--resume", run, "--max-steps", "3000", "--quiet", "-j", "1")
+        self.assertEqual(again.code, 0, again.err)
+        for name in ("state.h5", "series.csv", "grains.csv", "summary.json"):
+            self.assertEqual((run / name).read_bytes(), (far / name).read_bytes(), name)
+        self.assertEqual(sorted(p.name for p in run.glob("checkpoint-*")), [])
+        self.assert_fails(2, "pack", "--resume", run, "--max-steps", "3000", says=("done 3000 steps",))
+
+    def test_a_run_is_replaced_only_by_force(self):
+        run = self.folder / "run"
+        two, three = ["--max-steps", "200"], ["--max-steps", "300"]
+        self.assertEqual(self.run_small(*two, "--frame-time", "0.5ms", "-o", run).code, 0)
+        (run / "note.txt").write_text("mine")
+        before = {p: p.read_bytes() for p in run.rglob("*") if p.is_file()}
+        self.assertIn(run / "frames" / "frame-000002.vtu", before)
+        self.assert_fails(2, *SMALL, *three, "-o", run, says=("holds a finished run", "--force"))
+        self.assertEqual({p: p.read_bytes() for p in run.rglob("*") if p.is_file()}, before)
+        self.assertEqual(self.run_small(*three, "--force", "-o", run).code, 0)
+        fresh = self.folder / "fresh"
+        self.assertEqual(self.run_small(*three, "-o", fresh).code, 0)
+        self.assertEqual(sorted(p.name for p in run.iterdir()), sorted([p.name for p in fresh.iterdir()] + ["note.txt"]))
+        self.assertEqual((run / "state.h5").read_bytes(), (fresh / "state.h5").read_bytes())
+        self.assertIn("--force", json.loads((run / "manifest.json").read_text())["command_line"])
+        self.assert_fails(2, *SMALL, *three, "--force", says=("no output folder",))
+        self.assert_fails(2, "pack", "--resume", run, "--force", says=("drop force",))
+        spheres = ["aggregate", "--core", "sphere", "--core-size", "200um", "--coat", "sphere", "--size", "100um", "--replicate", "2", "--quiet"]
+        self.assert_fails(2, *spheres, "-o", run, says=("holds a finished run",))
+        self.assertEqual(clast(*spheres, "--force", "-o", run).code, 0)
+        self.assertFalse((run / "series.csv").exists())
+        self.assert_fails(2, *SMALL, *three, "-o", run, says=("holds a finished run",))
 
     def test_balls_in_a_container_go_on_in_the_same_bytes(self):
         bed = ["pack", "--container", self.cup(), "--container-unit", "mm", "--curve", "8 mm", "--mass", "10g", "--shapes", "sphere", "-j", "1",
