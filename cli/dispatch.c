@@ -98,8 +98,8 @@ static int answer(int argc, char **argv)
 int cli_main(int argc, char **argv, const clast_comm *comm)
 {
 #ifdef SIGXFSZ
-    (void)signal(SIGXFSZ,
-                 SIG_IGN); // a file above the limit (ulimit -f) is an error like a full disk
+    // a file above the limit (ulimit -f) is an error as a full disk is
+    (void)signal(SIGXFSZ, SIG_IGN);
 #endif
     for (const cli_command *const *c = commands; argc > 1 && *c != NULL; ++c) {
         const int words = words_matched(*c, argc, argv);
