@@ -44,50 +44,48 @@ static bool is_frame(const char *name)
            strcmp(name + 6 + strspn(name + 6, "0123456789"), ".vtu") == 0;
 }
 
-static clast_status remove_frames(const char *folder)
-{
-    clast_status status = CLAST_OK;
-    clx_folder entries = {0};
-    char frames[CLX_PATH_LIMIT];
-    char path[CLX_PATH_LIMIT];
-    struct stat found;
-    CLX_TRY(clx_folder_join(frames, folder, "frames"));
-    if (lstat(frames, &found) != 0 || !S_ISDIR(found.st_mode)) {
-        return CLAST_OK;
-    }
-    CLX_TRY(clx_folder_list(frames, &entries));
-    for (int32_t i = 0; i < entries.n; ++i) {
-        if (is_frame(entries.name[i])) {
-            CLX_TRY(clx_folder_join(path, frames, entries.name[i]));
-            CLX_CHECK(unlink(path) == 0, CLAST_E_DISK, "cannot remove %s: %s", path,
-                      clx_errno_text());
-        }
-    }
-    // Somebody's own files in it stay.
-    CLX_CHECK(rmdir(frames) == 0 || errno == ENOTEMPTY || errno == EEXIST, CLAST_E_DISK,
-              "cannot remove %s: %s", frames, clx_errno_text());
-done:
-    clx_folder_free(&entries);
-    return status;
-}
-
-static clast_status remove_left(const char *folder)
+static clast_status remove_entries(const char *folder, bool (*is_ours)(const char *name))
 {
     clast_status status = CLAST_OK;
     clx_folder entries = {0};
     char path[CLX_PATH_LIMIT];
     CLX_TRY(clx_folder_list(folder, &entries));
     for (int32_t i = 0; i < entries.n; ++i) {
-        if (is_left(entries.name[i])) {
+        if (is_ours(entries.name[i])) {
             CLX_TRY(clx_folder_join(path, folder, entries.name[i]));
             CLX_CHECK(unlink(path) == 0, CLAST_E_DISK, "cannot remove %s: %s", path,
                       clx_errno_text());
         }
     }
+done:
+    clx_folder_free(&entries);
+    return status;
+}
+
+static clast_status remove_frames(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    char frames[CLX_PATH_LIMIT];
+    struct stat found;
+    CLX_TRY(clx_folder_join(frames, folder, "frames"));
+    if (lstat(frames, &found) != 0 || !S_ISDIR(found.st_mode)) {
+        return CLAST_OK;
+    }
+    CLX_TRY(remove_entries(frames, is_frame));
+    // Somebody's own files in it stay.
+    CLX_CHECK(rmdir(frames) == 0 || errno == ENOTEMPTY || errno == EEXIST, CLAST_E_DISK,
+              "cannot remove %s: %s", frames, clx_errno_text());
+done:
+    return status;
+}
+
+static clast_status remove_left(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(remove_entries(folder, is_left));
     CLX_TRY(remove_frames(folder));
     CLX_TRY(clx_folder_clear_checkpoints(folder));
 done:
-    clx_folder_free(&entries);
     return status;
 }
 
