@@ -175,6 +175,7 @@ typedef struct {
     bool is_dense;       ///< the latter
     int n_awake;
     uint16_t awake[PIECE]; ///< their places in the piece, rising
+    double travel[PIECE];  ///< and what their grains have gone
     int n[CLX_N_BATCH];
     uint16_t at[CLX_N_BATCH][PIECE]; ///< places in `awake`
 } piece;
@@ -200,16 +201,15 @@ CLX_INLINE void fetch_pair(const clast_dem *dem, const clx_link *link, clx_batch
     fetch(&dem->grain[link->b], sizeof *dem->grain);
 }
 
-/// Sums of paths of a link's grains.
-static inline double travel_of(const clast_dem *dem, const clx_link *link)
+/// Grain of an item; where links are packed, items are grains.
+CLX_INLINE int32_t grain_of(const clast_dem *dem, bool is_packed, int32_t item)
 {
-    const double own = dem->travel[clx_item_grain(dem, link->a)];
-    return own + (link->b >= 0 ? dem->travel[clx_item_grain(dem, link->b)] : 0.0);
+    return is_packed ? item : clx_item_grain(dem, item);
 }
 
-CLX_INLINE clx_link *link_of(const clast_dem *dem, const piece *s, int i)
+CLX_INLINE clx_link *link_of(const clast_dem *dem, const piece *s, bool is_packed, int i)
 {
-    return s->pair != NULL ? &s->pair[i].link : &dem->list.link[s->link[i]];
+    return is_packed ? &s->pair[i].link : &dem->list.link[s->link[i]];
 }
 
 /// Asks for a packed link some places ahead, and for the other grain of one nearer by.
@@ -222,50 +222,79 @@ CLX_INLINE void fetch_packed(const clast_dem *dem, const piece *s, int i)
     }
 }
 
-/// Sorts out which of n links are awake. Others push by 0, where they have a place.
-static void sort_awake(const clast_dem *dem, int n, piece *s)
+/// Sorts out which of n links are awake.
+CLX_INLINE void sort_links(const clast_dem *dem, int n, bool is_packed, piece *s)
 {
-    memset(s->n, 0, sizeof s->n);
-    s->n_awake = 0;
-    if (!s->is_dense) {
-        memset(s->push, 0, (size_t)n * sizeof *s->push);
-    }
+    int n_awake = 0;
+    int n_kind[CLX_N_BATCH] = {0};
     for (int i = 0; i < n; ++i) {
-        const clx_link *link = link_of(dem, s, i);
-        if (s->pair != NULL) {
+        const clx_link *link = link_of(dem, s, is_packed, i);
+        if (is_packed) {
             fetch_packed(dem, s, i);
         } else if (i + LINK_AHEAD < s->n_left) {
             __builtin_prefetch(&dem->list.link[s->link[i + LINK_AHEAD]]);
         }
-        const clx_batch_kind kind =
-            dem->item != NULL || link->b < 0 ? CLX_BATCH_ANY : kind_of(dem, link);
+        const bool is_plain = (is_packed || dem->item == NULL) && link->b >= 0;
+        const clx_batch_kind kind = is_plain ? kind_of(dem, link) : CLX_BATCH_ANY;
+        const double other = link->b >= 0 ? dem->travel[grain_of(dem, is_packed, link->b)] : 0.0;
+        const double path = dem->travel[grain_of(dem, is_packed, link->a)] + other;
         const bool is_awake =
-            !(travel_of(dem, link) < link->wake) && !clx_link_is_container(dem, link);
-        s->at[kind][s->n[kind]] = (uint16_t)s->n_awake;
-        s->awake[s->n_awake] = (uint16_t)i;
-        s->n[kind] += is_awake ? 1 : 0;
-        s->n_awake += is_awake ? 1 : 0;
+            !(path < link->wake) && (is_packed || !clx_link_is_container(dem, link));
+        s->at[kind][n_kind[kind]] = (uint16_t)n_awake;
+        s->awake[n_awake] = (uint16_t)i;
+        s->travel[n_awake] = path;
+        n_kind[kind] += is_awake ? 1 : 0;
+        n_awake += is_awake ? 1 : 0;
+    }
+    s->n_awake = n_awake;
+    memcpy(s->n, n_kind, sizeof s->n);
+}
+
+/// Links that sleep push by 0, where they have a place.
+static void sort_awake(const clast_dem *dem, int n, piece *s)
+{
+    if (!s->is_dense) {
+        memset(s->push, 0, (size_t)n * sizeof *s->push);
+    }
+    if (s->pair != NULL) {
+        sort_links(dem, n, true, s);
+    } else {
+        sort_links(dem, n, false, s);
     }
 }
 
 /// The batch that begins with the awake link `from` of a kind. Lanes beyond the last repeat it.
+CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
+                          bool is_packed, clx_batch *p)
+{
+    const int last = s->n[kind] - 1;
+    const uint16_t *at = s->at[kind];
+    p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
+    for (int k = 0; k < CLX_BATCH; ++k) {
+        const int rank = at[from + k < last ? from + k : last];
+        const int i = s->awake[rank];
+        clx_link *link = link_of(dem, s, is_packed, i);
+        const int32_t b = link->b;
+        p->to[k] = &s->push[s->is_dense ? rank : i];
+        p->link[k] = link;
+        p->travel[k] = s->travel[rank];
+        p->a[k] = &dem->grain[grain_of(dem, is_packed, link->a)];
+        p->b[k] = b >= 0 ? &dem->grain[grain_of(dem, is_packed, b)] : &clx_immovable;
+        p->meet.turn_a[k] = p->a[k]->turn[0];
+        p->meet.turn_b[k] = p->b[k]->turn[0];
+        p->meet.memory[k] = !is_packed        ? clx_link_memory(dem, link)
+                            : link->slot != 0 ? &s->pair[i].memory
+                                              : NULL;
+    }
+}
+
 static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
                         clx_batch *p)
 {
-    const int last = s->n[kind] - 1;
-    p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
-    for (int k = 0; k < CLX_BATCH; ++k) {
-        const int rank = s->at[kind][from + k < last ? from + k : last];
-        const int i = s->awake[rank];
-        clx_link *link = link_of(dem, s, i);
-        p->to[k] = &s->push[s->is_dense ? rank : i];
-        p->link[k] = link;
-        p->travel[k] = travel_of(dem, link);
-        p->a[k] = &dem->grain[clx_item_grain(dem, link->a)];
-        p->b[k] = link->b >= 0 ? &dem->grain[clx_item_grain(dem, link->b)] : &clx_immovable;
-        p->meet.turn_a[k] = p->a[k]->turn[0];
-        p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = clx_near_memory(dem, link);
+    if (s->pair != NULL) {
+        fill_from(dem, s, kind, from, true, p);
+    } else {
+        fill_from(dem, s, kind, from, false, p);
     }
 }
 
@@ -279,7 +308,8 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             const int end = from + REST_AHEAD + CLX_BATCH;
             for (int k = from + REST_AHEAD;
                  k < end && k < s->n[kind] && kind != CLX_BATCH_ANY && s->pair == NULL; ++k) {
-                fetch_pair(dem, link_of(dem, s, s->awake[s->at[kind][k]]), (clx_batch_kind)kind);
+                fetch_pair(dem, link_of(dem, s, false, s->awake[s->at[kind][k]]),
+                           (clx_batch_kind)kind);
             }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
