@@ -282,9 +282,7 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, clx_batch_kind k
         p->b[k] = b >= 0 ? &dem->grain[grain_of(dem, is_packed, b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = !is_packed        ? clx_link_memory(dem, link)
-                            : link->slot != 0 ? &s->pair[i].memory
-                                              : NULL;
+        p->meet.memory[k] = clx_near_memory(dem, link);
     }
 }
 
