@@ -184,15 +184,15 @@ int clx_ellipsoids_again(clx_pair_batch *batch, int from,
                          const clx_convex *const shape_b[CLX_LANES])
 {
     side a, b;
-    const float *seen[CLX_LANES];
     clx_lanes offset[3], m[4], n[3], tip[3];
     clx_lanes s = lanes_all(0.0);
     read_side(batch->turn_a + from, shape_a, &a);
     read_side(batch->turn_b + from, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
-        seen[k] = batch->memory[from + k]->seen[0];
+        const float *seen = batch->memory[from + k]->seen[0];
+        m[k] = lanes_row_floats(seen, seen);
     }
-    lanes_collect_floats(m, seen);
+    lanes_transpose(m);
     for (int c = 0; c < 3; ++c) {
         offset[c] = lanes_load(batch->offset[c] + from);
         m[c] = -m[c];

@@ -33,38 +33,37 @@ static_assert(offsetof(clx_contact_memory, seen) == offsetof(clx_contact_memory,
 
 CLX_INLINE void clx_gather_nine(const double *const p[CLX_LANES], clx_lanes out[9])
 {
-    const double *more[CLX_LANES];
+    lanes_collect(out, p, 0);
+    lanes_collect(out + 4, p, 4);
     for (int k = 0; k < CLX_LANES; ++k) {
-        more[k] = p[k] + 4;
         out[8][k] = p[k][8];
     }
-    lanes_collect(out, p);
-    lanes_collect(out + 4, more);
 }
 
 /// sure, seen[0] (3), seen[1] (3), limit[0]; limit[1].
 CLX_INLINE void clx_gather_limits(const clx_contact_memory *const memory[CLX_LANES],
                                   clx_lanes out[9])
 {
-    const float *first[CLX_LANES];
-    const float *second[CLX_LANES];
+    for (int k = 0; k < 4; ++k) {
+        const clx_contact_memory *m = memory[k];
+        const clx_contact_memory *beyond = memory[k + CLX_BEYOND];
+        out[k] = lanes_row_floats(&m->sure, &beyond->sure);
+        out[4 + k] = lanes_row_floats(m->seen[1], beyond->seen[1]);
+    }
+    lanes_transpose(out);
+    lanes_transpose(out + 4);
     for (int k = 0; k < CLX_LANES; ++k) {
-        first[k] = &memory[k]->sure;
-        second[k] = memory[k]->seen[1];
         out[8][k] = (double)memory[k]->limit[1];
     }
-    lanes_collect_floats(out, first);
-    lanes_collect_floats(out + 4, second);
 }
 
 CLX_INLINE void clx_gather_data(const clx_contact_memory *const memory[CLX_LANES], int from,
                                 clx_lanes out[4])
 {
-    const double *data[CLX_LANES];
-    for (int k = 0; k < CLX_LANES; ++k) {
-        data[k] = memory[k]->data + from;
+    for (int k = 0; k < 4; ++k) {
+        out[k] = lanes_row(memory[k]->data + from, memory[k + CLX_BEYOND]->data + from);
     }
-    lanes_collect(out, data);
+    lanes_transpose(out);
 }
 
 CLX_INLINE clx_lanes clx_drift2(const clx_lanes x[3], const clx_lanes seen[3])

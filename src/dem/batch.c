@@ -55,12 +55,12 @@ static int edges(const clast_dem *dem, clx_batch *p, int from)
 }
 
 CLX_FOR_EACH_MACHINE
-static void push(const clast_dem *dem, const clx_batch *p, int from, bool has_walls)
+static void push(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (has_walls) {
-        push_lanes(dem, p, from, true);
+        push_lanes(dem, p, true);
     } else {
-        push_lanes(dem, p, from, false);
+        push_lanes(dem, p, false);
     }
 }
 
@@ -107,7 +107,5 @@ void clx_batch_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
         return;
     }
 #endif
-    for (int from = 0; from < p->n; from += CLX_LANES) {
-        push(dem, p, from, has_walls);
-    }
+    push(dem, p, has_walls);
 }

@@ -23,14 +23,18 @@ CLX_INLINE void store3(double *out, const clx_lanes x[3])
 typedef int32_t ints __attribute__((vector_size(4 * CLX_LANES)));
 typedef uint32_t words __attribute__((vector_size(4 * CLX_LANES)));
 
+CLX_INLINE const double *doubles_at(const clx_grain *grain, size_t at)
+{
+    return (const double *)(const void *)((const char *)grain + at);
+}
+
 /// The four doubles that begin `at` bytes into each grain.
 CLX_INLINE void collect(const clx_grain *const grain[CLX_LANES], size_t at, clx_lanes out[4])
 {
-    const double *row[CLX_LANES];
-    for (int k = 0; k < CLX_LANES; ++k) {
-        row[k] = (const double *)(const void *)((const char *)grain[k] + at);
+    for (int k = 0; k < 4; ++k) {
+        out[k] = lanes_row(doubles_at(grain[k], at), doubles_at(grain[k + CLX_BEYOND], at));
     }
-    lanes_collect(out, row);
+    lanes_transpose(out);
 }
 
 /// Images of b, along x and y, as numbers of periods.
@@ -117,27 +121,47 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
     return lanes_bits(good);
 }
 
-/// Contacts side by side and what the law works out for them.
+// The law goes in three stages, each for both halves of a batch before the next: a stage waits for
+// its roots and divisions, and meanwhile the other half goes on.
+
+/// Contacts side by side and what the law has worked out for them so far.
 typedef struct {
-    clx_lanes normal[3], arm_a[3], arm_b[3], velocity[3], slide[3], tangential[3];
-    clx_lanes mass, friction, twirl, push;
+    clx_lanes wake, slide[3]; ///< of the links
+    clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
+    clx_lanes mass, friction, twirl;
+    clx_lanes push, limit, tangential[3];
+    clx_lanes drag[3]; ///< what damping takes off the tangential force
+    clx_lanes inverse; ///< of the tangential stiffness, negative
 } meetings;
 
-/// Velocity of b's surface relative to a's at the contact point; reduced mass and friction.
+/// From a to b.
+CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
+{
+    load3(p->meet.normal[0] + from, normal);
+    for (int c = 0; c < 3; ++c) {
+        normal[c] = -normal[c];
+    }
+}
+
+/// Velocities, reduced mass and friction; the links' displacements.
 CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
                          meetings *m)
 {
     clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb with masses
+    clx_lanes normal[3], arm[3], slide[4];
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
     collect(p->a + from, offsetof(clx_grain, spin), wa);
     collect(p->b + from, offsetof(clx_grain, spin), wb);
-    lanes_cross(u, wa, m->arm_a);
-    lanes_cross(w, wb, m->arm_b);
+    load3(p->meet.point[0] + from, arm);
+    lanes_cross(u, wa, arm);
+    load3(p->arm_b[0] + from, arm);
+    lanes_cross(w, wb, arm);
     for (int c = 0; c < 3; ++c) {
         m->velocity[c] = (w[c] + vb[c]) - (u[c] + va[c]);
     }
-    m->twirl = 0.5 * (lanes_dot(wa, m->normal) + lanes_dot(wb, m->normal));
+    load_normal(p, from, normal);
+    m->twirl = 0.5 * (lanes_dot(wa, normal) + lanes_dot(wb, normal));
     m->mass = va[3] * vb[3] / (va[3] + vb[3]);
     m->friction = lanes_all(dem->law.friction[0]);
     if (has_walls) {
@@ -148,71 +172,96 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
         m->mass = lanes_pick(is_wall > 0.0, va[3], m->mass);
         m->friction = lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), m->friction);
     }
-}
-
-/// clx_law_turn
-CLX_INLINE void turn_slide(double dt, meetings *m)
-{
-    clx_lanes across[3], turned[3];
-    const clx_lanes old = lanes_dot(m->slide, m->slide);
-    lanes_cross(across, m->normal, m->slide);
-    lanes_axpy(turned, m->slide, m->twirl * dt, across);
-    lanes_axpy(turned, turned, -lanes_dot(turned, m->normal), m->normal);
-    const clx_lanes now = lanes_dot(turned, turned);
-    const clx_lanes scale = lanes_pick(now > 0.0, lanes_root(old / now), lanes_all(0.0));
+    for (int k = 0; k < 4; ++k) {
+        slide[k] = lanes_row(&p->link[from + k]->wake, &p->link[from + k + CLX_BEYOND]->wake);
+    }
+    lanes_transpose(slide);
+    m->wake = slide[0];
     for (int c = 0; c < 3; ++c) {
-        m->slide[c] = lanes_pick(old == 0.0, m->slide[c], scale * turned[c]);
+        m->slide[c] = slide[c + 1];
     }
 }
 
-/// clx_law_force
-CLX_INLINE void force(const clx_law *law, clx_lanes overlap, double dt, meetings *m)
+/// clx_law_turn
+CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
 {
-    clx_lanes along[3];
+    clx_lanes across[3], turned[3];
+    const clx_lanes old = lanes_dot(slide, slide);
+    lanes_cross(across, normal, slide);
+    lanes_axpy(turned, slide, angle, across);
+    lanes_axpy(turned, turned, -lanes_dot(turned, normal), normal);
+    const clx_lanes now = lanes_dot(turned, turned);
+    const clx_lanes scale = lanes_pick(now > 0.0, lanes_root(old / now), lanes_all(0.0));
+    for (int c = 0; c < 3; ++c) {
+        slide[c] = lanes_pick(old == 0.0, slide[c], scale * turned[c]);
+    }
+}
+
+/// clx_law_force, but for slip.
+CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, meetings *m)
+{
+    clx_lanes along[3], normal[3], slide[3];
+    const clx_law *law = &dem->law;
+    const double dt = dem->config.time_step;
+    const clx_lanes overlap = -lanes_load(p->meet.gap + from);
     const clx_lanes k = m->mass * law->stiffness;
     const clx_lanes normal_damping = m->mass * law->damping;
     const clx_lanes kt = law->kappa * k;
     const clx_lanes dt_along = law->root_kappa * normal_damping;
-    const clx_lanes apart = lanes_dot(m->velocity, m->normal);
-    lanes_axpy(along, m->velocity, -apart, m->normal);
-    m->push = k * overlap - normal_damping * apart;
+    load_normal(p, from, normal);
+    const clx_lanes apart = lanes_dot(m->velocity, normal);
+    lanes_axpy(along, m->velocity, -apart, normal);
+    clx_lanes push = k * overlap - normal_damping * apart;
     if (law->clip) {
-        m->push = lanes_pick(m->push < 0.0, lanes_all(0.0), m->push);
+        push = lanes_pick(push < 0.0, lanes_all(0.0), push);
     }
-    const clx_lanes limit = m->friction * lanes_size(m->push);
-    turn_slide(dt, m);
-    lanes_axpy(m->slide, m->slide, lanes_all(dt), along);
+    m->push = push;
+    m->limit = m->friction * lanes_size(push);
+    m->inverse = -1.0 / kt;
     for (int c = 0; c < 3; ++c) {
-        m->tangential[c] = -kt * m->slide[c] - dt_along * along[c];
+        slide[c] = m->slide[c];
     }
+    turn_slide(normal, m->twirl * dt, slide);
+    lanes_axpy(slide, slide, lanes_all(dt), along);
+    for (int c = 0; c < 3; ++c) {
+        m->slide[c] = slide[c];
+        m->drag[c] = dt_along * along[c];
+        m->tangential[c] = -kt * slide[c] - m->drag[c];
+    }
+}
+
+/// The slip of clx_law_force.
+CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide[3])
+{
     const clx_lanes size2 = lanes_dot(m->tangential, m->tangential);
-    const clx_marks slips = size2 > limit * limit;
-    const clx_lanes cut = limit / lanes_root(size2);
-    const clx_lanes inverse = -1.0 / kt;
+    const clx_marks slips = size2 > m->limit * m->limit;
+    const clx_lanes cut = m->limit / lanes_root(size2);
     for (int c = 0; c < 3; ++c) {
         const clx_lanes t = cut * m->tangential[c];
-        m->slide[c] = lanes_pick(slips, inverse * (t + dt_along * along[c]), m->slide[c]);
-        m->tangential[c] = lanes_pick(slips, t, m->tangential[c]);
+        slide[c] = lanes_pick(slips, m->inverse * (t + m->drag[c]), m->slide[c]);
+        tangential[c] = lanes_pick(slips, t, m->tangential[c]);
     }
 }
 
 /// Forces, torques and the links' wakes and displacements. Lanes that repeat another write the same
 /// bytes to the same place.
 CLX_INLINE void write(clx_pushed *const to[CLX_LANES], clx_link *const link[CLX_LANES],
-                      int touching, clx_lanes out[4][4])
+                      clx_marks touching, clx_lanes out[4][4])
 {
-    double *force[CLX_LANES], *torque_b[CLX_LANES], *torque_a[CLX_LANES], *wake_slide[CLX_LANES];
-    for (int k = 0; k < CLX_LANES; ++k) {
-        force[k] = to[k]->force;
-        torque_b[k] = to[k]->torque_b;
-        torque_a[k] = to[k]->torque_a;
-        wake_slide[k] = &link[k]->wake;
-        link[k]->touches = (uint32_t)touching >> k & 1U;
+    for (int i = 0; i < 4; ++i) {
+        lanes_transpose(out[i]);
     }
-    lanes_deal(out[0], force);
-    lanes_deal(out[1], torque_b);
-    lanes_deal(out[2], torque_a);
-    lanes_deal(out[3], wake_slide);
+    for (int k = 0; k < 4; ++k) {
+        clx_pushed *p = to[k];
+        clx_pushed *beyond = to[k + CLX_BEYOND];
+        lanes_put_row(&link[k]->wake, &link[k + CLX_BEYOND]->wake, out[3][k]);
+        lanes_put_row(p->force, beyond->force, out[0][k]);
+        lanes_put_row(p->torque_b, beyond->torque_b, out[1][k]);
+        lanes_put_row(p->torque_a, beyond->torque_a, out[2][k]);
+    }
+    for (int k = 0; k < CLX_LANES; ++k) {
+        link[k]->touches = (uint32_t)touching[k] & 1U;
+    }
 }
 
 CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
@@ -220,37 +269,40 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
     return (clx_lanes)(m & (clx_marks)x);
 }
 
-CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, int from, bool has_walls)
+/// Slip, and what comes of it all; nothing where contacts are apart.
+CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, const meetings *m)
 {
-    meetings m;
     clx_lanes out[4][4]; // force, torque on b and on a, the link's wake and slide
-    clx_lanes *f = out[0];
-    clx_lanes *slide = out[3];
-    const double *wake[CLX_LANES];
+    clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
+    clx_lanes *force = out[0];
     const clx_lanes gap = lanes_load(p->meet.gap + from);
     const clx_marks touching = ~(gap >= 0.0);
-    for (int k = 0; k < CLX_LANES; ++k) {
-        wake[k] = &p->link[from + k]->wake;
-    }
-    lanes_collect(slide, wake);
-    load3(p->meet.normal[0] + from, m.normal);
-    load3(p->meet.point[0] + from, m.arm_a);
-    load3(p->arm_b[0] + from, m.arm_b);
+    slip(m, tangential, slide);
+    load_normal(p, from, normal);
+    out[3][0] = lanes_pick(touching, m->wake, lanes_load(p->travel + from) + gap);
     for (int c = 0; c < 3; ++c) {
-        m.normal[c] = -m.normal[c]; // from a to b
-        m.slide[c] = slide[c + 1];
+        force[c] = where(touching, tangential[c] + m->push * normal[c]);
+        out[3][c + 1] = where(touching, slide[c]);
+        turning[c] = dem->config.normal_torque ? force[c] : where(touching, tangential[c]);
     }
-    approach(dem, p, from, has_walls, &m);
-    force(&dem->law, -gap, dem->config.time_step, &m);
-    slide[0] = lanes_pick(touching, slide[0], lanes_load(p->travel + from) + gap);
-    for (int c = 0; c < 3; ++c) {
-        f[c] = where(touching, m.tangential[c] + m.push * m.normal[c]);
-        slide[c + 1] = where(touching, m.slide[c]);
-        m.tangential[c] = where(touching, m.tangential[c]);
+    load3(p->arm_b[0] + from, arm);
+    lanes_cross(out[1], arm, turning);
+    load3(p->meet.point[0] + from, arm);
+    lanes_cross(out[2], arm, turning);
+    force[3] = out[1][3] = out[2][3] = lanes_all(0.0);
+    write(p->to + from, p->link + from, touching, out);
+}
+
+CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls)
+{
+    meetings m[CLX_BATCH / CLX_LANES];
+    for (int h = 0; h * CLX_LANES < p->n; ++h) {
+        approach(dem, p, h * CLX_LANES, has_walls, &m[h]);
     }
-    const clx_lanes *turning = dem->config.normal_torque ? f : m.tangential;
-    lanes_cross(out[1], m.arm_b, turning);
-    lanes_cross(out[2], m.arm_a, turning);
-    f[3] = out[1][3] = out[2][3] = lanes_all(0.0);
-    write(p->to + from, p->link + from, lanes_bits(touching), out);
+    for (int h = 0; h * CLX_LANES < p->n; ++h) {
+        press(dem, p, h * CLX_LANES, &m[h]);
+    }
+    for (int h = 0; h * CLX_LANES < p->n; ++h) {
+        deal_out(dem, p, h * CLX_LANES, &m[h]);
+    }
 }

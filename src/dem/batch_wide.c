@@ -28,9 +28,9 @@ int clx_wide_edges(const clast_dem *dem, clx_batch *p)
 void clx_wide_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (has_walls) {
-        push_lanes(dem, p, 0, true);
+        push_lanes(dem, p, true);
     } else {
-        push_lanes(dem, p, 0, false);
+        push_lanes(dem, p, false);
     }
 }
 #endif

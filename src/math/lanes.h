@@ -103,56 +103,59 @@ CLX_INLINE void lanes_transpose(clx_lanes r[4])
 #endif
 }
 
-/// out[c] = element c of each record.
-CLX_INLINE void lanes_collect(clx_lanes out[4], const double *const record[CLX_LANES])
+/// Four doubles for a row of the first four lanes, and for the four beyond them where there are
+/// eight: of lanes k and k + CLX_BEYOND.
+enum { CLX_BEYOND = CLX_LANES - 4 };
+
+CLX_INLINE clx_lanes lanes_row(const double *row, const double *beyond)
 {
 #ifdef CLX_WIDE
-    for (int k = 0; k < 4; ++k) {
-        const __m256d low = _mm256_loadu_pd(record[k]);
-        const __m256d high = _mm256_loadu_pd(record[k + 4]);
-        out[k] = (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
-    }
+    return (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row)),
+                                         _mm256_loadu_pd(beyond), 1);
 #else
-    for (int k = 0; k < 4; ++k) {
-        out[k] = lanes_load(record[k]);
-    }
+    (void)beyond;
+    return lanes_load(row);
 #endif
-    lanes_transpose(out);
 }
 
 /// The same of floats.
-CLX_INLINE void lanes_collect_floats(clx_lanes out[4], const float *const record[CLX_LANES])
+CLX_INLINE clx_lanes lanes_row_floats(const float *row, const float *beyond)
 {
 #ifdef CLX_WIDE
-    for (int k = 0; k < 4; ++k) {
-        const __m256d low = _mm256_cvtps_pd(_mm_loadu_ps(record[k]));
-        const __m256d high = _mm256_cvtps_pd(_mm_loadu_ps(record[k + 4]));
-        out[k] = (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
-    }
+    const __m256d low = _mm256_cvtps_pd(_mm_loadu_ps(row));
+    const __m256d high = _mm256_cvtps_pd(_mm_loadu_ps(beyond));
+    return (clx_lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
 #else
     typedef float floats __attribute__((vector_size(16)));
     typedef float floats_at __attribute__((vector_size(16), aligned(4), may_alias));
-    for (int k = 0; k < 4; ++k) {
-        const floats f = *(const floats_at *)record[k];
-        out[k] = __builtin_convertvector(f, clx_lanes);
-    }
+    const floats f = *(const floats_at *)row;
+    (void)beyond;
+    return __builtin_convertvector(f, clx_lanes);
 #endif
-    lanes_transpose(out);
 }
 
-/// The way back.
-CLX_INLINE void lanes_deal(const clx_lanes in[4], double *const record[CLX_LANES])
+/// The way back of a row.
+CLX_INLINE void lanes_put_row(double *row, double *beyond, clx_lanes x)
 {
-    clx_lanes r[4] = {in[0], in[1], in[2], in[3]};
-    lanes_transpose(r);
-    for (int k = 0; k < 4; ++k) {
 #ifdef CLX_WIDE
-        _mm256_storeu_pd(record[k], _mm512_castpd512_pd256((__m512d)r[k]));
-        _mm256_storeu_pd(record[k + 4], _mm512_extractf64x4_pd((__m512d)r[k], 1));
+    _mm256_storeu_pd(row, _mm512_castpd512_pd256((__m512d)x));
+    _mm256_storeu_pd(beyond, _mm512_extractf64x4_pd((__m512d)x, 1));
 #else
-        lanes_store(record[k], r[k]);
+    (void)beyond;
+    lanes_store(row, x);
 #endif
+}
+
+// Where records are is taken from their pointers one by one, without an array of addresses: a
+// compiler works on such an array in vectors, which then wait for the pointers to reach memory.
+
+/// out[c] = element at + c of each record.
+CLX_INLINE void lanes_collect(clx_lanes out[4], const double *const record[CLX_LANES], int at)
+{
+    for (int k = 0; k < 4; ++k) {
+        out[k] = lanes_row(record[k] + at, record[k + CLX_BEYOND] + at);
     }
+    lanes_transpose(out);
 }
 
 #ifndef CLX_WIDE
@@ -160,13 +163,22 @@ CLX_INLINE void lanes_deal(const clx_lanes in[4], double *const record[CLX_LANES
 CLX_INLINE void lanes_gather(clx_lanes out[4], const double *a, const double *b, const double *c,
                              const double *d)
 {
-    lanes_collect(out, (const double *const[4]){a, b, c, d});
+    out[0] = lanes_load(a);
+    out[1] = lanes_load(b);
+    out[2] = lanes_load(c);
+    out[3] = lanes_load(d);
+    lanes_transpose(out);
 }
 
 /// The way back.
 CLX_INLINE void lanes_scatter(const clx_lanes in[4], double *a, double *b, double *c, double *d)
 {
-    lanes_deal(in, (double *const[4]){a, b, c, d});
+    clx_lanes r[4] = {in[0], in[1], in[2], in[3]};
+    lanes_transpose(r);
+    lanes_store(a, r[0]);
+    lanes_store(b, r[1]);
+    lanes_store(c, r[2]);
+    lanes_store(d, r[3]);
 }
 #endif
 
