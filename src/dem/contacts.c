@@ -15,15 +15,15 @@
 enum { BLOCK = 256 };
 
 /// How a pair of whole grains is answered.
-static inline clx_batch_kind kind_of(const clast_dem *dem, const clx_link *link)
+static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_link *link)
 {
     static const uint8_t remembered[] = {CLX_BATCH_ANY, CLX_BATCH_FACES, CLX_BATCH_FACES,
                                          CLX_BATCH_EDGES};
     if (link->slot == 0) {
         return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
     }
-    if (link->kind == CLX_FACET_NONE && dem->grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
-        dem->grain[link->b].kind == CLAST_SHAPE_ELLIPSOID) {
+    if (link->kind == CLX_FACET_NONE && grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
+        grain[link->b].kind == CLAST_SHAPE_ELLIPSOID) {
         return CLX_BATCH_ELLIPSOIDS;
     }
     return (clx_batch_kind)remembered[link->kind];
@@ -164,41 +164,55 @@ static void push_each(clast_dem *dem, const clx_batch *p)
 
 /// Links of the near list that are gone through at once; pairs ahead whose link, and whose memory
 /// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
-enum { PIECE = 256, LINK_AHEAD = 16, REST_AHEAD = 8, PAIR_AHEAD = 12, GRAIN_AHEAD = 8, LINE = 64 };
+enum {
+    LINK_AHEAD = 16,
+    REST_AHEAD = CLX_BATCH,
+    ROW = 512,
+    PIECE = ROW - CLX_BATCH - REST_AHEAD,
+    PAIR_AHEAD = CLX_NEAR_AHEAD,
+    GRAIN_AHEAD = 8,
+    LINE = 64
+};
 
 /// A piece of the near list, and which of its links are awake, by how they are answered.
 typedef struct {
     const int32_t *link;
-    clx_near_pair *pair; ///< the same links, packed, or NULL
-    int64_t n_left;      ///< links from there to the end of the near list
-    clx_pushed *push;    ///< of each link, or of each awake one
-    bool is_dense;       ///< the latter
-    int n_awake;
-    uint16_t awake[PIECE]; ///< their places in the piece, rising
-    double travel[PIECE];  ///< and what their grains have gone
-    int n[CLX_N_BATCH];
-    uint16_t at[CLX_N_BATCH][PIECE]; ///< places in `awake`
+    clx_near_pair *pair;           ///< the same links, packed, or NULL
+    int64_t n_left;                ///< links from there to the end of the near list
+    clx_pushed *push;              ///< of each link
+    double travel[PIECE];          ///< what each link's grains have gone
+    int n[CLX_N_BATCH];            ///< awake links
+    uint16_t at[CLX_N_BATCH][ROW]; ///< their places, the last of a kind repeated
 } piece;
 
 // Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
 // of it is dropped.
-CLX_INLINE void fetch(const void *record, size_t bytes)
+CLX_INLINE void fetch_two(const void *record)
 {
-    for (size_t at = 0; at < bytes; at += LINE) {
-        __builtin_prefetch((const char *)record + at);
-    }
+    __builtin_prefetch(record);
+    __builtin_prefetch((const char *)record + LINE);
 }
 
-/// Asks for what a pair of whole grains reads: faces two lines of their memory, spheres none.
-CLX_INLINE void fetch_pair(const clast_dem *dem, const clx_link *link, clx_batch_kind kind)
+CLX_INLINE void fetch_three(const void *record)
 {
-    if (kind != CLX_BATCH_SPHERES) {
-        fetch(&dem->list.memory[link->slot], 2 * LINE);
+    fetch_two(record);
+    __builtin_prefetch((const char *)record + 2 * LINE);
+}
+
+/// Asks for what a batch of whole grains reads: two lines of a sphere; three of another grain and
+/// of the pair's memory.
+CLX_INLINE void fetch_batch(const clast_dem *dem, const piece *s, const uint16_t *at,
+                            bool are_spheres)
+{
+    const clx_link *links = dem->list.link;
+    for (int k = 0; k < CLX_BATCH; ++k) {
+        const clx_link *link = &links[s->link[at[k]]];
+        fetch_two(&dem->grain[link->b]);
+        if (!are_spheres) {
+            __builtin_prefetch((const char *)&dem->grain[link->b] + 2 * LINE);
+            fetch_three(&dem->list.memory[link->slot]);
+        }
     }
-    if (kind == CLX_BATCH_EDGES) {
-        fetch((const char *)&dem->list.memory[link->slot] + 2 * LINE, LINE);
-    }
-    fetch(&dem->grain[link->b], sizeof *dem->grain);
 }
 
 /// Grain of an item; where links are packed, items are grains.
@@ -213,102 +227,104 @@ CLX_INLINE clx_link *link_of(const clast_dem *dem, const piece *s, bool is_packe
 }
 
 /// Asks for a packed link some places ahead, and for the other grain of one nearer by.
-CLX_INLINE void fetch_packed(const clast_dem *dem, const piece *s, int i)
+CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_near_pair *pair)
 {
-    if (i + PAIR_AHEAD < s->n_left) {
-        fetch(&s->pair[i + PAIR_AHEAD], sizeof *s->pair);
-        const int32_t b = s->pair[i + GRAIN_AHEAD].link.b;
-        fetch(&dem->grain[b < 0 ? 0 : b], sizeof *dem->grain);
-    }
+    const int32_t b = pair[GRAIN_AHEAD].link.b;
+    fetch_three(&pair[PAIR_AHEAD]);
+    fetch_three(&grain[b < 0 ? 0 : b]);
 }
 
-/// Sorts out which of n links are awake.
-CLX_INLINE void sort_links(const clast_dem *dem, int n, bool is_packed, piece *s)
+/// Sorts out which of n links are awake, without a branch that depends on it; returns how many.
+CLX_INLINE int sort_links(const clast_dem *dem, int n, bool is_packed, piece *s, clx_awake *awake)
 {
-    int n_awake = 0;
-    int n_kind[CLX_N_BATCH] = {0};
+    const clx_grain *grain = dem->grain;
+    const double *travel = dem->travel;
+    const bool has_container = dem->container != NULL;
+    clx_awake *to = awake;
+    uint16_t *end[CLX_N_BATCH];
+    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        end[kind] = s->at[kind];
+    }
     for (int i = 0; i < n; ++i) {
         const clx_link *link = link_of(dem, s, is_packed, i);
         if (is_packed) {
-            fetch_packed(dem, s, i);
+            fetch_packed(grain, &s->pair[i]);
         } else if (i + LINK_AHEAD < s->n_left) {
             __builtin_prefetch(&dem->list.link[s->link[i + LINK_AHEAD]]);
         }
         const bool is_plain = (is_packed || dem->item == NULL) && link->b >= 0;
-        const clx_batch_kind kind = is_plain ? kind_of(dem, link) : CLX_BATCH_ANY;
-        const double other = link->b >= 0 ? dem->travel[grain_of(dem, is_packed, link->b)] : 0.0;
-        const double path = dem->travel[grain_of(dem, is_packed, link->a)] + other;
-        const bool is_awake =
-            !(path < link->wake) && (is_packed || !clx_link_is_container(dem, link));
-        s->at[kind][n_kind[kind]] = (uint16_t)n_awake;
-        s->awake[n_awake] = (uint16_t)i;
-        s->travel[n_awake] = path;
-        n_kind[kind] += is_awake ? 1 : 0;
-        n_awake += is_awake ? 1 : 0;
+        const clx_batch_kind kind = is_plain ? kind_of(grain, link) : CLX_BATCH_ANY;
+        const double other = link->b >= 0 ? travel[grain_of(dem, is_packed, link->b)] : 0.0;
+        const double path = travel[grain_of(dem, is_packed, link->a)] + other;
+        const int is_contained = !is_packed && has_container && clx_link_is_container(dem, link);
+        const int is_awake = !(path < link->wake) & !is_contained;
+        s->travel[i] = path;
+        *end[kind] = (uint16_t)i;
+        *to = (clx_awake){.link = link, .at = i};
+        end[kind] += is_awake;
+        to += is_awake;
     }
-    s->n_awake = n_awake;
-    memcpy(s->n, n_kind, sizeof s->n);
+    for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
+        s->n[kind] = (int)(end[kind] - s->at[kind]);
+        for (int k = 0; k < CLX_BATCH + REST_AHEAD && s->n[kind] > 0; ++k) {
+            end[kind][k] = end[kind][-1];
+        }
+    }
+    return (int)(to - awake);
 }
 
-/// Links that sleep push by 0, where they have a place.
-static void sort_awake(const clast_dem *dem, int n, piece *s)
+static int sort_awake(const clast_dem *dem, int n, piece *s, clx_awake *awake)
 {
-    if (!s->is_dense) {
-        memset(s->push, 0, (size_t)n * sizeof *s->push);
-    }
-    if (s->pair != NULL) {
-        sort_links(dem, n, true, s);
-    } else {
-        sort_links(dem, n, false, s);
-    }
+    return s->pair != NULL ? sort_links(dem, n, true, s, awake)
+                           : sort_links(dem, n, false, s, awake);
 }
 
-/// The batch that begins with the awake link `from` of a kind. Lanes beyond the last repeat it.
-CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
-                          bool is_packed, clx_batch *p)
+/// The batch of these links.
+CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *at, bool is_packed,
+                          bool has_walls, clx_batch *p)
 {
-    const int last = s->n[kind] - 1;
-    const uint16_t *at = s->at[kind];
-    p->n = last - from < CLX_BATCH ? last - from + 1 : CLX_BATCH;
+    const clx_grain *grain = dem->grain;
     for (int k = 0; k < CLX_BATCH; ++k) {
-        const int rank = at[from + k < last ? from + k : last];
-        const int i = s->awake[rank];
-        clx_link *link = link_of(dem, s, is_packed, i);
+        clx_link *link = link_of(dem, s, is_packed, at[k]);
         const int32_t b = link->b;
-        p->to[k] = &s->push[s->is_dense ? rank : i];
+        p->to[k] = &s->push[at[k]];
         p->link[k] = link;
-        p->travel[k] = s->travel[rank];
-        p->a[k] = &dem->grain[grain_of(dem, is_packed, link->a)];
-        p->b[k] = b >= 0 ? &dem->grain[grain_of(dem, is_packed, b)] : &clx_immovable;
+        p->travel[k] = s->travel[at[k]];
+        p->a[k] = &grain[grain_of(dem, is_packed, link->a)];
+        p->b[k] = !has_walls || b >= 0 ? &grain[grain_of(dem, is_packed, b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = clx_near_memory(dem, link);
+        p->meet.memory[k] = is_packed ? &s->pair[at[k]].memory : clx_link_memory(dem, link);
     }
 }
 
+/// The batch that begins with the awake link `from` of a kind.
 static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
                         clx_batch *p)
 {
-    if (s->pair != NULL) {
-        fill_from(dem, s, kind, from, true, p);
+    const uint16_t *at = s->at[kind] + from;
+    p->n = s->n[kind] - from < CLX_BATCH ? s->n[kind] - from : CLX_BATCH;
+    if (kind == CLX_BATCH_ANY) {
+        fill_from(dem, s, at, s->pair != NULL, true, p);
+    } else if (s->pair != NULL) {
+        fill_from(dem, s, at, true, false, p);
+    } else if (kind == CLX_BATCH_SPHERES) {
+        fetch_batch(dem, s, at + REST_AHEAD, true);
+        fill_from(dem, s, at, false, false, p);
     } else {
-        fill_from(dem, s, kind, from, false, p);
+        fetch_batch(dem, s, at + REST_AHEAD, false);
+        fill_from(dem, s, at, false, false, p);
     }
 }
 
-static void meet_piece(clast_dem *dem, int n, piece *s)
+/// What the links of the piece do; its awake links, and how many they are.
+static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
 {
     const bool has_law = clx_batch_has_law(&dem->law);
+    const int n_awake = sort_awake(dem, n, s, awake);
     clx_batch batch;
-    sort_awake(dem, n, s);
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
-            const int end = from + REST_AHEAD + CLX_BATCH;
-            for (int k = from + REST_AHEAD;
-                 k < end && k < s->n[kind] && kind != CLX_BATCH_ANY && s->pair == NULL; ++k) {
-                fetch_pair(dem, link_of(dem, s, false, s->awake[s->at[kind][k]]),
-                           (clx_batch_kind)kind);
-            }
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
             if (has_law) {
@@ -318,6 +334,7 @@ static void meet_piece(clast_dem *dem, int n, piece *s)
             }
         }
     }
+    return n_awake;
 }
 
 static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piece *s)
@@ -329,18 +346,17 @@ static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piec
 }
 
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
-                           int32_t *awake)
+                           clx_awake *awake)
 {
-    piece s = {0};
+    piece s;
     int32_t n_awake = 0;
-    s.is_dense = true;
     for (int32_t at = begin; at < end; at += PIECE) {
-        begin_piece(dem, at, push + n_awake, &s);
-        meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s);
-        for (int k = 0; k < s.n_awake; ++k) {
-            awake[n_awake + k] = at + s.awake[k];
+        begin_piece(dem, at, push + (at - begin), &s);
+        const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, awake + n_awake);
+        for (int k = 0; k < n && at > begin; ++k) {
+            awake[n_awake + k].at += at - begin;
         }
-        n_awake += s.n_awake;
+        n_awake += n;
     }
     return n_awake;
 }
@@ -348,11 +364,12 @@ int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushe
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    piece s = {0};
+    clx_awake awake[PIECE];
+    piece s;
     (void)worker;
-    s.is_dense = false;
     begin_piece(dem, begin, dem->near.push + begin, &s);
-    meet_piece(dem, (int)(end - begin), &s);
+    memset(s.push, 0, (size_t)(end - begin) * sizeof *s.push); // of links that sleep
+    (void)meet_piece(dem, (int)(end - begin), &s, awake);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.

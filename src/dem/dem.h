@@ -96,11 +96,20 @@ typedef struct clx_pushed {
     double torque_a[4];           ///< to be taken off
 } clx_pushed;
 
+/// A link that is awake, and its place among those that were asked for.
+typedef struct clx_awake {
+    const clx_link *link;
+    int64_t at;
+} clx_awake;
+
 /// What a block of items has in the near list.
 typedef struct clx_near_block {
     int32_t n;
     bool wants_memory; ///< some link has none yet and needs one
 } clx_near_block;
+
+/// Packed links that are asked for in advance.
+enum { CLX_NEAR_AHEAD = 12 };
 
 /// Links that were packed, by their numbers in the list.
 typedef struct clx_near_row {
@@ -123,9 +132,9 @@ typedef struct clx_near {
     clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
     int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
     clx_near_block *block;
-    clx_near_pair
-        *pair;        ///< [n] while is_packed: the links and memories of the list are out of date
-    clx_near_row old; ///< what was packed before, while it is packed anew
+    clx_near_pair *pair; ///< [n + CLX_NEAR_AHEAD], the last all 0, while is_packed: the links and
+                         ///< memories of the list are out of date
+    clx_near_row old;    ///< what was packed before, while it is packed anew
     int64_t load_capacity, block_capacity, pair_capacity;
     bool is_due;
     bool is_packed;
@@ -142,7 +151,7 @@ typedef struct clx_sweeping {
     int32_t *late;    ///< [n_late] their first grains
     int32_t n_late;
     clx_pushed *push; ///< [n_worker][most] of the block that a worker is at
-    int32_t *awake;   ///< [n_worker][most] its awake links
+    clx_awake *awake; ///< [n_worker][most] its awake links
     int64_t bound_capacity, late_capacity[2], push_capacity, awake_capacity;
 } clx_sweeping;
 
@@ -410,10 +419,11 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 /// What all contacts do (near.push), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some links of the near list: numbers of the awake ones, rising, and what each does.
-/// Both have room for all. Returns how many; the others do nothing.
+/// The same for some links of the near list: the awake ones, places counted from `begin`, rising,
+/// and what each does at its place. Both have room for all. Returns how many; the others do nothing
+/// and nothing is written at their places.
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
-                           int32_t *awake);
+                           clx_awake *awake);
 
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);

@@ -272,23 +272,29 @@ static bool is_grain_due(clast_dem *dem, int64_t i)
     return is_due;
 }
 
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load load[CLX_LANES])
+/// What n grains that have just moved ask for.
+static int flag_of(clast_dem *dem, int64_t first, int n)
 {
-    clast_dem *dem = c->dem;
-    bool is_lost = false;
     int flag = 0;
-    if (n < CLX_LANES || !clx_move_has_lanes(dem, first) ||
-        !clx_move_lanes(c, first, load, &is_lost)) {
-        for (int k = 0; k < n; ++k) {
-            is_lost = !move_one(c, first + k, &load[k]) || is_lost;
-        }
-    }
-    flag |= is_lost ? CLX_MOVE_LOST : 0;
     for (int64_t i = first; i < first + n; ++i) {
         flag |= dem->travel[i] > dem->near.until[i] ? CLX_MOVE_NEAR_DUE : 0;
         flag |= is_grain_due(dem, i) ? CLX_MOVE_DUE : 0;
     }
     return flag;
+}
+
+int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load)
+{
+    clast_dem *dem = c->dem;
+    int flag = 0;
+    if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, load, &flag)) {
+        const bool is_sure = dem->item == NULL && (flag & CLX_MOVE_DUE) == 0;
+        return is_sure ? flag : (flag & CLX_MOVE_LOST) | flag_of(dem, first, n);
+    }
+    for (int k = 0; k < n; ++k) {
+        flag |= move_one(c, first + k, &load[k]) ? 0 : CLX_MOVE_LOST;
+    }
+    return flag | flag_of(dem, first, n);
 }
 
 CLX_FOR_EACH_MACHINE
@@ -297,9 +303,10 @@ static void move_block(int64_t begin, int64_t end, int32_t worker, void *context
     const clx_moving *c = context;
     int flag = 0;
     (void)worker;
-    for (int64_t i = begin; i < end; i += CLX_LANES) {
-        clx_load load[CLX_LANES];
-        const int n = clx_lanes_from(i, end);
+    int n = 0;
+    for (int64_t i = begin; i < end; i += n) {
+        clx_load load[CLX_MOVE_MOST];
+        n = clx_lanes_from(i, end);
         for (int k = 0; k < n; ++k) {
             load[k] = load_of(c->dem, i + k);
         }

@@ -13,17 +13,22 @@ typedef struct clx_moving {
 /// What a block of grains asks for.
 enum clx_move_flag { CLX_MOVE_LOST = 1, CLX_MOVE_DUE = 2, CLX_MOVE_NEAR_DUE = 4 };
 
-/// Whether four grains from i on can move in lanes: all spheres or none, and the plain options.
-bool clx_move_has_lanes(const clast_dem *dem, int64_t i);
+/// Grains that move at once: two fours.
+enum { CLX_MOVE_MOST = 8 };
 
-/// Moves four grains: the bits of one by one. False, and nothing done, when one turns too fast for
-/// the series.
-bool clx_move_lanes(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], bool *is_lost);
+/// Whether n grains from i on can move in lanes: fours, all spheres or none, and the plain options.
+bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n);
+
+/// Moves four grains, or eight: the bits of one by one. False, and nothing done, when one turns too
+/// fast for the series. Where items are grains, the flag has CLX_MOVE_DUE if one may have used up
+/// its margin.
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag);
 
 /// How many of the grains from i to end go side by side.
 static inline int clx_lanes_from(int64_t i, int64_t end)
 {
-    return end - i < CLX_LANES ? (int)(end - i) : CLX_LANES;
+    const int n = end - i < CLX_MOVE_MOST ? (int)(end - i) : CLX_MOVE_MOST;
+    return n > CLX_LANES && n < CLX_MOVE_MOST ? CLX_LANES : n;
 }
 
 /// Sum over what contacts with grains of lower number do to grain g (near.push), in their order.
@@ -33,5 +38,5 @@ void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load);
 clx_moving clx_move_begin(clast_dem *dem);
 bool clx_move_end(clast_dem *dem, int flag);
 
-/// Moves n grains, four at most; clx_move_flag.
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load load[CLX_LANES]);
+/// Moves n grains, CLX_MOVE_MOST at most; clx_move_flag.
+int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load);

@@ -1,4 +1,5 @@
-// Four grains a step on. Each line is that of motion.c, in its order, so that the bits are its.
+// Four grains a step on, or eight. Each line is that of motion.c, in its order, so that the bits
+// are its.
 #include "dem/move.h"
 
 CLX_INLINE void multiply(const clx_lanes a[4], const clx_lanes b[4], clx_lanes out[4])
@@ -23,17 +24,15 @@ CLX_INLINE void matrix(const clx_lanes q[4], clx_lanes m[9])
     m[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
-/// turn_by, by its series: false when an angle is too large for that, and q stays.
-CLX_INLINE bool turn_by(const clx_lanes w[3], double dt, const clx_lanes q[4], clx_lanes out[4])
+/// turn_by, by its series: marks angles that are too large for that.
+CLX_INLINE clx_marks turn_by(const clx_lanes w[3], double dt, const clx_lanes q[4],
+                             clx_lanes out[4])
 {
     clx_lanes v[3], turned[4];
     for (int c = 0; c < 3; ++c) {
         v[c] = 0.5 * dt * w[c];
     }
     const clx_lanes s = lanes_dot(v, v);
-    if (lanes_bits(s < 0.01) != 15) {
-        return false;
-    }
     const clx_lanes sine = 1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 - s * (1.0 / 5040.0)));
     const clx_lanes cosine = 1.0 + s * (-0.5 + s * (1.0 / 24.0 - s * (1.0 / 720.0)));
     const clx_lanes step[4] = {cosine, sine * v[0], sine * v[1], sine * v[2]};
@@ -43,14 +42,15 @@ CLX_INLINE bool turn_by(const clx_lanes w[3], double dt, const clx_lanes q[4], c
     for (int k = 0; k < 4; ++k) {
         out[k] = n * turned[k];
     }
-    return true;
+    return ~(s < 0.01);
 }
 
-/// Four grains, read.
+/// Four grains on their way.
 typedef struct {
     clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
     clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
     clx_lanes inverse[9];                                 ///< of the shapes' inertia
+    clx_marks is_fast;                                    ///< turns too fast for the series
 } grains;
 
 CLX_INLINE void spin_of(const grains *g, const clx_lanes turn[9], clx_lanes spin[3])
@@ -77,55 +77,75 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
     g->inverse[8] = (clx_lanes){inverse[0][8], inverse[1][8], inverse[2][8], inverse[3][8]};
 }
 
-/// turn_body; false when an angle is too large for the series.
-CLX_INLINE bool turn_bodies(clast_dem *dem, int64_t i, double factor, const clx_lanes torque[3],
-                            grains *g)
+/// Spins, orientations and torques.
+CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_load load[CLX_LANES], grains *g,
+                          clx_lanes torque[4])
 {
-    clx_lanes half[4], middle[9], spin[3], q[4];
-    const double dt = dem->config.time_step;
-    read_body(dem, i, g);
-    for (int c = 0; c < 3; ++c) {
-        g->angular[c] = factor * (g->angular[c] + dt * torque[c]);
+    const clx_grain *from = &dem->grain[i];
+    const clx_motion *m = &dem->motion[i];
+    lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
+    lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
+    lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
+                 m[3].orientation);
+}
+
+/// turn_body as far as the spin of the middle of the step.
+CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
+{
+    clx_lanes half[4], middle[9], torque[4];
+    const double dt = c->dem->config.time_step;
+    read_turn(c->dem, i, load, g, torque);
+    read_body(c->dem, i, g);
+    for (int k = 0; k < 3; ++k) {
+        g->angular[k] = c->damping * (g->angular[k] + dt * torque[k]);
     }
-    if (!turn_by(g->spin, 0.5 * dt, g->orientation, half)) {
-        return false;
-    }
+    g->is_fast = turn_by(g->spin, 0.5 * dt, g->orientation, half);
     matrix(half, middle);
-    spin_of(g, middle, spin);
-    if (!turn_by(spin, dt, g->orientation, q)) {
-        return false;
-    }
+    spin_of(g, middle, g->spin);
+}
+
+/// The rest of turn_body.
+CLX_INLINE void turn_whole(double dt, grains *g)
+{
+    clx_lanes q[4];
+    g->is_fast |= turn_by(g->spin, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
     matrix(q, g->turn);
     spin_of(g, g->turn, g->spin);
-    return true;
 }
 
-CLX_INLINE bool turn_spheres(double dt, double factor, const clx_lanes torque[3], grains *g)
+CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES],
+                             grains *g)
 {
-    clx_lanes q[4];
+    clx_lanes q[4], torque[4];
+    const double dt = c->dem->config.time_step;
+    read_turn(c->dem, i, load, g, torque);
     const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
-    for (int c = 0; c < 3; ++c) {
-        g->spin[c] = factor * (g->spin[c] + scale * torque[c]);
+    for (int k = 0; k < 3; ++k) {
+        g->spin[k] = c->damping * (g->spin[k] + scale * torque[k]);
     }
-    if (!turn_by(g->spin, dt, g->orientation, q)) {
-        return false;
-    }
+    g->is_fast = turn_by(g->spin, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
-    return true;
 }
 
 /// shift
-CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_lanes force[3], grains *g)
+CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
 {
     const clast_dem *dem = c->dem;
+    const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     const double dt = dem->config.time_step;
     const clx_lanes volume = {m[0].volume, m[1].volume, m[2].volume, m[3].volume};
+    clx_lanes force[4];
+    lanes_gather(force, load[0].force, load[1].force, load[2].force, load[3].force);
+    lanes_gather(g->position, from[0].position, from[1].position, from[2].position,
+                 from[3].position);
+    lanes_gather(g->velocity, from[0].velocity, from[1].velocity, from[2].velocity,
+                 from[3].velocity);
     const clx_lanes weight =
         dem->config.gravity * (g->velocity[3] - dem->config.fluid_density * volume);
     const clx_lanes scale = dt / g->velocity[3];
@@ -159,47 +179,76 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
     }
 }
 
-bool clx_move_has_lanes(const clast_dem *dem, int64_t i)
+bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
 {
     const clx_grain *g = &dem->grain[i];
     int n_round = 0;
-    for (int k = 0; k < CLX_LANES; ++k) {
+    for (int k = 0; k < n; ++k) {
         n_round += g[k].kind == CLAST_SHAPE_SPHERE ? 1 : 0;
     }
-    return dem->config.fluid_viscosity <= 0.0 &&
-           (n_round == CLX_LANES || (n_round == 0 && dem->config.gyroscopic));
+    return n % CLX_LANES == 0 && dem->config.fluid_viscosity <= 0.0 &&
+           (n_round == n || (n_round == 0 && dem->config.gyroscopic));
+}
+
+/// Paths, and what the grains ask for.
+CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const grains *g)
+{
+    clast_dem *dem = c->dem;
+    const double dt = dem->config.time_step;
+    clx_lanes speed = lanes_root(lanes_dot(g->velocity, g->velocity));
+    const clx_marks is_lost = ~(speed * dt <= c->stride * g->position[3]);
+    if (!is_round) {
+        speed += lanes_root(lanes_dot(g->spin, g->spin)) * g->position[3] * (1.0 + 1e-6);
+    }
+    const clx_lanes travel = lanes_load(&dem->travel[i]) + dt * speed;
+    const clx_marks is_near_due = travel > lanes_load(&dem->near.until[i]);
+    const clx_marks may_be_due = ~(travel < lanes_load(&dem->list.limit[i]));
+    lanes_store(&dem->travel[i], travel);
+    if (lanes_bits(is_lost | is_near_due | may_be_due) == 0) {
+        return 0; // most of the time
+    }
+    return (lanes_bits(is_lost) != 0 ? CLX_MOVE_LOST : 0) |
+           (lanes_bits(is_near_due) != 0 ? CLX_MOVE_NEAR_DUE : 0) |
+           (lanes_bits(may_be_due) != 0 ? CLX_MOVE_DUE : 0);
+}
+
+/// Two fours go through each stage before the next: while one waits for its sums, the other goes
+/// on.
+CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_load *load, bool is_round,
+                     int *flag)
+{
+    grains g[CLX_MOVE_MOST / CLX_LANES];
+    clx_marks is_fast = {0};
+    for (int k = 0; k < n; k += CLX_LANES) {
+        shift_all(c, i + k, load + k, &g[k / CLX_LANES]);
+    }
+    for (int k = 0; k < n; k += CLX_LANES) {
+        if (is_round) {
+            turn_spheres(c, i + k, load + k, &g[k / CLX_LANES]);
+        } else {
+            turn_half(c, i + k, load + k, &g[k / CLX_LANES]);
+        }
+    }
+    for (int k = 0; k < n; k += CLX_LANES) {
+        if (!is_round) {
+            turn_whole(c->dem->config.time_step, &g[k / CLX_LANES]);
+        }
+        is_fast |= g[k / CLX_LANES].is_fast;
+    }
+    if (lanes_bits(is_fast) != 0) {
+        return false;
+    }
+    for (int k = 0; k < n; k += CLX_LANES) {
+        *flag |= add_paths(c, i + k, is_round, &g[k / CLX_LANES]);
+        write_back(c->dem, i + k, is_round, &g[k / CLX_LANES]);
+    }
+    return true;
 }
 
 CLX_FOR_EACH_MACHINE
-bool clx_move_lanes(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], bool *is_lost)
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag)
 {
-    clast_dem *dem = c->dem;
-    const clx_grain *from = &dem->grain[i];
-    const clx_motion *m = &dem->motion[i];
-    const double dt = dem->config.time_step;
-    const bool is_round = from->kind == CLAST_SHAPE_SPHERE;
-    grains g;
-    clx_lanes force[4], torque[4];
-    lanes_gather(force, load[0].force, load[1].force, load[2].force, load[3].force);
-    lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
-    lanes_gather(g.position, from[0].position, from[1].position, from[2].position,
-                 from[3].position);
-    lanes_gather(g.velocity, from[0].velocity, from[1].velocity, from[2].velocity,
-                 from[3].velocity);
-    lanes_gather(g.spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
-    lanes_gather(g.orientation, m[0].orientation, m[1].orientation, m[2].orientation,
-                 m[3].orientation);
-    shift_all(c, i, force, &g);
-    if (!(is_round ? turn_spheres(dt, c->damping, torque, &g)
-                   : turn_bodies(dem, i, c->damping, torque, &g))) {
-        return false;
-    }
-    clx_lanes speed = lanes_root(lanes_dot(g.velocity, g.velocity));
-    *is_lost = lanes_bits(speed * dt <= c->stride * g.position[3]) != 15;
-    if (!is_round) {
-        speed += lanes_root(lanes_dot(g.spin, g.spin)) * g.position[3] * (1.0 + 1e-6);
-    }
-    lanes_store(&dem->travel[i], lanes_load(&dem->travel[i]) + dt * speed);
-    write_back(dem, i, is_round, &g);
-    return true;
+    *flag = 0;
+    return c->dem->grain[i].kind == CLAST_SHAPE_SPHERE ? move(c, i, n, load, true, flag)
+                                                       : move(c, i, n, load, false, flag);
 }

@@ -247,8 +247,12 @@ static void unpack_block(int64_t begin, int64_t end, int32_t worker, void *conte
 
 static clast_status grow_row(clx_near *near)
 {
-    return clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + 1,
-                          sizeof *near->pair);
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + CLX_NEAR_AHEAD,
+                           sizeof *near->pair));
+    memset(near->pair + near->n, 0, CLX_NEAR_AHEAD * sizeof *near->pair);
+done:
+    return status;
 }
 
 clast_status clx_near_pack(clast_dem *dem)

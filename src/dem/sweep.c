@@ -14,9 +14,8 @@
 #include "dem/move.h"
 #include <string.h>
 
-/// Grains of a block, whose pushes stay in the first-level cache; links ahead whose other grain's
-/// load is asked for.
-enum { BLOCK = CLX_SWEEP_BLOCK, AHEAD = 8 };
+/// Grains of a block, whose pushes stay in the first-level cache.
+enum { BLOCK = CLX_SWEEP_BLOCK };
 
 /// Share of the work that is left for whoever is done first, in SMALL chunks a worker.
 static const double REST = 0.08;
@@ -143,34 +142,50 @@ CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// What the awake links of grains [begin, end), a block at most, do to them and to the others: onto
-/// their loads, or kept where the other is late.
-CLX_FOR_EACH_MACHINE
-static void spread_all(clast_dem *dem, int64_t begin, int64_t end, int32_t n_awake,
-                       const int32_t *awake, const clx_pushed *push)
+/// A block of grains, its awake links and what all its links do.
+typedef struct {
+    int64_t begin, end;
+    int32_t n;
+    const clx_awake *awake;
+    const clx_pushed *push;
+} block;
+
+/// What the awake links do to the block's grains and to the others: onto their loads, or kept where
+/// the other is late.
+CLX_INLINE void spread(clast_dem *dem, block in, bool has_late)
 {
     clx_near *near = &dem->near;
+    clx_load *load = near->load;
     const uint8_t *is_late = dem->sweeping.is_late;
     clx_load own[BLOCK] = {0};
-    for (int32_t k = 0; k < n_awake; ++k, ++push) {
-        const clx_link *link = clx_near_link(dem, awake[k]);
-        if (k + AHEAD < n_awake && clx_near_link(dem, awake[k + AHEAD])->b >= 0) {
-            __builtin_prefetch(&near->load[clx_near_link(dem, awake[k + AHEAD])->b]);
-        }
-        clx_load *on_a = &own[link->a - begin];
+    for (int32_t k = 0; k < in.n; ++k) {
+        const clx_awake awake = in.awake[k];
+        const clx_pushed *push = &in.push[awake.at];
+        const int32_t b = awake.link->b;
+        clx_load *on_a = &own[awake.link->a - in.begin];
         lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
         lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(push->torque_a));
-        if (link->b < 0) {
+        if (b < 0) {
             continue;
         }
-        if (is_late[link->b / CLX_LANES] != 0) {
-            near->push[awake[k]] = *push;
+        if (has_late && is_late[b / CLX_LANES] != 0) {
+            near->push[near->begin[in.begin] + awake.at] = *push;
         } else {
-            add(&near->load[link->b], push->force, push->torque_b);
+            add(&load[b], push->force, push->torque_b);
         }
     }
-    for (int64_t g = begin; g < end; ++g) {
-        add(&near->load[g], own[g - begin].force, own[g - begin].torque);
+    for (int64_t g = in.begin; g < in.end; ++g) {
+        add(&load[g], own[g - in.begin].force, own[g - in.begin].torque);
+    }
+}
+
+CLX_FOR_EACH_MACHINE
+static void spread_all(clast_dem *dem, block in)
+{
+    if (dem->sweeping.n_late > 0) {
+        spread(dem, in, true);
+    } else {
+        spread(dem, in, false);
     }
 }
 
@@ -182,22 +197,34 @@ static int move_and_clear(const clx_moving *c, int64_t g, int n)
     return flag;
 }
 
+/// Grains that are not late, as many at once as there are.
+static int move_block(const clx_moving *c, int64_t begin, int64_t end)
+{
+    const uint8_t *is_late = c->dem->sweeping.is_late;
+    int flag = 0;
+    int n = 0;
+    for (int64_t g = begin; g < end; g += n) {
+        n = clx_lanes_from(g, end);
+        if (is_late[g / CLX_LANES] != 0) {
+            n = CLX_LANES;
+            continue;
+        }
+        n = n > CLX_LANES && is_late[g / CLX_LANES + 1] != 0 ? CLX_LANES : n;
+        flag |= move_and_clear(c, g, n);
+    }
+    return flag;
+}
+
 static int sweep_block(const clx_moving *c, int64_t begin, int64_t end, int32_t worker)
 {
     clast_dem *dem = c->dem;
     const int64_t room = (int64_t)worker * dem->sweeping.most;
     clx_pushed *push = dem->sweeping.push + room;
-    int32_t *awake = dem->sweeping.awake + room;
-    int flag = 0;
+    clx_awake *awake = dem->sweeping.awake + room;
     const int32_t n =
         clx_contacts_among(dem, dem->near.begin[begin], dem->near.begin[end], push, awake);
-    spread_all(dem, begin, end, n, awake, push);
-    for (int64_t g = begin; g < end; g += CLX_LANES) {
-        if (dem->sweeping.is_late[g / CLX_LANES] == 0) {
-            flag |= move_and_clear(c, g, clx_lanes_from(g, end));
-        }
-    }
-    return flag;
+    spread_all(dem, (block){.begin = begin, .end = end, .n = n, .awake = awake, .push = push});
+    return move_block(c, begin, end);
 }
 
 static void sweep_chunks(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -223,7 +250,8 @@ static void move_late(int64_t begin, int64_t end, int32_t worker, void *context)
     (void)worker;
     for (int64_t f = begin; f < end; ++f) {
         const int64_t first = c->dem->sweeping.late[f];
-        const int n = clx_lanes_from(first, c->dem->n_grain);
+        const int64_t left = c->dem->n_grain - first;
+        const int n = left < CLX_LANES ? (int)left : CLX_LANES;
         for (int64_t g = first; g < first + n; ++g) {
             clx_load in;
             clx_load *load = &near->load[g];
