@@ -76,9 +76,10 @@ typedef struct clx_placed {
     double position[3];
 } clx_placed;
 
-/// Contact with the half-space n.x <= offset (n unit, into the free side). `hint` is the vertex to
-/// start from and is renewed; NULL is allowed. Exact; the point is relative to the body's position.
-void clx_plane_contact(const clx_placed *body, const double plane[4], int32_t *hint,
+/// Contact with the half-space n.x <= offset (n unit, into the free side). The memory is this
+/// body's at this plane, 0 at first, and is renewed: a hull's vertex, which is answered with while
+/// it surely is the deepest; NULL is allowed. Exact; the point is relative to the body's position.
+void clx_plane_contact(const clx_placed *body, const double plane[4], clx_contact_memory *memory,
                        clx_contact *contact);
 
 /// Contact with the inside of a circular cylinder about the z axis through (axis[0], axis[1]):

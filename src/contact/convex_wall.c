@@ -1,6 +1,8 @@
 // Planes and vertical cylinders: the deepest point is a support point, or a largest radius.
 #include "contact/convex.h"
 #include "contact/ellipsoid_pair.h"
+#include "contact/hull_core.h"
+#include "math/least.h"
 #include "math/vec3.h"
 
 static void into_body(const double t[9], const double d[3], double out[3])
@@ -16,22 +18,62 @@ static void out_of_body(const double t[9], double scale, const double x[3], doub
            scale * (t[6] * x[0] + t[7] * x[1] + t[8] * x[2]));
 }
 
+/// What a unit vector loses as floats.
+static const double FLOAT_SLACK = 4e-7;
+
+/// Whether the vertex kept is still the farthest along d (body axes): d has turned by less than the
+/// least angle between the plane through the vertex and an edge at it.
+static inline bool is_kept(const clx_contact_memory *memory, const double d[3])
+{
+    double gone[3];
+    for (int i = 0; i < 3; ++i) {
+        gone[i] = d[i] - (double)memory->seen[0][i];
+    }
+    return v3_norm2(gone) < (double)memory->limit[0] * (double)memory->limit[0];
+}
+
+/// Keeps vertex v, the farthest along d.
+static void keep(const clx_hull_core *core, int32_t v, const double d[3],
+                 clx_contact_memory *memory)
+{
+    double turn = 1.0;
+    for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
+        const clx_core_near *near = &core->near[i];
+        turn = lesser_of(turn, -v3_dot(near->along, d) * near->inverse);
+    }
+    memory->feature[0] = v;
+    memory->limit[0] = (float)greater_of(turn - FLOAT_SLACK, 0.0);
+    v3_copy(memory->data, core->vert[v]);
+    for (int i = 0; i < 3; ++i) {
+        memory->seen[0][i] = (float)d[i];
+    }
+}
+
+/// The hull's vertex farthest along d (body axes).
+static const double *farthest(const clx_hull_core *core, const double d[3],
+                              clx_contact_memory *memory)
+{
+    if (memory == NULL) {
+        return core->vert[clx_core_climb(core, d, clx_core_start(core, d))];
+    }
+    if (!is_kept(memory, d)) {
+        const int32_t last = memory->feature[0];
+        const int32_t from = last >= 0 && last < core->n_vert ? last : clx_core_start(core, d);
+        keep(core, clx_core_climb(core, d, from), d, memory);
+    }
+    return memory->data;
+}
+
 /// Deepest point of the shape without rounding against direction n, relative to the position.
-static void deepest(const clx_placed *body, const double n[3], int32_t *hint, double tip[3])
+static void deepest(const clx_placed *body, const double n[3], clx_contact_memory *memory,
+                    double tip[3])
 {
     const clx_convex *shape = body->shape;
     if (shape->kind == CLX_CONVEX_HULL) {
         double own[3];
         const double d[3] = {-n[0], -n[1], -n[2]};
         into_body(body->turn, d, own);
-        const int32_t from = hint != NULL && *hint >= 0 && *hint < shape->core->n_vert
-                                 ? *hint
-                                 : clx_core_start(shape->core, own);
-        const int32_t at = clx_core_climb(shape->core, own, from);
-        if (hint != NULL) {
-            *hint = at;
-        }
-        out_of_body(body->turn, shape->scale, shape->core->vert[at], tip);
+        out_of_body(body->turn, shape->scale, farthest(shape->core, own, memory), tip);
     } else {
         double matrix[6];
         clx_ellipsoid_matrix(body->turn, shape->semi_axes, matrix);
@@ -40,11 +82,11 @@ static void deepest(const clx_placed *body, const double n[3], int32_t *hint, do
     }
 }
 
-void clx_plane_contact(const clx_placed *body, const double plane[4], int32_t *hint,
+void clx_plane_contact(const clx_placed *body, const double plane[4], clx_contact_memory *memory,
                        clx_contact *contact)
 {
     double tip[3];
-    deepest(body, plane, hint, tip);
+    deepest(body, plane, memory, tip);
     contact->gap =
         v3_dot(plane, body->position) - plane[3] + v3_dot(plane, tip) - body->shape->round;
     v3_copy(contact->normal, plane);

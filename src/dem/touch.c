@@ -34,7 +34,7 @@ void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_conta
     v3_copy(body.position, clx_item_position(dem, link->a));
     if (wall->kind == CLX_WALL_PLANE) {
         const double plane[4] = {wall->normal[0], wall->normal[1], wall->normal[2], wall->offset};
-        clx_plane_contact(&body, plane, &memory->feature[0], &contact);
+        clx_plane_contact(&body, plane, memory, &contact);
     } else {
         clx_cylinder_contact(&body, axis, wall->radius, &contact);
     }

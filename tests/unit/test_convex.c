@@ -176,8 +176,8 @@ static void planes_touch_the_deepest_point(void **state)
     const double plane[4] = {1.0, 0.0, 0.0, -1.0};
     clx_placed body = {&hull, ABOUT_Z_45, {0.25, 7.0, 9.0}};
     clx_contact c;
-    int32_t hint = -1;
-    clx_plane_contact(&body, plane, &hint, &c);
+    clx_contact_memory memory = {0};
+    clx_plane_contact(&body, plane, &memory, &c);
     CHECK_ABS(c.gap, 1.25 - 1.5 * sqrt(0.5), 1e-15);
     CHECK_ABS(c.point[0], -0.5 * (1.25 + 1.5 * sqrt(0.5)), 1e-15);
     CHECK_ABS(c.normal[0], 1.0, 0.0);
@@ -189,6 +189,42 @@ static void planes_touch_the_deepest_point(void **state)
     CHECK_ABS(c.gap, 0.75, 1e-15);
     CHECK_ABS(c.point[0], -0.875, 1e-15);
     clx_hull_core_destroy(box);
+}
+
+/// Least height of a hull's vertices, each one asked.
+static double lowest(const clx_hull_core *core, const double *turn)
+{
+    double z = INFINITY;
+    for (int32_t v = 0; v < core->n_vert; ++v) {
+        const double *x = core->vert[v];
+        z = fmin(z, turn[6] * x[0] + turn[7] * x[1] + turn[8] * x[2]);
+    }
+    return z;
+}
+
+static void a_rolling_hull_keeps_its_deepest_vertex(void **state)
+{
+    (void)state;
+    enum { STEPS = 5000 };
+    static const double floor[4] = {0.0, 0.0, 1.0, 0.0};
+    clx_hull_core *core = support_gravel_core(30, 3, 152);
+    const clx_convex hull = clx_convex_hull(core, 1.0);
+    clx_contact_memory memory = {0};
+    int n_kept = 0;
+    for (int k = 0; k < STEPS; ++k) {
+        const double half = 0.5 * 1e-3 * k; // five radians in all, about an axis askew
+        const double q[4] = {cos(half), 0.6 * sin(half), 0.48 * sin(half), 0.64 * sin(half)};
+        double turn[3][3];
+        clx_contact c;
+        q_matrix(turn, q);
+        const clx_placed body = {&hull, turn[0], {0.0, 0.0, 0.0}};
+        const float seen = memory.seen[0][0];
+        clx_plane_contact(&body, floor, &memory, &c);
+        CHECK_ABS(c.gap, lowest(core, turn[0]), 1e-15);
+        n_kept += memory.seen[0][0] == seen ? 1 : 0;
+    }
+    assert_true(n_kept > STEPS / 2); // else nothing was answered from memory
+    clx_hull_core_destroy(core);
 }
 
 /* Largest distance of a body from the cylinder's axis, against a fine sampling of its outline. */
@@ -252,6 +288,7 @@ int main(void)
         cmocka_unit_test(spheres_have_their_closed_form),
         cmocka_unit_test(sphere_and_cube_have_their_closed_form),
         cmocka_unit_test(planes_touch_the_deepest_point),
+        cmocka_unit_test(a_rolling_hull_keeps_its_deepest_vertex),
         cmocka_unit_test(cylinder_touches_the_deepest_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
