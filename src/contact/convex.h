@@ -59,6 +59,9 @@ typedef struct clx_contact_memory {
     };
 } clx_contact_memory;
 
+/// What a unit vector loses as floats (clx_contact_memory.seen), and a point in units of its body.
+#define CLX_FLOAT_SLACK 4e-7
+
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound
 /// of the gap that exceeds max_gap, and the rest is undefined.
 ///

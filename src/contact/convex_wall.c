@@ -18,9 +18,6 @@ static void out_of_body(const double t[9], double scale, const double x[3], doub
            scale * (t[6] * x[0] + t[7] * x[1] + t[8] * x[2]));
 }
 
-/// What a unit vector loses as floats.
-static const double FLOAT_SLACK = 4e-7;
-
 /// Whether the vertex kept is still the farthest along d (body axes): d has turned by less than the
 /// least angle between the plane through the vertex and an edge at it.
 static inline bool is_kept(const clx_contact_memory *memory, const double d[3])
@@ -42,7 +39,7 @@ static void keep(const clx_hull_core *core, int32_t v, const double d[3],
         turn = lesser_of(turn, -v3_dot(near->along, d) * near->inverse);
     }
     memory->feature[0] = v;
-    memory->limit[0] = (float)greater_of(turn - FLOAT_SLACK, 0.0);
+    memory->limit[0] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
     v3_copy(memory->data, core->vert[v]);
     for (int i = 0; i < 3; ++i) {
         memory->seen[0][i] = (float)d[i];

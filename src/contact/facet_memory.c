@@ -13,9 +13,6 @@
 #include "math/least.h"
 #include "math/vec3.h"
 
-/// What a unit vector loses as floats, and a point in units of its body.
-static const double FLOAT_SLACK = 4e-7;
-
 /// A record is made anew after this turn [rad] at the latest.
 static const double MOST_TURN = 0.1;
 
@@ -227,15 +224,15 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
         pair, memory->data[3] - v3_dot(at.q, memory->data + 4) - turn * other->reach,
         across(memory->data, at.p) + margin + across(at.q, memory->data + 4) + turn * other->reach,
         margin);
-    memory->limit[0] = (float)(margin - FLOAT_SLACK * (own->reach + fabs(margin)));
-    memory->limit[1] = (float)greater_of(turn - FLOAT_SLACK, 0.0);
+    memory->limit[0] = (float)(margin - CLX_FLOAT_SLACK * (own->reach + fabs(margin)));
+    memory->limit[1] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
 }
 
 /// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
 static double arc_limit(const clx_core_edge *edge, const double n[3])
 {
     const double least = lesser_of(v3_dot(n, edge->out[0]), v3_dot(n, edge->out[1]));
-    return lesser_of(greater_of(least - FLOAT_SLACK, 0.0), MOST_TURN);
+    return lesser_of(greater_of(least - CLX_FLOAT_SLACK, 0.0), MOST_TURN);
 }
 
 static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_contact_memory *memory)
