@@ -124,7 +124,7 @@ typedef struct clx_near_row {
 typedef struct clx_near {
     int32_t n;
     int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step; a sweep keeps what it does to late grains here
+    clx_pushed *push;  ///< [n] of the last step, unless that was a sweep
     int32_t *begin;    ///< [n_item + 1] first of each item's own
     int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
     int32_t *in;       ///< [n] their numbers, rising
@@ -141,18 +141,26 @@ typedef struct clx_near {
     bool is_gathered; ///< `in` is there
 } clx_near;
 
-/// How a sweep is divided among threads (sweep.c).
+struct clx_chunk;
+struct clx_pace;
+
+/// How a sweep is divided among threads (chunk.c), and what it keeps for later (sweep.c).
 typedef struct clx_sweeping {
-    int32_t n_worker; ///< 0: to be divided anew
-    int32_t n_chunk;
-    int32_t *bound;   ///< [n_chunk + 1] first grain of each chunk
-    int32_t most;     ///< links of a block of grains
-    uint8_t *is_late; ///< [grains / CLX_LANES] fours that move when all chunks are done
-    int32_t *late;    ///< [n_late] their first grains
+    int32_t n_worker; ///< 0: to be weighed anew
+    _Atomic int32_t n_chunk;
+    struct clx_chunk *chunk; ///< [n_chunk], first the threads' own, then what others took of them
+    struct clx_pace *pace;   ///< [n_worker]
+    int64_t *before;         ///< [blocks + 1] work of all blocks of grains before
+    _Atomic int32_t *lowest; ///< [fours of grains] least grain with a link to one of the four
+    int32_t most;            ///< links of a block of grains
+    clx_pushed *push;        ///< [n_worker][most] of the block that a worker is at
+    clx_awake *awake;        ///< [n_worker][most] its awake links
+    int32_t *late;           ///< [n_late] fours that move when all chunks are done: first grains
     int32_t n_late;
-    clx_pushed *push; ///< [n_worker][most] of the block that a worker is at
-    clx_awake *awake; ///< [n_worker][most] its awake links
-    int64_t bound_capacity, late_capacity[2], push_capacity, awake_capacity;
+    clx_load *kept;   ///< [n of near + n_grain] what is done to them
+    int32_t *kept_on; ///< grain of each
+    int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, late_capacity;
+    int64_t push_capacity, awake_capacity, kept_capacity[2];
 } clx_sweeping;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
@@ -404,7 +412,7 @@ void clx_near_free(clx_near *near);
 clast_status clx_near_pack(clast_dem *dem);
 void clx_near_unpack(clast_dem *dem);
 
-/// Which links load each grain as b.
+/// Which links load each grain as b, and room for what all links do (near.push).
 clast_status clx_near_gather(clast_dem *dem);
 
 void clx_sweeping_free(clx_sweeping *sweeping);

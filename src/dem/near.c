@@ -160,6 +160,8 @@ clast_status clx_near_gather(clast_dem *dem)
     CLX_TRY(clx_grow(&near->in_begin, &near->grain_capacity, (int64_t)dem->n_grain + 2,
                      sizeof *near->in_begin));
     CLX_TRY(clx_grow(&near->in, &near->in_capacity, (int64_t)near->n + 1, sizeof *near->in));
+    CLX_TRY(clx_grow_lines(&near->push, &near->push_capacity, (int64_t)near->n + 1,
+                           sizeof *near->push));
     gather(dem);
     near->is_gathered = true;
 done:
@@ -309,8 +311,6 @@ clast_status clx_near_find(clast_dem *dem)
     memset(near->load, 0, (size_t)n_grain * sizeof *near->load);
     clx_dem_for(dem, n_grain, BLOCK, advance, dem);
     CLX_TRY(pick(dem));
-    CLX_TRY(clx_grow_lines(&near->push, &near->push_capacity, (int64_t)near->n + 1,
-                           sizeof *near->push));
     CLX_TRY(give_slots(dem));
     if (near->is_packed) {
         CLX_TRY(grow_row(near));

@@ -1,0 +1,334 @@
+// Who sweeps over which grains.
+//
+// Each thread begins with one run of grains, since what lies on a border of two costs more, as long
+// as its pace in the last steps asks for. One that is done takes half of what is left of another:
+// threads are never equally fast. Nothing that is computed depends on where the borders are.
+#include "dem/chunk.h"
+
+#include "base/lines.h"
+#include <string.h>
+
+enum { BLOCK = CLX_SWEEP_BLOCK };
+
+/// Chunks a thread, those that it took of others among them.
+enum { MOST = 8 };
+
+/// Grains that must be left of a chunk for half of them to be taken: with fewer, what the new
+/// border costs is more than what the wait does.
+enum { LEAST = 6 * BLOCK };
+
+/// Part of what is left of a chunk that its thread takes at once.
+enum { SHARE = 16 };
+
+/// Weight of the last step in a thread's pace.
+static const double LAST = 0.25;
+
+void clx_sweeping_free(clx_sweeping *s)
+{
+    clx_free(s->chunk);
+    clx_free(s->pace);
+    clx_free(s->before);
+    clx_free(s->lowest);
+    clx_free(s->late);
+    clx_free(s->push);
+    clx_free(s->awake);
+    clx_free(s->kept);
+    clx_free(s->kept_on);
+    *s = (clx_sweeping){0};
+}
+
+static inline uint64_t packed(int64_t next, int64_t end)
+{
+    return (uint64_t)next | (uint64_t)end << 32;
+}
+
+static inline int64_t next_of(uint64_t left)
+{
+    return (int64_t)(left & UINT32_MAX);
+}
+
+static inline int64_t end_of(uint64_t left)
+{
+    return (int64_t)(left >> 32);
+}
+
+/// Notes that grain a has a link to b.
+static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
+{
+    _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
+    int32_t now = atomic_load_explicit(lowest, memory_order_relaxed);
+    while (a < now && !atomic_compare_exchange_weak_explicit(lowest, &now, a, memory_order_relaxed,
+                                                             memory_order_relaxed)) {
+    }
+}
+
+/// Work of blocks of grains, and the lowest neighbours of all. Moving a grain costs about as much
+/// as five links that sleep, and one that touches as twelve (profile of P1).
+static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    enum { MOVE = 5, TOUCH = 12 };
+    clast_dem *dem = context;
+    const clx_near *near = &dem->near;
+    clx_sweeping *s = &dem->sweeping;
+    (void)worker;
+    for (int64_t block = begin; block < end; ++block) {
+        const int64_t first = block * BLOCK;
+        const int64_t last = first + BLOCK < dem->n_grain ? first + BLOCK : dem->n_grain;
+        int64_t work = MOVE * (last - first) + near->begin[last] - near->begin[first];
+        for (int32_t k = near->begin[first]; k < near->begin[last]; ++k) {
+            const clx_link *link = clx_near_link(dem, k);
+            work += TOUCH * (int64_t)link->touches;
+            if (link->b >= 0) {
+                note_low(s, link->a, link->b);
+            }
+        }
+        s->before[block + 1] = work;
+    }
+}
+
+/// Room for all that the threads do to late grains. Only what is touched takes memory, so nothing
+/// is copied when it grows.
+static clast_status reserve_kept(clx_sweeping *s, int64_t n)
+{
+    clast_status status = CLAST_OK;
+    if (s->kept_capacity[0] < n || s->kept_capacity[1] < n) {
+        clx_free(s->kept);
+        clx_free(s->kept_on);
+        s->kept = NULL;
+        s->kept_on = NULL;
+        s->kept_capacity[0] = 0;
+        s->kept_capacity[1] = 0;
+        CLX_TRY(clx_grow_lines(&s->kept, &s->kept_capacity[0], n + n / 4, sizeof *s->kept));
+        CLX_TRY(clx_grow_lines(&s->kept_on, &s->kept_capacity[1], n + n / 4, sizeof *s->kept_on));
+    }
+done:
+    return status;
+}
+
+static int64_t blocks_of(const clast_dem *dem)
+{
+    return (dem->n_grain + BLOCK - 1) / BLOCK;
+}
+
+static void weigh_all(clast_dem *dem)
+{
+    enum { AT_ONCE = 16 };
+    clx_sweeping *s = &dem->sweeping;
+    const int64_t n_block = blocks_of(dem);
+    for (int32_t f = 0; f <= dem->n_grain / CLX_LANES; ++f) {
+        atomic_store_explicit(&s->lowest[f], INT32_MAX, memory_order_relaxed);
+    }
+    s->before[0] = 0;
+    clx_dem_for(dem, n_block, AT_ONCE, weigh, dem);
+    for (int64_t b = 0; b < n_block; ++b) {
+        s->before[b + 1] += s->before[b];
+    }
+}
+
+static int32_t most_links(const clast_dem *dem)
+{
+    int32_t most = 0;
+    for (int32_t i = 0; i < dem->n_grain; i += BLOCK) {
+        const int32_t end = i + BLOCK < dem->n_grain ? i + BLOCK : dem->n_grain;
+        const int32_t links = dem->near.begin[end] - dem->near.begin[i];
+        most = links > most ? links : most;
+    }
+    return most;
+}
+
+clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
+{
+    clast_status status = CLAST_OK;
+    clx_sweeping *s = &dem->sweeping;
+    const int64_t n_four = dem->n_grain / CLX_LANES + 1;
+    s->n_worker = 0;
+    s->most = most_links(dem);
+    CLX_TRY(
+        clx_grow_lines(&s->chunk, &s->chunk_capacity, (int64_t)MOST * n_worker, sizeof *s->chunk));
+    if (s->pace_capacity < n_worker) {
+        CLX_TRY(clx_grow_lines(&s->pace, &s->pace_capacity, n_worker, sizeof *s->pace));
+        memset(s->pace, 0, (size_t)s->pace_capacity * sizeof *s->pace);
+    }
+    CLX_TRY(
+        clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
+    CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->awake));
+    if (n_worker > 1) {
+        CLX_TRY(clx_grow(&s->before, &s->before_capacity, blocks_of(dem) + 1, sizeof *s->before));
+        CLX_TRY(clx_grow(&s->lowest, &s->lowest_capacity, n_four, sizeof *s->lowest));
+        CLX_TRY(clx_grow(&s->late, &s->late_capacity, n_four, sizeof *s->late));
+        CLX_TRY(reserve_kept(s, (int64_t)dem->near.n + dem->n_grain));
+        weigh_all(dem);
+    }
+    s->n_worker = n_worker;
+done:
+    return status;
+}
+
+/// First grain of the block before which there is as much work.
+static int64_t grain_at(const clast_dem *dem, double work)
+{
+    const int64_t *before = dem->sweeping.before;
+    int64_t low = 0;
+    int64_t high = blocks_of(dem);
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if ((double)before[middle] < work) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low * BLOCK < dem->n_grain ? low * BLOCK : dem->n_grain;
+}
+
+static void set_chunk(clx_chunk *chunk, int64_t begin, int64_t end)
+{
+    chunk->begin = (int32_t)begin;
+    chunk->n_late = 0;
+    chunk->n_kept = 0;
+    chunk->highest = -1;
+    chunk->flag = 0;
+    atomic_store_explicit(&chunk->left, packed(begin, end), memory_order_release);
+}
+
+void clx_chunks_begin(clast_dem *dem)
+{
+    clx_sweeping *s = &dem->sweeping;
+    const int32_t n = s->n_worker;
+    double all = 0.0;
+    int64_t begin = 0;
+    bool are_known = true;
+    for (int32_t c = 0; c < n; ++c) {
+        all += s->pace[c].speed;
+        are_known = are_known && s->pace[c].speed > 0.0;
+    }
+    double share = 0.0;
+    for (int32_t c = 0; c < MOST * n; ++c) {
+        int64_t end = begin;
+        if (c < n) {
+            share += are_known ? s->pace[c].speed / all : 1.0 / n;
+            end = c + 1 == n ? dem->n_grain
+                             : grain_at(dem, share * (double)s->before[blocks_of(dem)]);
+        }
+        set_chunk(&s->chunk[c], begin, end);
+        atomic_store_explicit(&s->chunk[c].is_taken, c >= n, memory_order_relaxed);
+        begin = end;
+    }
+    atomic_store(&s->n_chunk, n);
+}
+
+bool clx_chunk_next(clx_chunk *chunk, int64_t *begin, int64_t *end)
+{
+    uint64_t left = atomic_load_explicit(&chunk->left, memory_order_relaxed);
+    int64_t next = 0;
+    do {
+        *begin = next_of(left);
+        if (*begin >= end_of(left)) {
+            return false;
+        }
+        next = *begin + (1 + (end_of(left) - *begin) / (SHARE * BLOCK)) * BLOCK;
+        next = next < end_of(left) ? next : end_of(left);
+    } while (!atomic_compare_exchange_weak(&chunk->left, &left, packed(next, end_of(left))));
+    *end = next;
+    return true;
+}
+
+/// The chunk with most left, and how that was; NULL: none has enough.
+static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
+{
+    clx_chunk *best = NULL;
+    int64_t most = LEAST - 1;
+    for (int32_t c = 0; c < n; ++c) {
+        const uint64_t left = atomic_load(&s->chunk[c].left);
+        if (end_of(left) - next_of(left) > most) {
+            most = end_of(left) - next_of(left);
+            best = &s->chunk[c];
+            *how = left;
+        }
+    }
+    return best;
+}
+
+/// The second half of what is left of some chunk.
+static clx_chunk *take_half(clx_sweeping *s)
+{
+    uint64_t left = 0;
+    const int32_t most = MOST * s->n_worker;
+    const int32_t n = atomic_load(&s->n_chunk);
+    if (richest(s, n < most ? n : most, &left) == NULL) {
+        return NULL;
+    }
+    const int32_t at = atomic_fetch_add(&s->n_chunk, 1);
+    clx_chunk *from = at < most ? richest(s, at, &left) : NULL;
+    while (from != NULL) {
+        const int64_t half = (end_of(left) - next_of(left)) / (2 * BLOCK) * BLOCK;
+        const int64_t middle = next_of(left) + half;
+        if (atomic_compare_exchange_strong(&from->left, &left, packed(next_of(left), middle))) {
+            set_chunk(&s->chunk[at], middle, end_of(left));
+            return &s->chunk[at];
+        }
+        from = richest(s, at, &left);
+    }
+    return NULL;
+}
+
+clx_chunk *clx_chunk_take(clx_sweeping *s, int32_t worker)
+{
+    for (int32_t k = 0; k < s->n_worker; ++k) {
+        clx_chunk *chunk = &s->chunk[(worker + k) % s->n_worker];
+        if (!atomic_exchange(&chunk->is_taken, true)) {
+            return chunk;
+        }
+    }
+    return take_half(s);
+}
+
+void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double seconds)
+{
+    s->pace[worker].work += work;
+    s->pace[worker].seconds += seconds;
+}
+
+static void learn(clx_pace *pace)
+{
+    if (pace->work > 0 && pace->seconds > 0.0) {
+        const double speed = (double)pace->work / pace->seconds;
+        pace->speed = pace->speed > 0.0 ? pace->speed + LAST * (speed - pace->speed) : speed;
+    }
+    pace->work = 0;
+    pace->seconds = 0.0;
+}
+
+/// By their first grains; few, and nearly in order.
+static void sort(clx_chunk *chunk, int32_t n)
+{
+    for (int32_t k = 1; k < n; ++k) {
+        for (int32_t at = k; at > 0 && chunk[at].begin < chunk[at - 1].begin; --at) {
+            const clx_chunk other = chunk[at];
+            chunk[at] = chunk[at - 1];
+            chunk[at - 1] = other;
+        }
+    }
+}
+
+void clx_chunks_end(clast_dem *dem)
+{
+    clx_sweeping *s = &dem->sweeping;
+    const int32_t n = atomic_load(&s->n_chunk);
+    const int32_t most = MOST * s->n_worker;
+    atomic_store(&s->n_chunk, n < most ? n : most);
+    sort(s->chunk, n < most ? n : most);
+    s->n_late = 0;
+    for (int32_t c = 0; c < (n < most ? n : most); ++c) {
+        const clx_chunk *chunk = &s->chunk[c];
+        if (chunk->n_late > 0) {
+            memmove(s->late + s->n_late, s->late + chunk->begin / CLX_LANES,
+                    (size_t)chunk->n_late * sizeof *s->late);
+            s->n_late += chunk->n_late;
+        }
+    }
+    for (int32_t w = 0; w < s->n_worker; ++w) {
+        learn(&s->pace[w]);
+    }
+}
