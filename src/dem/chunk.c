@@ -234,6 +234,13 @@ bool clx_chunk_next(clx_chunk *chunk, int64_t *begin, int64_t *end)
     return true;
 }
 
+/// Chunks in use; those who found no room for one more have counted on.
+static int32_t chunks_of(const clx_sweeping *s)
+{
+    const int32_t n = atomic_load(&s->n_chunk);
+    return n < MOST * s->n_worker ? n : MOST * s->n_worker;
+}
+
 /// The chunk with most left, and how that was; NULL: none has enough.
 static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
 {
@@ -254,13 +261,11 @@ static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
 static clx_chunk *take_half(clx_sweeping *s)
 {
     uint64_t left = 0;
-    const int32_t most = MOST * s->n_worker;
-    const int32_t n = atomic_load(&s->n_chunk);
-    if (richest(s, n < most ? n : most, &left) == NULL) {
+    if (richest(s, chunks_of(s), &left) == NULL) {
         return NULL;
     }
     const int32_t at = atomic_fetch_add(&s->n_chunk, 1);
-    clx_chunk *from = at < most ? richest(s, at, &left) : NULL;
+    clx_chunk *from = at < MOST * s->n_worker ? richest(s, at, &left) : NULL;
     while (from != NULL) {
         const int64_t half = (end_of(left) - next_of(left)) / (2 * BLOCK) * BLOCK;
         const int64_t middle = next_of(left) + half;
@@ -315,12 +320,11 @@ static void sort(clx_chunk *chunk, int32_t n)
 void clx_chunks_end(clast_dem *dem)
 {
     clx_sweeping *s = &dem->sweeping;
-    const int32_t n = atomic_load(&s->n_chunk);
-    const int32_t most = MOST * s->n_worker;
-    atomic_store(&s->n_chunk, n < most ? n : most);
-    sort(s->chunk, n < most ? n : most);
+    const int32_t n = chunks_of(s);
+    atomic_store(&s->n_chunk, n);
+    sort(s->chunk, n);
     s->n_late = 0;
-    for (int32_t c = 0; c < (n < most ? n : most); ++c) {
+    for (int32_t c = 0; c < n; ++c) {
         const clx_chunk *chunk = &s->chunk[c];
         if (chunk->n_late > 0) {
             memmove(s->late + s->n_late, s->late + chunk->begin / CLX_LANES,
