@@ -1,15 +1,17 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist bare install clean
 all: dev
 
-dev release tsan coverage minimal:
-	@tools/setup.sh build
-	@tools/build.sh $@
-mpi:
-	@tools/setup.sh mpi
+# The group of tools/setup.sh that a target's tools are in.
+release: group = build
+dev coverage minimal: group = dev
+tsan: group = clang
+mpi: group = mpi
+dev release tsan coverage minimal mpi:
+	@tools/setup.sh $(group)
 	@tools/build.sh $@
 quick: dev
-	@ctest --test-dir build/dev -j2 --output-on-failure
+	@ctest --test-dir build/dev -j2 --output-on-failure --no-tests=error
 test:
 	@command -v bash >/dev/null && tools/test.sh
 demo:
@@ -17,43 +19,53 @@ demo:
 install: release
 	@cmake --install build/release $(if $(PREFIX),--prefix $(PREFIX))
 fuzz:
+	@tools/setup.sh clang
 	@tools/fuzz.sh
 afl:
-	@tools/setup.sh build
+	@tools/setup.sh afl
 	@tools/afl.sh
 docs:
+	@tools/setup.sh docs
 	@tools/docs.sh
 bench:
-	@tools/setup.sh build
+	@tools/setup.sh dev
 	@tools/bench.sh
 paper: paper-aggregate paper-predict paper-shape paper-d2sd paper-packing
 paper-aggregate:
-	@tools/setup.sh build
+	@tools/setup.sh paper
 	@tools/build.sh release clast_cli
 	@tools/paper_aggregate.py
 paper-predict:
-	@tools/setup.sh build
+	@tools/setup.sh paper
 	@tools/build.sh release clast_cli
 	@tools/paper_predict.py
 paper-shape:
-	@tools/setup.sh build
+	@tools/setup.sh paper
 	@tools/build.sh release clast_cli
 	@tools/paper_shape.py
 paper-d2sd:
-	@tools/setup.sh build
+	@tools/setup.sh paper
 	@tools/build.sh release
 	@tools/paper_d2sd.py
 	@CLAST_POINTS=1200000 build/release/tests/property_test_decompose_threads
 paper-packing:
-	@tools/setup.sh build
+	@tools/setup.sh paper
 	@tools/build.sh release clast_cli clast
 	@tools/paper_packing.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 build/dev/tests/golden_test_golden
-	@git diff --stat tests/golden
+	@[ ! -e .git ] || git diff --stat tests/golden
 format:
-	@clang-format-14 -i $$(git ls-files '*.c' '*.h')
+	@tools/setup.sh format
+	@tools/list_files.sh '*.c' '*.h' | xargs -0 clang-format-14 -i
 hooks:
+	@[ -e .git ] || { echo "hooks: this is no git clone"; exit 1; }
+	@tools/setup.sh hooks
 	@git config core.hooksPath tools/hooks
+dist:
+	@tools/setup.sh dist
+	@tools/dist.sh
+bare:
+	@tools/check_bare.sh
 clean:
 	rm -rf build

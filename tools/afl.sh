@@ -1,15 +1,12 @@
 #!/usr/bin/env bash
 # Fuzzes the built command by AFL++ on its reading paths, seconds for each: tools/afl.sh [SECONDS [TARGET...]]
 # A target is a reading path below; without names all run, two at a time. Crashes and hangs fail the run and stay under
-# build/afl-out/TARGET/default. As root, AFL++ is installed when it is missing.
+# build/afl-out/TARGET/default.
 set -eu
 cd "$(dirname "$0")/.."
 export AFL_SECONDS=${1:-60}
 [ $# -eq 0 ] || shift
-if ! command -v afl-fuzz >/dev/null; then
-    [ "$(id -u)" -eq 0 ] || { echo "afl: afl-fuzz is missing; run as root, or: sudo apt-get install afl++" >&2; exit 1; }
-    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends afl++ >/dev/null
-fi
+tools/setup.sh afl
 export AFL_QUIET=1
 [ -f build/afl/build.ninja ] || cmake -S . -B build/afl -G Ninja -DCMAKE_C_COMPILER=afl-clang-fast -DCMAKE_C_COMPILER_LAUNCHER= \
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE="-O2 -g" -DCLAST_OPENMP=OFF -DCLAST_MPI=OFF -DBUILD_TESTING=OFF \

@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# Configures (once) and builds one preset: tools/build.sh dev|release|mpi|tsan|coverage|minimal|fuzz [target...]
+# Configures and builds one preset: tools/build.sh dev|release|mpi|tsan|coverage|minimal|fuzz [target...]
+# It is configured anew where packages were installed since, so that a part left out before comes in.
 set -eu
 cd "$(dirname "$0")/.."
 preset=$1; shift
-[ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" > "build-$preset.log" 2>&1 || { cat "build-$preset.log"; rm -f "build-$preset.log"; exit 1; }
-rm -f "build-$preset.log"
+made=build/$preset/build.ninja; log=build-$preset.configure.log
+if [ ! -f "$made" ] || [ /var/lib/dpkg/status -nt "$made" ]; then
+    trap 'rm -f "$log"' EXIT
+    cmake --preset "$preset" > "$log" 2>&1 || { cat "$log"; rm -f "$made"; exit 1; }
+    sed -n 's/^-- left out/left out/p' "$log"
+fi
 cmake --build "build/$preset" ${@:+--target "$@"}

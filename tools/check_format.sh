@@ -3,7 +3,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 files=()
-[ $# -gt 0 ] || mapfile -t files < <(git ls-files '*.c' '*.h')
+[ $# -gt 0 ] || mapfile -d '' -t files < <(tools/list_files.sh '*.c' '*.h')
 if ! clang-format-14 --dry-run -Werror "$@" "${files[@]}" > /dev/null 2>&1; then
     for file in "$@" "${files[@]}"; do
         clang-format-14 --dry-run -Werror "$file" > /dev/null 2>&1 || echo "not formatted (run make format): $file"

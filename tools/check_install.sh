@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What `make install` lays down works from where it lies: a program that finds clast by pkg-config and one that finds it by CMake
-# build and run, the installed command answers, its manual page formats and its bash completion completes.
+# build and run, shared and static, without LD_LIBRARY_PATH, as does one that has clast as
+# a folder of its own; the installed command answers, its manual page formats and its bash completion completes.
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -32,14 +33,50 @@ project(user C)
 find_package(clast REQUIRED)
 add_executable(user user.c)
 target_link_libraries(user PRIVATE clast::clast)
+find_package(clast REQUIRED COMPONENTS static)
+add_executable(user_static user.c)
+target_link_libraries(user_static PRIVATE clast::clast_static)
 C
-cc -std=c17 "$work/user/user.c" -o "$work/by_pkg_config" \
-    $(PKG_CONFIG_PATH="$lib/pkgconfig" pkg-config --cflags --libs clast)
+# The documents' line: no LD_LIBRARY_PATH, and from C++ too.
+export PKG_CONFIG_PATH=$lib/pkgconfig
+user=$work/user/user.c
+cc -std=c17 "$user" $(pkg-config --cflags --libs clast) -o "$work/by_pkg_config"
+first=$("$work/by_pkg_config")
+same() { # WHAT COMMAND...: it gives the answer of the first
+    answer=$("${@:2}") && [ "$answer" = "$first" ] || { echo "$1 gives '$answer', pkg-config '$first'"; exit 1; }
+}
+if command -v g++ > /dev/null; then
+    g++ -std=c++17 -x c++ "$user" -x none $(pkg-config --cflags --libs clast) -o "$work/by_cpp"
+    same "C++" "$work/by_cpp"
+else
+    echo "SKIPPED: g++ is not here, no C++ program was linked"
+fi
+# The archive, with the shared library out of sight.
+mkdir "$work/hidden"; mv "$lib"/libclast.so* "$work/hidden"
+cc -std=c17 "$user" $(pkg-config --static --cflags --libs clast) -o "$work/by_archive"
+same "pkg-config --static" "$work/by_archive"
+mv "$work/hidden"/* "$lib"
 cmake -S "$work/user" -B "$work/by_cmake" -DCMAKE_PREFIX_PATH="$prefix" >> "$work/log"
 cmake --build "$work/by_cmake" >> "$work/log"
-first=$(LD_LIBRARY_PATH="$lib" "$work/by_pkg_config")
-second=$("$work/by_cmake/user")
-[ "$first" = "$second" ] || { echo "two ways to link, two answers: '$first' and '$second'"; exit 1; }
+same "find_package" "$work/by_cmake/user"
+same "find_package, static" "$work/by_cmake/user_static"
+! readelf -d "$work/by_cmake/user_static" | grep -q libclast || { echo "clast::clast_static is linked to libclast.so"; exit 1; }
+
+# As a part of another project: no test, command or tool is looked for, only the library is built.
+mkdir "$work/part"
+cat > "$work/part/CMakeLists.txt" <<C
+cmake_minimum_required(VERSION 3.25)
+project(part C)
+add_subdirectory("$PWD" clast)
+add_executable(user "$user")
+target_link_libraries(user PRIVATE clast::clast)
+enable_testing()
+C
+cmake -S "$work/part" -B "$work/by_part" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 >> "$work/log"
+! grep -qi 'cmocka\|python\|mpi_c' "$work/by_part/CMakeCache.txt" || { echo "add_subdirectory looks for test tools or MPI"; exit 1; }
+cmake --build "$work/by_part" >> "$work/log"
+same "add_subdirectory" "$work/by_part/user"
+[ ! -e "$work/by_part/clast/clast" ] || { echo "add_subdirectory builds the command"; exit 1; }
 
 version=$("$prefix/bin/clast" --version)
 case $version in *"${first%% *}"*) ;; *) echo "the command is '$version', the library '$first'"; exit 1 ;; esac
@@ -54,4 +91,4 @@ offered=$(bash -c '. "$1"; COMP_WORDS=(clast agg); COMP_CWORD=1; $(complete -p c
                    echo "${COMPREPLY[*]}"' bash "$(find "$prefix" -path '*bash-completion*' -type f)")
 [ "$offered" = "agglomerate aggregate" ] || [ "$offered" = "aggregate agglomerate" ] ||
     { echo "bash completion of 'clast agg' offers '$offered'"; exit 1; }
-echo "installed: command, library by pkg-config and by CMake ($first), manual page, completion"
+echo "installed: command, library by pkg-config, CMake and add_subdirectory, shared and static ($first), manual page, completion"

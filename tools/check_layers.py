@@ -2,15 +2,19 @@
 """Fails when an include points up, or sideways into another folder of the same layer (STYLE section 1).
 
 A public header belongs to the highest layer that defines one of its functions. Only io, plot, render and base/file.c
-may open files.
+may open files. Only base/number*.c may read or print a double by the C library, which obeys the host's locale.
 """
 import pathlib
 import re
 import sys
 
 LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "contact": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
-         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "study": 8, "report": 8}
+         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8, "study": 9,
+         "report": 9}
 OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
+READERS = re.compile(r"\b(strto(?:d|f|ld)|atof|v?[fs]?scanf)\s*\(")
+PRINTERS = re.compile(r"\b(?:vs|s|f|vf)n?printf\s*\((?:[^;\"]|\"(?:[^\"\\]|\\.)*\")*?;", re.S)
+DOUBLE = re.compile(r"%[-+ #0]*[\d*]*(?:\.[\d*]*)?l?[efgaEFGA]")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -54,6 +58,11 @@ def problems():
         opens = OPENERS.search(text)
         if opens and LAYER[folder] < 7 and path.name != "file.c":
             yield f"{path.relative_to(ROOT)}: opens files ({opens.group(1)}); only io, plot, render and base/file.c do"
+        if not path.name.startswith("number"):
+            calls = [m.group(0) for m in PRINTERS.finditer(text)]
+            calls = READERS.findall(text) + [c for c in calls if DOUBLE.search(c) or c.startswith("v")]
+            for call in calls:
+                yield f"{path.relative_to(ROOT)}: {' '.join(call.split())[:60]} obeys the locale: take base/number.h"
     for path in sorted(ROOT.glob("cli/*.[ch]")):
         for name in re.findall(r'#include\s+"([^"]+)"', path.read_text()):
             if "/" in name:

@@ -2,7 +2,7 @@
 # Fails when a C file is longer than 800 lines, a file larger than 2 MB, or data/ larger than 10 MB: check_size.sh [FILE...]
 set -eu
 cd "$(dirname "$0")/.."
-[ $# -gt 0 ] || mapfile -t -O 1 files < <(git ls-files)
+[ $# -gt 0 ] || mapfile -d '' -t -O 1 files < <(tools/list_files.sh)
 status=0
 for file in "$@" "${files[@]:-}"; do
     [ -f "$file" ] || continue
@@ -12,6 +12,6 @@ for file in "$@" "${files[@]:-}"; do
     bytes=$(stat -c %s "$file")
     [ "$bytes" -le 2097152 ] || { echo "$file: $bytes bytes, at most 2 MB"; status=1; }
 done
-kb=$(git ls-files -z data | du -ck --apparent-size --files0-from=- | tail -1 | cut -f1)
+kb=$(tools/list_files.sh 'data/*' | du -ck --apparent-size --files0-from=- | tail -1 | cut -f1)
 [ "$kb" -le 10240 ] || { echo "data/: $kb kB, at most 10 MB"; status=1; }
 exit $status

@@ -3,6 +3,7 @@
 # A new crash is kept under build/fuzz/crashes and fails the run.
 set -eu
 cd "$(dirname "$0")/.."
+mkdir -p build
 export FUZZ_SECONDS=${1:-60}
 tools/build.sh fuzz > build/fuzz.log 2>&1 || { tail -30 build/fuzz.log; echo "fuzz: build failed"; exit 1; }
 mkdir -p build/fuzz/crashes

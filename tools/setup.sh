@@ -1,25 +1,30 @@
 #!/usr/bin/env bash
-# Installs what is missing on Debian 12: tools/setup.sh build|mpi|test
+# Installs what is missing on Debian 12 for one kind of work: tools/setup.sh GROUP (the groups are the names below).
 # As root it installs; otherwise it lists the missing packages and stops. Needs no network when nothing is missing.
 set -eu
 group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
-       libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core python3)
-test=(libcmocka-dev clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14 codespell doxygen
-      python3-sphinx python3-myst-parser python3-breathe git ccache groff-base)
-mpi=(libopenmpi-dev openmpi-bin)
-case $group in
-build) wanted=("${build[@]}") ;;
-mpi) wanted=("${build[@]}" "${mpi[@]}") ;;
-test) wanted=("${build[@]}" "${mpi[@]}" "${test[@]}") ;;
-*) echo "usage: tools/setup.sh build|mpi|test" >&2; exit 2 ;;
-esac
+       libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core)
+mpi=("${build[@]}" libopenmpi-dev openmpi-bin)
+dev=("${build[@]}" libcmocka-dev python3)
+clang=("${dev[@]}" clang-14 libclang-rt-14-dev libomp-14-dev)
+afl=("${build[@]}" afl++)
+paper=("${dev[@]}")
+format=(git clang-format-14)
+hooks=("${format[@]}" codespell python3)
+docs=(doxygen python3 python3-sphinx python3-myst-parser python3-breathe)
+dist=(git)
+bare=(git mmdebstrap debian-archive-keyring)
+test=("${mpi[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
+groups="build mpi dev clang afl paper format hooks docs dist bare test"
+case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
+declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then
     echo "setup: not a Debian system; please install the equivalents of: ${wanted[*]}" >&2
     exit 0
 fi
 missing=()
-for package in "${wanted[@]}"; do
+for package in $(printf '%s\n' "${wanted[@]}" | sort -u); do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
 done
 [ ${#missing[@]} -eq 0 ] && exit 0
@@ -30,5 +35,5 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "setup: installing ${#missing[@]} packages: ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
-apt-get update -qq
-apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+apt-get update -qq && apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+    { echo "setup: apt-get could not install them (its message is above)" >&2; exit 1; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What `make test` and CI run: set-up, format, spelling, layers, tidy, all tests under sanitizers, exported symbols, short
+# What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols, short
 # fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy fuzz docs") shorten it by hand.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,8 +11,9 @@ say "set-up"; tools/setup.sh test
 say "format"
 tools/check_format.sh
 say "spelling"
-git ls-files '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs codespell --ignore-words=tools/spelling.txt
+tools/list_files.sh '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs -0 codespell --ignore-words=tools/spelling.txt
 say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py
+say "headers in C and C++"; tools/check_headers.sh
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 tools/build.sh dev > build-dev.log 2>&1 || { grep -E 'error|warning' build-dev.log | head -40; exit 1; }
 rm -f build-dev.log
@@ -23,6 +24,7 @@ tools/build.sh release > build-release.log 2>&1 || { tail -30 build-release.log;
 rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
+say "commands of the documents"; python3 tools/check_docs_commands.py build/release/clast
 say "ranks (mpirun)"
 ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
