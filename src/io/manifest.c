@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>
@@ -36,6 +37,10 @@ struct clast_manifest {
     input_file *input; ///< [n_input]
     int32_t n_note;
     note *notes; ///< [n_note]
+    int32_t n_output;
+    char **output; ///< [n_output]
+    bool has_progress;
+    double progress; ///< 0 to 1
     double begun;
     time_t started;
 };
@@ -61,6 +66,10 @@ void clast_manifest_destroy(clast_manifest *manifest)
         clx_free(manifest->notes[i].key);
         clx_free(manifest->notes[i].text);
     }
+    for (int32_t i = 0; i < manifest->n_output; ++i) {
+        clx_free(manifest->output[i]);
+    }
+    clx_free(manifest->output);
     clx_free(manifest->argv);
     clx_free(manifest->input);
     clx_free(manifest->notes);
@@ -136,7 +145,10 @@ clast_status clast_manifest_input(clast_manifest *manifest, const char *role, co
 {
     clast_status status = CLAST_OK;
     input_file made = {0};
-    CLX_TRY(clast_sha256_file(path, made.sha256, &made.n_byte));
+    struct stat found;
+    if (stat(path, &found) != 0 || !S_ISFIFO(found.st_mode)) { // a pipe was read to its end
+        CLX_TRY(clast_sha256_file(path, made.sha256, &made.n_byte));
+    }
     CLX_TRY(clx_alloc_text(&made.role, role));
     CLX_TRY(clx_alloc_text(&made.path, path));
     CLX_TRY(clx_realloc(&manifest->input, manifest->n_input + 1, sizeof *manifest->input));
@@ -165,6 +177,25 @@ done:
     clx_free(made.key);
     clx_free(made.text);
     return status;
+}
+
+clast_status clast_manifest_output(clast_manifest *manifest, const char *name)
+{
+    clast_status status = CLAST_OK;
+    char *made = NULL;
+    CLX_TRY(clx_alloc_text(&made, name));
+    CLX_TRY(clx_realloc(&manifest->output, manifest->n_output + 1, sizeof *manifest->output));
+    manifest->output[manifest->n_output++] = made;
+    made = NULL;
+done:
+    clx_free(made);
+    return status;
+}
+
+void clast_manifest_progress(clast_manifest *manifest, double share)
+{
+    manifest->has_progress = true;
+    manifest->progress = share;
 }
 
 static void put_key(clx_file *file, const char *key)
@@ -259,19 +290,23 @@ static void put_inputs(clx_file *file, const clast_manifest *m)
         clx_json_text(file, input->role);
         (void)clx_file_print(file, ", \"path\": ");
         clx_json_text(file, input->path);
-        (void)clx_file_print(file, ", \"bytes\": %" PRId64 ", \"sha256\": \"%s\"}", input->n_byte,
-                             input->sha256);
+        if (input->sha256[0] != '\0') {
+            (void)clx_file_print(file, ", \"bytes\": %" PRId64 ", \"sha256\": \"%s\"}",
+                                 input->n_byte, input->sha256);
+        } else {
+            (void)clx_file_print(file, ", \"bytes\": null, \"sha256\": null}");
+        }
     }
     (void)clx_file_print(file, "]");
 }
 
-static void put_words(clx_file *file, const clast_manifest *m)
+static void put_texts(clx_file *file, const char *key, int32_t n, char *const *text)
 {
-    put_key(file, "command_line");
+    put_key(file, key);
     (void)clx_file_print(file, "[");
-    for (int i = 0; i < m->argc; ++i) {
+    for (int32_t i = 0; i < n; ++i) {
         (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
-        clx_json_text(file, m->argv[i]);
+        clx_json_text(file, text[i]);
     }
     (void)clx_file_print(file, "]");
 }
@@ -285,8 +320,14 @@ clast_status clast_manifest_write(const clast_manifest *manifest, const char *ou
     (void)clx_file_print(&file, "{\n  \"format\": \"clast manifest\"");
     put_text(&file, "clast_version", clast_version());
     put_text(&file, "command", manifest->command);
-    put_words(&file, manifest);
+    put_texts(&file, "command_line", manifest->argc, manifest->argv);
     put_text(&file, "outcome", outcome);
+    if (manifest->has_progress && strcmp(outcome, "done") != 0) {
+        put_number(&file, "progress", manifest->progress);
+    }
+    if (manifest->n_output > 0) {
+        put_texts(&file, "outputs", manifest->n_output, manifest->output);
+    }
     if (manifest->has_seed) {
         put_key(&file, "seed");
         (void)clx_file_print(&file, "%" PRIu64, manifest->seed);

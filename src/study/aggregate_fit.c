@@ -3,11 +3,10 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "study/aggregate_fit_chart.h"
-#include "study/aggregate_folder.h"
-#include "study/run_folder.h"
 #include <clast/aggregate_file.h>
-#include <clast/manifest.h>
+#include <clast/run_folder.h>
 #include <clast/table_file.h>
 #include <jansson.h>
 #include <math.h>
@@ -49,6 +48,19 @@ static json_t *observed_json(const clast_aggregate_fit *fit)
     return object;
 }
 
+/// Borders of the grid that the best choice lies on; null: on none.
+static json_t *edge_json(const clast_aggregate_fit *fit)
+{
+    static const char *const packing[] = {"loosest", NULL, "tightest"};
+    static const char *const replicate[] = {"least", NULL, "greatest"};
+    json_t *object = json_object();
+    const char *name = packing[fit->packing_edge + 1];
+    (void)json_object_set_new(object, "packing", name != NULL ? json_string(name) : json_null());
+    name = replicate[fit->replicate_edge + 1];
+    (void)json_object_set_new(object, "replicate", name != NULL ? json_string(name) : json_null());
+    return object;
+}
+
 clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text)
 {
     clast_status status = CLAST_OK;
@@ -57,11 +69,14 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     json_t *spread = json_object();
     char *made = NULL;
     char *copy = NULL;
-    (void)json_object_set_new(root, "reached", json_boolean(fit->reached));
+    (void)json_object_set_new(root, "verdict", json_string(clast_fit_verdict_name(fit->verdict)));
     (void)json_object_set_new(root, "words", json_string(fit->words));
     set(root, "chi2", fit->chi2);
-    set(root, "chance", fit->chance);
+    set(root, "p_value", fit->p_value);
     (void)json_object_set_new(root, "n_observed", json_integer(fit->n_observed));
+    (void)json_object_set_new(root, "n_choice", json_integer(fit->n_choice));
+    (void)json_object_set_new(root, "degrees_of_freedom", json_integer(fit->n_freedom));
+    (void)json_object_set_new(root, "edge", edge_json(fit));
     (void)json_object_set_new(root, "n_run", json_integer(fit->n_run));
     set(best, "cone_deg", fit->cone * 180.0 / CLAST_PI);
     (void)json_object_set_new(best, "rays", json_integer(fit->rays));
@@ -87,50 +102,36 @@ done:
     return status;
 }
 
-static clast_status note_inputs(const clast_aggregate_config *config, clast_manifest *manifest)
+static clast_status note_inputs(const clast_aggregate_config *config, clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
+    clast_manifest *manifest = clast_run_folder_manifest(run);
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
     clast_manifest_seed(manifest, config->seed);
     for (int32_t i = 0; i < clast_aggregate_n_file(config); ++i) {
         const char *role = NULL;
         const char *path = clast_aggregate_file(config, i, &role);
-        CLX_TRY(clast_manifest_input(manifest, role, path));
+        CLX_TRY(clast_run_folder_input(run, role, path));
     }
 done:
     return status;
-}
-
-static clast_status path_in(char path[4096], const char *folder, const char *name)
-{
-    const int n = snprintf(path, 4096, "%s/%s", folder, name);
-    return n > 0 && n < 4096 ? CLAST_OK
-                             : clx_fail(CLAST_E_USAGE, "the path %.60s... is too long", folder);
 }
 
 static clast_status write_results(const char *folder, const clast_aggregate_fit *fit,
                                   const clast_table *nodes)
 {
     clast_status status = CLAST_OK;
-    char path[4096];
+    char path[CLX_PATH_LIMIT];
     char *text = NULL;
-    CLX_TRY(path_in(path, folder, "fit.csv"));
+    CLX_TRY(clx_path_join(path, folder, "fit.csv"));
     CLX_TRY(clast_table_write_csv(nodes, path));
     CLX_TRY(clx_fit_chart_write(folder, fit, nodes));
     CLX_TRY(clast_aggregate_fit_json(fit, &text));
-    CLX_TRY(path_in(path, folder, "summary.json"));
+    CLX_TRY(clx_path_join(path, folder, "summary.json"));
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));
 done:
     clast_text_free(text);
     return status;
-}
-
-static clast_status write_manifest(const clast_manifest *manifest, const char *folder,
-                                   const char *outcome)
-{
-    char path[4096];
-    const clast_status status = path_in(path, folder, "manifest.json");
-    return status == CLAST_OK ? clast_manifest_write(manifest, outcome, path) : status;
 }
 
 clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, const char *folder,
@@ -138,23 +139,24 @@ clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, con
 {
     clast_status status = CLAST_OK;
     clast_aggregate_source source = {0};
-    clast_manifest *manifest = NULL;
+    clast_run_folder *run = NULL;
     clast_table nodes = {0};
+    if (folder != NULL) {
+        CLX_TRY(clast_run_folder_begin(folder, config->force, "aggregate", monitor, &run));
+    }
     CLX_TRY(clast_aggregate_load(config, &source));
     if (folder != NULL) {
-        CLX_TRY(clx_folder_take(folder, config->force));
-        CLX_TRY(clx_folder_start("aggregate", monitor, &manifest));
-        CLX_TRY(note_inputs(config, manifest));
+        CLX_TRY(note_inputs(config, run));
     }
     CLX_TRY(clast_aggregate_fit_run(config, &source.input, monitor, fit, &nodes));
     if (folder != NULL) {
-        CLX_TRY(clx_folder_make(folder));
-        CLX_TRY(write_results(folder, fit, &nodes));
-        CLX_TRY(write_manifest(manifest, folder, "done"));
+        CLX_TRY(clast_run_folder_open(run));
+        status = write_results(clast_run_folder_path(run), fit, &nodes);
     }
 done:
+    status = clast_run_folder_end(run, status);
     clast_table_free(&nodes);
-    clast_manifest_destroy(manifest);
+    clast_run_folder_destroy(run);
     clast_aggregate_unload(&source);
     return status;
 }

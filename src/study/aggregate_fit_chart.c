@@ -2,7 +2,8 @@
 #include "study/aggregate_fit_chart.h"
 
 #include "base/alloc.h"
-#include "study/aggregate_folder.h"
+#include "base/number.h"
+#include "base/path.h"
 #include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,7 +42,7 @@ static clast_status take_nodes(const clast_table *nodes, drawing *d)
     for (int64_t i = 0; i < nodes->n_row; ++i) {
         char label[LABEL_SIZE];
         int32_t k = 0;
-        (void)snprintf(label, sizeof label, "%g x %g trials", rays[i], orientations[i]);
+        (void)clx_number_print(label, sizeof label, "%g x %g trials", rays[i], orientations[i]);
         while (k < d->n_packing && strcmp(d->label[k], label) != 0) {
             ++k;
         }
@@ -104,14 +105,18 @@ clast_status clx_fit_chart_write(const char *folder, const clast_aggregate_fit *
                                      .n = d.n[k],
                                      .colour = k % COLOURS};
     }
+    static const char *const title[] = {
+        [CLAST_FIT_INSIDE] = "Grown aggregates: the best is inside the observed interval",
+        [CLAST_FIT_EDGE] = "Grown aggregates: the best is at the edge of what was tried",
+        [CLAST_FIT_NO] = "Grown aggregates: none is inside the observed interval"};
     const clast_chart chart = {
-        .title = "Grown aggregates and the observed one",
+        .title = title[fit->verdict],
         .x = {.label = "D_agg (\302\265m)"},
         .y = {.label = "density (kg/m\302\263)"},
         .series = d.series,
         .n_series = add_observation(fit, &d, d.n_packing),
     };
-    CLX_TRY(clx_folder_join(path, folder, "fit.svg"));
+    CLX_TRY(clx_path_join(path, folder, "fit.svg"));
     CLX_TRY(clast_chart_write(&chart, path));
 done:
     drawing_free(&d);

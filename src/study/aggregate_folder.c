@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "io/state.h"
 #include <clast/manifest.h>
 #include <clast/mesh_file.h>
@@ -17,15 +18,6 @@ enum { RADIAL_BINS = 20 };
 /// Triangles of all parts together that a file should not exceed by much.
 static const int64_t TRIANGLE_AIM = 2000000;
 
-clast_status clx_folder_join(char *path, const char *folder, const char *name)
-{
-    const int n = snprintf(path, CLX_PATH_LIMIT, "%s/%s", folder, name);
-    return n > 0 && n < CLX_PATH_LIMIT
-               ? CLAST_OK
-               : clx_fail(CLAST_E_USAGE, "the path %.60s... is longer than %d bytes", folder,
-                          CLX_PATH_LIMIT);
-}
-
 static int level_for(const clast_assembly *assembly)
 {
     int level = 3;
@@ -35,7 +27,7 @@ static int level_for(const clast_assembly *assembly)
     return level;
 }
 
-/// All parts as one STL in micrometres.
+/// All parts as one STL in millimetres.
 static clast_status write_stl(const char *folder, const clast_assembly *assembly)
 {
     clast_status status = CLAST_OK;
@@ -43,13 +35,13 @@ static clast_status write_stl(const char *folder, const clast_assembly *assembly
     clast_mesh mesh = {0};
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
-    const clast_mesh_write_options options = {.unit = "um", .name = "aggregate"};
+    const clast_mesh_write_options options = {.unit = "mm", .name = "aggregate"};
     const int level = level_for(assembly);
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &mesh));
     }
-    clast_mesh_transform(&mesh, 1e6, unturned, none);
-    CLX_TRY(clx_folder_join(path, folder, "aggregate.stl"));
+    clast_mesh_transform(&mesh, 1e3, unturned, none);
+    CLX_TRY(clx_path_join(path, folder, "aggregate.stl"));
     CLX_TRY(clast_mesh_write(path, &mesh, &options));
 done:
     clast_mesh_free(&mesh);
@@ -62,7 +54,7 @@ static clast_status write_summary(const char *folder, const clast_aggregate_repo
     char path[CLX_PATH_LIMIT];
     char *text = NULL;
     CLX_TRY(clast_aggregate_report_json(report, false, &text));
-    CLX_TRY(clx_folder_join(path, folder, "summary.json"));
+    CLX_TRY(clx_path_join(path, folder, "summary.json"));
     CLX_TRY(clx_file_write_all(path, text, strlen(text)));
 done:
     clast_text_free(text);
@@ -72,7 +64,7 @@ done:
 static clast_status write_table(const char *folder, const char *name, const clast_table *table)
 {
     char path[CLX_PATH_LIMIT];
-    const clast_status status = clx_folder_join(path, folder, name);
+    const clast_status status = clx_path_join(path, folder, name);
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 

@@ -48,7 +48,3 @@ clast_status clx_folder_write_results(const char *folder, const clx_folder_resul
 
 /// The pictures among them.
 clast_status clx_folder_write_pictures(const char *folder, const clx_folder_results *results);
-
-/// FOLDER/NAME into path [CLX_PATH_LIMIT].
-enum { CLX_PATH_LIMIT = 4096 };
-clast_status clx_folder_join(char *path, const char *folder, const char *name);

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/number.h"
+#include "base/path.h"
 #include "math/vec3.h"
 #include <clast/aggregate_charts.h>
 #include <clast/mesh_check.h>
@@ -24,7 +26,7 @@ static clast_status write_picture(const char *folder, const clx_folder_results *
     config.width = PICTURE_WIDTH;
     config.height = PICTURE_HEIGHT;
     CLX_TRY(clast_render_assembly(r->first, &config, r->monitor, &image));
-    CLX_TRY(clx_folder_join(path, folder, "picture.png"));
+    CLX_TRY(clx_path_join(path, folder, "picture.png"));
     CLX_TRY(clast_image_write_png(&image, path));
 done:
     if (has_config) {
@@ -60,7 +62,7 @@ static clast_status write_printable_report(const char *folder, const clast_print
     clast_status status = CLAST_OK;
     char path[CLX_PATH_LIMIT];
     clx_file file = {0};
-    CLX_TRY(clx_folder_join(path, folder, "printable.json"));
+    CLX_TRY(clx_path_join(path, folder, "printable.json"));
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_file_print(&file,
                            "{\n  \"smallest_feature\": %.17g,\n  \"resolved\": %s,\n"
@@ -79,6 +81,25 @@ done:
     return status;
 }
 
+/// Tells the size of the file before the work for it begins.
+static clast_status announce(const clx_folder_results *r, const clast_printable_config *config)
+{
+    clast_status status = CLAST_OK;
+    clast_printable_report plan = {0};
+    char text[200];
+    CLX_TRY(clast_assembly_printable_plan(r->first, config, &plan));
+    if (r->monitor != NULL && r->monitor->note != NULL) {
+        (void)clx_number_print(
+            text, sizeof text,
+            "printable.stl: about %.0f triangles, %.3g MB, at a spacing of %.3g um "
+            "(--spacing)",
+            plan.n_triangle_expected, 50e-6 * plan.n_triangle_expected, 1e6 * plan.spacing);
+        r->monitor->note(r->monitor->context, text);
+    }
+done:
+    return status;
+}
+
 static clast_status write_printable(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
@@ -86,14 +107,17 @@ static clast_status write_printable(const char *folder, const clx_folder_results
     clast_mesh mesh = {0};
     clast_printable_report report;
     const clast_printable_config config = {.neck = r->config->neck, .spacing = r->config->spacing};
-    const clast_mesh_write_options options = {.unit = "um", .name = "printable"};
+    const clast_mesh_write_options options = {.unit = "mm", .name = "printable"};
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
+    CLX_TRY(announce(r, &config));
     CLX_TRY(clast_assembly_printable(r->first, &config, r->monitor, &mesh, &report));
-    clast_mesh_transform(&mesh, 1e6, unturned, none);
-    CLX_TRY(clx_folder_join(path, folder, "printable.stl"));
+    clast_mesh_transform(&mesh, 1e3, unturned, none);
+    CLX_TRY(clx_path_join(path, folder, "printable.stl"));
     CLX_TRY(clast_mesh_write(path, &mesh, &options));
     CLX_TRY(verify(path));
+    CLX_TRY(clx_path_join(path, folder, "printable.3mf"));
+    CLX_TRY(clast_mesh_write(path, &mesh, &options));
     CLX_TRY(write_printable_report(folder, &report, mesh.n_tri));
 done:
     clast_mesh_free(&mesh);

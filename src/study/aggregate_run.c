@@ -4,28 +4,28 @@
 // of repeats and writes all else, so that the files do not tell how many ranks there were.
 #include <clast/aggregate_run.h>
 
-#include "base/file.h"
 #include "base/queue.h"
+#include "run/run.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
-#include "study/run_folder.h"
 #include <clast/aggregate_file.h>
 #include <clast/config.h>
-#include <clast/manifest.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct {
     const clast_aggregate_config *config;
-    const char *folder; ///< or NULL
-    bool force;         ///< an earlier run in it may be replaced
-    bool is_resumed;    ///< what the folder holds is gone on with
+    bool is_resumed;             ///< what the folder holds is gone on with
+    bool has_folder;             ///< results are kept
+    char folder[CLAST_RUN_PATH]; ///< where the files of all ranks go
     const clast_monitor *monitor;
     const clast_comm *comm;
     clx_queue queue; ///< of repeats
     clast_aggregate_source source;
-    clast_manifest *manifest; ///< rank 0's, NULL without a folder
+    clast_run_folder *own; ///< rank 0's, NULL without a folder
     clast_aggregate *aggregate;
     int32_t repeat;       ///< under way
+    double grown;         ///< share of it
     clast_assembly first; ///< the first repeat's grains, on rank 0
     clx_repeats repeats;  ///< that this rank finished
     clast_table history;  ///< of all repeats
@@ -41,7 +41,7 @@ static void free_run(run *r)
 {
     clast_aggregate_destroy(r->aggregate);
     clast_aggregate_unload(&r->source);
-    clast_manifest_destroy(r->manifest);
+    clast_run_folder_destroy(r->own);
     clast_assembly_free(&r->first);
     clx_repeats_free(&r->repeats);
     clast_table_free(&r->history);
@@ -86,10 +86,25 @@ static bool stops(void *context)
 
 static void tell(void *context, const char *phase, int64_t done, int64_t total)
 {
-    const run *r = context;
+    run *r = context;
+    if (strcmp(phase, "grow") == 0 && total > 0) {
+        r->grown = (double)done / (double)total;
+    }
     if (r->monitor != NULL && r->monitor->report != NULL) {
         r->monitor->report(r->monitor->context, phase, done, total);
     }
+}
+
+/// Rank 0 keeps how much of all repeats is done; returns `status` when that went well.
+static clast_status note_progress(run *r, clast_status status)
+{
+    double done = r->grown;
+    for (int32_t i = 0; i < r->config->repeats; ++i) {
+        done += clx_folder_has_state(r->folder, i) ? 1.0 : 0.0;
+    }
+    const clast_status noted =
+        is_first(r) ? clx_run_folder_progress(r->own, done / r->config->repeats) : CLAST_OK;
+    return noted == CLAST_OK ? status : noted;
 }
 
 /// Grows the repeat under way to its end, a checkpoint every so often and when it must stop.
@@ -99,10 +114,12 @@ static clast_status grow(run *r)
     const clast_monitor monitor = {.report = tell, .stop = stops, .context = r};
     while (status == CLAST_OK && !clast_aggregate_is_done(r->aggregate)) {
         status = clast_aggregate_grow(r->aggregate, r->config->checkpoint_every, &monitor);
-        if (r->folder != NULL && (status == CLAST_OK || status == CLAST_E_STOPPED)) {
+        if (r->has_folder && (status == CLAST_OK || status == CLAST_E_STOPPED)) {
             const clast_status written =
                 clx_folder_write_checkpoint(r->folder, r->config, r->repeat, r->aggregate);
             status = written != CLAST_OK ? written : status;
+            status =
+                status == CLAST_OK || status == CLAST_E_STOPPED ? note_progress(r, status) : status;
         }
     }
     return status;
@@ -151,7 +168,7 @@ static clast_status do_repeat(run *r)
     CLX_TRY(open_repeat(r, &is_whole));
     if (!is_whole) {
         CLX_TRY(grow(r));
-        if (r->folder != NULL) {
+        if (r->has_folder) {
             CLX_TRY(clx_folder_write_state(r->folder, r->config, r->repeat, r->aggregate));
         }
     }
@@ -185,25 +202,19 @@ static clast_status note_inputs(run *r)
 {
     clast_status status = CLAST_OK;
     const clast_aggregate_config *c = r->config;
-    CLX_TRY(clast_manifest_config(r->manifest, clast_aggregate_fields, c));
-    clast_manifest_seed(r->manifest, c->seed);
+    clast_manifest *manifest = clast_run_folder_manifest(r->own);
+    char ranks[32];
+    CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, c));
+    clast_manifest_seed(manifest, c->seed);
     for (int32_t i = 0; i < clast_aggregate_n_file(c); ++i) {
         const char *role = NULL;
         const char *path = clast_aggregate_file(c, i, &role);
-        CLX_TRY(clast_manifest_input(r->manifest, role, path));
+        CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
+    (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
+    CLX_TRY(clast_manifest_note(manifest, "ranks", ranks));
 done:
     return status;
-}
-
-static clast_status write_manifest(run *r, const char *outcome)
-{
-    char path[4096];
-    if (r->manifest == NULL) {
-        return CLAST_OK;
-    }
-    (void)snprintf(path, sizeof path, "%s/manifest.json", r->folder);
-    return clast_manifest_write(r->manifest, outcome, path);
 }
 
 /// A criterion that was asked for and not met is an answer that the user must not overlook.
@@ -223,15 +234,10 @@ static clast_status check_stop(const run *r)
     return CLAST_OK;
 }
 
-static const char *outcome_of(clast_status status)
-{
-    return status == CLAST_OK ? "done" : status == CLAST_E_STOPPED ? "stopped" : "failed";
-}
-
 /// Rank 0: all files of a run that went well, and the end of the manifest.
 static clast_status finish(run *r, clast_status status)
 {
-    if (status == CLAST_OK && r->folder != NULL) {
+    if (status == CLAST_OK && r->has_folder) {
         const clx_folder_results results = {.config = r->config,
                                             .report = &r->report,
                                             .sizes = r->source.input.sizes,
@@ -240,44 +246,27 @@ static clast_status finish(run *r, clast_status status)
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
     }
-    if (status == CLAST_OK) {
-        status = check_stop(r);
-    }
-    if (status == CLAST_E_STOPPED && r->folder != NULL) {
-        status =
-            clx_fail(CLAST_E_STOPPED, "stopped; go on with clast aggregate --resume %s", r->folder);
-    }
-    const char *outcome = status == CLAST_E_CONVERGE ? "done" : outcome_of(status);
-    const clast_status written = write_manifest(r, outcome);
-    return status == CLAST_OK ? written : status;
-}
-
-static clast_status start_manifest(run *r)
-{
-    clast_status status = CLAST_OK;
-    char ranks[32];
-    CLX_TRY(clx_folder_start("aggregate", r->monitor, &r->manifest));
-    CLX_TRY(note_inputs(r));
-    (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
-    CLX_TRY(clast_manifest_note(r->manifest, "ranks", ranks));
-done:
-    return status;
+    status = clast_run_folder_end(r->own, status);
+    return status == CLAST_OK ? check_stop(r) : status;
 }
 
 /// Loads; rank 0 makes the first repeat, so that bad input is refused before anything is written.
-static clast_status begin(run *r)
+static clast_status begin(run *r, const char *folder, bool force)
 {
     clast_status status = CLAST_OK;
+    if (is_first(r) && r->has_folder) {
+        CLX_TRY(clast_run_folder_begin(folder, force, "aggregate", r->monitor, &r->own));
+        clast_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
+        (void)snprintf(r->folder, sizeof r->folder, "%s", clast_run_folder_path(r->own));
+    }
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
     if (!is_first(r)) {
         return CLAST_OK;
     }
     CLX_TRY(clast_aggregate_create(r->config, &r->source.input, 0, &r->aggregate));
-    if (r->folder != NULL) {
-        CLX_TRY(clx_folder_take(r->folder, r->force));
-        CLX_TRY(start_manifest(r));
-        CLX_TRY(clx_folder_make(r->folder));
-        CLX_TRY(write_manifest(r, "running"));
+    if (r->has_folder) {
+        CLX_TRY(note_inputs(r));
+        CLX_TRY(clast_run_folder_open(r->own));
     }
 done:
     return status;
@@ -288,8 +277,9 @@ static clast_status begin_again(run *r)
     clast_status status = CLAST_OK;
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
     if (is_first(r)) {
-        CLX_TRY(start_manifest(r));
-        CLX_TRY(clast_manifest_note(r->manifest, "resumed", "yes"));
+        CLX_TRY(clx_run_folder_resume(r->folder, "aggregate", r->monitor, &r->own));
+        CLX_TRY(note_inputs(r));
+        CLX_TRY(clast_run_folder_open(r->own));
     }
 done:
     return status;
@@ -298,11 +288,13 @@ done:
 /// Everything after the beginning; the report goes to rank 0's caller.
 static clast_status go(run *r, clast_status begun, clast_aggregate_report *report)
 {
-    clast_status status = CLAST_OK;
     r->report.confidence = r->config->confidence;
     r->queue = clx_queue_begin(r->comm, r->config->repeats, (clx_queue_owner){0});
-    CLX_TRY(clast_comm_agree(r->comm, begun, NULL));
-    status = clast_comm_agree(r->comm, grow_all(r), NULL);
+    clast_status status = clast_comm_agree(r->comm, begun, NULL);
+    if (status == CLAST_OK) {
+        r->comm->broadcast(r->comm->context, 0, r->folder, sizeof r->folder);
+        status = clast_comm_agree(r->comm, grow_all(r), NULL);
+    }
     if (status == CLAST_OK) {
         status = clx_repeats_gather(r->comm, &r->repeats);
     }
@@ -316,7 +308,6 @@ static clast_status go(run *r, clast_status begun, clast_aggregate_report *repor
         *report = r->report;
         r->report = (clast_aggregate_report){0};
     }
-done:
     return status;
 }
 
@@ -326,12 +317,11 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
 {
     clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own,
-             .folder = folder,
-             .force = config->force,
+             .has_folder = folder != NULL,
              .monitor = monitor,
              .comm = clx_comm_or_one(comm)};
     own.force = false;
-    const clast_status status = go(&r, begin(&r), report);
+    const clast_status status = go(&r, begin(&r, folder, config->force), report);
     free_run(&r);
     return status;
 }
@@ -356,10 +346,11 @@ clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
     clast_status status = CLAST_OK;
     clast_aggregate_config config = {0};
     run r = {.config = &config,
-             .folder = folder,
+             .has_folder = true,
              .is_resumed = true,
              .monitor = monitor,
              .comm = clx_comm_or_one(comm)};
+    (void)snprintf(r.folder, sizeof r.folder, "%s", folder);
     CLX_TRY(clast_comm_agree(r.comm, clast_fields_default(clast_aggregate_fields, &config), NULL));
     status = clast_comm_agree(r.comm, read_config(folder, &config), NULL);
     if (status == CLAST_OK) {

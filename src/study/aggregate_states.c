@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "io/checkpoint.h"
 #include "io/folder.h"
 #include "io/state.h"
@@ -18,7 +19,7 @@ static clast_status state_path(const char *folder, int32_t repeat, char path[CLX
     if (repeat > 0) {
         (void)snprintf(name, sizeof name, "state-%04d.h5", repeat + 1);
     }
-    return clx_folder_join(path, folder, name);
+    return clx_path_join(path, folder, name);
 }
 
 /// The parts of a state, which borrows the assembly and owns tables and configuration.
@@ -86,7 +87,7 @@ static clast_status checkpoint_folder(const char *folder, int32_t repeat, char p
     char name[32] = ".";
     (void)snprintf(name, sizeof name, "repeat-%04d", repeat + 1);
     if (repeat > 0) {
-        return clx_folder_join(path, folder, name);
+        return clx_path_join(path, folder, name);
     }
     (void)snprintf(path, CLX_PATH_LIMIT, "%s", folder);
     return CLAST_OK;
@@ -114,16 +115,7 @@ done:
 bool clx_folder_has_checkpoint(const char *folder, int32_t repeat)
 {
     char path[CLX_PATH_LIMIT];
-    clx_folder inside = {0};
-    bool found = false;
-    if (checkpoint_folder(folder, repeat, path) == CLAST_OK &&
-        clx_folder_list(path, &inside) == CLAST_OK) {
-        for (int32_t i = 0; i < inside.n; ++i) {
-            found = found || strncmp(inside.name[i], "checkpoint-", 11) == 0;
-        }
-    }
-    clx_folder_free(&inside);
-    return found;
+    return checkpoint_folder(folder, repeat, path) == CLAST_OK && clx_checkpoint_exists(path);
 }
 
 clast_status clx_folder_read_checkpoint(const char *folder, int32_t repeat, clast_state *state)
@@ -155,7 +147,7 @@ clast_status clx_folder_clear_checkpoints(const char *folder)
     CLX_TRY(clx_folder_list(folder, &inside));
     for (int32_t i = 0; i < inside.n; ++i) {
         if (is_repeat(inside.name[i])) {
-            CLX_TRY(clx_folder_join(path, folder, inside.name[i]));
+            CLX_TRY(clx_path_join(path, folder, inside.name[i]));
             CLX_TRY(clx_checkpoint_clear(path));
             // Somebody's own files in it stay.
             CLX_CHECK(rmdir(path) == 0 || errno == ENOTEMPTY || errno == EEXIST, CLAST_E_DISK,

@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name)
 {
@@ -112,10 +113,23 @@ done:
     return status;
 }
 
+/// Where grain i is and how it is turned, in columns `first` on.
+static void put_pose(const clast_assembly *a, int32_t i, clast_table *table, int32_t first)
+{
+    for (int k = 0; k < 3; ++k) {
+        table->column[first + k].number[i] = a->position[i][k];
+    }
+    for (int k = 0; k < 4; ++k) {
+        table->column[first + 3 + k].number[i] = a->orientation[i][k];
+    }
+}
+
 /// A row a grain: its shape, form, size and density, as `clast fit --grains` and `clast shape` read
-/// them.
+/// them, then its pose.
 static clast_status write_grains(const char *folder, const clast_pack *pack)
 {
+    static const char *const pose[][2] = {{"x_m", "m"}, {"y_m", "m"}, {"z_m", "m"}, {"qw", "-"},
+                                          {"qx", "-"},  {"qy", "-"},  {"qz", "-"}};
     clast_status status = CLAST_OK;
     clast_assembly a = {0};
     clast_table table = {0};
@@ -130,6 +144,9 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
     CLX_TRY(clast_table_add_number(&table, "elongation", "-", NULL));
     CLX_TRY(clast_table_add_number(&table, "sieve_size_m", "m", NULL));
     CLX_TRY(clast_table_add_number(&table, "density_kg/m3", "kg/m3", NULL));
+    for (size_t k = 0; k < sizeof pose / sizeof *pose; ++k) {
+        CLX_TRY(clast_table_add_number(&table, pose[k][0], pose[k][1], NULL));
+    }
     flatness = clast_table_numbers(&table, "flatness");
     elongation = clast_table_numbers(&table, "elongation");
     size = clast_table_numbers(&table, "sieve_size_m");
@@ -141,6 +158,7 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
         flatness[i] = s[2] / s[1];
         elongation[i] = s[1] / s[0];
         density[i] = a.density[i];
+        put_pose(&a, i, &table, 5);
         size[i] = clast_form_sieve_size(2.0 * a.scale[i] * s[1], 2.0 * a.scale[i] * s[2]);
     }
     CLX_TRY(write_table(folder, "grains.csv", &table));
@@ -184,6 +202,12 @@ done:
     return status;
 }
 
+/// Path of frame `index` within its run.
+static void frame_name(char name[64], int64_t index)
+{
+    (void)snprintf(name, 64, "frames/frame-%06lld.vtu", (long long)index);
+}
+
 clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack)
 {
     clast_status status = CLAST_OK;
@@ -193,7 +217,7 @@ clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast
     const clast_export_options options = {.format = CLAST_EXPORT_VTU, .level = 1};
     CLX_TRY(clx_pack_path(path, folder, "frames"));
     CLX_TRY(clx_folder_make(path));
-    (void)snprintf(name, sizeof name, "frames/frame-%06lld.vtu", (long long)index);
+    frame_name(name, index);
     CLX_TRY(clx_pack_path(path, folder, name));
     CLX_TRY(clast_dem_assembly(clast_pack_dem(pack), &a));
     CLX_TRY(clast_assembly_write(&a, path, &options, NULL));
@@ -202,22 +226,31 @@ done:
     return status;
 }
 
-clast_status clx_pack_write_collection(const char *folder, int64_t n, double frame_time)
+clast_status clx_pack_write_collection(const char *folder, int64_t last, double interval,
+                                       int64_t *n_frame)
 {
     clast_status status = CLAST_OK;
     char path[CLX_PACK_PATH];
     double *time = NULL;
     char **file = NULL;
-    CLX_TRY(clx_alloc(&time, n, sizeof *time));
-    CLX_TRY(clx_alloc(&file, n, sizeof *file));
-    for (int64_t i = 0; i < n; ++i) {
+    int64_t n = 0;
+    CLX_TRY(clx_alloc(&time, last, sizeof *time));
+    CLX_TRY(clx_alloc(&file, last, sizeof *file));
+    for (int64_t i = 1; i <= last; ++i) {
         char name[64];
-        (void)snprintf(name, sizeof name, "frames/frame-%06lld.vtu", (long long)i);
-        CLX_TRY(clx_alloc_text(&file[i], name));
-        time[i] = (double)i * frame_time;
+        frame_name(name, i);
+        CLX_TRY(clx_pack_path(path, folder, name));
+        if (access(path, F_OK) == 0) { // none while there was no grain
+            time[n] = (double)i * interval;
+            CLX_TRY(clx_alloc_text(&file[n], name));
+            ++n;
+        }
     }
-    CLX_TRY(clx_pack_path(path, folder, "frames.pvd"));
-    CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
+    if (n > 0) {
+        CLX_TRY(clx_pack_path(path, folder, "frames.pvd"));
+        CLX_TRY(clast_pvd_write(path, n, time, (const char *const *)file));
+    }
+    *n_frame = n;
 done:
     for (int64_t i = 0; file != NULL && i < n; ++i) {
         clx_free(file[i]);

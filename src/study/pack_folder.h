@@ -12,8 +12,10 @@ clast_status clx_pack_write_results(const char *folder, const char *config, clas
 /// Frame number `index` for ParaView.
 clast_status clx_pack_write_frame(const char *folder, int64_t index, const clast_pack *pack);
 
-/// frames.pvd over the frames that are there, and the end.
-clast_status clx_pack_write_collection(const char *folder, int64_t n, double frame_time);
+/// frames.pvd: the *n_frame frames in the folder among numbers 1 to `last`, number k at k times
+/// `interval` [s]; no file without a frame.
+clast_status clx_pack_write_collection(const char *folder, int64_t last, double interval,
+                                       int64_t *n_frame);
 
 enum { CLX_PACK_PATH = 4096 };
 clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name);

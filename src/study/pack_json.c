@@ -75,9 +75,14 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "mean_height", r->dem.mean_height);
     put(o, "max_overlap", r->dem.max_overlap);
     put(o, "max_speed", r->dem.max_speed);
+    (void)json_object_set_new(o, "still_moving", json_boolean(r->is_moving));
+    put_count(o, "n_loose", r->n_loose);
+    put(o, "sank_after_shaking", r->sank);
+    (void)json_object_set_new(o, "shaken_while_falling", json_boolean(r->fell));
     put(o, "kinetic_energy", r->dem.kinetic_energy);
     put_count(o, "n_fill", r->n_fill);
     put_count(o, "n_waited", r->n_waited);
+    put_count(o, "n_frame", r->n_frame);
     (void)json_object_set_new(o, "hulls", hulls(r));
     put(o, "grain_steps", r->grain_steps);
     put_count(o, "n_refresh", r->dem.n_refresh);

@@ -3,13 +3,11 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/file.h"
 #include "io/checkpoint.h"
 #include "io/pack_state.h"
+#include "run/run.h"
 #include "study/pack_folder.h"
-#include "study/run_folder.h"
 #include <clast/config.h>
-#include <clast/manifest.h>
 #include <clast/pack_file.h>
 #include <inttypes.h>
 #include <math.h>
@@ -19,11 +17,11 @@
 
 typedef struct {
     const clast_pack_config *config;
-    const char *folder; ///< or NULL
+    clast_run_folder *own; ///< NULL without a folder
+    const char *folder;    ///< where its files go, or NULL
     const clast_monitor *monitor;
     clast_pack_source source;
-    clast_manifest *manifest; ///< NULL without a folder
-    char *text;               ///< configuration as JSON
+    char *text; ///< configuration as JSON
     clast_pack *pack;
     double saved_at; ///< clock of the last checkpoint
     double begun;
@@ -33,31 +31,21 @@ static void free_run(run *r)
 {
     clast_pack_destroy(r->pack);
     clast_pack_unload(&r->source);
-    clast_manifest_destroy(r->manifest);
+    clast_run_folder_destroy(r->own);
     clast_text_free(r->text);
 }
 
 static clast_status note_inputs(run *r)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_folder_start("pack", r->monitor, &r->manifest));
-    CLX_TRY(clast_manifest_config(r->manifest, clast_pack_fields, r->config));
-    clast_manifest_seed(r->manifest, r->config->seed);
+    clast_manifest *manifest = clast_run_folder_manifest(r->own);
+    CLX_TRY(clast_manifest_config(manifest, clast_pack_fields, r->config));
+    clast_manifest_seed(manifest, r->config->seed);
     for (int32_t i = 0; i < clast_pack_n_file(r->config); ++i) {
         const char *role = NULL;
         const char *path = clast_pack_file(r->config, i, &role);
-        CLX_TRY(clast_manifest_input(r->manifest, role, path));
+        CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
-done:
-    return status;
-}
-
-static clast_status write_manifest(run *r, const char *outcome)
-{
-    clast_status status = CLAST_OK;
-    char path[CLX_PACK_PATH];
-    CLX_TRY(clx_pack_path(path, r->folder, "manifest.json"));
-    CLX_TRY(clast_manifest_write(r->manifest, outcome, path));
 done:
     return status;
 }
@@ -80,8 +68,15 @@ static bool talk(const run *r)
 
 static clast_status save(run *r)
 {
+    clast_status status = CLAST_OK;
+    const double done = (double)clast_dem_n_step(clast_pack_dem(r->pack));
     r->saved_at = clx_clock();
-    return r->folder != NULL ? clx_pack_checkpoint_write(r->folder, r->text, r->pack) : CLAST_OK;
+    if (r->folder != NULL) {
+        CLX_TRY(clx_pack_checkpoint_write(r->folder, r->text, r->pack));
+        CLX_TRY(clx_run_folder_progress(r->own, done / (double)clast_pack_expected_steps(r->pack)));
+    }
+done:
+    return status;
 }
 
 /// Steps of one round: to the next frame, at most about a fifth of a second.
@@ -92,14 +87,34 @@ static int64_t round_steps(const run *r, int64_t aim, int64_t per_frame)
     return left < aim ? left : aim;
 }
 
+/// Steps from one frame to the next; 0: none are written.
+static int64_t frame_steps(const run *r)
+{
+    const double t = r->folder != NULL ? r->config->frame_time : 0.0;
+    return t > 0.0 ? (int64_t)fmax(1.0, floor(t / r->config->dem.time_step + 0.5)) : 0;
+}
+
 static clast_status frame(run *r, int64_t per_frame)
 {
     const int64_t step = clast_dem_n_step(clast_pack_dem(r->pack));
-    if (r->folder == NULL || per_frame == 0 || step % per_frame != 0 ||
+    if (per_frame == 0 || step % per_frame != 0 ||
         clast_dem_n_grain(clast_pack_dem(r->pack)) == 0) {
         return CLAST_OK;
     }
     return clx_pack_write_frame(r->folder, step / per_frame, r->pack);
+}
+
+/// frames.pvd of a run that has ended in any way, and how many frames there are.
+static clast_status list_frames(run *r, clast_pack_result *result)
+{
+    const int64_t per_frame = frame_steps(r);
+    if (per_frame == 0) {
+        return CLAST_OK;
+    }
+    result->frame_interval = (double)per_frame * r->config->dem.time_step;
+    return clx_pack_write_collection(r->folder,
+                                     clast_dem_n_step(clast_pack_dem(r->pack)) / per_frame,
+                                     result->frame_interval, &result->n_frame);
 }
 
 /// Rounds that frames cut short are quick whatever the aim, which would double for ever.
@@ -109,8 +124,7 @@ static clast_status go(run *r)
 {
     clast_status status = CLAST_OK;
     const clast_pack_config *c = r->config;
-    const int64_t per_frame =
-        c->frame_time > 0.0 ? (int64_t)fmax(1.0, floor(c->frame_time / c->dem.time_step + 0.5)) : 0;
+    const int64_t per_frame = frame_steps(r);
     int64_t aim = 100;
     r->saved_at = clx_clock();
     while (!clast_pack_is_over(r->pack)) {
@@ -140,6 +154,8 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
         status = clast_pack_measure(r->pack, &made);
         made.wall_s = clx_clock() - r->begun;
     }
+    const clast_status listed = list_frames(r, &made);
+    status = status == CLAST_OK ? listed : status;
     if (status == CLAST_OK && r->source.n_hull > 0) { // the result takes them over
         made.n_hull = r->source.n_hull;
         made.hull = r->source.hull;
@@ -148,23 +164,11 @@ static clast_status finish(run *r, clast_status status, clast_pack_result *resul
     }
     if (r->folder != NULL && status == CLAST_OK) {
         status = clx_pack_write_results(r->folder, r->text, r->pack, r->config, &made);
-        const double f = r->config->frame_time;
-        if (status == CLAST_OK && f > 0.0) {
-            status = clx_pack_write_collection(
-                r->folder, 1 + (int64_t)floor(made.dem.time / f * (1.0 + 1e-12)), f);
-        }
     }
-    if (status == CLAST_E_STOPPED) {
-        status = r->folder == NULL
-                     ? clx_fail(status, "stopped; without -o there is nothing to go on from")
-                     : clx_fail(status, "stopped; go on with clast pack --resume %s", r->folder);
+    if (status == CLAST_E_STOPPED && r->folder == NULL) {
+        status = clx_fail(status, "stopped; without -o there is nothing to go on from");
     }
-    if (r->folder != NULL) {
-        const clast_status written = write_manifest(r, status == CLAST_OK          ? "done"
-                                                       : status == CLAST_E_STOPPED ? "stopped"
-                                                                                   : "failed");
-        status = status == CLAST_OK ? written : status;
-    }
+    status = clast_run_folder_end(r->own, status);
     if (status != CLAST_OK) {
         clast_pack_result_free(&made);
         return status;
@@ -193,21 +197,24 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
 {
     clast_status status = CLAST_OK;
     clast_pack_config own = *config; // borrowed texts; force is no property of the result
-    run r = {.config = &own, .folder = folder, .monitor = monitor};
+    run r = {.config = &own, .monitor = monitor};
     own.force = false;
     CLX_CHECK(folder != NULL || config->frame_time == 0.0, CLAST_E_USAGE,
               "frame_time %g s: frames are written into a run's folder; give one (-o)",
               config->frame_time);
     CLX_CHECK(folder != NULL || !config->force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
+    if (folder != NULL) {
+        CLX_TRY(clast_run_folder_begin(folder, config->force, "pack", monitor, &r.own));
+        clast_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
+        r.folder = clast_run_folder_path(r.own);
+    }
     CLX_TRY(prepare(&r));
     if (folder != NULL) {
-        CLX_TRY(clx_folder_take(folder, config->force));
-        CLX_TRY(clx_folder_make(folder));
-        CLX_TRY(save(&r)); // first, so that a folder with a manifest can be gone on with
-        CLX_TRY(write_manifest(&r, "running"));
+        CLX_TRY(clast_run_folder_open(r.own));
+        status = save(&r);
     }
-    status = finish(&r, go(&r), result);
+    status = finish(&r, status == CLAST_OK ? go(&r) : status, result);
 done:
     free_run(&r);
     return status;
@@ -243,8 +250,8 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     has_config = true;
     CLX_TRY(clast_config_parse(found.path, found.config, clast_pack_fields, &config));
     config.max_steps = max_steps > 0 || is_end ? max_steps : config.max_steps;
+    CLX_TRY(clx_run_folder_resume(folder, "pack", monitor, &r.own));
     CLX_TRY(prepare(&r));
-    CLX_TRY(clast_manifest_note(r.manifest, "resumed", "yes"));
     CLX_TRY(clx_pack_checkpoint_read(&found, r.pack));
     CLX_CHECK(!is_end || clast_pack_phase_of(r.pack) != CLAST_PACK_DONE, CLAST_E_IO,
               "%s has ended: its bed is done, and there is no checkpoint to go on from", folder);
@@ -252,11 +259,11 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     CLX_CHECK(max_steps == 0 || step < max_steps || (step == max_steps && !is_end), CLAST_E_USAGE,
               "%s has done %" PRId64 " steps; give a --max-steps above that, or none", folder,
               step);
-    CLX_TRY(write_manifest(&r, "running"));
+    CLX_TRY(clast_run_folder_open(r.own));
     if (is_end) { // a new state.h5 may outlive a kill alone, without the other results
-        CLX_TRY(save(&r));
+        status = save(&r);
     }
-    status = finish(&r, go(&r), result);
+    status = finish(&r, status == CLAST_OK ? go(&r) : status, result);
 done:
     free_run(&r);
     clx_pack_checkpoint_free(&found);

@@ -1,4 +1,5 @@
 // Results of a study's runs as one table.
+#include "base/number.h"
 #include "study/study.h"
 
 #include "base/alloc.h"
@@ -132,7 +133,7 @@ static clast_status read_run(gatherer *g, const char *folder, bool whole)
         goto done; // never begun, or under way
     }
     CLX_TRY(clx_file_read_all(path, 64, &text, &n));
-    put(g, "exit_code", strtod(text, NULL));
+    put(g, "exit_code", clx_number_read(text, NULL));
     clx_free(text);
     text = NULL;
     (void)snprintf(path, sizeof path, "%s/result.json", run);

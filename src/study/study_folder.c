@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include <clast/manifest.h>
+#include "run/run.h"
 #include <clast/table_file.h>
 #include <stdio.h>
 #include <string.h>
@@ -68,6 +68,19 @@ done:
     return status;
 }
 
+/// The results of a single run lie in a folder of their own.
+static clast_status check_free(const char *folder)
+{
+    clast_status status = CLAST_OK;
+    clx_run_state state = {0};
+    CLX_TRY(clx_run_state_read(folder, &state));
+    CLX_CHECK(state.is_study || !state.is_run, CLAST_E_USAGE,
+              "%s holds a run; give another folder by -o", folder);
+done:
+    clx_run_state_free(&state);
+    return status;
+}
+
 static clast_status keep_plan(const char *folder, const clast_table *plan)
 {
     clast_status status = CLAST_OK;
@@ -98,6 +111,7 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
     clast_study_config same = *config; // who works, and what is tabulated, may change
     same.shard = "";
     same.keep = (clast_text_list){0};
+    CLX_TRY(check_free(folder));
     CLX_CHECK(snprintf(path, sizeof path, "%s/runs", folder) < (int)sizeof path, CLAST_E_DISK,
               "path too long: %s", folder);
     CLX_TRY(clx_folder_make(path));

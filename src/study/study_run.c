@@ -6,15 +6,14 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "base/queue.h"
-#include "io/folder.h"
+#include "io/checkpoint.h"
+#include "run/run.h"
 #include <clast/parallel.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /// A study under way on one rank.
 typedef struct {
@@ -52,43 +51,11 @@ done:
     return status;
 }
 
-static int remove_entry(const char *path, const struct stat *found, int kind, struct FTW *place)
-{
-    (void)found;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-/// Removes what a run that was cut off left: runs/NNNNNN.part, without following links.
-static clast_status remove_part(const char *path)
-{
-    clast_status status = CLAST_OK;
-    struct stat found;
-    if (lstat(path, &found) != 0) {
-        return CLAST_OK;
-    }
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread schedules a study
-    CLX_CHECK(nftw(path, remove_entry, 16, FTW_DEPTH | FTW_PHYS) == 0, CLAST_E_DISK,
-              "cannot remove %s: %s", path, clx_errno_text());
-done:
-    return status;
-}
-
 /// True when the cut-off run left a checkpoint to go on from.
 static bool has_checkpoint(const char *run_folder)
 {
-    char out[CLX_STUDY_PATH];
-    clx_folder inside = {0};
-    bool found = false;
-    if (snprintf(out, sizeof out, "%s/out", run_folder) < (int)sizeof out &&
-        clx_folder_list(out, &inside) == CLAST_OK) {
-        for (int32_t i = 0; i < inside.n; ++i) {
-            found = found || strncmp(inside.name[i], "checkpoint-", 11) == 0;
-        }
-    }
-    clx_folder_free(&inside);
-    return found;
+    char out[CLX_PATH_LIMIT];
+    return clx_path_join(out, run_folder, "out") == CLAST_OK && clx_checkpoint_exists(out);
 }
 
 static clast_status start(scheduler *s, int64_t row)
@@ -99,7 +66,7 @@ static clast_status start(scheduler *s, int64_t row)
     CLX_TRY(clx_study_run_folder(s->folder, row, ".part", folder));
     const bool resume = s->worker->has_folder && s->worker->has_resume && has_checkpoint(folder);
     if (!resume) {
-        CLX_TRY(remove_part(folder));
+        CLX_TRY(clx_run_remove_tree(folder));
     }
     CLX_TRY(clx_folder_make(folder));
     const clx_study_words_of shared = {s->config, s->worker, s->plan};

@@ -1,4 +1,5 @@
 // Command line of one run of a study.
+#include "base/number.h"
 #include "study/study.h"
 
 #include "base/alloc.h"
@@ -66,7 +67,7 @@ static void add_settings(sink *to, const clast_study_config *config,
     }
     const double *number = clast_table_numbers(plan, "seed");
     if (worker->has_seed && number != NULL) {
-        (void)snprintf(seed, sizeof seed, "%.0f", number[row]);
+        (void)clx_number_print(seed, sizeof seed, "%.0f", number[row]);
         add_set(to, "seed", seed);
     }
 }

@@ -67,7 +67,7 @@ typedef struct {
     double unset;
 } settings;
 
-#define FIELD(type, name) #name, offsetof(settings, name), type
+#define FIELD(type, name) #name, .offset = offsetof(settings, name), type
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_F64, cone), 0.1, 0.0, 4.0, "rad", "half-angle", NULL},
     {FIELD(CLAST_FIELD_I32, n_ray), 30, 1, 1e6, "-", "rays", NULL},

@@ -1,0 +1,41 @@
+// The results' folder of a command: taken, described, summarised.
+#include "results.h"
+
+#include "json.h"
+
+clast_status cli_results_begin(const cli_common *common, const char *folder, bool *force,
+                               clast_run_folder **run)
+{
+    const clast_monitor words = {.n_word = common->n_word, .word = common->word};
+    const bool is_forced = *force;
+    *force = false;
+    *run = NULL;
+    if (folder == NULL || folder[0] == '\0') {
+        return is_forced ? cli_fail(CLAST_E_USAGE,
+                                    "force: there is no output folder whose run it could replace")
+                         : CLAST_OK;
+    }
+    return clast_run_folder_begin(folder, is_forced, common->command, &words, run);
+}
+
+clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, const void *config,
+                              uint64_t seed, const cli_input *input)
+{
+    if (run == NULL) {
+        return CLAST_OK;
+    }
+    clast_manifest *manifest = clast_run_folder_manifest(run);
+    clast_manifest_seed(manifest, seed);
+    clast_status status = clast_manifest_config(manifest, fields, config);
+    for (; input->role != NULL && status == CLAST_OK; ++input) {
+        if (input->path != NULL && input->path[0] != '\0') {
+            status = clast_run_folder_input(run, input->role, input->path);
+        }
+    }
+    return status == CLAST_OK ? clast_run_folder_open(run) : status;
+}
+
+clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary)
+{
+    return run == NULL ? CLAST_OK : cli_write_summary(summary, clast_run_folder_path(run));
+}

@@ -1,0 +1,66 @@
+#pragma once
+#include <clast/manifest.h>
+#include <clast/monitor.h>
+
+CLAST_BEGIN
+
+// A run's folder, taken and closed in one way by every command:
+//
+//     begin    refuses a folder that holds a run, unless force is set
+//     manifest, input: what the run is and what it reads
+//     open     makes the folder; from here on it holds a run that has not ended
+//     path     where the files go, summary.json last
+//     end      done, stopped or failed
+//
+// With force the new run is made in FOLDER.new and changes places with the old one when it has
+// succeeded; until then the old one is whole. Files that are not the old run's own end up in the
+// new folder.
+
+/// A run's folder under way. Opaque; one thread at a time.
+typedef struct clast_run_folder clast_run_folder;
+
+enum { CLAST_RUN_PATH = 4096 };
+
+/// Takes a folder for a run and starts its clocks; nothing is written yet.
+///
+/// @param command  "pack"    @param monitor  its command line goes to the manifest; NULL: none
+/// @return CLAST_E_USAGE when the folder holds a run, ended or not, and force is not set, or when
+///         the run in it cannot be replaced; CLAST_E_DISK when it cannot be made or written into
+CLAST_API clast_status clast_run_folder_begin(const char *folder, bool force, const char *command,
+                                              const clast_monitor *monitor, clast_run_folder **run);
+CLAST_API void clast_run_folder_destroy(clast_run_folder *run); ///< NULL is allowed
+
+/// The run's manifest, borrowed: give it configuration and seed before open.
+CLAST_API clast_manifest *clast_run_folder_manifest(clast_run_folder *run);
+
+/// As clast_manifest_input; CLAST_E_USAGE when the file is part of the run that is to be replaced.
+CLAST_API clast_status clast_run_folder_input(clast_run_folder *run, const char *role,
+                                              const char *path);
+
+/// Makes the folder and its manifest.json ("running").
+CLAST_API clast_status clast_run_folder_open(clast_run_folder *run);
+
+/// The folder that the run's files go to; borrowed. After end it is the one that was asked for.
+CLAST_API const char *clast_run_folder_path(const clast_run_folder *run);
+
+/// The path of a file in it.
+CLAST_API clast_status clast_run_folder_file(const clast_run_folder *run, const char *name,
+                                             char path[CLAST_RUN_PATH]);
+
+/// Ends the run with the status of its work, which is returned (CLAST_OK: or why the folder could
+/// not be closed). A run that was not opened leaves nothing.
+///
+/// @param run  NULL is allowed
+CLAST_API clast_status clast_run_folder_end(clast_run_folder *run, clast_status status);
+
+/// For readers: CLAST_OK when the folder holds a whole run, or a study, else CLAST_E_IO with one
+/// line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN".
+CLAST_API clast_status clast_run_folder_check(const char *folder);
+
+/// The state file that a command's argument means: a run folder's state.h5, else the argument
+/// itself.
+///
+/// @return CLAST_E_IO as clast_run_folder_check, and for a run that has no grains
+CLAST_API clast_status clast_run_folder_state(const char *argument, char path[CLAST_RUN_PATH]);
+
+CLAST_END

@@ -1,0 +1,54 @@
+#pragma once
+// Run folders inside the library: what one holds, going on in it, changing places.
+#include "base/status.h"
+#include <clast/run_folder.h>
+#include <jansson.h>
+
+/// What a folder holds. Texts are borrowed from the manifest, "" where not known.
+typedef struct clx_run_state {
+    bool is_run, is_study;
+    bool is_whole;   ///< it ended well
+    bool is_running; ///< a process is at it
+    bool can_resume; ///< it has a checkpoint
+    double share;    ///< done of the whole, or NAN
+    const char *command, *outcome;
+    const char *replaces; ///< name of the folder beside whose place it takes at its end
+    json_t *manifest;     ///< or NULL
+} clx_run_state;
+
+/// What cannot be read is not there; CLAST_E_MEMORY alone is a failure.
+clast_status clx_run_state_read(const char *folder, clx_run_state *state);
+void clx_run_state_free(clx_run_state *state);
+
+enum { CLX_RUN_LINE = 1024 };
+
+/// One line about a run that is not whole.
+void clx_run_state_line(const char *folder, const clx_run_state *state, char line[CLX_RUN_LINE]);
+
+/// True for an entry of the run's folder that the run wrote.
+bool clx_run_owns(const clx_run_state *state, const char *name);
+
+/// Goes on in a folder: as clast_run_folder_begin and open, for a run that left a checkpoint or a
+/// state. CLAST_E_USAGE while another process is at it.
+clast_status clx_run_folder_resume(const char *folder, const char *command,
+                                   const clast_monitor *monitor, clast_run_folder **run);
+
+/// Keeps in the manifest how much of the run is done (0 to 1); to be called beside a checkpoint.
+clast_status clx_run_folder_progress(clast_run_folder *run, double share);
+
+/// Lets `made` take the place of the run in `old`: exchanged in one step where the file system can;
+/// files in `old` that are not its run's own move along, then the old run is removed.
+///
+/// @return CLAST_E_DISK when that failed: both are whole then, or `old` is the new one
+clast_status clx_run_replace(const char *made, const char *old);
+
+/// Puts a run back that a replacement by renames had moved aside when it was cut off.
+clast_status clx_run_put_back(const char *folder);
+
+/// Completes what a replacement that was cut off had begun, as far as it can be told.
+///
+/// @return CLAST_E_USAGE when a folder or a run that must not be lost is in the way
+clast_status clx_run_replace_recover(const char *made, const char *old);
+
+/// A folder with all that is in it, without following links; fine when it is not there.
+clast_status clx_run_remove_tree(const char *folder);
