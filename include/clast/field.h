@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 // One table per configuration feeds the defaults, the range check, --help, the YAML file, the
 // command line and the manifest. Nothing else knows a default.
 
@@ -26,17 +28,21 @@ typedef struct clast_f64_list {
     double *item; ///< [n] owned
 } clast_f64_list;
 
-/// One field; a table of them ends with {0}.
+/// One field; a table of them ends with {0}. The members stand in the order that tables give them
+/// in.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
 typedef struct clast_field {
     const char *name; ///< key in files; the option is --name with '-' for '_'
     size_t offset;    ///< in the configuration struct
     clast_field_type type;
-    double value;     ///< default of a number, bool or choice
-    double low, high; ///< range of a number, both included
-    const char *unit; ///< SI unit of the stored number, "-" for none; inputs may carry any unit of
-                      ///< that dimension
-    const char *help; ///< one line
-    const char *text; ///< choices "a|b|c", or the default text, or default list "a,b"
+    double value;      ///< default of a number, bool or choice
+    double low, high;  ///< range of a number, both included
+    const char *unit;  ///< SI unit of the stored number, "-" for none; inputs may carry any unit of
+                       ///< that dimension
+    const char *help;  ///< one line
+    const char *text;  ///< choices "a|b|c", or the default text, or default list "a,b"
+    const char *group; ///< heading of this field and of those after it, up to the next heading
+    bool common;       ///< most runs need it: --help shows it, --help-all shows every field
 } clast_field;
 
 /// Sets every field to its default. The struct's bytes before are ignored (not freed).
@@ -45,6 +51,12 @@ CLAST_API clast_status clast_fields_default(const clast_field *fields, void *con
 /// Frees owned texts and lists.
 CLAST_API void clast_fields_free(const clast_field *fields, void *config);
 
+/// Whether each field holds what the table allows: numbers finite and in their range, choices of
+/// the list, texts and lists not NULL. Every function that takes a configuration begins with it.
+///
+/// @return CLAST_E_CONFIG names the field, its value and the range
+CLAST_API clast_status clast_fields_check(const clast_field *fields, const void *config);
+
 /// The named field ('-' and '_' alike), or NULL.
 CLAST_API const clast_field *clast_fields_find(const clast_field *fields, const char *name);
 
@@ -52,15 +64,20 @@ CLAST_API const clast_field *clast_fields_find(const clast_field *fields, const 
 CLAST_API const char *clast_fields_nearest(const clast_field *fields, const char *name);
 
 /// Parses a text ("675 um", "50deg", "true", "exact") into a field. Lists: replaces by one item, or
-/// appends.
+/// appends. A bare length or angle is refused (`270um`, never `270`), but for 0 and for a -1 that
+/// stands for "none"; any other bare number is SI.
 /// @return CLAST_E_CONFIG with the key, the text, the range and the unit in the message
 CLAST_API clast_status clast_field_set(const clast_field *field, void *config, const char *text,
                                        bool append);
 
+/// The same of what clast_field_format and clast_config_json write: every bare number is SI.
+CLAST_API clast_status clast_field_set_si(const clast_field *field, void *config, const char *text,
+                                          bool append);
+
 /// Empties a list field.
 CLAST_API void clast_field_clear(const clast_field *field, void *config);
 
-/// Value as text, as clast_field_set reads it (17 digits, SI, no unit). Lists: item `index`;
+/// Value as text, as clast_field_set_si reads it (17 digits, SI, no unit). Lists: item `index`;
 /// returns length or -1.
 CLAST_API int clast_field_format(const clast_field *field, const void *config, int32_t index,
                                  char *text, size_t size);
@@ -72,5 +89,11 @@ CLAST_API int32_t clast_field_count(const clast_field *field, const void *config
 /// are SI. Spaces between number and unit are optional. "phi" is accepted for lengths: 2^-phi mm.
 CLAST_API clast_status clast_unit_parse(const char *text, const char *si_unit, double *value);
 
+/// The same where a unit is asked for: a bare length or angle other than 0 is refused, with its
+/// nearest correct spelling ("270um", "50deg").
+CLAST_API clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value);
+
 /// Factor that turns one `unit` into SI `si_unit`; CLAST_E_CONFIG lists the known units.
 CLAST_API clast_status clast_unit_factor(const char *unit, const char *si_unit, double *factor);
+
+CLAST_END

@@ -8,8 +8,13 @@
 #error "clast needs IEEE arithmetic: build without -ffast-math"
 #endif
 
+/// Around the declarations of each header, so that C and C++ may include it anywhere.
 #ifdef __cplusplus
-#error "clast's headers are C17; wrap them in extern \"C\" from C++"
+#define CLAST_BEGIN extern "C" {
+#define CLAST_END   }
+#else
+#define CLAST_BEGIN
+#define CLAST_END
 #endif
 
 #define CLAST_API __attribute__((visibility("default")))
@@ -21,6 +26,7 @@
     X(E_NO, 1, "the check answered no")                                                            \
     X(E_USAGE, 2, "wrong use")                                                                     \
     X(E_CONFIG, 2, "wrong configuration")                                                          \
+    X(E_ARGUMENT, 2, "wrong argument of a call")                                                   \
     X(E_FORMAT, 3, "malformed input")                                                              \
     X(E_GEOMETRY, 3, "unusable geometry")                                                          \
     X(E_IO, 3, "cannot read")                                                                      \
@@ -29,6 +35,8 @@
     X(E_DISK, 4, "cannot write")                                                                   \
     X(E_CONVERGE, 5, "did not converge")                                                           \
     X(E_STOPPED, 130, "stopped with a checkpoint")
+
+CLAST_BEGIN
 
 #define CLAST_STATUS_ENUM(name, code, text) CLAST_##name,
 typedef enum { CLAST_STATUS_LIST(CLAST_STATUS_ENUM) CLAST_N_STATUS } clast_status;
@@ -45,3 +53,5 @@ CLAST_API const char *clast_error_detail(void);
 
 /// Version text, "0.1.0".
 CLAST_API const char *clast_version(void);
+
+CLAST_END

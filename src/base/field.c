@@ -3,6 +3,7 @@
 #include <clast/field.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -151,9 +152,13 @@ static clast_status bad_range(const clast_field *f, const char *text)
                     f->high, has_unit ? " " : "", has_unit ? f->unit : "");
 }
 
-static clast_status parse_number(const clast_field *f, const char *text, double *value)
+/// A number of the field; `is_si`: bare ones are SI, else lengths and angles need a unit.
+static clast_status parse_number(const clast_field *f, const char *text, bool is_si, double *value)
 {
-    const clast_status status = clast_unit_parse(text, f->unit != NULL ? f->unit : "-", value);
+    const bool is_none = f->low == -1.0 && strcmp(text, "-1") == 0;
+    const char *unit = f->unit != NULL ? f->unit : "-";
+    const clast_status status = is_si || is_none ? clast_unit_parse(text, unit, value)
+                                                 : clast_unit_parse_asked(text, unit, value);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", f->name);
         return status;
@@ -161,10 +166,11 @@ static clast_status parse_number(const clast_field *f, const char *text, double 
     return *value < f->low || *value > f->high ? bad_range(f, text) : CLAST_OK;
 }
 
-static clast_status append_f64(const clast_field *f, clast_f64_list *list, const char *text)
+static clast_status append_f64(const clast_field *f, clast_f64_list *list, const char *text,
+                               bool is_si)
 {
     double value = 0.0;
-    clast_status status = parse_number(f, text, &value);
+    clast_status status = parse_number(f, text, is_si, &value);
     if (status == CLAST_OK) {
         status = clx_realloc(&list->item, list->n + 1, sizeof *list->item);
     }
@@ -181,7 +187,7 @@ static clast_status set_integer(const clast_field *f, void *slot, const char *te
     long long wide = strtoll(text, &end, 10);
     if (end == text || *end != '\0' || errno != 0) {
         double value = 0.0; // accepts 1e6
-        const clast_status status = parse_number(f, text, &value);
+        const clast_status status = parse_number(f, text, true, &value);
         if (status != CLAST_OK || value != floor(value) || fabs(value) > 9e15) {
             return status != CLAST_OK
                        ? status
@@ -250,14 +256,15 @@ static clast_status set_choice(const clast_field *f, int32_t *slot, const char *
     return clx_fail(CLAST_E_CONFIG, "%s: '%s' is none of %s", f->name, text, f->text);
 }
 
-clast_status clast_field_set(const clast_field *f, void *config, const char *text, bool append)
+static clast_status set_value(const clast_field *f, void *config, const char *text, bool append,
+                              bool is_si)
 {
     void *slot = member(f, config);
     double value = 0.0;
     clast_status status = CLAST_OK;
     switch (f->type) {
     case CLAST_FIELD_F64:
-        status = parse_number(f, text, &value);
+        status = parse_number(f, text, is_si, &value);
         if (status == CLAST_OK) {
             *(double *)slot = value;
         }
@@ -282,9 +289,19 @@ clast_status clast_field_set(const clast_field *f, void *config, const char *tex
         if (!append) {
             clast_field_clear(f, config);
         }
-        return append_f64(f, slot, text);
+        return append_f64(f, slot, text, is_si);
     }
     return clx_fail(CLAST_E_CONFIG, "%s: unknown field type", f->name);
+}
+
+clast_status clast_field_set(const clast_field *f, void *config, const char *text, bool append)
+{
+    return set_value(f, config, text, append, false);
+}
+
+clast_status clast_field_set_si(const clast_field *f, void *config, const char *text, bool append)
+{
+    return set_value(f, config, text, append, true);
 }
 
 static clast_status default_list(const clast_field *f, void *config)
@@ -295,7 +312,7 @@ static clast_status default_list(const clast_field *f, void *config)
         char item[256];
         const size_t n = strcspn(at, ",");
         (void)snprintf(item, sizeof item, "%.*s", (int)n, at);
-        status = clast_field_set(f, config, item, true);
+        status = clast_field_set_si(f, config, item, true);
         at += n + (at[n] == ',' ? 1 : 0);
     }
     return status;
@@ -385,7 +402,7 @@ int clast_field_format(const clast_field *f, const void *config, int32_t index, 
     const void *slot = member_const(f, config);
     switch (f->type) {
     case CLAST_FIELD_F64:
-        return snprintf(text, size, "%.17g", *(const double *)slot);
+        return clx_number_print(text, size, "%.17g", *(const double *)slot);
     case CLAST_FIELD_I32:
         return snprintf(text, size, "%" PRId32, *(const int32_t *)slot);
     case CLAST_FIELD_I64:
@@ -401,7 +418,7 @@ int clast_field_format(const clast_field *f, const void *config, int32_t index, 
     case CLAST_FIELD_TEXT_LIST:
         return snprintf(text, size, "%s", ((const clast_text_list *)slot)->item[index]);
     case CLAST_FIELD_F64_LIST:
-        return snprintf(text, size, "%.17g", ((const clast_f64_list *)slot)->item[index]);
+        return clx_number_print(text, size, "%.17g", ((const clast_f64_list *)slot)->item[index]);
     }
     return -1;
 }

@@ -3,6 +3,7 @@
 #include "base/file.h"
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -218,7 +219,7 @@ clast_status clx_file_print(clx_file *file, const char *format, ...)
     char *longer = NULL;
     va_list args;
     va_start(args, format);
-    const int n = vsnprintf(text, sizeof text, format, args);
+    const int n = clx_number_print_list(text, sizeof text, format, args);
     va_end(args);
     CLX_CHECK(n >= 0, CLAST_E_DISK, "cannot write %s: text cannot be formatted", file->path);
     if ((size_t)n < sizeof text) {
@@ -229,7 +230,7 @@ clast_status clx_file_print(clx_file *file, const char *format, ...)
         return fail_file(file, "long text");
     }
     va_start(args, format);
-    (void)vsnprintf(longer, (size_t)n + 1, format, args);
+    (void)clx_number_print_list(longer, (size_t)n + 1, format, args);
     va_end(args);
     CLX_TRY(clx_file_write(file, longer, (size_t)n));
 done:
@@ -237,22 +238,31 @@ done:
     return status;
 }
 
-/// Makes the new name durable. File systems that cannot sync folders say EINVAL; that is fine.
-static clast_status sync_folder(clx_file *file)
+/// File systems that cannot sync folders say EINVAL; that is fine.
+static bool sync_path(const char *path)
 {
-    const size_t n = folder_length(file->target);
-    clast_status status = CLAST_OK;
-    file->target[n > 1 ? n - 1 : n] = '\0';
-    const int folder =
-        refused() ? -1 : open(n > 0 ? file->target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0 ||
-        ((refused() || sync_descriptor(folder) != 0) && errno != EINVAL && errno != ENOTSUP)) {
-        status = fail_file(file, "sync of its folder");
-    }
+    const int folder = refused() ? -1 : open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool is_synced = folder >= 0 && ((!refused() && sync_descriptor(folder) == 0) ||
+                                           errno == EINVAL || errno == ENOTSUP);
     if (folder >= 0) {
         (void)close(folder);
     }
-    return status;
+    return is_synced;
+}
+
+/// Makes the new name durable.
+static clast_status sync_folder(clx_file *file)
+{
+    const size_t n = folder_length(file->target);
+    file->target[n > 1 ? n - 1 : n] = '\0';
+    return sync_path(n > 0 ? file->target : ".") ? CLAST_OK : fail_file(file, "sync of its folder");
+}
+
+clast_status clx_folder_sync(const char *path)
+{
+    return sync_path(path)
+               ? CLAST_OK
+               : clx_fail(CLAST_E_DISK, "cannot sync the folder %s: %s", path, clx_errno_text());
 }
 
 clast_status clx_file_commit(clx_file *file)

@@ -62,6 +62,9 @@ clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes, in
 /// Makes a folder and those above it; fine if it exists. CLAST_E_DISK if it cannot be made.
 clast_status clx_folder_make(const char *path);
 
+/// Makes renames in a folder durable.
+clast_status clx_folder_sync(const char *path);
+
 #ifdef CLAST_ALLOC_INJECT
 /// Test hook: the k-th disk operation (open, write, sync, rename, folder sync) from now fails with
 /// this errno; k = 0 refuses none. Returns the operations still to go: <= 0 when it has struck.

@@ -268,6 +268,18 @@ double clx_number_scaled(uint64_t word, int exponent)
     return convert_wide(word, exponent);
 }
 
+double clx_number_read(const char *text, char **end)
+{
+    double value = 0.0;
+    const char *at = text + strspn(text, " \t\n\v\f\r");
+    const char *after = clx_number_parse(at, at + strlen(at), &value);
+    if (end != NULL) {
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): drops const, as strtod does
+        *end = (char *)(uintptr_t)(after != NULL ? after : text);
+    }
+    return value;
+}
+
 const char *clx_number_parse(const char *text, const char *end, double *value)
 {
     decimal d;

@@ -5,10 +5,10 @@
 // more division; the text is printf's %g to the byte. Elsewhere printf does it.
 #include "base/number.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
 
 __extension__ typedef unsigned __int128 u128;
 
@@ -19,27 +19,33 @@ enum {
     MOST_PLACE = LEAST_DIGITS - 1
 };
 
-/// A locale may print another decimal point, of several bytes: put '.' there.
-static int plain_point(char *text)
+int clx_number_print_list(char *text, size_t size, const char *format, va_list args)
 {
-    char *out = text;
-    for (const char *p = text; *p != '\0'; ++p) {
-        if ((*p >= '0' && *p <= '9') || strchr("+-einfa", *p) != NULL) {
-            *out++ = *p;
-        } else if (out == text || out[-1] != '.') {
-            *out++ = '.';
-        }
+    const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); // takes no memory for "C"
+    if (plain == (locale_t)0) {
+        return -1;
     }
-    *out = '\0';
-    return (int)(out - text);
+    const locale_t host = uselocale(plain);
+    const int n = vsnprintf(text, size, format, args);
+    (void)uselocale(host);
+    freelocale(plain);
+    return n;
+}
+
+int clx_number_print(char *text, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const int n = clx_number_print_list(text, size, format, args);
+    va_end(args);
+    return n;
 }
 
 static int format_any(double value, char text[CLX_NUMBER_SIZE])
 {
     int n = 0;
     for (int digits = LEAST_DIGITS; digits <= MOST_DIGITS; ++digits) {
-        (void)snprintf(text, CLX_NUMBER_SIZE, "%.*g", digits, value);
-        n = plain_point(text);
+        n = clx_number_print(text, CLX_NUMBER_SIZE, "%.*g", digits, value);
         double back = 0.0;
         if (clx_number_parse(text, text + n, &back) != NULL && back == value) {
             break;

@@ -11,6 +11,14 @@ typedef void (*clx_kernel)(int64_t begin, int64_t end, int32_t worker, void *con
 /// in block order are the same bytes for any thread count. Nested calls run in the calling thread.
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context);
 
+/// The same for work that can fail.
+typedef clast_status (*clx_task)(int64_t begin, int64_t end, int32_t worker, void *context);
+
+/// Runs the task over [0, n) as clx_parallel_for does; the caller gets status and message of the
+/// failed block of least number, whatever the threads. Blocks after one that failed may be left
+/// out.
+clast_status clx_parallel_try(int64_t n, int64_t block, clx_task task, void *context);
+
 /// Threads that clx_parallel_for may use in this process: how many worker scratch slots to
 /// allocate.
 int32_t clx_parallel_workers(void);

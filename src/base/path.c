@@ -1,7 +1,17 @@
 #include "base/path.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
+
+clast_status clx_path_join(char path[CLX_PATH_LIMIT], const char *folder, const char *name)
+{
+    const int n = snprintf(path, CLX_PATH_LIMIT, "%s/%s", folder, name);
+    return n > 0 && n < CLX_PATH_LIMIT
+               ? CLAST_OK
+               : clx_fail(CLAST_E_DISK, "the path %.60s... is longer than %d bytes", folder,
+                          CLX_PATH_LIMIT);
+}
 
 const char *clx_path_name(const char *path)
 {

@@ -1,6 +1,12 @@
 #pragma once
 // The parts of a file's path, as text.
+#include "base/status.h"
 #include <stdbool.h>
+
+enum { CLX_PATH_LIMIT = 4096 };
+
+/// FOLDER/NAME. CLAST_E_DISK when it is longer than a path may be.
+clast_status clx_path_join(char path[CLX_PATH_LIMIT], const char *folder, const char *name);
 
 /// The part behind the last slash.
 const char *clx_path_name(const char *path);

@@ -1,15 +1,14 @@
 // Status texts and the thread's last error message.
 #include "base/status.h"
 
+#include "base/number.h"
 #include "clast_version.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { DETAIL_SIZE = 1024 };
-
-static _Thread_local char detail[DETAIL_SIZE];
+static _Thread_local char detail[CLX_DETAIL_SIZE];
 
 const char *clast_status_text(clast_status status)
 {
@@ -39,10 +38,10 @@ const char *clast_version(void)
 
 clast_status clx_fail(clast_status status, const char *format, ...)
 {
-    char text[DETAIL_SIZE];
+    char text[CLX_DETAIL_SIZE];
     va_list args;
     va_start(args, format);
-    (void)vsnprintf(text, sizeof text, format, args);
+    (void)clx_number_print_list(text, sizeof text, format, args);
     va_end(args);
     memcpy(detail, text, sizeof detail);
     return status;
@@ -50,12 +49,12 @@ clast_status clx_fail(clast_status status, const char *format, ...)
 
 void clx_fail_prefix(const char *format, ...)
 {
-    char text[DETAIL_SIZE];
+    char text[CLX_DETAIL_SIZE];
     va_list args;
     va_start(args, format);
-    const int n = vsnprintf(text, sizeof text, format, args);
+    const int n = clx_number_print_list(text, sizeof text, format, args);
     va_end(args);
-    if (n >= 0 && n < DETAIL_SIZE - 1) {
+    if (n >= 0 && n < CLX_DETAIL_SIZE - 1) {
         (void)snprintf(text + n, sizeof text - (size_t)n, ": %s", detail);
         memcpy(detail, text, sizeof detail);
     }

@@ -2,6 +2,8 @@
 // How library code fails: one `status`, one `done:`, a message for the person at the terminal.
 #include <clast/status.h>
 
+enum { CLX_DETAIL_SIZE = 1024 }; ///< bytes of the thread's error text, its end too
+
 /// Sets the thread's error text (printf style, cut at 1023 bytes) and returns `status`.
 clast_status clx_fail(clast_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -21,6 +23,10 @@ const char *clx_error_text(int error);
             goto done;                                                                             \
         }                                                                                          \
     } while (0)
+
+/// An argument, or a member of one, that must not be NULL.
+#define CLX_NEED(pointer)                                                                          \
+    CLX_CHECK((pointer) != NULL, CLAST_E_ARGUMENT, "%s: %s is NULL", __func__, #pointer)
 
 #define CLX_TRY(call)                                                                              \
     do {                                                                                           \

@@ -1,12 +1,13 @@
 // Units of measure: texts such as "675 um" become SI numbers.
 #include <clast/field.h>
 
+#include "base/number.h"
 #include "base/status.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct {
     const char *name;
@@ -73,16 +74,25 @@ static const unit units[] = {
 
 enum { N_UNIT = sizeof units / sizeof units[0] };
 
-static clast_status unknown(const char *name, const char *si)
+enum { KNOWN_SIZE = 256 };
+
+/// Units of a dimension, "m, cm, mm".
+static void list_known(const char *si, char known[KNOWN_SIZE])
 {
-    char known[256] = "";
+    known[0] = '\0';
     for (int i = 0; i < N_UNIT; ++i) {
         if (strcmp(units[i].si, si) == 0 && (unsigned char)units[i].name[0] < 0x80) {
             const size_t used = strlen(known);
-            (void)snprintf(known + used, sizeof known - used, "%s%s", used > 0 ? ", " : "",
+            (void)snprintf(known + used, KNOWN_SIZE - used, "%s%s", used > 0 ? ", " : "",
                            units[i].name);
         }
     }
+}
+
+static clast_status unknown(const char *name, const char *si)
+{
+    char known[KNOWN_SIZE];
+    list_known(si, known);
     return clx_fail(CLAST_E_CONFIG, "unknown unit '%s'; known here: %s", name,
                     known[0] != '\0' ? known : si);
 }
@@ -106,14 +116,22 @@ static void trim_end(char *text)
     }
 }
 
+/// The words that the C library reads as numbers.
+static bool is_not_finite(const char *text)
+{
+    text += strspn(text, " \t");
+    text += *text == '-' || *text == '+';
+    return strncasecmp(text, "nan", 3) == 0 || strncasecmp(text, "inf", 3) == 0;
+}
+
 clast_status clast_unit_parse(const char *text, const char *si_unit, double *value)
 {
     char *end = NULL;
-    const double number = strtod(text, &end);
-    if (end == text) {
+    const double number = clx_number_read(text, &end);
+    if (end == text && !is_not_finite(text)) {
         return clx_fail(CLAST_E_CONFIG, "'%s' is not a number", text);
     }
-    if (!isfinite(number)) {
+    if (end == text || !isfinite(number)) {
         return clx_fail(CLAST_E_CONFIG, "'%s' is not a finite number", text);
     }
     while (isspace((unsigned char)*end)) {
@@ -134,6 +152,45 @@ clast_status clast_unit_parse(const char *text, const char *si_unit, double *val
     const clast_status status = clast_unit_factor(name, si_unit, &factor);
     if (status == CLAST_OK) {
         *value = number * factor;
+    }
+    return status;
+}
+
+/// Refuses a bare number of a dimension for which people use several units, and says how to write
+/// it: 270 is micrometres rather than metres, 0.3 is metres.
+static clast_status refuse_bare(const char *si_unit, double value)
+{
+    char known[KNOWN_SIZE];
+    const char *likely = NULL;
+    const double size = fabs(value);
+    if (strcmp(si_unit, "rad") == 0) {
+        likely = size < 1.0 ? "rad" : "deg";
+    } else if (strcmp(si_unit, "m") == 0) {
+        likely = size < 0.5 ? "m" : size < 100.0 ? "mm" : "um";
+    }
+    if (likely == NULL || value == 0.0) {
+        return CLAST_OK;
+    }
+    list_known(si_unit, known);
+    return clx_fail(CLAST_E_CONFIG, "%g has no unit; write %g%s, or another of %s", value, value,
+                    likely, known);
+}
+
+clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
+{
+    double parsed = 0.0;
+    size_t n = strlen(text);
+    while (n > 0 && isspace((unsigned char)text[n - 1])) {
+        --n;
+    }
+    // no unit of a length or an angle ends like a number
+    const bool is_bare = n > 0 && (isdigit((unsigned char)text[n - 1]) || text[n - 1] == '.');
+    clast_status status = clast_unit_parse(text, si_unit, &parsed);
+    if (status == CLAST_OK && is_bare) {
+        status = refuse_bare(si_unit, parsed);
+    }
+    if (status == CLAST_OK) {
+        *value = parsed;
     }
     return status;
 }

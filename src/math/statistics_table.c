@@ -2,6 +2,7 @@
 #include <clast/statistics.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "base/status.h"
 #include <stdio.h>
 #include <string.h>
@@ -59,7 +60,7 @@ clast_status clast_statistics_summary_table(const clast_statistics *statistics, 
     }
     for (int32_t q = 0; q < CLAST_N_QUANTILE; ++q) {
         char name[32];
-        (void)snprintf(name, sizeof name, "q%02.0f", 100.0 * clast_quantile_share(q));
+        (void)clx_number_print(name, sizeof name, "q%02.0f", 100.0 * clast_quantile_share(q));
         CLX_TRY(add_cells(s, name, QUANTILE + (size_t)q * sizeof(double), &t));
     }
     *table = t;

@@ -65,6 +65,63 @@ static void wrong_lines_are_named(void **state)
     }
 }
 
+/* A hundred thousand brackets took 42 s, as many braces over a minute. */
+static void deep_nesting_is_refused_before_it_is_read(void **state)
+{
+    (void)state;
+    enum { DEEP = 100000 };
+    static const char *const opening[] = {"[", "{a: ", "- ", "? "};
+    static char text[DEEP * 4 + 16];
+    for (size_t i = 0; i < sizeof opening / sizeof opening[0]; ++i) {
+        char *end = stpcpy(text, "coat:\n  ");
+        for (int k = 0; k < DEEP; ++k) {
+            end = stpcpy(end, opening[i]);
+        }
+        CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
+        CHECK_STATUS(parse(text), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "run.yaml:2:"));
+        assert_non_null(strstr(clast_error_detail(), "nested more than 8 deep"));
+        clast_fields_free(clast_aggregate_fields, &config);
+    }
+}
+
+/* core_size: 270 was 270 metres beside surfaces in micrometres, and gave an aggregate of 116 m. */
+static void bare_lengths_and_angles_are_refused_with_their_spelling(void **state)
+{
+    (void)state;
+    const struct {
+        const char *key, *text, *says;
+    } cases[] = {{"core_size", "270", "core_size: 270 has no unit; write 270um"},
+                 {"core_size", " 5. ", "core_size: 5 has no unit; write 5mm"},
+                 {"core_size", "1e-3", "write 0.001m"},
+                 {"size", "20", "size: 20 has no unit; write 20mm"},
+                 {"cone", "50", "cone: 50 has no unit; write 50deg"},
+                 {"cone", "0.5", "write 0.5rad"}};
+    const char *const fine[][2] = {{"core_size", "0"},
+                                   {"core_size", "0.27mm"},
+                                   {"size", "2 phi"},
+                                   {"cone", "0.0"},
+                                   {"core_density", "2650"},
+                                   {"observed_velocity", "0.3"},
+                                   {"core_density", "2.65g/cm3"}};
+    CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        const clast_field *f = clast_fields_find(clast_aggregate_fields, cases[i].key);
+        CHECK_STATUS(clast_field_set(f, &config, cases[i].text, false), CLAST_E_CONFIG);
+        if (strstr(clast_error_detail(), cases[i].says) == NULL) {
+            fail_msg("'%s' is not '%s'", clast_error_detail(), cases[i].says);
+        }
+        if (f->unit[0] == 'm') { // a manifest's number
+            CHECK_OK(clast_field_set_si(f, &config, cases[i].text, false));
+        }
+    }
+    for (size_t i = 0; i < sizeof fine / sizeof fine[0]; ++i) {
+        const clast_field *f = clast_fields_find(clast_aggregate_fields, fine[i][0]);
+        CHECK_OK(clast_field_set(f, &config, fine[i][1], false));
+    }
+    clast_fields_free(clast_aggregate_fields, &config);
+}
+
 static clast_status make(void *context)
 {
     clast_status status = clast_fields_default(clast_aggregate_fields, &config);
@@ -112,6 +169,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_carry_units_and_lists_replace),
         cmocka_unit_test(wrong_lines_are_named),
+        cmocka_unit_test(deep_nesting_is_refused_before_it_is_read),
+        cmocka_unit_test(bare_lengths_and_angles_are_refused_with_their_spelling),
         cmocka_unit_test(survives_refused_memory),
         cmocka_unit_test(every_field_reads_its_own_unit),
     };

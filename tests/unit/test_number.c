@@ -3,8 +3,6 @@
 
 #include "base/number.h"
 #include "math/rng.h"
-#include <clast/mesh_file.h>
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -191,52 +189,6 @@ static void words_and_scraps_are_no_numbers(void **state)
     assert_true(isinf(parse("1e999")));
 }
 
-/// Sets a locale with a decimal comma, made on the spot where none is installed.
-static bool set_comma_locale(void)
-{
-    static const char *const wanted[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
-    char command[400];
-    for (size_t i = 0; i < 4; ++i) {
-        if (setlocale(LC_NUMERIC, wanted[i]) != NULL) {
-            return true;
-        }
-    }
-    (void)snprintf(command, sizeof command,
-                   "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 > /dev/null 2>&1",
-                   support_scratch());
-    return system(command) == 0 && setenv("LOCPATH", support_scratch(), 1) == 0 &&
-           setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
-}
-
-/* Property: a host with a decimal comma reads and writes the same files. */
-static void decimal_comma_locale_changes_nothing(void **state)
-{
-    (void)state;
-    if (!set_comma_locale()) {
-        print_message("SKIPPED LOUDLY: no locale with a decimal comma can be had here\n");
-        skip();
-    }
-    char text[CLX_NUMBER_SIZE];
-    char printed[16];
-    char path[400];
-    clast_mesh box = {0};
-    clast_mesh back = {0};
-    (void)snprintf(printed, sizeof printed, "%g", 1.5);
-    (void)clx_number_format(-1234.5625, text);
-    const double value = parse("-1234.5625");
-    (void)snprintf(path, sizeof path, "%s/comma.obj", support_scratch());
-    CHECK_OK(clast_mesh_box(0.5, 1.25, 1e-3, &box));
-    CHECK_OK(clast_mesh_write(path, &box, NULL));
-    CHECK_OK(clast_mesh_read(path, &back, NULL));
-    (void)setlocale(LC_NUMERIC, "C");
-    assert_string_equal(printed, "1,5"); // the locale is what it says
-    assert_string_equal(text, "-1234.5625");
-    assert_true(value == -1234.5625);
-    assert_memory_equal(back.vert, box.vert, 8 * sizeof *box.vert);
-    clast_mesh_free(&box);
-    clast_mesh_free(&back);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,7 +198,6 @@ int main(void)
         cmocka_unit_test(long_integers_with_exponents_round_as_strtod),
         cmocka_unit_test(numbers_are_written_as_printf_would),
         cmocka_unit_test(words_and_scraps_are_no_numbers),
-        cmocka_unit_test(decimal_comma_locale_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,15 @@
+#pragma once
+// The range check of configurations that callers fill themselves.
+#include "base/status.h"
+#include <clast/field.h>
+
+/// Whether the value at `slot` is one that the field can have: finite and in its range, a choice of
+/// its list, a text.
+///
+/// @return CLAST_E_CONFIG names field, value and range
+clast_status clx_field_check(const clast_field *field, const void *slot);
+
+/// The same for all fields of a table that lie in [begin, end) of its struct; `part` is what
+/// begins there.
+clast_status clx_fields_check_part(const clast_field *fields, size_t begin, size_t end,
+                                   const void *part);
