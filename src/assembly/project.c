@@ -300,13 +300,13 @@ done:
 typedef struct many {
     const clast_assembly *assembly;
     int32_t n, n_line;
-    double *area;         ///< [n]
-    clast_status *status; ///< [n]
+    double *area; ///< [n]
 } many;
 
 /// Directions on the half sphere: equal heights, golden turns.
-static void project_some(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status project_some(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     const many *m = context;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
@@ -315,9 +315,11 @@ static void project_some(int64_t begin, int64_t end, int32_t worker, void *conte
         const double r = sqrt(1.0 - z * z);
         const double direction[3] = {r * cos(turn), r * sin(turn), z};
         double error = 0.0;
-        m->status[i] =
-            clast_assembly_projected_area(m->assembly, direction, m->n_line, &m->area[i], &error);
+        CLX_TRY(
+            clast_assembly_projected_area(m->assembly, direction, m->n_line, &m->area[i], &error));
     }
+done:
+    return status;
 }
 
 clast_status clast_assembly_mean_projection(const clast_assembly *assembly, int32_t n_direction,
@@ -331,11 +333,8 @@ clast_status clast_assembly_mean_projection(const clast_assembly *assembly, int3
     CLX_CHECK(n_direction >= 2 && n_line >= 2, CLAST_E_USAGE,
               "projection: %d directions and %d lines, 2 of each at least", n_direction, n_line);
     CLX_TRY(clx_alloc(&m.area, n_direction, sizeof *m.area));
-    CLX_TRY(clx_alloc(&m.status, n_direction, sizeof *m.status));
-    clx_parallel_for(n_direction, 1, project_some, &m);
+    CLX_TRY(clx_parallel_try(n_direction, 1, project_some, &m));
     for (int32_t i = 0; i < n_direction; ++i) {
-        CLX_CHECK(m.status[i] == CLAST_OK, m.status[i], "projection: %s",
-                  clast_status_text(m.status[i]));
         sum += m.area[i];
         squares += m.area[i] * m.area[i];
     }
@@ -344,6 +343,5 @@ clast_status clast_assembly_mean_projection(const clast_assembly *assembly, int3
     *error = sqrt(fmax(0.0, squares / n_direction - mean * mean) / (n_direction - 1));
 done:
     clx_free(m.area);
-    clx_free(m.status);
     return status;
 }

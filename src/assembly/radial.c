@@ -159,7 +159,7 @@ static clast_status make_columns(clast_table *table)
 {
     static const char *const column[][2] = {{"radius_low_m", "m"},   {"radius_high_m", "m"},
                                             {"solid_m3", "m^3"},     {"solid_error_m3", "m^3"},
-                                            {"solid_fraction", "-"}, {"density_kg_m3", "kg/m^3"}};
+                                            {"solid_fraction", "-"}, {"density_kg/m^3", "kg/m^3"}};
     clast_status status = CLAST_OK;
     for (size_t k = 0; k < sizeof column / sizeof column[0]; ++k) {
         CLX_TRY(clast_table_add_number(table, column[k][0], column[k][1], NULL));
@@ -188,7 +188,7 @@ clast_status clast_assembly_radial_profile(const clast_assembly *assembly, const
                  .step = reach_of(assembly, c) / n_bin,
                  .solid = clast_table_numbers(&made, "solid_m3"),
                  .error = clast_table_numbers(&made, "solid_error_m3"),
-                 .mass = clast_table_numbers(&made, "density_kg_m3")};
+                 .mass = clast_table_numbers(&made, "density_kg/m^3")};
     add_grains(assembly, &set, c, &p);
     for (int32_t k = 0; k < n_bin; ++k) {
         const double shell = shell_volume(&p, k);

@@ -19,7 +19,7 @@
 #include "math/vec3.h"
 #include "shape/shape.h"
 
-enum { N_SHIFT = 8, FIRST_POINTS = 256, BISECTIONS = 24 };
+enum { N_SHIFT = 8, FIRST_POINTS = 256, BISECTIONS = 24, PAIR_BLOCK = 64 };
 static const double touching = 1e-9; // depth by radius that counts as a touch, not an overlap
 
 /// A grain of an overlapping pair.
@@ -164,10 +164,10 @@ done:
     return status;
 }
 
-/// Depth of an overlap: exact for round pairs, else the least shift found, by halving; any value
-/// above `least` where the depth is not wanted.
+/// Depth of an overlap: exact for round pairs, else the least shift found, by halving, which takes
+/// some twenty tests; any value above `least` where the depth is not above `known`.
 static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least,
-                            bool wanted)
+                            double known)
 {
     clx_gap gap;
     if (!clx_touch_gap(a, b, 0.0, &gap)) {
@@ -179,7 +179,7 @@ static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, do
     if (!clx_touch_overlap(a, b, least, NULL)) {
         return 0.0;
     }
-    if (!wanted) {
+    if (isinf(known) || (known > least && !clx_touch_overlap(a, b, known, NULL))) {
         return 2.0 * least;
     }
     double low = least;
@@ -209,26 +209,29 @@ static void find_depths(int64_t begin, int64_t end, int32_t worker, void *contex
 {
     const depth_job *job = context;
     (void)worker;
-    for (int64_t p = begin; p < end; ++p) {
-        const int32_t *pair = job->pairs->pair[p];
-        job->depth[p] = overlap_depth(clx_touch_scene_body(job->set->scene, pair[0]),
-                                      clx_touch_scene_body(job->set->scene, pair[1]),
-                                      touching * smaller_radius(job->assembly, pair), job->wanted);
+    for (int64_t b = begin; b < end; ++b) {
+        // the deepest of this block alone, so that threads change nothing
+        double known = job->wanted ? 0.0 : (double)INFINITY;
+        for (int64_t p = b * PAIR_BLOCK; p < (b + 1) * PAIR_BLOCK && p < job->pairs->n; ++p) {
+            const int32_t *pair = job->pairs->pair[p];
+            job->depth[p] = overlap_depth(clx_touch_scene_body(job->set->scene, pair[0]),
+                                          clx_touch_scene_body(job->set->scene, pair[1]),
+                                          touching * smaller_radius(job->assembly, pair), known);
+            known = fmax(known, job->depth[p]);
+        }
     }
 }
 
-/// Keeps the pairs that overlap, and their depths.
-static clast_status find_overlaps(const group *g, const clast_union_options *options,
-                                  clx_pairs *pairs, clast_union *out)
+clast_status clx_keep_overlaps(const clast_assembly *assembly, const clx_touch_set *set,
+                               bool find_depth, clx_pairs *pairs, clast_union *out)
 {
     clast_status status = CLAST_OK;
-    enum { PAIR_BLOCK = 16 };
-    depth_job job = {g->assembly, g->set, pairs, options->find_depth, NULL};
+    depth_job job = {assembly, set, pairs, find_depth, NULL};
     int32_t n = 0;
     CLX_TRY(clx_alloc(&job.depth, pairs->n, sizeof *job.depth));
-    clx_parallel_for(pairs->n, PAIR_BLOCK, find_depths, &job);
+    clx_parallel_for((pairs->n + PAIR_BLOCK - 1) / PAIR_BLOCK, 1, find_depths, &job);
     for (int32_t p = 0; p < pairs->n; ++p) {
-        const double radius = smaller_radius(g->assembly, pairs->pair[p]);
+        const double radius = smaller_radius(assembly, pairs->pair[p]);
         if (job.depth[p] > touching * radius) {
             out->max_overlap = fmax(out->max_overlap, job.depth[p]);
             out->max_overlap_share = fmax(out->max_overlap_share, job.depth[p] / radius);
@@ -236,7 +239,7 @@ static clast_status find_overlaps(const group *g, const clast_union_options *opt
             pairs->pair[n++][1] = pairs->pair[p][1];
         }
     }
-    if (n > 0 && !options->find_depth) {
+    if (n > 0 && !find_depth) {
         out->max_overlap = (double)NAN;
         out->max_overlap_share = (double)NAN;
     }
@@ -321,7 +324,7 @@ static clast_status union_of(const clast_assembly *assembly, const clx_touch_set
     CLX_TRY(clx_touch_set_near(set, &pairs));
     made.sum = clast_assembly_volume(assembly);
     made.volume = made.sum;
-    CLX_TRY(find_overlaps(&g, options, &pairs, &made));
+    CLX_TRY(clx_keep_overlaps(assembly, set, options->find_depth, &pairs, &made));
     if (pairs.n > 0) {
         CLX_TRY(make_group(&pairs, &g));
         CLX_TRY(add_group(&g, options, &made));

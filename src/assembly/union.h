@@ -1,5 +1,6 @@
 #pragma once
 // The union's volume where the grains lie in a scene of contact already.
+#include "assembly/touch_set.h"
 #include "contact/touch_scene.h"
 #include <clast/overlap.h>
 
@@ -7,3 +8,9 @@
 /// spares the trees of the shapes, which for a small aggregate cost as much as the rest.
 clast_status clx_union_of_scene(const clast_assembly *assembly, clx_touch_scene *scene,
                                 const clast_union_options *options, clast_union *out);
+
+/// Keeps the pairs that overlap: n_overlap, max_overlap and max_overlap_share of `out`.
+///
+/// @param find_depth  false: the depths are NaN
+clast_status clx_keep_overlaps(const clast_assembly *assembly, const clx_touch_set *set,
+                               bool find_depth, clx_pairs *pairs, clast_union *out);

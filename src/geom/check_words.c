@@ -1,4 +1,5 @@
 // The findings of clast_mesh_check in words, with numbers and what to run.
+#include "base/number.h"
 #include "geom/check.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ add(clast_mesh_check_result *result, bool blocking, const char *code, const char
     fault->blocking = blocking;
     (void)snprintf(fault->code, sizeof fault->code, "%s", code);
     va_start(args, format);
-    (void)vsnprintf(fault->text, sizeof fault->text, format, args);
+    (void)clx_number_print_list(fault->text, sizeof fault->text, format, args);
     va_end(args);
 }
 
@@ -34,10 +35,11 @@ static void open_words(clast_mesh_check_result *r)
         if (r->n_open_after_weld > 0) {
             (void)snprintf(left, sizeof left, "fall to %d", r->n_open_after_weld);
         }
-        (void)snprintf(advice, sizeof advice,
-                       "they %s when vertices within %.3g (%.2g of the extent) are merged: run "
-                       "`clast mesh repair`",
-                       left, r->weld_tolerance, r->weld_tolerance / r->extent);
+        (void)clx_number_print(
+            advice, sizeof advice,
+            "they %s when vertices within %.3g (%.2g of the extent) are merged: run "
+            "`clast mesh repair`",
+            left, r->weld_tolerance, r->weld_tolerance / r->extent);
     }
     add(r, true, "open_edges",
         "%d open edge%s in %d loop%s, the largest %.4g across (extent %.4g); %s", r->n_open_edge,

@@ -23,7 +23,7 @@ enum {
 
 typedef struct {
     const clx_grid *grid;
-    double level;
+    double level, apart;
     clast_mesh mesh;
     int64_t vert_capacity, tri_capacity;
     int32_t *layer[2]; ///< [ny][nx][N_EDGE] vertex on the edge plus one, 0 for none; two z layers
@@ -74,7 +74,7 @@ static clast_status edge_vertex(march *m, const int32_t cell[3], int a, int b, i
     if (*slot == 0) {
         const double va = (double)g->value[node_index(g, at[0], at[1], at[2])] - m->level;
         const double vb = (double)g->value[node_index(g, to[0], to[1], to[2])] - m->level;
-        const double t = fmin(fmax(va / (va - vb), 1e-3), 1.0 - 1e-3);
+        const double t = fmin(fmax(va / (va - vb), m->apart), 1.0 - m->apart);
         const clast_status status = clx_grow(&m->mesh.vert, &m->vert_capacity,
                                              (int64_t)m->mesh.n_vert + 1, sizeof *m->mesh.vert);
         if (status != CLAST_OK) {
@@ -211,10 +211,10 @@ static bool border_is_outside(const clx_grid *g, double level)
     return true;
 }
 
-clast_status clx_isosurface(const clx_grid *grid, double level, clast_mesh *mesh)
+clast_status clx_isosurface(const clx_grid *grid, double level, double apart, clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
-    march m = {.grid = grid, .level = level};
+    march m = {.grid = grid, .level = level, .apart = apart};
     const int64_t slots = (int64_t)grid->n[0] * grid->n[1] * N_EDGE;
     CLX_CHECK(border_is_outside(grid, level), CLAST_E_GEOMETRY,
               "the body reaches the border of its grid");

@@ -23,10 +23,11 @@ extern const int8_t clx_grid_neighbour[CLX_GRID_NEIGHBOURS][3];
 /// Surface of value = level, outward where values grow; values < level are inside.
 ///
 /// Each cell is cut into the six tetrahedra around its main diagonal, so the surface is closed,
-/// oriented and manifold whatever the values, provided that the grid's border is outside; vertices
-/// keep 1e-3 of an edge away from nodes, so no triangle has zero area. [Doi1991;
-/// docs/theory/printable.md]
+/// oriented and manifold whatever the values, provided that the grid's border is outside.
+/// [Doi1991; docs/theory/printable.md]
 ///
+/// @param apart  share of an edge, below 1/2, that vertices keep away from nodes: no triangle is
+///               without area; greater values keep slivers out and move vertices by up to apart h
 /// @return CLAST_E_GEOMETRY if no node is inside or a border node is
 /// @note O(nodes), memory two layers of vertex numbers beside the mesh
-clast_status clx_isosurface(const clx_grid *grid, double level, clast_mesh *mesh);
+clast_status clx_isosurface(const clx_grid *grid, double level, double apart, clast_mesh *mesh);

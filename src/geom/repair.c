@@ -11,7 +11,8 @@
 #include "math/vec3.h"
 #include <string.h>
 
-#define FIELD(type, name) #name, offsetof(clast_mesh_repair_config, name), CLAST_FIELD_##type
+#define FIELD(type, name)                                                                          \
+#name, .offset = offsetof(clast_mesh_repair_config, name), CLAST_FIELD_##type
 const clast_field clast_mesh_repair_fields[] = {
     {FIELD(CHOICE, weld), CLAST_WELD_AUTO, 0, 0, "-",
      "merge near vertices: the smallest distance that closes the surface, not at all, or within "
@@ -293,7 +294,13 @@ clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_c
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     clast_mesh_repair_config defaults;
-    clast_mesh_repair_report done_so_far = {.n_triangle_before = mesh->n_tri};
+    clast_mesh_repair_report done_so_far = {0};
+    CLX_NEED(mesh);
+    CLX_NEED(out);
+    if (config != NULL) {
+        CLX_TRY(clast_fields_check(clast_mesh_repair_fields, config));
+    }
+    done_so_far.n_triangle_before = mesh->n_tri;
     CLX_TRY(clast_fields_default(clast_mesh_repair_fields, &defaults));
     CLX_TRY(check_input(mesh));
     CLX_TRY(clast_mesh_copy(mesh, &made));
@@ -316,5 +323,20 @@ clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_c
     }
 done:
     clast_mesh_free(&made);
+    return status;
+}
+
+clast_status clast_mesh_weld_auto(clast_mesh *mesh, clast_mesh_repair_report *report)
+{
+    clast_status status = CLAST_OK;
+    clast_mesh_repair_report made = {.n_triangle_before = mesh->n_tri};
+    const clast_mesh_repair_config config = {.weld = CLAST_WELD_AUTO};
+    CLX_TRY(check_input(mesh));
+    CLX_TRY(weld(mesh, &config, &made));
+    made.n_triangle_after = mesh->n_tri;
+    if (report != NULL) {
+        *report = made;
+    }
+done:
     return status;
 }

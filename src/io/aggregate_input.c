@@ -8,7 +8,6 @@
 #include <clast/fill.h>
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
-#include <clast/mesh_repair.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <math.h>
@@ -23,36 +22,13 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
+    CLX_TRY(clast_mesh_require_solid(path, mesh, "take it as it is with --accept-faults"));
     CLX_TRY(clast_mesh_check(mesh, &found));
-    CLX_CHECK(found.closed && found.oriented, CLAST_E_GEOMETRY,
-              "%s is not a closed, outward surface: %d open edges, %d misoriented, %d parts inside "
-              "out; run clast mesh repair, or --accept-faults",
-              path, found.n_open_edge, found.n_misoriented_edge, found.n_inside_out);
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
               "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",
               path, (long long)found.n_intersection);
 done:
     clast_mesh_check_free(&found);
-    return status;
-}
-
-/// Vertices that rounding parted are joined, nothing else is touched.
-static clast_status weld(clast_mesh *mesh)
-{
-    clast_status status = CLAST_OK;
-    clast_mesh welded = {0};
-    clast_mesh_repair_config steps;
-    CLX_TRY(clast_fields_default(clast_mesh_repair_fields, &steps));
-    steps.drop = false;
-    steps.split = false;
-    steps.loose = false;
-    steps.orient = false;
-    steps.fill = false;
-    steps.separate = false;
-    CLX_TRY(clast_mesh_repair(mesh, &steps, &welded, NULL));
-    clast_mesh_free(mesh);
-    *mesh = welded;
-done:
     return status;
 }
 
@@ -63,10 +39,11 @@ static clast_status read_surface(const clast_aggregate_config *config, const cha
     clast_mesh mesh = {0};
     char name[200];
     (void)snprintf(name, sizeof name, "%.*s", clx_path_stem_length(path), clx_path_name(path));
-    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
-    CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
-    if (!config->accept_faults) {
-        CLX_TRY(weld(&mesh));
+    if (config->accept_faults) {
+        CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+        CLX_CHECK(mesh.n_tri > 0, CLAST_E_GEOMETRY, "%s has no triangles", path);
+    } else {
+        CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
         CLX_TRY(check_surface(path, &mesh));
     }
     clast_mesh_transform(&mesh, factor, UNTURNED, NOWHERE);

@@ -20,6 +20,14 @@ static inline void clx_store_u32(uint8_t *p, uint32_t v)
     clx_store_u16(p + 2, v >> 16);
 }
 
+static inline double clx_load_f64(const uint8_t *p)
+{
+    const uint64_t bits = (uint64_t)clx_load_u32(p) | (uint64_t)clx_load_u32(p + 4) << 32;
+    double value = 0.0;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 static inline void clx_store_f64(uint8_t *p, double value)
 {
     uint64_t bits = 0;

@@ -146,6 +146,14 @@ done:
     return status;
 }
 
+bool clx_checkpoint_exists(const char *folder)
+{
+    listing list = {0};
+    const bool found = list_steps(folder, &list) == CLAST_OK && list.n > 0;
+    clx_free(list.step);
+    return found;
+}
+
 clast_status clx_checkpoint_clear(const char *folder)
 {
     return prune(folder, 0);

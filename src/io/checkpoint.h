@@ -19,5 +19,8 @@ clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
 clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
                                    int32_t *n_damaged);
 
+/// True when the folder holds one, whole or not.
+bool clx_checkpoint_exists(const char *folder);
+
 /// Removes all checkpoints of a finished run.
 clast_status clx_checkpoint_clear(const char *folder);

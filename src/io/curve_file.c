@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/number.h"
 #include <clast/field.h>
 #include <clast/sizes_file.h>
 #include <clast/table_file.h>
@@ -285,7 +286,11 @@ static clast_status law_numbers(const char *text, const char *at, int32_t *n,
         CLX_CHECK(*n < N_LAW_NUMBER && length < (int)sizeof word, CLAST_E_CONFIG,
                   "'%s': more than %d numbers, or a long one", text, N_LAW_NUMBER);
         (void)snprintf(word, sizeof word, "%.*s", length, at);
-        CLX_TRY(clast_unit_parse(word, "m", &number[(*n)++]));
+        status = clast_unit_parse_asked(word, "m", &number[(*n)++]);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("'%s'", text);
+            goto done;
+        }
         at = comma != NULL ? comma + 1 : NULL;
     }
 done:
@@ -339,7 +344,7 @@ static bool is_case(const char *text)
 static bool is_one_size(const char *text)
 {
     char *end = NULL;
-    (void)strtod(text, &end);
+    (void)clx_number_read(text, &end);
     return end != text && strchr(end, '.') == NULL && strchr(end, '/') == NULL;
 }
 
@@ -374,7 +379,7 @@ clast_status clast_grading_load(const char *text, clast_grading_spread spread,
         return load_list(text + 7, true, grading);
     }
     if (!is_case(text) && is_one_size(text)) {
-        CLX_TRY(clast_unit_parse(text, "m", &size));
+        CLX_TRY(clast_unit_parse_asked(text, "m", &size));
         return clast_grading_uniform(size, size, grading);
     }
     CLX_TRY(load_curve(text, spread, count, curve, grading));

@@ -17,7 +17,8 @@ static clast_status read_mesh(const char *path, const char *unit, clast_domain *
     if (unit != NULL && unit[0] != '\0') {
         CLX_TRY(clast_unit_factor(unit, "m", &scale));
     }
-    CLX_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
+    CLX_TRY(clast_mesh_require_solid(path, &mesh, NULL));
     status = clast_domain_of_mesh(&mesh, scale, domain);
     if (status != CLAST_OK) {
         char why[512];

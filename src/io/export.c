@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "base/path.h"
+#include <clast/field.h>
 #include <clast/mesh_file.h>
 #include <clast/table_file.h>
 #include <string.h>
@@ -48,12 +49,33 @@ static clast_status write_body(clx_export *e, clast_export_format format)
     }
 }
 
+/// Written lengths per length of the assembly.
+static clast_status find_factor(clx_export *e, const char *path)
+{
+    clast_status status = CLAST_OK;
+    const char *own = clx_export_unit(e->assembly);
+    double from = 1.0;
+    double to = 1.0;
+    if (strcmp(own, e->unit) == 0) {
+        return CLAST_OK;
+    }
+    CLX_CHECK(strcmp(own, "model") != 0, CLAST_E_USAGE,
+              "%s: coordinates in %s are asked for, and this assembly's unit is not known", path,
+              e->unit);
+    CLX_TRY(clast_unit_factor(own, "m", &from));
+    CLX_TRY(clast_unit_factor(e->unit, "m", &to));
+    e->parts.factor = from / to;
+done:
+    return status;
+}
+
 static clast_status write_stream(clx_export *e, clast_export_format format, const char *path,
                                  clast_export_report *report)
 {
     clast_status status = CLAST_OK;
     if (has_surfaces(format, e->options->points)) {
         CLX_TRY(clx_parts_make(e->assembly, e->options->level, &e->parts));
+        CLX_TRY(find_factor(e, path));
     }
     CLX_TRY(clx_file_begin(path, &e->file));
     CLX_TRY(write_body(e, format));
@@ -106,7 +128,8 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
     static const clast_export_options usual = {.level = 3};
     clast_status status = CLAST_OK;
     const clast_export_options *o = options != NULL ? options : &usual;
-    clx_export e = {.assembly = assembly, .options = o};
+    const char *own = clx_export_unit(assembly);
+    clx_export e = {.assembly = assembly, .options = o, .unit = o->unit != NULL ? o->unit : own};
     clast_export_report made = {0};
     made.format = o->format != CLAST_EXPORT_ANY ? o->format : clast_export_format_of_path(path);
     CLX_CHECK(
@@ -115,6 +138,11 @@ clast_status clast_assembly_write(const clast_assembly *assembly, const char *pa
         path);
     CLX_CHECK(!o->points || made.format == CLAST_EXPORT_VTU, CLAST_E_USAGE,
               "%s: points are for .vtu only; .csv and .dump hold poses anyway", path);
+    CLX_CHECK(o->unit == NULL || made.format == CLAST_EXPORT_STL ||
+                  made.format == CLAST_EXPORT_OBJ || made.format == CLAST_EXPORT_PLY,
+              CLAST_E_USAGE, "%s: its unit is %s; one can be chosen for .stl, .obj and .ply", path,
+              made.format == CLAST_EXPORT_3MF ? "mm, as the format demands" : own);
+    made.unit = made.format == CLAST_EXPORT_3MF ? "mm" : e.unit;
     if (made.format == CLAST_EXPORT_CSV || made.format == CLAST_EXPORT_JSON) {
         CLX_TRY(write_table(assembly, made.format, path));
     } else if (made.format == CLAST_EXPORT_3MF) {

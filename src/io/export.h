@@ -9,6 +9,7 @@ typedef struct clx_export {
     const clast_export_options *options;
     clx_parts parts; ///< made for formats with surfaces only
     clx_file file;
+    const char *unit;         ///< of the coordinates that are written
     double smallest, largest; ///< maximum lengths of grains, for colours
 } clx_export;
 

@@ -10,11 +10,16 @@
 clast_status clx_export_stl(clx_export *e)
 {
     clast_status status = CLAST_OK;
-    const clast_mesh_write_options options = {.unit = clx_export_unit(e->assembly),
-                                              .name = "aggregate"};
-    CLX_CHECK(e->parts.n_tri <= UINT32_MAX, CLAST_E_LIMIT,
-              "%" PRId64 " triangles are beyond the 2^32 - 1 of STL", e->parts.n_tri);
-    CLX_TRY(clx_stl_begin(&options, (uint32_t)e->parts.n_tri, &e->file));
+    const clast_mesh_write_options options = {.unit = e->unit, .name = "aggregate"};
+    int64_t n = 0;
+    for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
+        const clast_mesh placed = clx_parts_place(&e->parts, i);
+        n += clx_stl_count(&placed);
+    }
+    CLX_CHECK(n <= UINT32_MAX, CLAST_E_LIMIT,
+              "%" PRId64 " triangles are beyond the 2^32 - 1 of STL", n);
+    CLX_TRY(clx_stl_begin(&options, (uint32_t)n, &e->file));
+    e->parts.n_tri = n;
     for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
         const clast_mesh placed = clx_parts_place(&e->parts, i);
         CLX_TRY(clx_stl_append(&placed, &e->file));
@@ -41,7 +46,7 @@ clast_status clx_export_obj(clx_export *e)
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
     int64_t first = 1;
-    (void)clx_file_print(&e->file, "# clast %s, unit %s\n", clast_version(), clx_export_unit(a));
+    (void)clx_file_print(&e->file, "# clast %s, unit %s\n", clast_version(), e->unit);
     for (int32_t i = 0; i < a->n_grain; ++i) {
         char name[64];
         const clast_mesh placed = clx_parts_place(&e->parts, i);
@@ -141,7 +146,7 @@ clast_status clx_export_ply(clx_export *e)
         "element vertex %" PRId64 "\nproperty double x\nproperty double y\nproperty double z\n"
         "element face %" PRId64 "\nproperty list uchar int vertex_indices\nproperty int grain\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-        clast_version(), clx_export_unit(e->assembly), e->parts.n_vert, e->parts.n_tri));
+        clast_version(), e->unit, e->parts.n_vert, e->parts.n_tri));
     for (int32_t i = 0; i < e->assembly->n_grain; ++i) {
         const clast_mesh placed = clx_parts_place(&e->parts, i);
         for (int32_t v = 0; v < placed.n_vert; ++v) {

@@ -132,7 +132,7 @@ static clast_status add_measures(const clast_assembly *a, const char *unit, clas
             into[i] = measure_of(a, i, measures[k].what);
         }
     }
-    CLX_TRY(clast_table_add_number(table, "density_kg_m3", "kg/m^3", &into));
+    CLX_TRY(clast_table_add_number(table, "density_kg/m^3", "kg/m^3", &into));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         into[i] = measure_of(a, i, DENSITY);
     }
@@ -219,6 +219,9 @@ clast_status clx_export_dump(clx_export *e)
     clast_status status = CLAST_OK;
     const clast_assembly *a = e->assembly;
     clx_file *file = &e->file;
+    if (strcmp(e->unit, "m") == 0) { // LAMMPS's word for metre, kilogram, second
+        (void)clx_file_print(file, "ITEM: UNITS\nsi\n");
+    }
     (void)clx_file_print(file, "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n%d\n", a->n_grain);
     put_bounds(file, a);
     (void)clx_file_print(file, "ITEM: ATOMS id type x y z quatw quati quatj quatk shapex shapey "

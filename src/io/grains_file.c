@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/path.h"
+#include "io/spheres_table.h"
 #include "io/text.h"
 #include <clast/form_set.h>
 #include <clast/harmonics_file.h>
@@ -24,8 +25,9 @@ static const int64_t LARGEST_FILE = INT64_C(1) << 34;
 
 const char *clast_grains_kind_name(clast_grains_kind kind)
 {
-    static const char *const names[] = {"auto", "surface", "series", "voxels", "points", "table"};
-    return (int)kind >= 0 && kind <= CLAST_GRAINS_TABLE ? names[kind] : "?";
+    static const char *const names[] = {"auto",   "surface", "series", "voxels",
+                                        "points", "table",   "clump"};
+    return (int)kind >= 0 && kind <= CLAST_GRAINS_CLUMP ? names[kind] : "?";
 }
 
 static void faults_free(clast_grain_fault *fault, int64_t n)
@@ -120,19 +122,17 @@ static clast_status measure(const clx_grains_task *task, const clast_mesh *mesh,
 {
     clast_status status = CLAST_OK;
     clast_mesh welded = {0};
-    int32_t n_merged = 0;
     if (task->options->hull || mesh->n_tri == 0) {
         return clast_grain_measure_hull(mesh, grain);
     }
     status = clast_grain_measure(mesh, grain);
-    if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices repeated bit by bit
-        const clast_status weld = clast_mesh_weld(mesh, 0.0, &welded, &n_merged);
-        if (weld == CLAST_OK && n_merged > 0) {
-            status = clast_grain_measure(&welded, grain);
-        } else {
-            status = clast_grain_measure(mesh, grain); // for its message
-        }
+    if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices that rounding has parted
+        CLX_TRY(clast_mesh_copy(mesh, &welded));
+        CLX_TRY(clast_mesh_weld_auto(&welded, NULL));
+        CLX_TRY(clast_mesh_require_solid(task->path, &welded, "measure its hull with --hull"));
+        status = clast_grain_measure(&welded, grain);
     }
+done:
     clast_mesh_free(&welded);
     return status;
 }
@@ -156,6 +156,18 @@ done:
     return status;
 }
 
+/// How much of the form lies in the series' last degrees, and beyond those used.
+static void take_power(const clast_harmonics *series, int32_t degree, clast_grain_record *record)
+{
+    const int32_t used = degree < 0 || degree > series->degree ? series->degree : degree;
+    const double form = clast_harmonics_power(series, 1, series->degree);
+    const int32_t last = used > 2 ? used - 1 : 1; // degree 0 is size, not form
+    record->degree = used;
+    record->power_last = form > 0.0 ? clast_harmonics_power(series, last, used) / form : 0.0;
+    record->power_cut =
+        form > 0.0 ? clast_harmonics_power(series, used + 1, series->degree) / form : 0.0;
+}
+
 static clast_status take_series(clx_grains_task *task)
 {
     clast_status status = CLAST_OK;
@@ -169,7 +181,8 @@ static clast_status take_series(clx_grains_task *task)
         CLX_TRY(clast_harmonics_mesh(&series, o->degree, o->level, &mesh));
     }
     if (o->hull) {
-        status = take_mesh(task, CLAST_GRAINS_SERIES, "", &mesh, 0);
+        CLX_TRY(take_mesh(task, CLAST_GRAINS_SERIES, "", &mesh, 0));
+        take_power(&series, o->degree, &task->grains.record[task->grains.n - 1]);
         goto done;
     }
     CLX_TRY(clast_harmonics_measure(&series, o->degree, o->level, &grain));
@@ -179,6 +192,7 @@ static clast_status take_series(clx_grains_task *task)
     CLX_TRY(clx_grains_add(task, "", &record));
     record->kind = CLAST_GRAINS_SERIES;
     record->grain = grain;
+    take_power(&series, o->degree, record);
 done:
     clast_mesh_free(&mesh);
     clast_harmonics_free(&series);
@@ -335,6 +349,29 @@ done:
     return status;
 }
 
+/// One grain of spheres that may overlap.
+static clast_status take_clump(clx_grains_task *task, const clast_table *table)
+{
+    static const clast_packing_options guess = {0};
+    clast_status status = CLAST_OK;
+    clast_spheres spheres = {0};
+    clast_grain grain;
+    clast_grain_record *record = NULL;
+    double unit_m = 0.0;
+    CLX_CHECK(!task->options->hull && task->options->folder == NULL, CLAST_E_USAGE,
+              "a clump of spheres has no hull of facets and no surface to write: leave out --hull "
+              "and --surfaces");
+    CLX_TRY(clx_spheres_of_table(table, &guess, &spheres, &unit_m));
+    CLX_TRY(clast_grain_measure_clump(&spheres, &grain));
+    CLX_TRY(clx_grains_add(task, "", &record));
+    record->kind = CLAST_GRAINS_CLUMP;
+    record->unit_m = unit_m;
+    record->grain = grain;
+done:
+    clast_spheres_free(&spheres);
+    return status;
+}
+
 static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind)
 {
     clast_status status = CLAST_OK;
@@ -344,7 +381,10 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
     const bool has_points = clast_table_find(&table, "x") >= 0 &&
                             clast_table_find(&table, "y") >= 0 &&
                             clast_table_find(&table, "z") >= 0;
-    if (kind == CLAST_GRAINS_POINTS || (kind == CLAST_GRAINS_AUTO && has_points)) {
+    if (kind == CLAST_GRAINS_CLUMP ||
+        (kind == CLAST_GRAINS_AUTO && clx_spheres_are_named(&table))) {
+        CLX_TRY(take_clump(task, &table));
+    } else if (kind == CLAST_GRAINS_POINTS || (kind == CLAST_GRAINS_AUTO && has_points)) {
         CLX_TRY(points_of_table(&table, &points));
         CLX_TRY(take_points(task, &points));
     } else {

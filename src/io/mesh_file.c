@@ -2,6 +2,7 @@
 #include <clast/mesh_file.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "base/path.h"
 #include "io/mesh_io.h"
 #include <clast/field.h>
@@ -47,8 +48,8 @@ void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
     if (report->n_warning < CLAST_MESH_N_WARNING) {
         va_list args;
         va_start(args, format);
-        (void)vsnprintf(report->warning[report->n_warning++], CLAST_MESH_WARNING_SIZE, format,
-                        args);
+        (void)clx_number_print_list(report->warning[report->n_warning++], CLAST_MESH_WARNING_SIZE,
+                                    format, args);
         va_end(args);
     }
 }

@@ -45,5 +45,7 @@ clast_status clx_threemf_write(const clast_mesh *mesh, const clast_mesh_write_op
 /// Pieces of the writers, for files of several parts: an STL's header for n facets and facets after
 /// it; "PREFIX x y z\n" with digits enough to read the same doubles back.
 clast_status clx_stl_begin(const clast_mesh_write_options *options, uint32_t n, clx_file *file);
+int64_t clx_stl_count(const clast_mesh *mesh); ///< facets that append writes: those that rounding
+                                               ///< to single precision leaves
 clast_status clx_stl_append(const clast_mesh *mesh, clx_file *file);
 clast_status clx_mesh_write_point(clx_file *file, const char *prefix, const double p[3]);

@@ -39,7 +39,10 @@ static clast_status note_hull(const char *name, const clast_mesh *mesh, const cl
 {
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
-    CLX_TRY(clast_mesh_check(mesh, &found));
+    clast_mesh welded = {0};
+    CLX_TRY(clast_mesh_copy(mesh, &welded));
+    CLX_TRY(clast_mesh_weld_auto(&welded, NULL));
+    CLX_TRY(clast_mesh_check(&welded, &found));
     (void)snprintf(note->shape, sizeof note->shape, "%s", name);
     note->n_triangle = hull->n_tri;
     note->volume_added = found.closed && found.oriented && found.volume != 0.0
@@ -47,6 +50,7 @@ static clast_status note_hull(const char *name, const clast_mesh *mesh, const cl
                              : (double)NAN;
 done:
     clast_mesh_check_free(&found);
+    clast_mesh_free(&welded);
     return status;
 }
 
@@ -69,6 +73,9 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
     }
     if (hull.n_tri > 0) {
         CLX_TRY(note_hull(name, &mesh, &hull, note));
+    } else {
+        CLX_TRY(clast_mesh_weld_auto(&mesh, NULL));
+        CLX_TRY(clast_mesh_require_solid(path, &mesh, "take its hull (hull: yes)"));
     }
     CLX_TRY(clast_shape_mesh(name, hull.n_tri > 0 ? &hull : &mesh, shape));
 done:

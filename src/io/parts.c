@@ -20,6 +20,7 @@ clast_status clx_parts_make(const clast_assembly *assembly, int level, clx_parts
     clast_status status = CLAST_OK;
     int32_t most = 0;
     parts->assembly = assembly;
+    parts->factor = 1.0;
     CLX_TRY(clx_alloc(&parts->surface, assembly->n_shape, sizeof *parts->surface));
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         const int32_t s = assembly->shape_id[i];
@@ -45,6 +46,8 @@ clast_mesh clx_parts_place(clx_parts *parts, int32_t i)
     const clast_mesh *surface = &parts->surface[a->shape_id[i]];
     clast_mesh placed = {surface->n_vert, surface->n_tri, parts->vert, surface->tri};
     memcpy(parts->vert, surface->vert, (size_t)surface->n_vert * sizeof *surface->vert);
-    clast_mesh_transform(&placed, a->scale[i], a->orientation[i], a->position[i]);
+    const double at[3] = {parts->factor * a->position[i][0], parts->factor * a->position[i][1],
+                          parts->factor * a->position[i][2]};
+    clast_mesh_transform(&placed, parts->factor * a->scale[i], a->orientation[i], at);
     return placed;
 }

@@ -7,6 +7,7 @@ typedef struct clx_parts {
     clast_mesh *surface;            ///< [n_shape] in the shape's frame
     double (*vert)[3];              ///< [most vertices of a shape] of the grain at hand
     int64_t n_vert, n_tri;          ///< of all grains
+    double factor;                  ///< written lengths per length of the assembly
 } clx_parts;
 
 /// Makes every used shape's surface once. `parts` must be {0}.

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/number.h"
 #include <clast/field.h>
 #include <ctype.h>
 #include <math.h>
@@ -84,7 +85,7 @@ done:
 static bool is_number(const char *word)
 {
     char *end = NULL;
-    (void)strtod(word, &end);
+    (void)clx_number_read(word, &end);
     return end != word && *end == '\0';
 }
 
@@ -238,7 +239,7 @@ static clast_status size_at(const reader *r, int32_t column, double *size)
     const char *word = r->word[column];
     CLX_CHECK(is_number(word), CLAST_E_FORMAT, "%s:%lld: '%s' is not a number", r->name,
               (long long)r->line, word);
-    const double number = strtod(word, NULL);
+    const double number = clx_number_read(word, NULL);
     CLX_CHECK(isfinite(number), CLAST_E_FORMAT, "%s:%lld: the size '%s' is not finite", r->name,
               (long long)r->line, word);
     *size = r->is_phi ? 1e-3 * exp2(-number) : number * r->factor;
@@ -251,7 +252,7 @@ done:
 static clast_status count_at(const reader *r, double *count)
 {
     const char *word = r->word[r->count];
-    *count = strtod(word, NULL);
+    *count = clx_number_read(word, NULL);
     if (!is_number(word) || !isfinite(*count) || *count < 0.0) {
         return clx_fail(CLAST_E_FORMAT, "%s:%lld: the count '%s' is not a number from 0 up",
                         r->name, (long long)r->line, word);
@@ -265,7 +266,7 @@ static clast_status add_density(reader *r)
     clast_status status = CLAST_OK;
     clast_sizes *s = &r->sizes;
     const char *word = r->word[r->density];
-    const double density = r->density_factor * strtod(word, NULL);
+    const double density = r->density_factor * clx_number_read(word, NULL);
     CLX_CHECK(is_number(word) && isfinite(density) && density > 0.0, CLAST_E_FORMAT,
               "%s:%lld: the density '%s' is not a number above 0", r->name, (long long)r->line,
               word);

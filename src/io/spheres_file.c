@@ -4,11 +4,10 @@
 #include "base/alloc.h"
 #include "base/path.h"
 #include "base/status.h"
-#include "math/vec3.h"
+#include "io/spheres_table.h"
 #include <clast/state.h>
 #include <clast/table_file.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 static bool is_state(const char *path)
@@ -16,70 +15,16 @@ static bool is_state(const char *path)
     return clx_path_is(path, "h5") || clx_path_is(path, "hdf5");
 }
 
-/// True for "x", "x_um", "x (um)", "x [um]" when the wanted name is "x".
-static bool is_named(const char *column, const char *wanted)
-{
-    const size_t n = strlen(wanted);
-    return strncasecmp(column, wanted, n) == 0 && strchr("_ ([", column[n]) != NULL;
-}
-
-/// Columns of x, y, z and radius: by name, or the first four when no name fits at all.
-static clast_status find_columns(const clast_table *table, const double *number[4])
-{
-    static const char *const names[4][2] = {{"x", "x"}, {"y", "y"}, {"z", "z"}, {"radius", "r"}};
-    clast_status status = CLAST_OK;
-    int n_found = 0;
-    for (int k = 0; k < 4; ++k) {
-        number[k] = NULL;
-        for (int32_t c = 0; c < table->n_column && number[k] == NULL; ++c) {
-            const clast_column *column = &table->column[c];
-            if (is_named(column->name, names[k][0]) || is_named(column->name, names[k][1])) {
-                CLX_CHECK(column->number != NULL, CLAST_E_FORMAT,
-                          "column %s of the spheres holds texts", column->name);
-                number[k] = column->number;
-                ++n_found;
-            }
-        }
-    }
-    for (int k = 0; k < 4 && n_found == 0 && table->n_column >= 4; ++k) {
-        number[k] = table->column[k].number;
-    }
-    for (int k = 0; k < 4; ++k) {
-        CLX_CHECK(number[k] != NULL, CLAST_E_FORMAT,
-                  "no column of numbers named %s%s; spheres need x, y, z and radius", names[k][0],
-                  k == 3 ? " or r" : "");
-    }
-done:
-    return status;
-}
-
 static clast_status read_csv(const char *path, clast_spheres *spheres)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    clast_spheres made = {0};
-    const double *number[4] = {NULL};
     CLX_TRY(clast_table_read_csv(path, NULL, &table, NULL));
-    CLX_TRY(find_columns(&table, number));
-    CLX_CHECK(table.n_row > 0 && table.n_row <= INT32_MAX, CLAST_E_FORMAT, "%lld spheres",
-              (long long)table.n_row);
-    CLX_TRY(clast_spheres_alloc((int32_t)table.n_row, &made));
-    for (int32_t i = 0; i < made.n && number[3] != NULL; ++i) { // NULL only for the analyser
-        v3_set(made.centre[i], number[0][i], number[1][i], number[2][i]);
-        made.radius[i] = number[3][i];
-        CLX_CHECK(isfinite(made.centre[i][0]) && isfinite(made.centre[i][1]) &&
-                      isfinite(made.centre[i][2]) && isfinite(made.radius[i]) &&
-                      made.radius[i] > 0.0,
-                  CLAST_E_FORMAT, "sphere %d of %d is (%g, %g, %g) with radius %g", i + 1, made.n,
-                  made.centre[i][0], made.centre[i][1], made.centre[i][2], made.radius[i]);
-    }
-    *spheres = made;
-    made = (clast_spheres){0};
+    CLX_TRY(clx_spheres_of_table(&table, NULL, spheres, NULL));
 done:
     if (status != CLAST_OK && table.n_column > 0) { // the reader names the file itself
         clx_fail_prefix("%s", path);
     }
-    clast_spheres_free(&made);
     clast_table_free(&table);
     return status;
 }

@@ -24,14 +24,6 @@ static double load_f32(const uint8_t *p)
     return (double)value;
 }
 
-static void store_f32(uint8_t *p, double value)
-{
-    const float single = (float)value;
-    uint32_t bits = 0;
-    memcpy(&bits, &single, sizeof bits);
-    clx_store_u32(p, bits);
-}
-
 // ---- both forms: facets gathered into vertices and triangles
 
 typedef struct {
@@ -327,70 +319,4 @@ clast_status clx_stl_parse(const void *bytes, size_t n, clast_mesh *mesh,
 done:
     gather_free(&g);
     return status;
-}
-
-// ---- writing
-
-static clast_status check_single(const clast_mesh *mesh)
-{
-    for (int32_t i = 0; i < mesh->n_vert; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            if (!isfinite((float)mesh->vert[i][k])) {
-                return clx_fail(CLAST_E_GEOMETRY,
-                                "vertex %d: %c = %g does not fit the 32-bit numbers of STL; scale "
-                                "it or write PLY",
-                                i, "xyz"[k], mesh -> vert[i][k]);
-            }
-        }
-    }
-    return CLAST_OK;
-}
-
-/// The header must not begin with "solid", or naive readers take the file for text.
-clast_status clx_stl_begin(const clast_mesh_write_options *options, uint32_t n, clx_file *file)
-{
-    char header[BODY_START] = {0};
-    (void)snprintf(header, HEADER_SIZE, "clast %s binary STL, unit %.15s%s%.30s", clast_version(),
-                   options->unit != NULL ? options->unit : "not stated",
-                   options->name != NULL ? ", " : "", options->name != NULL ? options->name : "");
-    clx_store_u32((uint8_t *)header + HEADER_SIZE, n);
-    return clx_file_write(file, header, sizeof header);
-}
-
-static void store_facet(const clast_mesh *mesh, int32_t t, uint8_t out[FACET_SIZE])
-{
-    double u[3];
-    double v[3];
-    double n[3];
-    const int32_t *tri = mesh->tri[t];
-    v3_sub(u, mesh->vert[tri[1]], mesh->vert[tri[0]]);
-    v3_sub(v, mesh->vert[tri[2]], mesh->vert[tri[0]]);
-    v3_cross(n, u, v);
-    (void)v3_unit(n, n);
-    for (int k = 0; k < 3; ++k) {
-        store_f32(out + 4 * (ptrdiff_t)k, n[k]);
-        for (int c = 0; c < 3; ++c) {
-            store_f32(out + 12 + 12 * (ptrdiff_t)k + 4 * (ptrdiff_t)c, mesh->vert[tri[k]][c]);
-        }
-    }
-}
-
-clast_status clx_stl_append(const clast_mesh *mesh, clx_file *file)
-{
-    clast_status status = CLAST_OK;
-    uint8_t facet[FACET_SIZE] = {0};
-    CLX_TRY(check_single(mesh));
-    for (int32_t t = 0; t < mesh->n_tri; ++t) {
-        store_facet(mesh, t, facet);
-        CLX_TRY(clx_file_write(file, facet, sizeof facet));
-    }
-done:
-    return status;
-}
-
-clast_status clx_stl_write(const clast_mesh *mesh, const clast_mesh_write_options *options,
-                           clx_file *file)
-{
-    const clast_status status = clx_stl_begin(options, (uint32_t)mesh->n_tri, file);
-    return status == CLAST_OK ? clx_stl_append(mesh, file) : status;
 }

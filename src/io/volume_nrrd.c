@@ -2,6 +2,7 @@
 #include "io/volume_io.h"
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
@@ -57,7 +58,7 @@ static bool three(const char *text, double value[3])
 {
     for (int k = 0; k < 3; ++k) {
         char *end = NULL;
-        value[k] = strtod(text, &end);
+        value[k] = clx_number_read(text, &end);
         if (end == text) {
             return false;
         }
@@ -88,18 +89,34 @@ static clast_status take_spacings(const char *text, header *h)
                : clx_fail(CLAST_E_FORMAT, "NRRD: spacings '%.40s' are not three numbers", text);
 }
 
+/// " ( a , b , c )" with blanks anywhere; the place after it, NULL for another text.
+static const char *vector_of(const char *text, double value[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        char *end = NULL;
+        text += strspn(text, " \t");
+        if (*text != (k == 0 ? '(' : ',')) {
+            return NULL;
+        }
+        value[k] = clx_number_read(++text, &end);
+        if (end == text) {
+            return NULL;
+        }
+        text = end;
+    }
+    text += strspn(text, " \t");
+    return *text == ')' ? text + 1 : NULL;
+}
+
 /// "(a,0,0) (0,b,0) (0,0,c)": the lengths of the three steps; they must be at right angles.
 static clast_status take_directions(const char *text, header *h)
 {
     double step[3][3];
     for (int i = 0; i < 3; ++i) {
-        int used = 0;
-        if (sscanf(text, " ( %lf , %lf , %lf )%n", &step[i][0], &step[i][1], &step[i][2], // NOLINT
-                   &used) != 3 ||
-            used == 0) {
+        text = vector_of(text, step[i]);
+        if (text == NULL) {
             return clx_fail(CLAST_E_FORMAT, "NRRD: space directions are not three vectors");
         }
-        text += used;
         h->edge[i] = hypot(hypot(step[i][0], step[i][1]), step[i][2]);
     }
     for (int i = 0; i < 3; ++i) {

@@ -5,9 +5,21 @@
 #include "io/vtk_array.h"
 #include <inttypes.h>
 
-static void put_head(clx_file *file, int64_t n_point, int64_t n_cell)
+/// The unit of lengths as a text of the file's field data: its letters' codes, and 0.
+static void put_unit(clx_file *file, const char *unit)
+{
+    (void)clx_file_print(file, "<FieldData><Array type=\"String\" Name=\"unit\" "
+                               "NumberOfTuples=\"1\" format=\"ascii\">");
+    for (; *unit != '\0'; ++unit) {
+        (void)clx_file_print(file, "%d ", *unit);
+    }
+    (void)clx_file_print(file, "0</Array></FieldData>\n");
+}
+
+static void put_head(clx_file *file, const char *unit, int64_t n_point, int64_t n_cell)
 {
     clx_vtk_head(file, "UnstructuredGrid");
+    put_unit(file, unit);
     (void)clx_file_print(file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
                          n_point, n_cell);
@@ -158,7 +170,7 @@ clast_status clx_export_vtu_surfaces(clx_export *e)
     clast_status status = CLAST_OK;
     clx_vtk_array array = {0};
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&e->file, e->parts.n_vert, e->parts.n_tri);
+    put_head(&e->file, e->unit, e->parts.n_vert, e->parts.n_tri);
     CLX_TRY(put_surface_points(e, &array));
     (void)clx_file_print(&e->file, "<Cells>\n");
     CLX_TRY(put_connectivity(e, &array));
@@ -197,7 +209,7 @@ clast_status clx_export_vtu_points(clx_export *e)
     clx_vtk_array array = {0};
     const int32_t n = e->assembly->n_grain;
     CLX_TRY(clx_vtk_begin(&array));
-    put_head(&e->file, n, n);
+    put_head(&e->file, e->unit, n, n);
     CLX_TRY(put_grain_points(e, &array));
     CLX_TRY(put_cells(e, &array, n, 1, VTK_VERTEX));
     (void)clx_file_print(&e->file, "<PointData>\n");

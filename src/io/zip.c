@@ -2,6 +2,7 @@
 #include "io/zip.h"
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "io/bytes.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -81,7 +82,7 @@ clast_status clx_zip_print(clx_zip *zip, const char *format, ...)
     char text[1024];
     va_list args;
     va_start(args, format);
-    const int n = vsnprintf(text, sizeof text, format, args);
+    const int n = clx_number_print_list(text, sizeof text, format, args);
     va_end(args);
     CLAST_ASSERT(n >= 0 && (size_t)n < sizeof text);
     return clx_zip_write(zip, text, (size_t)n);

@@ -5,6 +5,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "shape/curve.h"
 #include <math.h>
 #include <string.h>
 
@@ -65,6 +66,16 @@ done:
     return status;
 }
 
+clast_status clx_curve_check(const clast_curve *curve)
+{
+    clast_status status = CLAST_OK;
+    double sum = 0.0;
+    CLX_TRY(check_sieves(curve->n_class, curve->sieve));
+    CLX_TRY(sum_masses(curve->n_class, curve->mass, &sum));
+done:
+    return status;
+}
+
 clast_status clast_curve_make(int32_t n_class, const double *sieve, const double *mass,
                               clast_curve *curve)
 {
@@ -109,6 +120,9 @@ clast_status clast_curve_named(const char *name, clast_curve *curve)
 double clast_curve_passing(const clast_curve *curve, double size)
 {
     double below = 0.0;
+    if (curve->n_class < 1) {
+        return NAN;
+    }
     for (int32_t i = 0; i < curve->n_class; ++i) {
         const double low = curve->sieve[i];
         const double high = curve->sieve[i + 1];
@@ -126,7 +140,7 @@ double clast_curve_passing(const clast_curve *curve, double size)
 double clast_curve_size(const clast_curve *curve, double share)
 {
     double below = 0.0;
-    int32_t last = 0;
+    int32_t last = -1;
     for (int32_t i = 0; i < curve->n_class; ++i) {
         if (curve->mass[i] > 0.0) {
             if (share <= below + curve->mass[i]) {
@@ -137,7 +151,7 @@ double clast_curve_size(const clast_curve *curve, double share)
         }
         below += curve->mass[i];
     }
-    return curve->sieve[last + 1];
+    return last >= 0 ? curve->sieve[last + 1] : (double)NAN;
 }
 
 double clast_curve_class_size(const clast_curve *curve, int32_t i)

@@ -3,33 +3,39 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/number.h"
 #include "shape/shape.h"
 #include <float.h>
 #include <stdio.h>
 
-#define FIELD(type, name) #name, offsetof(clast_fill_config, name), CLAST_FIELD_##type
-#define COUNT(type, name, value, low, high, help)                                                  \
+#define FIELD(type, name) #name, .offset = offsetof(clast_fill_config, name), CLAST_FIELD_##type
+#define COUNT(type, name, value, low, high, ...)                                                   \
     {                                                                                              \
-        FIELD(type, name), value, low, high, "-", help, NULL                                       \
+        FIELD(type, name), value, low, high, "-", __VA_ARGS__                                      \
     }
-#define NUMBER(name, value, low, high, help)                                                       \
+#define NUMBER(name, value, low, high, ...)                                                        \
     {                                                                                              \
-        FIELD(F64, name), value, low, high, "-", help, NULL                                        \
+        FIELD(F64, name), value, low, high, "-", __VA_ARGS__                                       \
     }
-#define FLAG(name, value, help)                                                                    \
+#define FLAG(name, value, ...)                                                                     \
     {                                                                                              \
-        FIELD(BOOL, name), value, 0, 1, "-", help, NULL                                            \
+        FIELD(BOOL, name), value, 0, 1, "-", __VA_ARGS__                                           \
     }
 
 const clast_field clast_fill_fields[] = {
-    COUNT(I32, spheres, 0, 0, 1e7, "most spheres; 0: 300, or 100000 when a bound is asked for"),
+    COUNT(I32, spheres, 0, 0, 1e7, "most spheres; 0: 300, or 100000 when a bound is asked for",
+          .group = "when to stop", .common = true),
     {FIELD(CHOICE, strategy), 0, 0, 0, "-", "how the next sphere is found",
-     "largest|random|published"},
-    NUMBER(filled, 0, 0, 0.999999, "stop at this share of the volume; 0: not asked"),
-    NUMBER(volume_error, 0, 0, 1e6, "stop at this error of the volume; 0: not asked"),
+     "largest|random|published", .common = true},
+    NUMBER(filled, 0, 0, 0.999999, "stop at this share of the volume; 0: not asked",
+           .common = true),
+    NUMBER(volume_error, 0, 0, 1e6, "stop at this error of the volume; 0: not asked",
+           .common = true),
     NUMBER(centroid_error, 0, 0, 1e6, "stop at this error of the centroid; 0: not asked"),
-    NUMBER(inertia_error, 0, 0, 1e6, "stop at this error of the inertia; 0: not asked"),
-    NUMBER(min_radius, 0, 0, DBL_MAX, "no smaller spheres, model units; 0: any"),
+    NUMBER(inertia_error, 0, 0, 1e6, "stop at this error of the inertia; 0: not asked",
+           .common = true),
+    NUMBER(min_radius, 0, 0, DBL_MAX, "no smaller spheres, model units; 0: any",
+           .group = "how spheres are found"),
     NUMBER(min_share, 0.01, 1e-4, 1,
            "largest, overlap: no sphere below this share of the first one's radius"),
     NUMBER(tolerance, 0.03, 1e-9, 1, "largest: radius may be this share below the largest"),
@@ -37,17 +43,25 @@ const clast_field clast_fill_fields[] = {
     FLAG(first_at_centre, 1, "random, published: first sphere at the mean of the corners"),
     FLAG(vertex_subset, 0, "published: the released code's random third of the corners"),
     COUNT(I64, max_tries, 1e6, 1, 1e15, "random, published: points tried in vain before giving up"),
-    FLAG(outer, 0, "keep the outer spheres only (O_ext)"),
+    FLAG(outer, 0, "keep the outer spheres only (O_ext)", .common = true,
+         .group = "outer spheres and clumps"),
     NUMBER(shrink, 0.5, 0, 1, "outer: 0 convex hull of the centres .. 1 tightest boundary"),
-    FLAG(overlap, 0, "spheres may overlap: a clump"),
-    NUMBER(protrusion, 0, 0, 0.9, "overlap: share of its radius by which a sphere may poke out"),
-    FLAG(allow_open, 0, "accept a surface with large holes; they are capped"),
-    COUNT(U64, seed, 1, 0, 1.8e19, "seed of the random draws"),
+    FLAG(overlap, 0, "spheres may overlap: a clump", .common = true),
+    NUMBER(protrusion, 0, 0, 0.9, "overlap: share of its radius by which a sphere may poke out",
+           .common = true),
+    FLAG(allow_open, 0, "accept a surface with large holes; they are capped", .common = true,
+         .group = "input, random numbers and output"),
+    COUNT(U64, seed, 1, 0, 1.8e19, "seed of the random draws", .common = true),
     {FIELD(TEXT, name), 0, 0, 0, "-", "name of the sphere set; none: the input file's", ""},
-    {FIELD(TEXT, history), 0, 0, 0, "-", "write the errors after each sphere to this CSV", ""},
+    {FIELD(TEXT, history), 0, 0, 0, "-", "write the errors after each sphere to this CSV", "",
+     .common = true},
     {0}};
 
 enum { DEFAULT_SPHERES = 300, BOUNDED_SPHERES = 100000 };
+
+/// Least mean thickness, as a share of the extent, of a solid that is filled: distances are floats
+/// of the extent (1e-7), and beyond it a search no longer tells the walls apart.
+static const double THICKNESS_LIMIT = 1e-5;
 
 /// Holes that matter less than this (see clx_fill_solid) are capped without being asked: t_rex has
 /// 3e-4, a seam of rounding 1e-9, a scan that lost a thousandth of its skin 1e-3.
@@ -102,6 +116,34 @@ done:
     return status;
 }
 
+static int32_t farthest_vertex(const clast_mesh *mesh, const double from[3])
+{
+    int32_t farthest = 0;
+    for (int32_t i = 1; i < mesh->n_vert; ++i) {
+        if (v3_distance2(mesh->vert[i], from) > v3_distance2(mesh->vert[farthest], from)) {
+            farthest = i;
+        }
+    }
+    return farthest;
+}
+
+/// 3 V / A is the radius of a sphere, and no more than three times the half thickness of a plate.
+static clast_status check_thickness(const clx_fill *fill)
+{
+    clast_status status = CLAST_OK;
+    const clast_mesh *mesh = fill->solid.mesh;
+    const double thickness = 3.0 * fill->mass.volume / clast_mesh_area(mesh);
+    const int32_t at = farthest_vertex(mesh, fill->mass.centroid);
+    CLX_CHECK(
+        thickness >= THICKNESS_LIMIT * fill->extent, CLAST_E_GEOMETRY,
+        "the solid is %.3g long and %.3g thick on average (3 V / A); its walls are told apart "
+        "down to %g of its length; is vertex %d at (%g, %g, %g) an error?",
+        fill->extent, thickness, THICKNESS_LIMIT, at, mesh->vert[at][0], mesh->vert[at][1],
+        mesh->vert[at][2]);
+done:
+    return status;
+}
+
 clast_status clx_fill_open(const clast_mesh *mesh, bool allow_open, clx_fill *fill)
 {
     clast_status status = CLAST_OK;
@@ -110,9 +152,10 @@ clast_status clx_fill_open(const clast_mesh *mesh, bool allow_open, clx_fill *fi
               "a surface of %d triangles bounds no solid; at least 4 are needed", mesh->n_tri);
     CLX_TRY(clx_fill_solid_make(mesh, &fill->solid));
     CLX_TRY(check_solid(fill, allow_open));
-    CLX_TRY(clx_fill_field_create(fill->solid.mesh, &fill->field));
     clast_mesh_bounds(fill->solid.mesh, fill->low, fill->high);
     fill->extent = v3_distance(fill->low, fill->high);
+    CLX_TRY(check_thickness(fill));
+    CLX_TRY(clx_fill_field_create(fill->solid.mesh, &fill->field));
     v3_copy(fill->balls.middle, fill->field.middle);
     fill->balls.scale = fill->field.scale;
 done:
@@ -147,9 +190,9 @@ static void missing(const clast_fill_config *c, const clast_fill_report *now, ch
     text[0] = '\0';
     for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; ++i) {
         if (bounds[i].wanted > 0.0 && bounds[i].missed && used < size) {
-            used += (size_t)snprintf(text + used, size - used, "%s%s is %.4g, wanted %.4g",
-                                     used > 0 ? ", " : "", bounds[i].name, bounds[i].is,
-                                     bounds[i].wanted);
+            used += (size_t)clx_number_print(text + used, size - used, "%s%s is %.4g, wanted %.4g",
+                                             used > 0 ? ", " : "", bounds[i].name, bounds[i].is,
+                                             bounds[i].wanted);
         }
     }
 }
@@ -258,9 +301,9 @@ done:
     return status;
 }
 
-clast_status clast_fill(const clast_mesh *mesh, const clast_fill_config *config,
-                        const clast_monitor *monitor, clast_spheres *spheres,
-                        clast_fill_report *report)
+static clast_status fill_solid(const clast_mesh *mesh, const clast_fill_config *config,
+                               const clast_monitor *monitor, clast_spheres *spheres,
+                               clast_fill_report *report)
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
@@ -294,5 +337,19 @@ done:
     strategy->destroy(state);
     clast_spheres_free(&made);
     clx_fill_free(&fill);
+    return status;
+}
+
+clast_status clast_fill(const clast_mesh *mesh, const clast_fill_config *config,
+                        const clast_monitor *monitor, clast_spheres *spheres,
+                        clast_fill_report *report)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(mesh);
+    CLX_NEED(config);
+    CLX_NEED(spheres);
+    CLX_TRY(clast_fields_check(clast_fill_fields, config));
+    CLX_TRY(fill_solid(mesh, config, monitor, spheres, report));
+done:
     return status;
 }

@@ -7,6 +7,16 @@
 #include <ctype.h>
 #include <string.h>
 
+/// Share of L below which a difference of lengths is what rounding left of it: coordinates of
+/// surface files have 24 bits.
+static const double ROUNDING = 1e-6;
+
+/// The two factors that divide differences of lengths.
+static bool is_difference(int factor)
+{
+    return factor == CLAST_FORM_DISC_ROD || factor == CLAST_FORM_OBLATE_PROLATE;
+}
+
 #define ENTRY(id, name, symbol, label, formula, value, low, high, source)                          \
     [CLAST_FORM_##id] = {name, "inverse_" name, symbol, label, formula, low, high, source},
 static const clast_form_factor_entry ENTRIES[CLAST_N_FORM_FACTOR] = {CLAST_FORM_FACTOR_LIST(ENTRY)};
@@ -48,6 +58,9 @@ double clast_form_factor_value(clast_form_factor factor, double l, double i, dou
     if (!(isfinite(L) && L >= I && I >= S && S > 0.0)) {
         return NAN;
     }
+    if (is_difference((int)factor) && L - S <= ROUNDING * L) {
+        return NAN; // 0 / 0
+    }
     switch (factor) {
 #define VALUE(id, name, symbol, label, formula, value, low, high, source)                          \
     case CLAST_FORM_##id:                                                                          \
@@ -71,7 +84,9 @@ void clast_form_features(double l, double i, double s, double value[CLAST_N_FORM
     clast_form_factors(l, i, s, value);
     for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
         const double inverse = 1.0 / value[f];
-        value[CLAST_N_FORM_FACTOR + f] = isfinite(inverse) ? inverse : (double)NAN;
+        const bool is_known =
+            isfinite(inverse) && !(is_difference(f) && fabs(value[f]) <= ROUNDING);
+        value[CLAST_N_FORM_FACTOR + f] = is_known ? inverse : (double)NAN;
     }
 }
 
@@ -99,6 +114,9 @@ void clast_form_lengths(double flatness, double elongation, double sieve_size, d
 
 clast_zingg clast_form_zingg(double flatness, double elongation)
 {
+    if (isnan(flatness) || isnan(elongation)) {
+        return CLAST_N_ZINGG;
+    }
     const bool is_thick = flatness >= 2.0 / 3.0;
     const bool is_wide = elongation >= 2.0 / 3.0;
     if (is_wide) {
@@ -110,5 +128,5 @@ clast_zingg clast_form_zingg(double flatness, double elongation)
 const char *clast_zingg_name(clast_zingg zingg)
 {
     static const char *const names[CLAST_N_ZINGG] = {"sphere", "disc", "rod", "blade"};
-    return (int)zingg >= 0 && zingg < CLAST_N_ZINGG ? names[zingg] : "?";
+    return (int)zingg >= 0 && zingg < CLAST_N_ZINGG ? names[zingg] : "-";
 }

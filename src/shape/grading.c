@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "math/rng.h"
 #include "math/special.h"
+#include "shape/curve.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -226,6 +227,7 @@ clast_status clast_grading_of_curve(const clast_curve *curve, clast_grading_spre
     CLX_CHECK(spread != CLAST_SPREAD_LINEAR || count == CLAST_COUNT_MEAN, CLAST_E_CONFIG,
               "exact counts are not defined for a linear spread, whose grains cross the sieves; "
               "take the step spread or mean counts");
+    CLX_TRY(clx_curve_check(curve));
     while (s.first < s.last && curve->mass[s.first] <= 0.0) {
         ++s.first;
     }

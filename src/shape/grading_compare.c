@@ -2,6 +2,7 @@
 #include <clast/grading.h>
 
 #include "base/alloc.h"
+#include "shape/curve.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -166,6 +167,7 @@ clast_status clast_grading_compare(const clast_curve *curve, const clast_grading
     grain *sorted = NULL;
     clast_table made = {0};
     double total = 0.0;
+    CLX_TRY(clx_curve_check(curve));
     CLX_TRY(check_grains(sample));
     CLX_TRY(sorted_grains(sample, &sorted, &total));
     CLX_TRY(class_table(curve, grading, n, sorted, total, &made));

@@ -70,7 +70,7 @@ clast_status clx_grain_inertia(clast_grain *grain)
     return status;
 }
 
-static void sort_widths(clast_axes *axes)
+void clx_grain_sort_axes(clast_axes *axes)
 {
     for (int i = 1; i < 3; ++i) {
         for (int j = i; j > 0 && axes->lis[j] > axes->lis[j - 1]; --j) {
@@ -117,7 +117,7 @@ clast_status clx_grain_hull(const clast_mesh *points, clast_grain *grain, double
         v3_copy(principal->direction[k], frame[k]);
         principal->lis[k] = clx_hull_body_width(&body, frame[k]);
     }
-    sort_widths(principal);
+    clx_grain_sort_axes(principal);
     clx_shadow_extremes(&body, &views, frame, &grain->projected_least, &grain->projected_greatest,
                         lying);
     grain->longest = feret.longest;

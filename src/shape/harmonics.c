@@ -31,6 +31,18 @@ void clast_harmonics_free(clast_harmonics *series)
     *series = (clast_harmonics){0};
 }
 
+double clast_harmonics_power(const clast_harmonics *series, int32_t low, int32_t high)
+{
+    double power = 0.0;
+    for (int32_t n = low < 0 ? 0 : low; n <= high && n <= series->degree; ++n) {
+        for (int32_t m = 0; m <= n; ++m) {
+            const double *c = series->coefficient[clx_nm(n, m)];
+            power += m == 0 ? c[0] * c[0] : 0.5 * (c[0] * c[0] + c[1] * c[1]); // cos^2: 1/2
+        }
+    }
+    return power;
+}
+
 /// What evaluation at one theta needs.
 typedef struct {
     const clast_harmonics *series;

@@ -20,5 +20,9 @@ clast_status clx_frame_from_inertia(double volume, double inertia[3][3], double 
 /// @note O(n^2 + sum over spheres of (spheres that cut it)^2)
 clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *mass);
 
+/// The same, and the area of its surface.
+clast_status clx_spheres_union_measure(const clast_spheres *spheres, clast_mass *mass,
+                                       double *area);
+
 /// Greatest distance between two points of a union of spheres.
 double clx_spheres_length(const clast_spheres *spheres);

@@ -19,34 +19,38 @@ enum { LEAST_DEGREE = 3, N_HALVING = 40 }; // degree 1 moves a body, degree 2 is
 #define AMPLITUDE_FIRST 0.01
 #define AMPLITUDE_MAX   1.0
 
-#define FIELD(name)     #name, offsetof(clast_synthesize_config, name)
-#define FORM(key, name) key, offsetof(clast_synthesize_config, form.name)
+#define FIELD(name)     #name, .offset = offsetof(clast_synthesize_config, name)
+#define FORM(key, name) key, .offset = offsetof(clast_synthesize_config, form.name)
 const clast_field clast_synthesize_fields[] = {
     {FORM("flatness", flatness_mean), CLAST_FIELD_F64, 0.647, 1e-3, 1.0, "-",
-     "S/I of the mass-equivalent ellipsoid, the mean when a deviation is given", NULL},
+     "S/I of the mass-equivalent ellipsoid, the mean when a deviation is given", NULL,
+     .group = "form", .common = true},
     {FORM("flatness_deviation", flatness_deviation), CLAST_FIELD_F64, 0.0, 0.0, 10.0, "-",
-     "of a normal law cut to form_low .. form_high", NULL},
+     "of a normal law cut to form_low .. form_high", NULL, .common = true},
     {FORM("elongation", elongation_mean), CLAST_FIELD_F64, 0.682, 1e-3, 1.0, "-", "I/L, likewise",
-     NULL},
+     NULL, .common = true},
     {FORM("elongation_deviation", elongation_deviation), CLAST_FIELD_F64, 0.0, 0.0, 10.0, "-",
-     "likewise", NULL},
+     "likewise", NULL, .common = true},
     {FORM("form_low", low), CLAST_FIELD_F64, 0.1, 1e-3, 1.0, "-", "least flatness and elongation",
      NULL},
     {FORM("form_high", high), CLAST_FIELD_F64, 1.0, 1e-3, 1.0, "-", "greatest", NULL},
     {FIELD(size), CLAST_FIELD_F64, 1.0, 1e-12, 1e12, "-",
-     "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", NULL},
+     "sieve size D = sqrt((S^2+I^2)/2), in the unit of the file", NULL, .common = true,
+     .group = "size"},
     {FIELD(measure), CLAST_FIELD_CHOICE, CLAST_ROUGH_ANGULARITY, 0, 2, "-",
      "what `rough` is: amplitude of ln r, or the finished grain's measured normal roundness or "
      "angularity",
-     "amplitude|normal_roundness|angularity"},
-    {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", NULL},
+     "amplitude|normal_roundness|angularity", .common = true, .group = "roughness"},
+    {FIELD(rough), CLAST_FIELD_F64, 0.075, 0.0, 1.0, "-", "wanted roughness", NULL, .common = true},
     {FIELD(tolerance), CLAST_FIELD_F64, 1e-3, 1e-6, 1.0, "-", "of the measured one", NULL},
     {FIELD(decay), CLAST_FIELD_F64, 3.0, 0.0, 10.0, "-",
      "coefficients of degree n fall as n^-decay: larger is smoother", NULL},
     {FIELD(degrees), CLAST_FIELD_I32, 12, LEAST_DEGREE, CLX_FIELD_DEGREES, "-",
      "greatest degree of the spherical harmonics", NULL},
-    {FIELD(faces), CLAST_FIELD_I32, 300, 8, 100000, "-", "at most so many triangles", NULL},
-    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of form and roughness", NULL},
+    {FIELD(faces), CLAST_FIELD_I32, 300, 8, 100000, "-", "at most so many triangles", NULL,
+     .common = true},
+    {FIELD(seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "seed of form and roughness", NULL,
+     .common = true},
     {0}};
 #undef FIELD
 #undef FORM
@@ -188,7 +192,12 @@ clast_status clast_synthesize_grain(const clast_synthesize_config *config, uint6
 {
     clast_status status = CLAST_OK;
     maker m = {.config = config};
-    clast_synthesize_report r = {.amplitude = config->rough};
+    clast_synthesize_report r = {0};
+    CLX_NEED(config);
+    CLX_NEED(mesh);
+    CLX_NEED(report);
+    CLX_TRY(clast_fields_check(clast_synthesize_fields, config));
+    r.amplitude = config->rough;
     CLX_TRY(clast_form_law_check(&config->form));
     clast_form_law_draw(&config->form, config->seed, index, &r.flatness, &r.elongation);
     clast_form_lengths(r.flatness, r.elongation, config->size, m.lis);

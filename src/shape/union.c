@@ -417,11 +417,12 @@ done:
     return status;
 }
 
-clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *mass)
+clast_status clx_spheres_union_measure(const clast_spheres *spheres, clast_mass *mass, double *area)
 {
     clast_status status = CLAST_OK;
     scratch s = {0};
     integrals sum = {0};
+    double exposed = 0.0;
     CLX_TRY(check_spheres(spheres));
     CLX_TRY(prepare(spheres, &s));
     for (int32_t i = 0; i < spheres->n; ++i) {
@@ -431,14 +432,22 @@ clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *ma
             exposed_moments(&s, &m);
             v3_sub(c, spheres->centre[i], s.origin);
             add_sphere(&sum, &m, c, s.radius[i]);
+            exposed += s.radius[i] * s.radius[i] * m.area;
         }
     }
     mass_of(&sum, s.origin, mass);
+    *area = exposed;
 done:
     clx_free(s.radius);
     clx_free(s.caps);
     clx_free(s.hidden);
     return status;
+}
+
+clast_status clx_spheres_union_mass(const clast_spheres *spheres, clast_mass *mass)
+{
+    double area = 0.0;
+    return clx_spheres_union_measure(spheres, mass, &area);
 }
 
 double clx_spheres_length(const clast_spheres *spheres)

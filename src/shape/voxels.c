@@ -222,7 +222,7 @@ clast_status clast_voxels_surface(const clast_voxels *voxels, const clast_voxel_
     for (int axis = 0; axis < 3 && voxels->grey == NULL; ++axis) {
         smooth_axis(&grid, axis);
     }
-    status = clx_isosurface(&grid, voxels->grey != NULL ? 0.0 : 0.5, mesh);
+    status = clx_isosurface(&grid, voxels->grey != NULL ? 0.0 : 0.5, 1e-3, mesh);
     for (int32_t i = 0; status == CLAST_OK && i < 3 * mesh->n_vert; ++i) {
         mesh->vert[i / 3][i % 3] *= voxels->edge[i % 3];
     }

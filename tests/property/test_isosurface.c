@@ -52,7 +52,7 @@ static void sphere_volume_converges_with_the_square_of_the_spacing(void **state)
         clast_mesh mesh = {0};
         CHECK_OK(clx_grid_alloc(low, high, i == 0 ? 0.1 : 0.05, 1.0f, &g));
         fill_sphere(&g, 1.0);
-        CHECK_OK(clx_isosurface(&g, 0.0, &mesh));
+        CHECK_OK(clx_isosurface(&g, 0.0, 1e-3, &mesh));
         check_closed(&mesh);
         assert_int_equal(mesh.n_vert - mesh.n_tri / 2, 2); /* Euler number of a sphere */
         error[i] = 1.0 - clast_mesh_volume(&mesh) / (4.0 * CLAST_PI / 3.0);
@@ -79,7 +79,7 @@ static void noise_gives_a_closed_surface(void **state)
                 }
             }
         }
-        CHECK_OK(clx_isosurface(&g, 0.0, &mesh));
+        CHECK_OK(clx_isosurface(&g, 0.0, 1e-3, &mesh));
         check_closed(&mesh);
         assert_true(clast_mesh_volume(&mesh) > 0.0);
         clast_mesh_free(&mesh);
@@ -94,9 +94,9 @@ static void empty_and_overfull_grids_are_refused(void **state)
     clx_grid g = {0};
     clast_mesh mesh = {0};
     CHECK_OK(clx_grid_alloc(low, high, 1.0, 1.0f, &g));
-    CHECK_STATUS(clx_isosurface(&g, 0.0, &mesh), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clx_isosurface(&g, 0.0, 1e-3, &mesh), CLAST_E_GEOMETRY);
     g.value[0] = -1.0f;
-    CHECK_STATUS(clx_isosurface(&g, 0.0, &mesh), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clx_isosurface(&g, 0.0, 1e-3, &mesh), CLAST_E_GEOMETRY);
     clx_grid_free(&g);
     CHECK_STATUS(clx_grid_alloc(low, high, 1e-4, 1.0f, &g), CLAST_E_LIMIT);
 }
@@ -104,7 +104,7 @@ static void empty_and_overfull_grids_are_refused(void **state)
 static clast_status make(void *context)
 {
     clast_mesh mesh = {0};
-    const clast_status status = clx_isosurface(context, 0.0, &mesh);
+    const clast_status status = clx_isosurface(context, 0.0, 1e-3, &mesh);
     clast_mesh_free(&mesh);
     return status;
 }

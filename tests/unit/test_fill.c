@@ -43,6 +43,26 @@ static void make_cone(int n, double r, double height, clast_mesh *mesh)
     }
 }
 
+/* A scan with one vertex far out (a unit slip, a stray digit): the search for spheres took
+ * gigabytes and crashed. */
+static void solid_with_a_far_vertex_is_refused(void **state)
+{
+    (void)state;
+    static const double far[] = {1e5, 1e6, 1e15, 1e150};
+    for (size_t i = 0; i < sizeof far / sizeof far[0]; ++i) {
+        clast_mesh box = {0};
+        clast_spheres s = {0};
+        clast_fill_report report = {0};
+        clast_fill_config config = settings(20);
+        CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &box));
+        box.vert[box.n_vert - 1][2] *= far[i];
+        CHECK_STATUS(clast_fill(&box, &config, NULL, &s, &report), CLAST_E_GEOMETRY);
+        assert_int_equal(s.n, 0);
+        done_with(&config);
+        clast_mesh_free(&box);
+    }
+}
+
 /* A cube's inscribed sphere, then eight in the corners: their centres lie on the diagonals, where
  * sqrt(3) (1/2 - r) = 1/2 + r. The published method needs a remeshed cube for this. */
 static void cube_takes_its_inscribed_sphere_then_the_corners(void **state)
@@ -554,6 +574,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_takes_its_inscribed_sphere_then_the_corners),
+        cmocka_unit_test(solid_with_a_far_vertex_is_refused),
         cmocka_unit_test(tetrahedron_and_cone_take_their_inscribed_spheres),
         cmocka_unit_test(slab_with_a_plane_of_summits_is_filled),
         cmocka_unit_test(two_bodies_are_filled_by_size),

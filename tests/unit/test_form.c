@@ -127,6 +127,24 @@ static void lengths_give_back_flatness_elongation_and_size(void **state)
     CHECK_REL(clast_form_sieve_size(lis[1], lis[2]), 0.011, 1e-15);
 }
 
+/* (L - I) / (L - S) of a cube from a file of 24 bits is 0 / 0: missing, not what rounding left. */
+static void differences_of_rounding_have_no_ratio(void **state)
+{
+    (void)state;
+    double value[CLAST_N_FORM_FEATURE];
+    const int32_t inverse = CLAST_N_FORM_FACTOR;
+    clast_form_features(1.0 + 1e-7, 1.0 + 3e-8, 1.0, value);
+    assert_true(isnan(value[CLAST_FORM_DISC_ROD]) && isnan(value[CLAST_FORM_OBLATE_PROLATE]));
+    assert_true(isnan(value[inverse + CLAST_FORM_DISC_ROD]));
+    clast_form_features(2.0 + 1e-7, 2.0, 1.0, value);
+    CHECK_ABS(value[CLAST_FORM_DISC_ROD], 0.0, 1e-6);
+    assert_true(isnan(value[inverse + CLAST_FORM_DISC_ROD])); // 1 / rounding
+    clast_form_features(1.00001, 1.000005, 1.0, value);
+    CHECK_REL(value[CLAST_FORM_DISC_ROD], 0.5, 1e-9);
+    assert_int_equal(clast_form_zingg((double)NAN, 0.5), CLAST_N_ZINGG);
+    assert_string_equal(clast_zingg_name(CLAST_N_ZINGG), "-");
+}
+
 static void zingg_has_four_corners(void **state)
 {
     (void)state;
@@ -147,6 +165,7 @@ int main(void)
         cmocka_unit_test(names_and_symbols_find_their_factor),
         cmocka_unit_test(sieve_size_of_the_rhine_scans_is_one),
         cmocka_unit_test(lengths_give_back_flatness_elongation_and_size),
+        cmocka_unit_test(differences_of_rounding_have_no_ratio),
         cmocka_unit_test(zingg_has_four_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

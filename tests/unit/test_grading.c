@@ -397,6 +397,44 @@ static void bad_curves_are_refused(void **state)
     assert_int_equal(curve.n_class, 0);
 }
 
+/* A plain struct that nobody made may hold no mass: its pieces' last was read before their begin.
+ */
+static void curves_without_mass_are_refused(void **state)
+{
+    (void)state;
+    double sieve[] = {1e-3, 2e-3, 4e-3};
+    double level[] = {1e-3, 1e-3, 1e-3};
+    double none[] = {0.0, 0.0};
+    double some[] = {0.5, 0.5};
+    const clast_curve bad[] = {{0}, {2, sieve, none}, {0, sieve, some}, {2, level, some}};
+    const clast_grading_spread spreads[] = {CLAST_SPREAD_STEP, CLAST_SPREAD_LINEAR,
+                                            CLAST_SPREAD_MEANS};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        clast_grading *grading = NULL;
+        clast_table table = {0};
+        clast_grading_match match;
+        const clast_grading_sample sample = {1, sieve, NULL};
+        for (int k = 0; k < 3; ++k) {
+            CHECK_STATUS(clast_grading_of_curve(&bad[i], spreads[k], CLAST_COUNT_MEAN, &grading),
+                         CLAST_E_CONFIG);
+            assert_null(grading);
+        }
+        CHECK_STATUS(clast_grading_compare(&bad[i], NULL, &sample, &table, &match), CLAST_E_CONFIG);
+    }
+    assert_true(isnan(clast_curve_size(&bad[0], 0.5)));
+    assert_true(isnan(clast_curve_size(&bad[1], 0.5)));
+    assert_true(isnan(clast_curve_passing(&bad[0], 1e-3)));
+    // one class, one size: all that a curve needs
+    clast_curve one = {0};
+    clast_grading *grading = NULL;
+    CHECK_OK(clast_curve_make(1, sieve, some, &one));
+    CHECK_OK(clast_grading_of_curve(&one, CLAST_SPREAD_STEP, CLAST_COUNT_MEAN, &grading));
+    CHECK_REL(clast_curve_size(&one, 0.5), sqrt(2.0) * 1e-3, 1e-15);
+    CHECK_REL(clast_grading_mass_size(grading, 1.0), 2e-3, 1e-15);
+    clast_grading_destroy(grading);
+    clast_curve_free(&one);
+}
+
 static void bad_laws_are_refused(void **state)
 {
     (void)state;
@@ -497,8 +535,8 @@ static void one_text_names_any_distribution(void **state)
 {
     (void)state;
     static const char *const text[] = {
-        "U1",    "uniform:5mm,8 mm", "lognormal:8mm,2mm", "lognormal:8mm,2mm,5mm,12mm", "11 mm",
-        "0.011", "-3.5phi"};
+        "U1",     "uniform:5mm,8 mm", "lognormal:8mm,2mm", "lognormal:8mm,2mm,5mm,12mm", "11 mm",
+        "0.011m", "-3.5phi"};
     static const double median[] = {6.693280212272604e-3, 6.5e-3, 0.0, 0.0, 11e-3, 11e-3,
                                     11.313708498984760e-3};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; ++i) {
@@ -518,6 +556,8 @@ static void one_text_names_any_distribution(void **state)
     CHECK_REFUSED(clast_grading_load("uniform:1mm", 0, 0, &curve, &g), "uniform:LOW,HIGH");
     CHECK_REFUSED(clast_grading_load("lognormal:1mm,2mm,3mm", 0, 0, &curve, &g), "expected");
     CHECK_REFUSED(clast_grading_load("uniform:1mm,2apples", 0, 0, &curve, &g), "apples");
+    CHECK_REFUSED(clast_grading_load("uniform:1mm,2", 0, 0, &curve, &g), "write 2mm");
+    CHECK_REFUSED(clast_grading_load("0.011", 0, 0, &curve, &g), "write 0.011m");
     CHECK_REFUSED(clast_grading_load("uniform:", 0, 0, &curve, &g), "not a number");
     CHECK_REFUSED(clast_grading_load("list:/nowhere.csv", 0, 0, &curve, &g), "nowhere");
     assert_null(g);
@@ -608,6 +648,7 @@ int main(void)
         cmocka_unit_test(achieved_is_set_beside_wanted),
         cmocka_unit_test(drawn_masses_match_the_curve),
         cmocka_unit_test(bad_curves_are_refused),
+        cmocka_unit_test(curves_without_mass_are_refused),
         cmocka_unit_test(bad_laws_are_refused),
         cmocka_unit_test(lists_are_drawn_by_number_or_mass),
         cmocka_unit_test(files_say_retained_or_passing),

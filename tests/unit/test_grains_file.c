@@ -46,6 +46,53 @@ static void files_keep_their_order_and_bad_ones_are_faults(void **state)
     clast_grains_free(&grains);
 }
 
+/* Rows x, y, z, r were taken for points: the hull of the centres, without the radii. */
+static void spheres_are_a_clump_and_not_the_hull_of_their_centres(void **state)
+{
+    (void)state;
+    const char *path[3] = {put("c.csv", "x,y,z,r\n0,0,0,1\n3,0,0,1\n0,3,0,1\n0,0,3,1\n"),
+                           put("d.csv", "x_mm,y_mm,z_mm,diameter_mm\n0,0,0,2\n3,0,0,2\n"),
+                           put("e.csv", "x,y,z\n0,0,0\n3,0,0\n0,3,0\n0,0,3\n")};
+    clast_grains_options options = plain();
+    clast_grains grains = {0};
+    clast_table table = {0};
+    CHECK_OK(clast_grains_read(3, path, &options, &grains));
+    assert_int_equal(grains.n, 3);
+    assert_int_equal(grains.record[0].kind, CLAST_GRAINS_CLUMP);
+    assert_int_equal(grains.record[2].kind, CLAST_GRAINS_POINTS);
+    CHECK_REL(grains.record[0].grain.volume, 4.0 * 4.0 / 3.0 * CLAST_PI, 1e-13);
+    CHECK_REL(grains.record[1].grain.volume, 2.0 * 4.0 / 3.0 * CLAST_PI * 1e-9, 1e-13);
+    CHECK_REL(grains.record[1].unit_m, 1.0, 0.0);
+    CHECK_OK(clast_grains_table(&grains, CLAST_AXES_BOX, false, &table));
+    assert_true(isnan(clast_table_numbers(&table, "flatness")[0]));
+    assert_string_equal(table.column[clast_table_find(&table, "zingg")].text[0], "-");
+    clast_table_free(&table);
+    clast_grains_free(&grains);
+    options.hull = true;
+    CHECK_OK(clast_grains_read(1, path, &options, &grains));
+    assert_int_equal(grains.n_fault, 1);
+    clast_grains_free(&grains);
+}
+
+/* P_2 about a ball: all of the form is in degree 2; below it, all of it is cut off. */
+static void series_say_what_their_last_degrees_hold(void **state)
+{
+    (void)state;
+    const char *path[1] = {put("s.dat", "0 0 9 0\n1 0 0 0\n1 1 0 0\n2 0 0.1 0\n2 1 0 0\n"
+                                        "2 2 0 0\n3 0 0 0\n3 1 0 0\n3 2 0 0\n3 3 0 0\n4 0 0 0\n"
+                                        "4 1 0 0\n4 2 0 0\n4 3 0 0\n4 4 0 0\n")};
+    clast_grains_options options = plain();
+    for (int degree = 1; degree <= 4; ++degree) {
+        clast_grains grains = {0};
+        options.degree = degree;
+        CHECK_OK(clast_grains_read(1, path, &options, &grains));
+        assert_int_equal(grains.record[0].degree, degree);
+        CHECK_ABS(grains.record[0].power_last, degree == 2 || degree == 3 ? 1.0 : 0.0, 1e-15);
+        CHECK_ABS(grains.record[0].power_cut, degree == 1 ? 1.0 : 0.0, 1e-15);
+        clast_grains_free(&grains);
+    }
+}
+
 static void a_tables_own_unit_counts_before_the_given_one(void **state)
 {
     (void)state;
@@ -106,6 +153,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_keep_their_order_and_bad_ones_are_faults),
+        cmocka_unit_test(spheres_are_a_clump_and_not_the_hull_of_their_centres),
+        cmocka_unit_test(series_say_what_their_last_degrees_hold),
         cmocka_unit_test(a_tables_own_unit_counts_before_the_given_one),
         cmocka_unit_test(the_table_has_nan_for_what_is_not_known),
         cmocka_unit_test(reading_survives_refused_memory),

@@ -1,0 +1,155 @@
+// Contacts and overlaps of grains that repeat periodically: the grains near the border once more as
+// images on the other side, and of each pair that meets there only one of its two sights.
+#include <clast/overlap.h>
+
+#include "assembly/touch_set.h"
+#include "assembly/union.h"
+#include "base/alloc.h"
+#include "base/status.h"
+#include "math/vec3.h"
+
+/// The grains, then images of those near the border.
+typedef struct {
+    clast_assembly all;
+    int32_t n_own;
+    int32_t *origin; ///< [all.n_grain] the grain that each is
+    int64_t room;
+} imaged;
+
+static void imaged_free(imaged *m)
+{
+    clast_assembly_free(&m->all);
+    clx_free(m->origin);
+    *m = (imaged){0};
+}
+
+static clast_status add(const clast_assembly *a, int32_t i, const double shift[3], imaged *m)
+{
+    clast_status status = CLAST_OK;
+    double at[3];
+    v3_add(at, a->position[i], shift);
+    CLX_TRY(clx_grow(&m->origin, &m->room, (int64_t)m->all.n_grain + 1, sizeof *m->origin));
+    m->origin[m->all.n_grain] = i;
+    CLX_TRY(clast_assembly_add_grain(&m->all, a->shape_id[i], at, a->orientation[i], a->scale[i],
+                                     a->density[i]));
+done:
+    return status;
+}
+
+static double reach_of(const clast_assembly *a, int32_t i)
+{
+    return a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
+}
+
+/// Images of grain i that may come near a grain of the first image.
+static clast_status add_images(const clast_assembly *a, int32_t i, const clast_period *period,
+                               double near, imaged *m)
+{
+    clast_status status = CLAST_OK;
+    for (int image = 0; image < 27; ++image) {
+        const int turn[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+        double shift[3];
+        bool is_near = image != 13; // 13 is the grain itself
+        for (int k = 0; k < 3 && is_near; ++k) {
+            shift[k] = turn[k] * period->length[k];
+            const double x = a->position[i][k] + shift[k] - period->low[k];
+            const double reach = reach_of(a, i) + near;
+            is_near = turn[k] == 0 ||
+                      (period->length[k] > 0.0 && x > -reach && x < period->length[k] + reach);
+        }
+        if (is_near) {
+            CLX_TRY(add(a, i, shift, m));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status make_images(const clast_assembly *a, const clast_period *period, double gap,
+                                imaged *m)
+{
+    static const double none[3] = {0.0, 0.0, 0.0};
+    clast_status status = CLAST_OK;
+    double largest = 0.0;
+    for (int32_t s = 0; s < a->n_shape; ++s) {
+        CLX_TRY(clast_assembly_add_shape(&m->all, &a->shape[s], NULL));
+    }
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        largest = fmax(largest, reach_of(a, i));
+        CLX_TRY(add(a, i, none, m));
+    }
+    m->n_own = a->n_grain;
+    for (int32_t i = 0; i < a->n_grain && period != NULL; ++i) {
+        CLX_TRY(add_images(a, i, period, largest + gap, m));
+    }
+done:
+    return status;
+}
+
+/// Of a pair across the border, seen from both sides, the one whose own grain has the lower number.
+static bool counts(const imaged *m, const int32_t pair[2])
+{
+    return m->origin != NULL && pair[0] < m->n_own &&
+           (pair[1] < m->n_own || m->origin[pair[0]] < m->origin[pair[1]]);
+}
+
+clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
+                                                   const clast_period *period)
+{
+    clast_status status = CLAST_OK;
+    imaged m = {0};
+    clast_assembly made = {.n_grain = assembly->n_grain}; // carries the contacts only
+    if (period == NULL) {
+        return clast_assembly_find_contacts(assembly, gap);
+    }
+    CLX_CHECK(gap >= 0.0 && isfinite(gap), CLAST_E_USAGE, "contacts: gap %g must not be negative",
+              gap);
+    CLX_TRY(make_images(assembly, period, gap, &m));
+    CLX_TRY(clast_assembly_find_contacts(&m.all, gap));
+    CLX_TRY(clx_alloc(&made.contact, m.all.n_contact + 1LL, sizeof *made.contact));
+    CLX_TRY(clx_alloc(&made.contact_point, m.all.n_contact + 1LL, sizeof *made.contact_point));
+    made.contact_capacity = m.all.n_contact + 1;
+    for (int32_t c = 0; c < m.all.n_contact; ++c) {
+        const int32_t *pair = m.all.contact[c];
+        if (counts(&m, pair)) {
+            CLX_TRY(clast_assembly_add_contact(&made, m.origin[pair[0]], m.origin[pair[1]],
+                                               m.all.contact_point[c]));
+        }
+    }
+    clx_free(assembly->contact);
+    clx_free(assembly->contact_point);
+    assembly->contact = made.contact;
+    assembly->contact_point = made.contact_point;
+    assembly->n_contact = made.n_contact;
+    assembly->contact_capacity = made.contact_capacity;
+    made.contact = NULL;
+    made.contact_point = NULL;
+done:
+    clx_free(made.contact);
+    clx_free(made.contact_point);
+    imaged_free(&m);
+    return status;
+}
+
+clast_status clast_assembly_overlaps(const clast_assembly *assembly, const clast_period *period,
+                                     clast_overlaps *overlaps)
+{
+    clast_status status = CLAST_OK;
+    imaged m = {0};
+    clx_touch_set set = {0};
+    clx_pairs pairs = {0};
+    clast_union found = {0};
+    CLX_TRY(make_images(assembly, period, 0.0, &m));
+    CLX_TRY(clx_touch_set_init(&m.all, &set));
+    CLX_TRY(clx_touch_set_near(&set, &pairs));
+    CLX_TRY(clx_keep_overlaps(&m.all, &set, true, &pairs, &found));
+    *overlaps = (clast_overlaps){.depth = found.max_overlap, .share = found.max_overlap_share};
+    for (int32_t p = 0; p < pairs.n; ++p) {
+        overlaps->n += counts(&m, pairs.pair[p]);
+    }
+done:
+    clx_pairs_free(&pairs);
+    clx_touch_set_free(&set);
+    imaged_free(&m);
+    return status;
+}

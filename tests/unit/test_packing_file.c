@@ -1,0 +1,232 @@
+/* Unit: packings of spheres from other programs' files, and beds that repeat in three directions.
+ */
+#include "support.h"
+
+#include <clast/local_porosity.h>
+#include <clast/overlap.h>
+#include <clast/packing_file.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FCC "periodic:0,0,0,4.242640687119285,4.242640687119285,4.242640687119285"
+
+/// Writes a text into a scratch file and reads it as a packing.
+static clast_status read_text(const char *name, const char *text, const char *columns,
+                              double diameter, clast_assembly *a)
+{
+    const clast_packing_options options = {columns, diameter};
+    const char *path = support_scratch_file(name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fputs(text, file) >= 0, 1);
+    assert_int_equal(fclose(file), 0);
+    return clast_packing_read(path, &options, a);
+}
+
+static void check_read(const char *name, const char *text, const char *columns, double diameter,
+                       const char *unit)
+{
+    clast_assembly a = {0};
+    const double u = strcmp(unit, "m") == 0 ? 1e-3 : 1.0;
+    CHECK_OK(read_text(name, text, columns, diameter, &a));
+    assert_int_equal(a.n_grain, 2);
+    assert_string_equal(a.unit, unit);
+    CHECK_REL(a.position[0][0], 0.5 * u, 1e-15);
+    CHECK_REL(a.position[1][2], 2.5 * u, 1e-15);
+    CHECK_REL(a.scale[0], 0.75 * u, 1e-15);
+    clast_assembly_free(&a);
+}
+
+static void files_of_other_programs_are_packings(void **state)
+{
+    (void)state;
+    check_read("a.csv", "x,y,z,radius\n.5,0,0,.75\n0,1,2.5,.75\n", "", 0.0, "model");
+    check_read("a.csv", "x,y,z,diameter\n.5,0,0,1.5\n0,1,2.5,1.5\n", "", 0.0, "model");
+    check_read("a.csv", "x_mm,y_mm,z_mm,d_mm\n.5,0,0,1.5\n0,1,2.5,1.5\n", "", 0.0, "m");
+    check_read("a.csv", "x (mm),y (mm),z (mm)\n.5,0,0\n0,1,2.5\n", "", 1.5e-3, "m");
+    check_read("a.txt", ".5 0 0 .75\n0 1 2.5 .75\n", "", 0.0, "model");
+    check_read("a.txt", "1 .5 0 0\n2 0 1 2.5\n", "", 1.5, "model");         // voro++
+    check_read("a.txt", "1 .5 0 0 .75\n2 0 1 2.5 .75\n", "", 0.0, "model"); // its polydisperse text
+    check_read("a.txt", "7 .5 0 0 1.5\n9 0 1 2.5 1.5\n", "id,x,y,z,d", 0.0, "model");
+    check_read("a.xyz", "2\nbox 3\nC .5 0 0 .75\nC 0 1 2.5 .75\n", "", 0.0, "model");
+    check_read("a.xyz", "2\nbox 3\nC .5 0 0\nC 0 1 2.5\n", "", 1.5, "model");
+    check_read(
+        "a.dump",
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 3\n0 3\n0 "
+        "3\nITEM: ATOMS id x y z diameter\n1 .5 0 0 1.5\n2 0 1 2.5 1.5\n",
+        "", 0.0, "model");
+}
+
+static void what_is_not_said_is_asked_for(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    CHECK_STATUS(read_text("b.txt", "1 .5 0 0\n2 0 1 2.5\n", "", 0.0, &a), CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "--diameter"));
+    CHECK_STATUS(read_text("b.csv", "x,y,z\n1,2,3\n", "", 0.0, &a), CLAST_E_FORMAT);
+    CHECK_STATUS(read_text("b.csv", "x_mm,y_mm,z_mm,radius\n1,2,3,1\n", "", 0.0, &a),
+                 CLAST_E_FORMAT);
+    assert_non_null(strstr(clast_error_detail(), "unit"));
+    CHECK_STATUS(read_text("b.csv", "x,y,z,radius\n1,2,3,-1\n", "", 0.0, &a), CLAST_E_FORMAT);
+    CHECK_STATUS(read_text("b.txt", "1 2 3 4 5\n9 2 3 4 5\n", "", 0.0, &a), CLAST_E_FORMAT);
+    CHECK_STATUS(read_text("b.txt", "1 2 3 4 5\n9 2 3 4 5\n", "id,x,y", 0.0, &a), CLAST_E_CONFIG);
+    CHECK_STATUS(read_text("b.xyzd", "12345", "", 0.0, &a), CLAST_E_FORMAT);
+    assert_int_equal(a.n_grain, 0);
+}
+
+/// Whole box, every cell and every contact of a packing that repeats in three directions.
+static void check_box(clast_assembly *a, const char *bed_text, double porosity, double tolerance,
+                      int32_t n_contact, double gap)
+{
+    clast_bed bed;
+    clast_table profile = {0};
+    clast_porosity_bulk bulk;
+    clast_overlaps overlaps;
+    clast_porosity_options options = clast_porosity_options_default();
+    double solid = 0.0;
+    CHECK_OK(clast_bed_parse(bed_text, &bed));
+    clast_bed_wrap(&bed, a);
+    clast_period period = {.low = {bed.low[0], bed.low[1], bed.floor}};
+    assert_true(clast_bed_period(&bed, period.length));
+    options.layer = 0.3;
+    CHECK_OK(clast_porosity_profile(a, &bed, &options, &profile));
+    CHECK_OK(clast_porosity_measure(a, &bed, &options, &profile, &bulk));
+    CHECK_ABS(bulk.porosity, porosity, tolerance);
+    CHECK_REL(bulk.z_high - bulk.z_low, period.length[2], 1e-15);
+    for (int64_t k = 0; k < profile.n_row; ++k) {
+        solid += clast_table_numbers(&profile, "solid_m3")[k];
+    }
+    CHECK_REL(solid, bulk.solid, 1e-12);
+    CHECK_REL(clast_table_numbers(&profile, "z_high_m")[profile.n_row - 1], bed.ceiling, 1e-15);
+    CHECK_OK(clast_assembly_find_contacts_periodic(a, gap, &period));
+    assert_int_equal(a->n_contact, n_contact);
+    CHECK_OK(clast_assembly_overlaps(a, &period, &overlaps));
+    assert_int_equal(overlaps.n, 0);
+    options.trim = 0.1;
+    CHECK_STATUS(clast_porosity_measure(a, &bed, &options, &profile, &bulk), CLAST_E_USAGE);
+    clast_table_free(&profile);
+}
+
+/* Face-centred cubic: 1 - pi / (3 sqrt 2), twelve contacts and a rhombic dodecahedron each. */
+static void close_packing_in_a_periodic_box_is_exact(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    const double porosity = 1.0 - CLAST_PI / (3.0 * sqrt(2.0));
+    CHECK_OK(clast_packing_read(support_data("packings/fcc-108.txt"), NULL, &a));
+    assert_int_equal(a.n_grain, 108);
+    check_box(&a, FCC, porosity, 1e-13, 6 * 108, 1e-9);
+    CHECK_OK(clast_bed_parse(FCC, &bed));
+    CHECK_OK(clast_local_porosity(&a, &bed, bed.floor, bed.ceiling, &local));
+    for (int64_t i = 0; i < local.n_row; ++i) {
+        CHECK_ABS(clast_table_numbers(&local, "porosity")[i], porosity, 1e-12);
+        CHECK_ABS(clast_table_numbers(&local, "border")[i], 0.0, 0.0);
+    }
+    assert_int_equal(local.n_row, 108);
+    CHECK_STATUS(clast_local_porosity(&a, &bed, 1.0, 2.0, &local), CLAST_E_USAGE);
+    clast_table_free(&local);
+    clast_assembly_free(&a);
+}
+
+/* Two pairs overlap, one of them across two borders of the box. */
+static void overlaps_count_across_borders(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_overlaps overlaps;
+    CHECK_OK(read_text("c.txt", "1 1 1\n2.9 1 1\n0.1 5 7.9\n7.9 5 1.77\n", "x,y,z", 2.0, &a));
+    CHECK_OK(clast_bed_parse("periodic:0,0,0,8,8,8", &bed));
+    clast_period period = {.low = {0.0, 0.0, 0.0}};
+    (void)clast_bed_period(&bed, period.length);
+    CHECK_OK(clast_assembly_overlaps(&a, NULL, &overlaps));
+    assert_int_equal(overlaps.n, 1);
+    CHECK_OK(clast_assembly_overlaps(&a, &period, &overlaps));
+    assert_int_equal(overlaps.n, 2);
+    CHECK_REL(overlaps.depth, 2.0 - hypot(0.2, 1.87), 1e-9);
+    CHECK_REL(overlaps.share, overlaps.depth, 1e-12);
+    clast_assembly_free(&a);
+}
+
+static void beds_in_three_directions_read_back(void **state)
+{
+    (void)state;
+    clast_bed bed;
+    clast_bed back;
+    clast_table table = {0};
+    char text[256];
+    CHECK_OK(clast_bed_parse("periodic:-1,-2,-3mm,1,2,3", &bed));
+    assert_int_equal(bed.kind, CLAST_BED_PERIODIC_3D);
+    CHECK_REL(bed.floor, -3e-3, 1e-15);
+    CHECK_REL(clast_bed_area(&bed), 8.0, 1e-15);
+    assert_true(clast_bed_format(&bed, text, sizeof text) > 0);
+    CHECK_OK(clast_bed_parse(text, &back));
+    assert_true(back.ceiling == bed.ceiling && back.floor == bed.floor &&
+                back.low[1] == bed.low[1]);
+    CHECK_OK(clast_bed_table(&bed, &table));
+    CHECK_OK(clast_bed_from_table(&table, &back));
+    assert_true(back.ceiling == bed.ceiling && back.floor == bed.floor);
+    clast_table_free(&table);
+    CHECK_STATUS(clast_bed_parse("periodic:0,0,1,1,1,1", &bed), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_bed_parse("box:0,0,0,1,1,1", &bed), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_bed_parse("periodic:0,0,0,1,1", &bed), CLAST_E_CONFIG);
+}
+
+/* Random close packing of 10,000 spheres: its published porosity, with nothing trimmed; the stored
+ * diameter is to be scaled to contact, says its README. */
+static void the_jammed_packing_has_its_published_porosity(void **state)
+{
+    (void)state;
+    const clast_packing_options scaled = {"", 1.0};
+    clast_assembly a = {0};
+    const char *path = support_shared("packings/rcp10000/packing.xyzd");
+    if (path == NULL) {
+        skip();
+    }
+    CHECK_OK(clast_packing_read(path, &scaled, &a));
+    assert_int_equal(a.n_grain, 10000);
+    check_box(&a, "periodic:0,0,0,20.0823593086113,20.0823593086113,20.0823593086113", 0.353520998,
+              5e-9, 29753, 1e-4);
+    clast_assembly_free(&a);
+}
+
+static clast_status make_packing(void *context)
+{
+    clast_assembly a = {0};
+    const clast_status status = clast_packing_read(context, NULL, &a);
+    clast_assembly_free(&a);
+    return status;
+}
+
+static clast_status make_overlaps(void *context)
+{
+    static const clast_period period = {{0.0, 0.0, 0.0}, {4.3, 4.3, 4.3}};
+    clast_overlaps overlaps;
+    return clast_assembly_overlaps(context, &period, &overlaps);
+}
+
+static void refused_memory_leaves_nothing(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    CHECK_OK(read_text("d.txt", "1 1 1 1\n2.9 1 1 1\n", "", 0.0, &a));
+    support_refuse_each_allocation(make_overlaps, &a);
+    support_refuse_each_allocation_at(make_packing, "d.txt");
+    clast_assembly_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_of_other_programs_are_packings),
+        cmocka_unit_test(what_is_not_said_is_asked_for),
+        cmocka_unit_test(close_packing_in_a_periodic_box_is_exact),
+        cmocka_unit_test(overlaps_count_across_borders),
+        cmocka_unit_test(beds_in_three_directions_read_back),
+        cmocka_unit_test(the_jammed_packing_has_its_published_porosity),
+        cmocka_unit_test(refused_memory_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
