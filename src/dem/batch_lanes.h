@@ -37,7 +37,7 @@ CLX_INLINE void collect(const clx_grain *const grain[CLX_LANES], size_t at, clx_
     lanes_transpose(out);
 }
 
-/// Images of b, along x and y, as numbers of periods.
+/// Images of b, along x and y, as the low bits of numbers of periods.
 CLX_INLINE void read_periods(clx_link *const link[CLX_LANES], clx_lanes period[2])
 {
     words both;
@@ -60,8 +60,11 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
     for (int c = 0; c < 3; ++c) {
         r[c] = b[c] - a[c];
     }
-    r[0] = r[0] + dem->period[0] * period[0];
-    r[1] = r[1] + dem->period[1] * period[1];
+    for (int c = 0; c < 2; ++c) {
+        const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
+        const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
+        r[c] = r[c] + dem->period[c] * n;
+    }
 }
 
 CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)

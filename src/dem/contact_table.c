@@ -10,21 +10,20 @@ static const struct {
                {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"}};
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
-/// One touching link: its numbers, from a copy, so that nothing goes on.
-static void measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
+/// One contact: its numbers, from a copy, so that nothing goes on; false if it is none.
+static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
 {
     clx_link copy = *link;
-    clx_dem_touch t = {0};
+    clx_dem_touch t;
     clx_load on_a = {0};
     clx_load on_b = {0};
     const int32_t a = clx_item_grain(dem, link->a);
-    clx_find_again(dem, link, &t);
-    if (t.distance < 0.0 || t.distance < clx_link_neck(dem, link)) {
-        clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
-        if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
-            bool is_first = true;
-            v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link, &is_first), on_a.force);
-        }
+    if (!clx_link_holds(dem, link, &t)) {
+        return false;
+    }
+    clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
+    if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
+        v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link), on_a.force);
     }
     out[0] = a;
     out[1] = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;
@@ -34,6 +33,7 @@ static void measure(const clast_dem *dem, const clx_link *link, double out[N_COL
         out[6 + k] = link->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
         out[9 + k] = -on_a.force[k];
     }
+    return true;
 }
 
 clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
@@ -51,14 +51,14 @@ clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
     int64_t row = 0;
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
         double value[N_COLUMN];
-        if (dem->list.link[k].touches != 0) {
-            measure(dem, &dem->list.link[k], value);
+        if (measure(dem, &dem->list.link[k], value)) {
             for (int c = 0; c < N_COLUMN; ++c) {
                 made.column[c].number[row] = value[c];
             }
             ++row;
         }
     }
+    CLX_TRY(clast_table_resize(&made, row));
     *table = made;
     made = (clast_table){0};
 done:

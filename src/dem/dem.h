@@ -62,7 +62,7 @@ typedef struct clx_item {
 /// Two items near each other: 48 bytes.
 typedef struct clx_link {
     int32_t a, b;         ///< b > a, or -1 - wall
-    int16_t period[2];    ///< b's image: position + period * width
+    int16_t period[2];    ///< b's image: position + n * width; the low 16 bits of n
     uint32_t touches : 1; ///< in the last step
     uint32_t kind : 2;    ///< clx_facet_kind of its memory
     uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
@@ -75,6 +75,11 @@ typedef struct clx_memory_slot {
     clx_contact_memory record;
     double spare[6];
 } clx_memory_slot;
+
+/// What the low 16 bits of a number of periods leave open; which it is, the offset tells to within
+/// a period (clx_link_offset).
+#define CLX_PERIOD_TURN 65536.0
+#define CLX_TO_WHOLE    0x1.8p52 ///< added and taken off again: rounds to a whole number
 
 enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 
@@ -223,13 +228,15 @@ typedef struct clx_dem_grid {
     uint32_t n_bucket; ///< a power of two
     clx_cell *cell;    ///< [n_item]
     int32_t *bucket;   ///< [n_bucket + 2] first entry of each
-    int32_t *entry;    ///< [n_item] items
+    int32_t *entry;    ///< [n_item] items by bucket
+    int32_t *by_level; ///< [n_item] items by level
+    int32_t level_begin[CLX_MAX_LEVEL + 1];
 } clx_dem_grid;
 
 /// A pair that a refresh found.
 typedef struct clx_found {
     int32_t a, b;
-    int16_t period[2];
+    int16_t period[2]; ///< low bits
 } clx_found;
 
 /// Neighbour lists and what their upkeep needs.
@@ -266,6 +273,7 @@ struct clast_dem {
     int32_t n_wall;
     clx_wall wall[CLX_MAX_WALL];
     double period[2];         ///< widths of a periodic domain, else 0
+    double inverse_period[2]; ///< 1 over them, else 0
     clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
@@ -447,8 +455,8 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine);
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);
 
-/// Contacts that the pair of bodies of a touching link has now; whether this is the first of them.
-int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_first);
+/// Contacts that the pair of bodies of a touching link had in the last step.
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link);
 
 /// A kernel over grains: sub-contacts of clumps share their pair's stiffness.
 void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context);
@@ -459,3 +467,6 @@ clast_status clx_check_starts(clast_dem *dem);
 
 /// Says what exploded. Returns CLAST_E_CONVERGE.
 clast_status clx_explain_explosion(const clast_dem *dem);
+
+/// Contacts of each grain, with grains and walls, as clast_dem_measure counts them.
+void clx_count_contacts(const clast_dem *dem, int32_t *count);

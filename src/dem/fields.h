@@ -4,25 +4,40 @@
 #include <clast/dem.h>
 #include <float.h>
 
-#define CLX_DEM_AT(TYPE, member, name, kind) #name, offsetof(TYPE, member name), CLAST_FIELD_##kind
+#define CLX_DEM_AT(TYPE, member, name, kind)                                                       \
+#name, .offset = offsetof(TYPE, member name), CLAST_FIELD_##kind
 #define CLX_DEM_FIELDS(TYPE, IN)                                                                   \
-    {CLX_DEM_AT(TYPE, IN, domain, CHOICE), 0, 0, 0, "-", "container, its sides",                   \
-     "cylinder|periodic|box|open"},                                                                \
+    {CLX_DEM_AT(TYPE, IN, domain, CHOICE),                                                         \
+     0,                                                                                            \
+     0,                                                                                            \
+     0,                                                                                            \
+     "-",                                                                                          \
+     "container, its sides",                                                                       \
+     "cylinder|periodic|box|open",                                                                 \
+     .common = true},                                                                              \
         {CLX_DEM_AT(TYPE, IN, width, F64),                                                         \
          0.104,                                                                                    \
          1e-9,                                                                                     \
          1e6,                                                                                      \
          "m",                                                                                      \
          "inside diameter of the cylinder, or width in x (L)",                                     \
-         NULL},                                                                                    \
+         NULL,                                                                                     \
+         .common = true},                                                                          \
         {CLX_DEM_AT(TYPE, IN, depth, F64), 0, 0, 1e6, "m", "width in y; 0: as width", NULL},       \
-        {CLX_DEM_AT(TYPE, IN, height, F64),         1.0, 1e-9, 1e6, "m",                           \
-         "height of the lid and of generation (H)", NULL},                                         \
+        {CLX_DEM_AT(TYPE, IN, height, F64),         1.0,  1e-9,          1e6, "m",                 \
+         "height of the lid and of generation (H)", NULL, .common = true},                         \
         {CLX_DEM_AT(TYPE, IN, floor, BOOL), 1, 0, 1, "-", "plane at z = 0", NULL},                 \
         {CLX_DEM_AT(TYPE, IN, lid, BOOL), 0, 0, 1, "-", "plane at z = height", NULL},              \
-        {CLX_DEM_AT(TYPE, IN, law, CHOICE), 0, 0, 0, "-", "contact law", "linear|hertz"},          \
-        {CLX_DEM_AT(TYPE, IN, restitution, F64), 0.1, 1e-3, 1.0, "-",                              \
-         "coefficient of restitution (e_n)",     NULL},                                            \
+        {CLX_DEM_AT(TYPE, IN, law, CHOICE),                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "contact law",                                                                            \
+         "linear|hertz",                                                                           \
+         .group = "contacts"},                                                                     \
+        {CLX_DEM_AT(TYPE, IN, restitution, F64), 0.1,  1e-3,          1.0, "-",                    \
+         "coefficient of restitution (e_n)",     NULL, .common = true},                            \
         {CLX_DEM_AT(TYPE, IN, collision_time, F64),   2e-4, 1e-12, 1e3, "s",                       \
          "duration of a collision (T_c), linear law", NULL},                                       \
         {CLX_DEM_AT(TYPE, IN, young, F64), 1e7, 1.0, 1e13, "Pa",                                   \
@@ -34,7 +49,8 @@
          100.0,                                                                                    \
          "-",                                                                                      \
          "coefficient of friction between grains (mu_p)",                                          \
-         NULL},                                                                                    \
+         NULL,                                                                                     \
+         .common = true},                                                                          \
         {CLX_DEM_AT(TYPE, IN, wall_friction, F64),   -1,  -1, 100.0, "-",                          \
          "the same at walls; -1: as between grains", NULL},                                        \
         {CLX_DEM_AT(TYPE, IN, rolling_friction, F64),                                              \
@@ -85,7 +101,8 @@
          "spheres of two clumps that touch at once: share one contact's stiffness, or each its "   \
          "own",                                                                                    \
          "shared|each"},                                                                           \
-        {CLX_DEM_AT(TYPE, IN, time_step, F64), 5e-6, 1e-15, 1e3, "s", "time step", NULL},          \
+        {CLX_DEM_AT(TYPE, IN, time_step, F64), 5e-6, 1e-15, 1e3, "s", "time step", NULL,           \
+         .group = "time, gravity and fluid"},                                                      \
         {CLX_DEM_AT(TYPE, IN, gravity, F64), 9.81, -1e6, 1e6, "m/s^2", "gravity along -z", NULL},  \
         {CLX_DEM_AT(TYPE, IN, fluid_density, F64),                                                 \
          1000,                                                                                     \
@@ -107,7 +124,8 @@
          1e6,                                                                                      \
          "m",                                                                                      \
          "radius that edges of surfaces get; the surface shrinks so that its volume stays",        \
-         NULL},                                                                                    \
+         NULL,                                                                                     \
+         .group = "surfaces and neighbour lists"},                                                 \
         {CLX_DEM_AT(TYPE, IN, skin, F64),                                                          \
          0.1,                                                                                      \
          1e-3,                                                                                     \

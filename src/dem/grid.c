@@ -12,6 +12,7 @@ void clx_dem_grid_free(clx_dem_grid *grid)
     clx_free(grid->cell);
     clx_free(grid->bucket);
     clx_free(grid->entry);
+    clx_free(grid->by_level);
     *grid = (clx_dem_grid){0};
 }
 
@@ -27,8 +28,7 @@ static uint32_t hash(const clx_dem_grid *grid, int32_t level, const int32_t at[3
 
 static int32_t level_of(double radius, double smallest)
 {
-    const int32_t level = (int32_t)floor(log2(radius / smallest * (1.0 + 1e-12)));
-    return level < CLX_MAX_LEVEL ? level : CLX_MAX_LEVEL - 1;
+    return (int32_t)fmin(floor(log2(radius / smallest * (1.0 + 1e-12))), CLX_MAX_LEVEL - 1);
 }
 
 static clast_status reserve(clx_dem_grid *grid, int32_t n)
@@ -44,6 +44,7 @@ static clast_status reserve(clx_dem_grid *grid, int32_t n)
     }
     CLX_TRY(clx_realloc(&grid->cell, room, sizeof *grid->cell));
     CLX_TRY(clx_realloc(&grid->entry, room, sizeof *grid->entry));
+    CLX_TRY(clx_realloc(&grid->by_level, room, sizeof *grid->by_level));
     CLX_TRY(clx_realloc(&grid->bucket, (int64_t)n_bucket + 2, sizeof *grid->bucket));
     grid->n_bucket = n_bucket;
     grid->capacity = room;
@@ -78,27 +79,45 @@ static void measure_levels(const clast_dem *dem, clx_dem_grid *grid)
     }
 }
 
-static int32_t wrapped(int32_t at, int32_t n)
-{
-    const int32_t r = at % n;
-    return r < 0 ? r + n : r;
-}
-
-static int32_t cell_of(const clx_dem_grid *grid, int32_t level, int c, double x)
+/// Column of cells; around a period from its first image on, so that no distance is too far.
+static double column_of(const clx_dem_grid *grid, int32_t level, int c, double x)
 {
     const double at = floor(x * grid->inverse[level][c]);
-    return (int32_t)fmax(-1e9, fmin(1e9, at));
+    return grid->n_cell[level][c] > 0 ? at : fmax(-1e9, fmin(1e9, at));
+}
+
+/// The same in the period about the origin.
+static int32_t cell_of(const clx_dem_grid *grid, int32_t level, int c, double column)
+{
+    const double n = grid->n_cell[level][c];
+    return (int32_t)(n > 0.0 ? column - n * floor(column / n) : column);
 }
 
 static void find_cell(const clast_dem *dem, clx_dem_grid *grid, int32_t i)
 {
     clx_cell *cell = &grid->cell[i];
     for (int c = 0; c < 3; ++c) {
-        const int32_t n = grid->n_cell[cell->level][c];
-        const int32_t at = cell_of(grid, cell->level, c, dem->list.anchor[i].position[c]);
-        cell->at[c] = n > 0 ? wrapped(at, n) : at;
+        const double x = dem->list.anchor[i].position[c];
+        cell->at[c] = cell_of(grid, cell->level, c, column_of(grid, cell->level, c, x));
     }
     cell->bucket = hash(grid, cell->level, cell->at);
+}
+
+/// Items by level, by number within each.
+static void sort_by_level(const clast_dem *dem, clx_dem_grid *grid)
+{
+    int32_t next[CLX_MAX_LEVEL] = {0};
+    memset(grid->level_begin, 0, sizeof grid->level_begin);
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        ++grid->level_begin[grid->cell[i].level + 1];
+    }
+    for (int32_t l = 0; l < CLX_MAX_LEVEL; ++l) {
+        grid->level_begin[l + 1] += grid->level_begin[l];
+        next[l] = grid->level_begin[l];
+    }
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        grid->by_level[next[grid->cell[i].level]++] = i;
+    }
 }
 
 clast_status clx_dem_grid_build(const clast_dem *dem, clx_dem_grid *grid)
@@ -106,6 +125,7 @@ clast_status clx_dem_grid_build(const clast_dem *dem, clx_dem_grid *grid)
     clast_status status = CLAST_OK;
     CLX_TRY(reserve(grid, dem->n_item));
     measure_levels(dem, grid);
+    sort_by_level(dem, grid);
     memset(grid->bucket, 0, ((size_t)grid->n_bucket + 2) * sizeof *grid->bucket);
     for (int32_t i = 0; i < dem->n_item; ++i) {
         find_cell(dem, grid, i);
@@ -126,11 +146,21 @@ static void enter(const clx_dem_grid *grid, clx_dem_grid_walk *w)
     for (int c = 0; c < 3; ++c) {
         const int32_t n = grid->n_cell[w->level][c];
         const int32_t at = w->low[c] + w->at[c];
-        w->cell[c] = n > 0 ? wrapped(at, n) : at;
+        w->cell[c] = n > 0 ? at % n : at;
     }
     const uint32_t b = hash(grid, w->level, w->cell);
+    w->item = grid->entry;
     w->begin = grid->bucket[b];
     w->end = grid->bucket[b + 1];
+}
+
+static void enter_level(const clx_dem_grid *grid, clx_dem_grid_walk *w)
+{
+    w->is_whole = true;
+    w->n[0] = w->n[1] = w->n[2] = 1;
+    w->item = grid->by_level;
+    w->begin = grid->level_begin[w->level];
+    w->end = grid->level_begin[w->level + 1];
 }
 
 bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double reach,
@@ -143,13 +173,19 @@ bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[
     const double far = reach + grid->reach[level];
     for (int c = 0; c < 3; ++c) {
         const int32_t n = grid->n_cell[level][c];
-        walk->low[c] = cell_of(grid, level, c, x[c] - far);
-        walk->n[c] = cell_of(grid, level, c, x[c] + far) - walk->low[c] + 1;
+        const double low = column_of(grid, level, c, x[c] - far);
+        walk->low[c] = cell_of(grid, level, c, low);
+        walk->n[c] = (int32_t)(column_of(grid, level, c, x[c] + far) - low) + 1;
         if (n > 0 && walk->n[c] > n) {
             walk->n[c] = n;
         }
     }
-    enter(grid, walk);
+    const int32_t n_item = grid->level_begin[level + 1] - grid->level_begin[level];
+    if ((double)walk->n[0] * walk->n[1] * walk->n[2] > (double)n_item) {
+        enter_level(grid, walk);
+    } else {
+        enter(grid, walk);
+    }
     return true;
 }
 

@@ -125,7 +125,7 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
     for (int c = 0; c < 2; ++c) {
         if (dem->period[c] > 0.0) {
             const double n = floor(0.5 - r[c] / dem->period[c]);
-            period[c] = (int16_t)n;
+            period[c] = (int16_t)(uint16_t)(int64_t)n;
             r[c] += n * dem->period[c];
         }
     }
@@ -145,7 +145,7 @@ static clast_status find_in_cell(clast_dem *dem, int32_t i, const clx_dem_grid_w
     clast_status status = CLAST_OK;
     const clx_dem_grid *grid = &dem->list.grid;
     for (int32_t k = walk->begin; k < walk->end; ++k) {
-        const int32_t other = grid->entry[k];
+        const int32_t other = walk->item[k];
         if (clx_dem_grid_is_here(grid, walk, other)) {
             CLX_TRY(consider(dem, i, other));
         }

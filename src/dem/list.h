@@ -6,13 +6,17 @@
 clast_status clx_dem_grid_build(const clast_dem *dem, clx_dem_grid *grid);
 void clx_dem_grid_free(clx_dem_grid *grid);
 
-/// A walk over the cells of one level that may hold items within reach of a point.
+/// A walk over the cells of one level that may hold items within reach of a point; over all items
+/// of the level where they are fewer than the cells, so that a boulder in sand costs its
+/// neighbours.
 typedef struct clx_dem_grid_walk {
     int32_t level;
+    bool is_whole;       ///< over all items of the level
+    const int32_t *item; ///< [begin .. end) are those of the current cell's bucket, or of the level
     int32_t low[3], n[3]; ///< first cell and number of cells
     int32_t at[3];        ///< offsets of the current cell
     int32_t cell[3];      ///< the current cell, wrapped
-    int32_t begin, end;   ///< entries of its bucket
+    int32_t begin, end;   ///< of `item`
 } clx_dem_grid_walk;
 
 /// First cell; false when the level is empty. `reach` is the item's own radius and margin.
@@ -25,6 +29,6 @@ static inline bool clx_dem_grid_is_here(const clx_dem_grid *grid, const clx_dem_
                                         int32_t item)
 {
     const clx_cell *c = &grid->cell[item];
-    return c->at[0] == w->cell[0] && c->at[1] == w->cell[1] && c->at[2] == w->cell[2] &&
-           c->level == w->level;
+    return w->is_whole || (c->at[0] == w->cell[0] && c->at[1] == w->cell[1] &&
+                           c->at[2] == w->cell[2] && c->level == w->level);
 }

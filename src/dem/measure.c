@@ -1,5 +1,6 @@
 // Sums over a simulation, its grains as an assembly, its digest, and what exploded.
 #include "base/alloc.h"
+#include "base/number.h"
 #include "dem/dem.h"
 #include "dem/touch.h"
 #include <math.h>
@@ -64,26 +65,27 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     v3_axpy(m->momentum, m->momentum, g->mass, g->velocity);
 }
 
-/// A touching link's part; its overlap is worked out afresh.
+/// A contact's part; its overlap is worked out afresh.
 static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measures *m)
 {
-    clx_dem_touch t = {0};
+    clx_dem_touch t;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, link->a)];
     double mass = a->mass;
     double radius = a->round_radius;
-    clx_find_again(dem, link, &t);
+    if (!clx_link_holds(dem, link, &t)) {
+        return;
+    }
+    const int is_first = clx_is_first_contact(dem, link) ? 1 : 0;
     if (link->b >= 0) {
         const clx_grain *b = &dem->grain[clx_item_grain(dem, link->b)];
         mass = a->mass * b->mass / (a->mass + b->mass);
         radius = a->round_radius * b->round_radius / (a->round_radius + b->round_radius);
-        ++m->n_contact;
+        m->n_contact += is_first;
     } else {
-        ++m->n_wall_contact;
+        m->n_wall_contact += is_first;
     }
-    bool is_first = true;
-    const int32_t n = clx_sub_contacts(dem, link, &is_first);
-    m->coordination += link->b >= 0 && is_first ? 2.0 / dem->n_grain : 0.0;
-    const double share = dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / n : 1.0;
+    const double share =
+        dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / clx_sub_contacts(dem, link) : 1.0;
     const double overlap = fmax(0.0, -t.distance);
     m->max_overlap = fmax(m->max_overlap, overlap);
     if (overlap > 0.0) {
@@ -105,14 +107,27 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
         add_grain(dem, i, &m);
     }
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        if (dem->list.link[k].touches != 0) {
-            add_link(dem, &dem->list.link[k], &m);
-        }
+        add_link(dem, &dem->list.link[k], &m);
     }
     if (m.mass > 0.0) {
         m.mean_height /= m.mass;
+        m.coordination = 2.0 * (double)m.n_contact / m.n_grain;
     }
     *measures = m;
+}
+
+void clx_count_contacts(const clast_dem *dem, int32_t *count)
+{
+    clx_dem_touch t;
+    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+        const clx_link *link = &dem->list.link[k];
+        if (clx_link_holds(dem, link, &t) && clx_is_first_contact(dem, link)) {
+            ++count[clx_item_grain(dem, link->a)];
+            if (link->b >= 0) {
+                ++count[clx_item_grain(dem, link->b)];
+            }
+        }
+    }
 }
 
 /// Position moved into the period about the origin.
@@ -130,15 +145,9 @@ static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < dem->list.n_link; ++k) {
         const clx_link *link = &dem->list.link[k];
-        if (link->b < 0 || link->touches == 0) {
-            continue;
-        }
-        clx_dem_touch t = {0};
+        clx_dem_touch t;
         double point[3];
-        clx_find_again(dem, link, &t);
-        bool is_first = true;
-        (void)clx_sub_contacts(dem, link, &is_first);
-        if (t.distance < 0.0 && is_first) { // clumps: one contact a pair of bodies
+        if (link->b >= 0 && clx_link_holds(dem, link, &t) && clx_is_first_contact(dem, link)) {
             const int32_t a = clx_item_grain(dem, link->a);
             v3_add(point, dem->grain[a].position, t.arm_a);
             wrap(dem, point);
@@ -242,10 +251,11 @@ clast_status clx_explain_explosion(const clast_dem *dem)
     const clx_grain *g = &dem->grain[worst];
     char where[96] = "nothing";
     if (other < 0 && depth > 0.0) {
-        (void)snprintf(where, sizeof where, "a wall by %.2g of its radius", depth / g->radius);
+        (void)clx_number_print(where, sizeof where, "a wall by %.2g of its radius",
+                               depth / g->radius);
     } else if (depth > 0.0) {
-        (void)snprintf(where, sizeof where, "grain %d by %.2g of its radius", other,
-                       depth / g->radius);
+        (void)clx_number_print(where, sizeof where, "grain %d by %.2g of its radius", other,
+                               depth / g->radius);
     }
     const bool is_deep = depth > 0.2 * g->radius;
     return clx_fail(

@@ -5,6 +5,8 @@
 // attraction all scale alike and the tangential displacement does not, so it is the pushes that are
 // divided.
 #include "dem/container.h"
+#include "dem/push.h"
+#include "dem/touch.h"
 #include "math/vec3.h"
 
 /// Triangles whose planes are closer than this cosine are one wall.
@@ -23,11 +25,10 @@ static bool is_same_pair(const clast_dem *dem, const clx_link *p, const clx_link
            p->period[1] == q->period[1];
 }
 
-int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_first)
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link)
 {
     const clx_list *l = &dem->list;
     int32_t n = 0;
-    *is_first = true;
     if (dem->item == NULL) {
         return 1;
     }
@@ -35,12 +36,35 @@ int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link, bool *is_fi
     const int64_t end = l->begin[dem->item_begin[g + 1]];
     for (int64_t k = l->begin[dem->item_begin[g]]; k < end; ++k) {
         const clx_link *other = &l->link[k];
-        if (other->touches != 0 && is_same_pair(dem, link, other)) {
-            *is_first = *is_first && (n > 0 || other == link);
-            ++n;
-        }
+        n += other->touches != 0 && is_same_pair(dem, link, other) ? 1 : 0;
     }
     return n > 0 ? n : 1;
+}
+
+bool clx_link_holds(const clast_dem *dem, const clx_link *link, clx_dem_touch *touch)
+{
+    *touch = (clx_dem_touch){0};
+    if (link->touches == 0) {
+        return false;
+    }
+    clx_find_again(dem, link, touch);
+    return touch->distance < 0.0 || touch->distance < clx_link_neck(dem, link);
+}
+
+bool clx_is_first_contact(const clast_dem *dem, const clx_link *link)
+{
+    const clx_list *l = &dem->list;
+    clx_dem_touch touch;
+    if (dem->item == NULL) {
+        return true;
+    }
+    const int32_t g = dem->item[link->a].grain;
+    for (const clx_link *k = l->link + l->begin[dem->item_begin[g]]; k < link; ++k) {
+        if (is_same_pair(dem, link, k) && clx_link_holds(dem, k, &touch)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static void divide(clx_pushed *push, int32_t n)

@@ -15,8 +15,11 @@ typedef struct clx_dem_touch {
 static inline void clx_link_offset(const clast_dem *dem, const clx_link *link, double r[3])
 {
     v3_sub(r, clx_item_position(dem, link->b), clx_item_position(dem, link->a));
-    r[0] += dem->period[0] * link->period[0];
-    r[1] += dem->period[1] * link->period[1];
+    for (int c = 0; c < 2; ++c) {
+        const double turns = (-r[c] * dem->inverse_period[c] - link->period[c]) / CLX_PERIOD_TURN;
+        const double n = link->period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
+        r[c] += dem->period[c] * n;
+    }
 }
 
 /// From item centres to grain centres, for spheres of clumps.
@@ -114,3 +117,11 @@ static inline void clx_find_again(const clast_dem *dem, const clx_link *link, cl
     }
     clx_dem_touch_find(dem, link, &memory, t);
 }
+
+/// Whether a link is a contact: it touched in the last step and has not parted since; a JKR neck
+/// holds beyond the overlap. `touch` is where.
+bool clx_link_holds(const clast_dem *dem, const clx_link *link, clx_dem_touch *touch);
+
+/// Whether a contact is the first of its two bodies: clumps may touch in several spheres, and count
+/// as one.
+bool clx_is_first_contact(const clast_dem *dem, const clx_link *link);

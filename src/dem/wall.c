@@ -22,6 +22,7 @@ void clx_dem_build_walls(clast_dem *dem)
     }
     for (int k = 0; k < 2; ++k) {
         dem->period[k] = c->domain == CLAST_DEM_PERIODIC ? side[k] : 0.0;
+        dem->inverse_period[k] = c->domain == CLAST_DEM_PERIODIC ? 1.0 / side[k] : 0.0;
         if (c->domain == CLAST_DEM_BOX) {
             add_plane(dem, k, 1.0, -0.5 * side[k]);
             add_plane(dem, k, -1.0, 0.5 * side[k]);

@@ -2,40 +2,41 @@
 #include "dem/fields.h"
 #include <clast/pack.h>
 
-#define FIELD(type, name) #name, offsetof(clast_pack_config, name), CLAST_FIELD_##type
-#define TEXT(name, value, help)                                                                    \
+#define FIELD(type, name) #name, .offset = offsetof(clast_pack_config, name), CLAST_FIELD_##type
+#define TEXT(name, value, ...)                                                                     \
     {                                                                                              \
-        FIELD(TEXT, name), 0, 0, 0, "-", help, value                                               \
+        FIELD(TEXT, name), 0, 0, 0, "-", .text = value, .help = __VA_ARGS__                        \
     }
-#define NUMBER(name, value, low, high, unit, help)                                                 \
+#define NUMBER(name, value, low, high, unit, ...)                                                  \
     {                                                                                              \
-        FIELD(F64, name), value, low, high, unit, help, NULL                                       \
+        FIELD(F64, name), value, low, high, unit, __VA_ARGS__                                      \
     }
-#define CHOICE(name, value, words, help)                                                           \
+#define CHOICE(name, value, words, ...)                                                            \
     {                                                                                              \
-        FIELD(CHOICE, name), value, 0, 0, "-", help, words                                         \
+        FIELD(CHOICE, name), value, 0, 0, "-", .text = words, .help = __VA_ARGS__                  \
     }
-#define FLAG(name, value, help)                                                                    \
+#define FLAG(name, value, ...)                                                                     \
     {                                                                                              \
-        FIELD(BOOL, name), value, 0, 1, "-", help, NULL                                            \
+        FIELD(BOOL, name), value, 0, 1, "-", __VA_ARGS__                                           \
     }
 
 const clast_field clast_pack_fields[] = {
     TEXT(curve, "U1",
          "sizes: a published case (U1 U3 U5 U7 B30 B50 B70), a sieve curve's file, list:FILE "
          "(sizes, counts), masses:FILE (sizes, masses), "
-         "uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], or one size"),
+         "uniform:LOW,HIGH, lognormal:MEAN,DEVIATION[,LOW,HIGH], or one size",
+         .common = true, .group = "sizes"),
     CHOICE(spread, 0, "step|linear|means", "how sizes lie within a sieve class"),
     CHOICE(count, 0, "mean|exact", "grains of a class by its mean size (eq. 9), or by its mass"),
     CHOICE(size_meaning, 0, "sieve|volume", "sizes are sieve sizes (eq. 1), or volume-equivalent"),
     {FIELD(TEXT_LIST, shapes), 0, 0, 0, "-",
      "shapes, drawn by weight: sphere, ellipsoid:a,b,c, a surface (its convex hull), spheres of a "
      "clump (CSV x,y,z,radius or state.h5), or an aggregate (state.h5); only their form counts",
-     "sphere"},
+     "sphere", .common = true, .group = "shapes"},
     {FIELD(F64_LIST, shape_weight), 0, 0, DBL_MAX, "-", "chance of each shape; none: all equal",
      ""},
-    TEXT(unit, "",
-         "length unit of surface files; may be left out, since sizes come from the curve"),
+    TEXT(unit, "", "length unit of surface files; may be left out, since sizes come from the curve",
+         .common = true),
     FLAG(hull, 1,
          "take the convex hull of every surface and report the volume it adds; no: refuse surfaces "
          "that are not convex"),
@@ -50,19 +51,20 @@ const clast_field clast_pack_fields[] = {
     {FIELD(F64_LIST, density), 0, 0, 1e6, "kg/m^3",
      "density of the grains (rho_p): one for all, or one for each shape (or as density_of says); "
      "0: those of the aggregate's own parts, as its state.h5 has them",
-     "2650"},
+     "2650", .common = true, .group = "density and mass"},
     CHOICE(density_of, 0, "shape|chance|class|list",
            "density lists one for each shape, or several to draw from whatever a grain's shape, or "
            "one for each class of the sieve curve; list: column density of list:FILE or "
            "masses:FILE, in place of density"),
     {FIELD(F64_LIST, density_weight), 0, 0, DBL_MAX, "-",
      "chance of each density (by number of grains) with density_of: chance; none: all equal", ""},
-    NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)"),
+    NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)", .common = true),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
-     NULL},
+     NULL, .common = true},
     TEXT(container, "",
          "surface, closed or open, that holds the grains in place of domain, width, depth and "
-         "height; grains are made inside of it"),
+         "height; grains are made inside of it",
+         .group = "container"),
     TEXT(container_unit, "", "length unit of its coordinates"),
 
     CLX_DEM_FIELDS(clast_pack_config, dem.),
@@ -70,7 +72,8 @@ const clast_field clast_pack_fields[] = {
     CHOICE(
         generator, 0, "cubic|hcp|shelf",
         "grains begin on a cubic lattice (published), a close-packed one (reference program), or "
-        "in rows as dense as their spheres allow"),
+        "in rows as dense as their spheres allow",
+        .group = "making grains"),
     NUMBER(spacing, 0, 0, 1e6, "m",
            "of that lattice (h_g); 0: the published one of the case, or what the grains need"),
     NUMBER(fill_low, 0.6, 0, 1, "-", "grains begin above this share of the height"),
@@ -80,28 +83,32 @@ const clast_field clast_pack_fields[] = {
     NUMBER(initial_speed, 1, 0, 1e3, "m/s", "downwards (u_init); a tenth of it sideways at random"),
     FLAG(random_turn, 1, "grains begin turned at random; off: as stored (reference program)"),
 
-    NUMBER(shake_amplitude, 3e-4, 0, 1e3, "m", "of shaking in x (A_s); 0: none"),
+    NUMBER(shake_amplitude, 3e-4, 0, 1e3, "m", "of shaking in x (A_s); 0: none",
+           .group = "shaking and damping"),
     NUMBER(shake_period, 0.025, 1e-9, 1e6, "s", "of shaking (T_s)"),
-    NUMBER(shaking_time, 1, 0, 1e6, "s", "of shaking after the last grain was made (t_s)"),
+    NUMBER(shaking_time, 1, 0, 1e6, "s", "of shaking after the last grain was made (t_s)",
+           .common = true),
     FLAG(shake_from_start, 1, "shake while grains are made, too"),
     NUMBER(damping, 1e-3, 1e-300, 1, "-", "velocities keep this share a second at the end (c_d)"),
 
-    CHOICE(rule, 0, "height|speed|either", "when the bed is still"),
+    CHOICE(rule, 0, "height|speed|either", "when the bed is still",
+           .group = "when the bed is still"),
     NUMBER(height_change, 1e-5, 0, 1e6, "m", "of the mean height in check_time"),
     NUMBER(check_time, 0.01, 1e-12, 1e6, "s", "between two looks at it"),
     NUMBER(still_speed, 1e-3, 0, 1e6, "m/s", "of the fastest grain"),
     {FIELD(I64, max_steps), 0, 0, 9e15, "-", "stop after so many time steps as it is; 0: never",
-     NULL},
+     NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
 
-    NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)"),
+    NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)",
+           .group = "measures"),
     NUMBER(cut, 0.5, 0, 1, "-", "the bed ends where the porosity is this (n cut-off)"),
     NUMBER(trim, -1, -1, 1e6, "m",
            "left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0"),
-    NUMBER(series_time, 0.01, 1e-12, 1e9, "s", "between rows of series.csv"),
-    NUMBER(frame_time, 0, 0, 1e9, "s", "between frames for ParaView; 0: the end only"),
+    NUMBER(series_time, 0.01, 1e-12, 1e9, "s", "between rows of series.csv", .group = "output"),
+    NUMBER(frame_time, 0, 0, 1e9, "s", "between frames for ParaView; 0: none", .common = true),
     NUMBER(checkpoint_time, 120, 0, 1e9, "s", "between checkpoints, by the clock"),
-    FLAG(force, 0, "replace an earlier run in the output folder; refused without this"),
+    FLAG(force, 0, "replace an earlier run in the output folder, once the new one has succeeded"),
     TEXT(resume, "", "go on with the run in this folder"),
     {0},
 };

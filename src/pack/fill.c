@@ -17,6 +17,8 @@ static double fill_high(const clast_pack *p)
            p->tall * (p->n_fill == 0 && c->first_high >= 0.0 ? c->first_high : c->fill_high);
 }
 
+enum { LATTICE_LIMIT = 1 << 26 };
+
 /// Where the next grain of a fill may go.
 typedef struct {
     double low, high; ///< heights of the region
@@ -33,16 +35,54 @@ typedef struct {
     int64_t capacity, radius_capacity;
 } filling;
 
+/// Steps of the lattice [m], and its points along x and y.
+static void measure_lattice(const clast_pack *p, double step[3], double n[2])
+{
+    const clast_dem_config *d = &p->config.dem;
+    const bool is_hcp = p->config.generator == CLAST_PACK_HCP;
+    const double depth = d->depth > 0.0 ? d->depth : d->width;
+    step[0] = p->spacing;
+    step[1] = p->spacing * (is_hcp ? sqrt(0.75) : 1.0);
+    step[2] = p->spacing * (is_hcp ? sqrt(2.0 / 3.0) : 1.0);
+    n[0] = fmax(1.0, floor(d->width / step[0] + 1e-9));
+    n[1] = fmax(1.0, floor(depth / step[1] + 1e-9));
+}
+
+/// Refuses a lattice that is much finer than the grains: it takes time and memory and no grain
+/// more.
+static clast_status check_lattice(const clast_pack *p, const filling *f)
+{
+    clast_status status = CLAST_OK;
+    double step[3];
+    double n[2];
+    double low = 0.0;
+    double high = 0.0;
+    measure_lattice(p, step, n);
+    clast_grading_range(p->input.grading, &low, &high);
+    const double narrowest = low * p->widest;
+    CLX_CHECK(p->spacing >= 0.1 * narrowest, CLAST_E_CONFIG,
+              "spacing %g m is less than a tenth of the smallest grain, %g m", p->spacing,
+              narrowest);
+    const double n_point = n[0] * n[1] * fmax(1.0, (f->high - f->low) / step[2]);
+    CLX_CHECK(
+        n_point <= LATTICE_LIMIT, CLAST_E_CONFIG,
+        "spacing %g m: %.3g places for grains in this domain, at most %.3g are possible; take a "
+        "larger spacing or the generator shelf",
+        p->spacing, n_point, (double)LATTICE_LIMIT);
+done:
+    return status;
+}
+
 /// The k-th point of the lattice, layer by layer; false above the region.
 static bool lattice_point(const clast_pack *p, const filling *f, int64_t k, double x[3])
 {
-    const clast_dem_config *d = &p->config.dem;
     const double h = p->spacing;
     const bool is_hcp = p->config.generator == CLAST_PACK_HCP;
-    const double depth = d->depth > 0.0 ? d->depth : d->width;
-    const double step[3] = {h, is_hcp ? h * sqrt(0.75) : h, is_hcp ? h * sqrt(2.0 / 3.0) : h};
-    const int64_t nx = (int64_t)fmax(1.0, floor(d->width / step[0] + 1e-9));
-    const int64_t ny = (int64_t)fmax(1.0, floor(depth / step[1] + 1e-9));
+    double step[3];
+    double n[2];
+    measure_lattice(p, step, n);
+    const int64_t nx = (int64_t)n[0];
+    const int64_t ny = (int64_t)n[1];
     const int64_t i = k % nx;
     const int64_t j = k / nx % ny;
     const int64_t l = k / (nx * ny);
@@ -280,6 +320,9 @@ clast_status clx_pack_fill(clast_pack *p)
     f.z = f.low;
     int64_t n_point = 0;
     double x[3];
+    if (p->config.generator != CLAST_PACK_SHELF) {
+        CLX_TRY(check_lattice(p, &f));
+    }
     while (p->config.generator != CLAST_PACK_SHELF && lattice_point(p, &f, n_point, x)) {
         ++n_point;
     }

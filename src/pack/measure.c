@@ -139,6 +139,43 @@ done:
     return status;
 }
 
+/// Grains that four contacts do not hold.
+static clast_status count_loose(const clast_pack *p, clast_pack_result *r)
+{
+    clast_status status = CLAST_OK;
+    int32_t *count = NULL;
+    CLX_TRY(clx_alloc(&count, r->dem.n_grain, sizeof *count));
+    clx_count_contacts(p->dem, count);
+    for (int32_t i = 0; i < r->dem.n_grain; ++i) {
+        r->n_loose += count[i] < 4 ? 1 : 0;
+    }
+done:
+    clx_free(count);
+    return status;
+}
+
+/// What still moves at the end, and what still fell at the end of shaking.
+static void measure_motion(const clast_pack *p, clast_pack_result *r)
+{
+    const double *phase = clast_table_numbers(&p->series, "phase");
+    const double *top = clast_table_numbers(&p->series, "top_m");
+    double volume = 0.0;
+    int64_t row = 0;
+    r->is_moving = r->dem.max_speed >= p->config.still_speed;
+    r->sank = (double)NAN;
+    while (row < p->series.n_row && phase[row] < CLAST_PACK_DAMP) {
+        ++row;
+    }
+    if (row == p->series.n_row || r->dem.n_grain == 0) {
+        return;
+    }
+    for (int32_t i = 0; i < r->dem.n_grain; ++i) {
+        volume += p->dem->motion[i].volume;
+    }
+    r->sank = top[row] - r->dem.top;
+    r->fell = r->sank > 2.0 * cbrt(6.0 / CLAST_PI * volume / r->dem.n_grain);
+}
+
 void clast_pack_result_free(clast_pack_result *result)
 {
     clx_free(result->hull);
@@ -147,6 +184,7 @@ void clast_pack_result_free(clast_pack_result *result)
 
 clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result)
 {
+    clast_status status = CLAST_OK;
     clast_pack_result r = {.phase = pack->phase,
                            .converged = pack->converged,
                            .hash = clast_dem_hash(pack->dem),
@@ -159,10 +197,11 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
     int32_t first = -1;
     clast_dem_measure(pack->dem, &r.dem);
     r.n_outside = clx_pack_n_outside(pack, &first);
-    const clast_status status = measure_bed(pack, &r);
-    if (status == CLAST_OK) {
-        *result = r;
-    }
+    measure_motion(pack, &r);
+    CLX_TRY(count_loose(pack, &r));
+    CLX_TRY(measure_bed(pack, &r));
+    *result = r;
+done:
     return status;
 }
 

@@ -4,6 +4,8 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "dem/dem.h"
+#include <clast/settling.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -132,6 +134,62 @@ static void begin_phase(clast_pack *p, clast_pack_phase phase)
     clx_pack_drive(p);
 }
 
+/// Longest time in which a grain that reaches above `low` sinks through the whole height [s]: its
+/// free fall from rest, less buoyancy, and in a viscous fluid the way at its terminal velocity,
+/// too. INFINITY: nothing draws it down.
+static double sinking_time(const clast_pack *p, double low)
+{
+    const clast_dem_config *d = &p->config.dem;
+    double longest = 0.0;
+    for (int32_t i = 0; i < clast_dem_n_grain(p->dem); ++i) {
+        const clx_motion *m = &p->dem->motion[i];
+        const clast_drag drag = {m->drag[0], m->drag[1]};
+        const double size = 2.0 * p->dem->grain[i].round_radius;
+        const clast_fluid fluid = {.density = fmax(d->fluid_density, 1e-12 * m->density), // Stokes
+                                   .viscosity = d->fluid_viscosity,
+                                   .gravity = d->gravity};
+        const double g = d->gravity * (1.0 - d->fluid_density / m->density);
+        clast_settling settling;
+        double time = g > 0.0 ? sqrt(2.0 * p->tall / g) : p->tall / p->config.initial_speed;
+        if (p->dem->grain[i].position[2] + p->dem->grain[i].radius < low) {
+            continue;
+        }
+        if (g > 0.0 && d->fluid_viscosity > 0.0 &&
+            clast_terminal_velocity(size, m->density, &drag, &fluid, &settling) == CLAST_OK) {
+            time += p->tall / settling.velocity;
+        }
+        longest = fmax(longest, time);
+    }
+    return longest;
+}
+
+/// Sinking times after which a fill that is still there waits for ever: the bed has grown into it.
+static const double PATIENCE = 50.0;
+
+/// A bed that grew into the place of generation would wait for ever.
+static clast_status check_waiting(const clast_pack *p, double low)
+{
+    clast_status status = CLAST_OK;
+    const double waited =
+        (double)(clast_dem_n_step(p->dem) - p->fill_step) * p->config.dem.time_step;
+    const double gravity = p->config.dem.gravity;
+    if (waited == 0.0 || (gravity > 0.0 && waited <= PATIENCE * sqrt(2.0 * p->tall / gravity))) {
+        return CLAST_OK;
+    }
+    const double sinking = sinking_time(p, low);
+    CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
+              "nothing draws the grains of fill %d down from above %g m (gravity %g m/s2, "
+              "initial_speed %g m/s): no room comes for the others",
+              p->n_fill, low, gravity, p->config.initial_speed);
+    CLX_CHECK(waited <= PATIENCE * sinking, CLAST_E_CONVERGE,
+              "grains of fill %d still lie above %g m after %g s, %g times what sinking through "
+              "the height takes: the bed has grown into the place where grains are made; take a "
+              "taller or wider domain",
+              p->n_fill, low, waited, PATIENCE);
+done:
+    return status;
+}
+
 /// A new fill once the last one has left the place where grains are made.
 static clast_status generate(clast_pack *p)
 {
@@ -149,12 +207,7 @@ static clast_status generate(clast_pack *p)
         CLX_TRY(clx_pack_fill(p));
         clx_pack_drive(p);
     }
-    // a bed that grew into the place of generation would wait for ever
-    const double fall = (double)(clast_dem_n_step(p->dem) - p->fill_step) * p->config.dem.time_step;
-    CLX_CHECK(fall < 10.0 + 10.0 * p->config.dem.height, CLAST_E_CONVERGE,
-              "grains of fill %d still lie above %g m after %g s: the bed has grown into the place "
-              "where grains are made; take a taller or wider domain",
-              p->n_fill, low, fall);
+    CLX_TRY(check_waiting(p, low));
 done:
     return status;
 }

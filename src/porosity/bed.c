@@ -1,6 +1,7 @@
 // The container that a porosity refers to.
 #include <clast/porosity.h>
 
+#include "base/number.h"
 #include "base/status.h"
 #include <clast/field.h>
 #include <math.h>
@@ -34,9 +35,9 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
 {
     clast_status status = CLAST_OK;
     clast_bed made = {0};
-    double number[4] = {0};
+    double number[6] = {0};
     const char *colon = strchr(text, ':');
-    const int n = colon != NULL ? lengths(colon + 1, 4, number) : -1;
+    const int n = colon != NULL ? lengths(colon + 1, 6, number) : -1;
     const size_t word = colon != NULL ? (size_t)(colon - text) : 0;
     if (word == 8 && strncmp(text, "cylinder", word) == 0 && (n == 1 || n == 3)) {
         made.kind = CLAST_BED_CYLINDER;
@@ -50,15 +51,20 @@ clast_status clast_bed_parse(const char *text, clast_bed *bed)
     } else {
         const bool is_box = word == 3 && strncmp(text, "box", word) == 0;
         const bool is_periodic = word == 8 && strncmp(text, "periodic", word) == 0;
-        CLX_CHECK((is_box || is_periodic) && n == 4, CLAST_E_CONFIG,
-                  "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1 or periodic:X0,Y0,X1,Y1, not "
-                  "'%s'",
-                  text);
-        made.kind = is_box ? CLAST_BED_BOX : CLAST_BED_PERIODIC;
+        CLX_CHECK(
+            ((is_box || is_periodic) && n == 4) || (is_periodic && n == 6), CLAST_E_CONFIG,
+            "bed takes cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or, in all "
+            "three directions, periodic:X0,Y0,Z0,X1,Y1,Z1, not '%s'",
+            text);
+        made.kind = is_box ? CLAST_BED_BOX : n == 6 ? CLAST_BED_PERIODIC_3D : CLAST_BED_PERIODIC;
         for (int k = 0; k < 2; ++k) {
             made.low[k] = number[k];
-            made.high[k] = number[k + 2];
+            made.high[k] = number[k + n / 2];
         }
+        made.floor = n == 6 ? number[2] : 0.0;
+        made.ceiling = n == 6 ? number[5] : 0.0;
+        CLX_CHECK(n == 4 || made.ceiling > made.floor, CLAST_E_CONFIG, "bed '%s' has no height",
+                  text);
     }
     CLX_CHECK(clast_bed_area(&made) > 0.0, CLAST_E_CONFIG, "bed '%s' has no area", text);
     *bed = made;
@@ -70,16 +76,43 @@ int clast_bed_format(const clast_bed *bed, char *text, size_t size)
 {
     int n = 0;
     if (bed->kind == CLAST_BED_CYLINDER) {
-        n = snprintf(text, size, "cylinder:%.17g,%.17g,%.17g", bed->radius, bed->centre[0],
-                     bed->centre[1]);
+        n = clx_number_print(text, size, "cylinder:%.17g,%.17g,%.17g", bed->radius, bed->centre[0],
+                             bed->centre[1]);
     } else if (bed->kind == CLAST_BED_MESH) {
         n = snprintf(text, size, "mesh");
+    } else if (bed->kind == CLAST_BED_PERIODIC_3D) {
+        n = clx_number_print(text, size, "periodic:%.17g,%.17g,%.17g,%.17g,%.17g,%.17g",
+                             bed->low[0], bed->low[1], bed->floor, bed->high[0], bed->high[1],
+                             bed->ceiling);
     } else {
-        n = snprintf(text, size, "%s:%.17g,%.17g,%.17g,%.17g",
-                     bed->kind == CLAST_BED_BOX ? "box" : "periodic", bed->low[0], bed->low[1],
-                     bed->high[0], bed->high[1]);
+        n = clx_number_print(text, size, "%s:%.17g,%.17g,%.17g,%.17g",
+                             bed->kind == CLAST_BED_BOX ? "box" : "periodic", bed->low[0],
+                             bed->low[1], bed->high[0], bed->high[1]);
     }
     return n >= 0 && (size_t)n < size ? n : -1;
+}
+
+bool clast_bed_period(const clast_bed *bed, double period[3])
+{
+    const bool is_3d = bed->kind == CLAST_BED_PERIODIC_3D;
+    const bool is_periodic = is_3d || bed->kind == CLAST_BED_PERIODIC;
+    period[0] = is_periodic ? bed->high[0] - bed->low[0] : 0.0;
+    period[1] = is_periodic ? bed->high[1] - bed->low[1] : 0.0;
+    period[2] = is_3d ? bed->ceiling - bed->floor : 0.0;
+    return is_periodic;
+}
+
+void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
+{
+    const double low[3] = {bed->low[0], bed->low[1], bed->floor};
+    double period[3];
+    (void)clast_bed_period(bed, period);
+    for (int k = 0; k < 3; ++k) {
+        for (int32_t i = 0; i < assembly->n_grain && period[k] > 0.0; ++i) {
+            double *x = &assembly->position[i][k];
+            *x = fmin(*x - period[k] * floor((*x - low[k]) / period[k]), low[k] + period[k]);
+        }
+    }
 }
 
 double clast_bed_area(const clast_bed *bed)

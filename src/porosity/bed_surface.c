@@ -14,7 +14,7 @@ clast_status clast_bed_close(const clast_mesh *container, clast_mesh *closed)
     clast_mesh_repair_config repair;
     CLX_TRY(clast_fields_default(clast_mesh_repair_fields, &repair));
     repair.fill = true;
-    repair.fill_size = 2.0; // any hole
+    repair.fill_size = 1.0; // any hole
     CLX_TRY(clast_mesh_repair(container, &repair, &made, NULL));
     CLX_TRY(clast_mesh_check(&made, &found));
     CLX_CHECK(found.closed && found.oriented && found.volume > 0.0, CLAST_E_GEOMETRY,

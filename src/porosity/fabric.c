@@ -79,7 +79,7 @@ static void add_counts(rows *r, const clast_assembly *a, const int32_t *count)
     }
 }
 
-static clast_status contacts(rows *r, const clast_assembly *a, const double period[2])
+static clast_status contacts(rows *r, const clast_assembly *a, const double period[3])
 {
     clast_status status = CLAST_OK;
     double tensor[3][3] = {{0.0}};
@@ -89,7 +89,7 @@ static clast_status contacts(rows *r, const clast_assembly *a, const double peri
     for (int32_t c = 0; c < a->n_contact; ++c) {
         double b[3];
         v3_sub(b, a->position[a->contact[c][1]], a->position[a->contact[c][0]]);
-        for (int k = 0; k < 2 && period != NULL; ++k) {
+        for (int k = 0; k < 3 && period != NULL; ++k) {
             b[k] -= period[k] > 0.0 ? period[k] * round(b[k] / period[k]) : 0.0;
         }
         ++count[a->contact[c][0]];
@@ -154,7 +154,7 @@ static void grains(rows *r, const clast_assembly *a)
     }
 }
 
-clast_status clast_fabric(const clast_assembly *assembly, const double period[2],
+clast_status clast_fabric(const clast_assembly *assembly, const double period[3],
                           clast_table *table)
 {
     clast_status status = CLAST_OK;

@@ -2,33 +2,39 @@
 #include <clast/porosity_fit.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "base/status.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define FIELD(type, name) #name, offsetof(clast_porosity_fit_config, name), type
+#define FIELD(type, name) #name, .offset = offsetof(clast_porosity_fit_config, name), type
 const clast_field clast_porosity_fit_fields[] = {
-    {FIELD(CLAST_FIELD_TEXT, target), 0, 0, 0, "-", "column with the measured porosity",
-     "porosity"},
+    {FIELD(CLAST_FIELD_TEXT, target), 0, 0, 0, "-", "column with the measured porosity", "porosity",
+     .common = true, .group = "columns"},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
      "columns of the form: flatness,elongation or L,I,S (else known by their names); with features "
      "columns: the candidates",
-     ""},
+     "", .common = true},
     {FIELD(CLAST_FIELD_TEXT, group), 0, 0, 0, "-",
-     "column that names the bed, in the table of beds and in that of the grains", "bed"},
-    {FIELD(CLAST_FIELD_I32, n_term), 2, 1, 20, "-", "features of the model", NULL},
+     "column that names the bed, in the table of beds and in that of the grains", "bed",
+     .common = true},
+    {FIELD(CLAST_FIELD_I32, n_term), 2, 1, 20, "-", "features of the model", NULL, .common = true,
+     .group = "model"},
     {FIELD(CLAST_FIELD_TEXT, use), 0, 0, 0, "-",
-     "take these features (a,b,...) instead of selecting", ""},
+     "take these features (a,b,...) instead of selecting", "", .common = true},
     {FIELD(CLAST_FIELD_F64, correlation_limit), 0.8, 0.0, 1.0, "-",
-     "remove features whose |r| to a chosen one is greater", NULL},
-    {FIELD(CLAST_FIELD_I32, n_fold), 10, 2, 1e6, "-", "folds of the cross-validation", NULL},
+     "remove features whose |r| to a chosen one is greater", NULL, .common = true,
+     .group = "selection and cross-validation"},
+    {FIELD(CLAST_FIELD_I32, n_fold), 10, 2, 1e6, "-", "folds of the cross-validation", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_I32, n_repeat), 1, 1, 10000, "-",
      "cross-validations with other folds to average", NULL},
     {FIELD(CLAST_FIELD_CHOICE, score), 0, 0, 0, "-",
      "absolute error that decides: the mean (Tables 9, 10 of the paper) or the median",
-     "mean|median"},
-    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8e19, "-", "random numbers of the folds", NULL},
+     "mean|median", .common = true},
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8e19, "-", "random numbers of the folds", NULL,
+     .common = true},
     {0}};
 
 void clast_fit_data_free(clast_fit_data *data)
@@ -163,7 +169,7 @@ done:
 static void cell_text(const clast_column *column, int64_t row, char *text, size_t size)
 {
     if (column->number != NULL) {
-        (void)snprintf(text, size, "%.17g", column->number[row]);
+        (void)clx_number_print(text, size, "%.17g", column->number[row]);
     } else {
         (void)snprintf(text, size, "%s", column->text[row]);
     }

@@ -28,10 +28,9 @@ typedef struct {
     int32_t size[3];
     int32_t *first; ///< [cells + 1]
     int32_t *item;  ///< [n] spheres by grid cell
-    bool periodic;
-    double period[2];
+    int n_period;   ///< directions that repeat: 0, 2 or 3
+    double period[3];
     double *volume, *n_face, *border; ///< results [n]
-    clast_status *status;             ///< [blocks]
 } diagram;
 
 static void diagram_free(diagram *d)
@@ -41,7 +40,6 @@ static void diagram_free(diagram *d)
     clx_free(d->radius);
     clx_free(d->first);
     clx_free(d->item);
-    clx_free(d->status);
 }
 
 static bool is_inside(const diagram *d, const double x[3])
@@ -59,9 +57,10 @@ static bool is_inside(const diagram *d, const double x[3])
 /// Moves a centre into the period's first image.
 static void wrap(const diagram *d, double x[3])
 {
-    for (int k = 0; k < 2 && d->periodic; ++k) {
-        x[k] -= d->period[k] * floor((x[k] - d->bed->low[k]) / d->period[k]);
-        x[k] = fmin(x[k], d->bed->high[k]);
+    const double low[3] = {d->bed->low[0], d->bed->low[1], d->bed->floor};
+    for (int k = 0; k < 3 && k < d->n_period; ++k) {
+        x[k] -= d->period[k] * floor((x[k] - low[k]) / d->period[k]);
+        x[k] = fmin(x[k], low[k] + d->period[k]);
     }
 }
 
@@ -160,13 +159,13 @@ done:
 }
 
 /// The bed's flat walls around sphere i, relative to its centre.
-static void walls(const diagram *d, int32_t i, clx_cell *cell)
+static clast_status walls(const diagram *d, int32_t i, clx_cell *cell)
 {
     double low[3];
     double high[3];
     const double *c = d->centre[i];
     extent(d, low, high);
-    for (int k = 0; k < 2 && d->periodic; ++k) { // its own images cut it at half a period
+    for (int k = 0; k < d->n_period; ++k) { // its own images cut it at half a period
         low[k] = c[k] - 0.5 * d->period[k];
         high[k] = c[k] + 0.5 * d->period[k];
     }
@@ -178,13 +177,7 @@ static void walls(const diagram *d, int32_t i, clx_cell *cell)
             high[k] += 0.01 * d->bed->radius;
         }
     }
-    if (d->bed->kind == CLAST_BED_CYLINDER) {
-        for (int k = 0; k < 2; ++k) { // the prism reaches beyond the circle
-            low[k] -= 0.01 * d->bed->radius;
-            high[k] += 0.01 * d->bed->radius;
-        }
-    }
-    clx_cell_box(low, high, cell);
+    return clx_cell_box(low, high, cell);
 }
 
 /// Cuts by the sides of the cylinder's prism; last, when few reach the cell.
@@ -205,13 +198,12 @@ done:
 }
 
 /// Cuts by the image of sphere j that lies in the grid cell's image.
-static clast_status cut_by(const diagram *d, int32_t i, int32_t j, const double shift[2],
+static clast_status cut_by(const diagram *d, int32_t i, int32_t j, const double shift[3],
                            double reach2, clx_cell *cell)
 {
     double u[3];
     v3_sub(u, d->centre[j], d->centre[i]);
-    u[0] += shift[0];
-    u[1] += shift[1];
+    v3_add(u, u, shift);
     const double d2 = v3_norm2(u);
     const double offset = 0.5 * (d2 + d->radius[i] * d->radius[i] - d->radius[j] * d->radius[j]);
     if (d2 == 0.0 || (offset > 0.0 && offset * offset >= d2 * reach2)) {
@@ -225,7 +217,7 @@ static bool image(const diagram *d, int axis, int32_t index, int32_t *in_grid, d
 {
     *shift = 0.0;
     *in_grid = index;
-    if (axis < 2 && d->periodic) {
+    if (axis < d->n_period) {
         const int32_t n = d->size[axis];
         const int32_t turn = index >= 0 ? index / n : -((n - 1 - index) / n);
         *in_grid = index - turn * n;
@@ -283,7 +275,7 @@ static clast_status make_cell(const diagram *d, int32_t i, clx_cell *cell)
     for (int k = 0; k < 3; ++k) {
         most = d->size[k] > most ? d->size[k] : most;
     }
-    walls(d, i, cell);
+    CLX_TRY(walls(d, i, cell));
     const double gain = d->largest * d->largest - d->radius[i] * d->radius[i];
     for (int32_t ring = 0; ring <= 2 * most; ++ring) {
         // Whatever lies in this ring and beyond is at least (ring - 1) steps away.
@@ -299,29 +291,28 @@ done:
     return status;
 }
 
-static void make_cells(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status make_cells(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     diagram *d = context;
-    clx_cell *cell = NULL;
+    clx_cell grown = {0};
+    clx_cell *cell = &grown;
     (void)worker;
-    for (int64_t b = begin; b < end; ++b) {
-        d->status[b] = clx_alloc(&cell, 1, sizeof *cell);
-        for (int64_t i = b * BLOCK; i < (b + 1) * BLOCK && i < d->n && d->status[b] == CLAST_OK;
-             ++i) {
-            d->status[b] = make_cell(d, (int32_t)i, cell);
-            d->volume[i] = clx_cell_volume(cell);
-            d->n_face[i] = cell->n_face;
-            d->border[i] = 0.0;
-            for (int32_t f = 0; f < cell->n_face; ++f) {
-                const int32_t mark = cell->face[f].mark;
-                if (mark < 0 && !(d->periodic && mark >= -4)) {
-                    d->border[i] = 1.0;
-                }
+    for (int64_t i = begin; i < end; ++i) {
+        CLX_TRY(make_cell(d, (int32_t)i, cell));
+        d->volume[i] = clx_cell_volume(cell);
+        d->n_face[i] = cell->n_face;
+        d->border[i] = 0.0;
+        for (int32_t f = 0; f < cell->n_face; ++f) {
+            const int32_t mark = cell->face[f].mark;
+            if (mark < -2 * d->n_period) {
+                d->border[i] = 1.0;
             }
         }
-        clx_free(cell);
-        cell = NULL;
     }
+done:
+    clx_cell_free(cell);
+    return status;
 }
 
 /// Columns of the result; the diagram's results point into them.
@@ -353,25 +344,22 @@ clast_status clast_local_porosity(const clast_assembly *assembly, const clast_be
     clast_status status = CLAST_OK;
     clast_table made = {0};
     diagram d = {.bed = bed, .z_low = z_low, .z_high = z_high};
-    d.periodic = bed->kind == CLAST_BED_PERIODIC;
-    d.period[0] = bed->high[0] - bed->low[0];
-    d.period[1] = bed->high[1] - bed->low[1];
+    d.n_period = !clast_bed_period(bed, d.period) ? 0 : bed->kind == CLAST_BED_PERIODIC ? 2 : 3;
     CLX_CHECK(bed->kind != CLAST_BED_MESH, CLAST_E_USAGE,
               "local porosity knows cylinder, box and periodic beds, not the inside of a surface");
+    CLX_CHECK(d.n_period < 3 || (z_low == bed->floor && z_high == bed->ceiling), CLAST_E_USAGE,
+              "a bed that is periodic in all three directions is taken whole, from %g to %g",
+              bed->floor, bed->ceiling);
     CLX_CHECK(z_high > z_low && clast_bed_area(bed) > 0.0, CLAST_E_USAGE,
               "a bed from %g to %g over %g m2 holds nothing", z_low, z_high, clast_bed_area(bed));
     CLX_TRY(take_spheres(assembly, &d));
     CLX_TRY(make_grid(&d));
     CLX_TRY(clast_table_init(&made, "local", d.n));
     CLX_TRY(make_columns(assembly, &d, &made));
-    const int64_t n_block = (d.n + BLOCK - 1) / BLOCK;
-    CLX_TRY(clx_alloc(&d.status, n_block, sizeof *d.status));
-    clx_parallel_for(n_block, 1, make_cells, &d);
-    for (int64_t b = 0; b < n_block; ++b) {
-        CLX_TRY(d.status[b]);
-    }
+    CLX_TRY(clx_parallel_try(d.n, BLOCK, make_cells, &d));
     for (int32_t i = 0; i < d.n; ++i) {
-        made.column[3].number[i] = 1.0 - made.column[2].number[i] / d.volume[i];
+        made.column[3].number[i] =
+            d.volume[i] > 0.0 ? 1.0 - made.column[2].number[i] / d.volume[i] : (double)NAN;
     }
     *table = made;
     made = (clast_table){0};

@@ -16,7 +16,7 @@ enum { BLOCK = 256, POINT_LIMIT = 100000000 };
 typedef struct {
     const clast_bed *bed;
     const clx_touch_set *set;
-    double z_low, z_high, period[2];
+    double z_low, z_high, period[3];
     double first;      ///< radius of the first search
     clast_bvh *inside; ///< of a bed within a surface, else NULL
     double *delta;
@@ -60,12 +60,15 @@ static double nearest_within(const search *s, const double x[3], double reach, d
     clx_touch_body probe = clx_touch_body_sphere(dust);
     const int nx = s->period[0] > 0.0 ? 1 : 0;
     const int ny = s->period[1] > 0.0 ? 1 : 0;
-    for (int i = -nx; i <= nx && !v.held; ++i) {
-        for (int j = -ny; j <= ny && !v.held; ++j) {
-            v3_set(v.x, x[0] + i * s->period[0], x[1] + j * s->period[1], x[2]);
-            clx_touch_body_place(&probe, v.x, upright, 1.0);
-            (void)clx_touch_scene_contacts(s->set->scene, &probe, reach, visit, &v);
-        }
+    const int nz = s->period[2] > 0.0 ? 1 : 0;
+    const int n_image = (2 * nx + 1) * (2 * ny + 1) * (2 * nz + 1);
+    for (int m = 0; m < n_image && !v.held; ++m) { // z fastest, then y
+        const int k = m % (2 * nz + 1) - nz;
+        const int j = m / (2 * nz + 1) % (2 * ny + 1) - ny;
+        const int i = m / ((2 * nz + 1) * (2 * ny + 1)) - nx;
+        v3_set(v.x, x[0] + i * s->period[0], x[1] + j * s->period[1], x[2] + k * s->period[2]);
+        clx_touch_body_place(&probe, v.x, upright, 1.0);
+        (void)clx_touch_scene_contacts(s->set->scene, &probe, reach, visit, &v);
     }
     return v.held ? -1.0 : v.nearest + dust;
 }
@@ -158,7 +161,7 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
                 .set = &set,
                 .z_low = z[0],
                 .z_high = z[1],
-                .period = {options->period[0], options->period[1]}};
+                .period = {options->period[0], options->period[1], options->period[2]}};
     const int64_t n = options->n_point;
     int64_t n_pore = 0;
     int64_t n_bed = 0;

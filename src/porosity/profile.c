@@ -20,41 +20,62 @@ typedef struct {
     int32_t n_slice;
     const double *edge;
     int64_t first, n_block; ///< blocks of this round
+    double period;          ///< in height, 0: none; grains begin in the first image
+    double *shifted;        ///< [n_block][n_slice + 1] the edges as an image sees them
     double *solid;          ///< [n_block][n_slice]
-    clast_status *status;   ///< [n_block]
 } gathering;
 
-static void gather(int64_t begin, int64_t end, int32_t worker, void *context)
+/// Grain i and, in a bed that repeats in height, its images above and below.
+static clast_status add_grain(const gathering *g, int32_t i, double *shifted, double *solid)
 {
+    clast_status status = CLAST_OK;
+    for (int image = -1; image <= 1 && g->period > 0.0; ++image) {
+        for (int32_t k = 0; k <= g->n_slice; ++k) {
+            shifted[k] = g->edge[k] + image * g->period;
+        }
+        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, g->n_slice, shifted, solid));
+    }
+    if (g->period <= 0.0) {
+        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, g->n_slice, g->edge, solid));
+    }
+done:
+    return status;
+}
+
+static clast_status gather(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    clast_status status = CLAST_OK;
     gathering *g = context;
     (void)worker;
     for (int64_t b = begin; b < end; ++b) {
         const int64_t from = (g->first + b) * BLOCK;
         double *solid = g->solid + b * g->n_slice;
         for (int64_t i = from; i < from + BLOCK && i < g->assembly->n_grain; ++i) {
-            if (g->status[b] == CLAST_OK) {
-                g->status[b] = clast_grain_slabs(g->assembly, (int32_t)i, g->method, g->n_slice,
-                                                 g->edge, solid);
-            }
+            CLX_TRY(add_grain(g, (int32_t)i, g->shifted + b * (g->n_slice + 1), solid));
         }
     }
+done:
+    return status;
 }
 
 /// Solid volume of all grains in slices. Blocks go in rounds, so that memory stays bounded.
-static clast_status slabs(const clast_assembly *assembly, clast_porosity_method method, int32_t n,
-                          const double *edge, double *solid)
+static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
+                          clast_porosity_method method, int32_t n, const double *edge,
+                          double *solid)
 {
     clast_status status = CLAST_OK;
     const int64_t n_block = (assembly->n_grain + BLOCK - 1) / BLOCK;
     const int64_t most = 64;
     gathering g = {.assembly = assembly, .method = method, .n_slice = n, .edge = edge};
-    CLX_TRY(clx_alloc(&g.status, most, sizeof *g.status));
+    double period[3];
+    (void)clast_bed_period(bed, period);
+    g.period = period[2];
+    CLX_TRY(clx_alloc(&g.shifted, g.period > 0.0 ? most * (n + 1LL) : 0, sizeof *g.shifted));
     for (g.first = 0; g.first < n_block; g.first += most) {
         g.n_block = n_block - g.first < most ? n_block - g.first : most;
         CLX_TRY(clx_alloc(&g.solid, g.n_block * n, sizeof *g.solid));
-        clx_parallel_for(g.n_block, 1, gather, &g);
+        CLX_TRY(clx_parallel_try(g.n_block, 1, gather, &g));
         for (int64_t b = 0; b < g.n_block; ++b) {
-            CLX_TRY(g.status[b]);
             for (int32_t k = 0; k < n; ++k) {
                 solid[k] += g.solid[b * n + k];
             }
@@ -63,8 +84,8 @@ static clast_status slabs(const clast_assembly *assembly, clast_porosity_method 
         g.solid = NULL;
     }
 done:
+    clx_free(g.shifted);
     clx_free(g.solid);
-    clx_free(g.status);
     return status;
 }
 
@@ -87,23 +108,45 @@ static clast_status fill_columns(const clast_assembly *assembly, const clast_bed
     for (int32_t k = 0; k <= n; ++k) {
         edge[k] = bed->floor + k * options->layer;
     }
+    if (bed->kind == CLAST_BED_PERIODIC_3D) {
+        edge[n] = bed->ceiling; // the last slice may be thinner
+    }
     for (int32_t k = 0; k < n; ++k) {
         low[k] = edge[k];
         high[k] = edge[k + 1];
     }
     CLX_TRY(clx_alloc(&volume, n, sizeof *volume));
     clast_bed_volumes(bed, n, edge, volume);
-    edge[0] = -HUGE_VAL;
-    if (bed->kind != CLAST_BED_MESH) { // what lies above a container's rim lies outside
+    edge[0] = bed->kind == CLAST_BED_PERIODIC_3D ? edge[0] : -HUGE_VAL;
+    if (bed->kind != CLAST_BED_MESH &&
+        bed->kind != CLAST_BED_PERIODIC_3D) { // what lies above a container's rim lies outside
         edge[n] = HUGE_VAL;
     }
-    CLX_TRY(slabs(assembly, options->method, n, edge, solid));
+    CLX_TRY(slabs(assembly, bed, options->method, n, edge, solid));
     for (int32_t k = 0; k < n; ++k) {
         porosity[k] = volume[k] > 0.0 ? 1.0 - solid[k] / volume[k] : 1.0;
     }
 done:
     clx_free(volume);
     clx_free(edge);
+    return status;
+}
+
+/// Images are looked for one period away.
+static clast_status check_images(const clast_assembly *assembly, const clast_bed *bed)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < assembly->n_grain && bed->kind == CLAST_BED_PERIODIC_3D; ++i) {
+        const double z = assembly->position[i][2];
+        const double reach =
+            assembly->scale[i] * assembly->shape[assembly->shape_id[i]].bounding_radius;
+        CLX_CHECK(z >= bed->floor && z <= bed->ceiling, CLAST_E_USAGE,
+                  "grain %d lies at z = %g, outside of the first image: call clast_bed_wrap", i, z);
+        CLX_CHECK(reach <= bed->ceiling - bed->floor, CLAST_E_GEOMETRY,
+                  "grain %d reaches %g from its centre, farther than the period of %g", i, reach,
+                  bed->ceiling - bed->floor);
+    }
+done:
     return status;
 }
 
@@ -129,7 +172,11 @@ clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_
         clast_mesh_bounds(bed->surface, box_low, box_high);
         high[2] = fmin(high[2], box_high[2]);
     }
-    const double n = fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
+    const double n =
+        bed->kind == CLAST_BED_PERIODIC_3D
+            ? fmax(1.0, ceil((bed->ceiling - bed->floor) / options->layer * (1.0 - 1e-12)))
+            : fmax(1.0, ceil((high[2] - bed->floor) / options->layer) + 1.0);
+    CLX_TRY(check_images(assembly, bed));
     CLX_CHECK(n <= SLICE_LIMIT, CLAST_E_LIMIT,
               "%g slices of %g m; at most %d (coordinates in another unit?)", n, options->layer,
               SLICE_LIMIT);
@@ -174,14 +221,22 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
 {
     clast_status status = CLAST_OK;
     clast_porosity_bulk made = {0};
-    CLX_TRY(find_top(options, profile, &made.top));
+    const bool is_endless = bed->kind == CLAST_BED_PERIODIC_3D;
+    CLX_CHECK(!is_endless || options->trim == 0.0, CLAST_E_USAGE,
+              "a bed that is periodic in all three directions has no ends to trim (%g)",
+              options->trim);
+    made.top = bed->ceiling;
+    if (!is_endless) {
+        CLX_TRY(find_top(options, profile, &made.top));
+    }
     made.z_low = bed->floor + options->trim;
     made.z_high = made.top - options->trim;
     CLX_CHECK(made.z_high > made.z_low, CLAST_E_GEOMETRY,
               "the bed is %g m high: trimming %g m at both ends leaves nothing",
               made.top - bed->floor, options->trim);
-    const double edge[2] = {options->trim > 0.0 ? made.z_low : -HUGE_VAL, made.z_high};
-    CLX_TRY(slabs(assembly, options->method, 1, edge, &made.solid));
+    const bool cuts_low = options->trim > 0.0 || is_endless;
+    const double edge[2] = {cuts_low ? made.z_low : -HUGE_VAL, made.z_high};
+    CLX_TRY(slabs(assembly, bed, options->method, 1, edge, &made.solid));
     const double whole[2] = {made.z_low, made.z_high};
     double volume = 0.0;
     clast_bed_volumes(bed, 1, whole, &volume);

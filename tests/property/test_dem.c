@@ -188,6 +188,53 @@ static void period_has_no_border(void **state)
     CHECK_REL(x[1][1], x[0][1], 1e-10);
 }
 
+/// Velocities of pairs that meet through the border, b moved by so many periods in x and y: the
+/// same as without, but for the digits that its distance from the origin costs.
+static void check_distant_pairs(scene_body_kind kind)
+{
+    static const double moved[] = {0,     1,     -2,    32767,  32768, -32767, -32768, 40000, -4e4,
+                                   65535, 65536, 65537, -65536, 98304, 1e5,    -1e6,   1e6,   3e7};
+    enum { N = sizeof moved / sizeof *moved };
+    clast_dem_config c = scene_physics();
+    c.domain = CLAST_DEM_PERIODIC;
+    c.width = 0.125; /* a power of two: shifts are exact */
+    c.gravity = 0.0;
+    c.height = 1.0;
+    clast_shape shape = {0};
+    clast_dem_grain grain[2 * N] = {{0}};
+    CHECK_OK(scene_body(kind, &shape));
+    for (int k = 0; k < 2 * N; ++k) {
+        const double far = c.width * moved[k / 2];
+        grain[k] = (clast_dem_grain){.scale = 1.0, .density = 2650.0, .orientation = {1.0}};
+        grain[k].position[0] = k % 2 ? 0.00390625 - 0.0625 + far : 0.0625 - 0.00390625 - 0.00025;
+        grain[k].position[1] = k % 2 ? 0.0009765625 - 0.0625 + far : 0.0625;
+        grain[k].position[2] = 0.03125 * (1 + k / 2);
+        grain[k].velocity[0] = k % 2 ? 0.0 : 0.25;
+    }
+    clast_dem *dem = scene_bodies(&c, &shape, 2 * N, grain);
+    assert_non_null(dem);
+    CHECK_OK(clast_dem_step(dem, 1200));
+    for (int k = 0; k < 2 * N; ++k) {
+        clast_dem_read_grain(dem, k, &grain[k]);
+        CHECK_ABS(grain[k].velocity[0], grain[k % 2].velocity[0], 0.25 * 1e-3);
+    }
+    assert_true(grain[1].velocity[0] > 0.02);
+    clast_dem_destroy(dem);
+    clast_shape_free(&shape);
+}
+
+/* Periods between two grains were counted in 16 bits: one that had crossed the border some 33,000
+   times more often than its neighbour went through it without a contact, and nothing was said. */
+static void crossings_are_counted_however_many(void **state)
+{
+    (void)state;
+    check_distant_pairs(SCENE_BALL);
+    check_distant_pairs(SCENE_EGG);
+    check_distant_pairs(SCENE_OCTAHEDRON);
+    check_distant_pairs(SCENE_CLUMP);
+    check_distant_pairs(SCENE_EGGS);
+}
+
 int main(void)
 {
     clast_parallel_set_threads(1); /* small scenes */
@@ -198,6 +245,7 @@ int main(void)
         cmocka_unit_test(threads_change_no_bit_of_hulls),
         cmocka_unit_test(energy_never_rises_by_itself),
         cmocka_unit_test(period_has_no_border),
+        cmocka_unit_test(crossings_are_counted_however_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

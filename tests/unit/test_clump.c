@@ -306,6 +306,61 @@ static void union_does_not_depend_on_the_frame(void **state)
     clast_spheres_free(&s);
 }
 
+/* Spheres of radius 1, centres 1.5 apart: their union's measures, where the hull of the centres is
+ * a line without any. */
+static void a_clump_is_measured_as_the_union_of_its_spheres(void **state)
+{
+    (void)state;
+    const double r = 1.0;
+    const double d = 1.5;
+    double centre[2][3] = {{0.25, -1.0, 2.0}, {0.25, -1.0, 3.5}};
+    double radius[2] = {r, r};
+    const clast_spheres two = {2, centre, radius};
+    const clast_spheres one = {1, centre, radius};
+    const double lens = CLAST_PI / 12.0 * (4.0 * r + d) * (2.0 * r - d) * (2.0 * r - d);
+    const double hull = 4.0 / 3.0 * CLAST_PI * r * r * r + CLAST_PI * r * r * d;
+    clast_grain g;
+    CHECK_OK(clast_grain_measure_clump(&two, &g));
+    CHECK_REL(g.volume, 8.0 / 3.0 * CLAST_PI - lens, 1e-11);
+    CHECK_REL(g.area, 4.0 * CLAST_PI * r * (r + 0.5 * d), 1e-11);
+    CHECK_REL(g.centroid[2], 2.75, 1e-11);
+    CHECK_REL(g.longest, 2.0 * r + d, 1e-14);
+    CHECK_REL(g.axes[CLAST_AXES_PRINCIPAL].lis[0], 2.0 * r + d, 1e-12);
+    CHECK_REL(g.axes[CLAST_AXES_PRINCIPAL].lis[2], 2.0 * r, 1e-12);
+    CHECK_REL(g.axes[CLAST_AXES_FERET].lis[0], 2.0 * r + d, 1e-14);
+    CHECK_REL(g.hull_volume, hull, 1e-9);
+    CHECK_REL(g.convexity, (8.0 / 3.0 * CLAST_PI - lens) / hull, 1e-9);
+    assert_true(g.axes[CLAST_AXES_ELLIPSOID].lis[0] > 2.0 * r);
+    assert_true(isnan(g.shortest) && isnan(g.hull_area) && isnan(g.projected_mean));
+    assert_true(isnan(g.axes[CLAST_AXES_BOX].lis[0]) && isnan(g.axes[CLAST_AXES_FERET].lis[2]));
+    assert_true(isnan(g.roundness) && isnan(g.angularity) && isnan(g.normal_roundness));
+    CHECK_OK(clast_grain_measure_clump(&one, &g));
+    CHECK_REL(g.sphericity, 1.0, 1e-13);
+    CHECK_REL(g.convexity, 1.0, 1e-13);
+    CHECK_REL(g.axes[CLAST_AXES_ELLIPSOID].lis[1], 2.0, 1e-13);
+}
+
+/* Four spheres at a tetrahedron's corners: its hull is the Minkowski sum of the two bodies. */
+static void the_hull_of_a_clump_has_its_steiner_volume(void **state)
+{
+    (void)state;
+    double centre[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    double radius[4] = {0.5, 0.5, 0.5, 0.5};
+    const clast_spheres four = {4, centre, radius};
+    const double a = 2.0 * sqrt(2.0);
+    const double r = 0.5;
+    clast_grain g;
+    CHECK_OK(clast_grain_measure_clump(&four, &g));
+    // V + A r + M r2 + 4 pi / 3 r3, M half the edges' lengths by their outer angles
+    const double mean = 0.5 * 6.0 * a * (CLAST_PI - acos(1.0 / 3.0));
+    CHECK_REL(g.hull_volume,
+              a * a * a / (6.0 * sqrt(2.0)) + sqrt(3.0) * a * a * r + mean * r * r +
+                  4.0 / 3.0 * CLAST_PI * r * r * r,
+              1e-9);
+    CHECK_REL(g.volume, 4.0 * 4.0 / 3.0 * CLAST_PI * r * r * r, 1e-13);
+    CHECK_REL(g.area, 4.0 * 4.0 * CLAST_PI * r * r, 1e-13);
+}
+
 static void wrong_spheres_are_refused(void **state)
 {
     (void)state;
@@ -359,6 +414,8 @@ int main(void)
         cmocka_unit_test(heaps_agree_with_columns),
         cmocka_unit_test(nearly_hidden_sphere_is_settled),
         cmocka_unit_test(union_does_not_depend_on_the_frame),
+        cmocka_unit_test(a_clump_is_measured_as_the_union_of_its_spheres),
+        cmocka_unit_test(the_hull_of_a_clump_has_its_steiner_volume),
         cmocka_unit_test(wrong_spheres_are_refused),
         cmocka_unit_test(clump_survives_refused_memory),
     };

@@ -554,6 +554,35 @@ static clast_status make_and_step(void *context)
     return status;
 }
 
+/* A boulder walked over the (R / r)^3 cells of the sand around it, without an end; a ratio that is
+ * not finite (a sphere of 1e-320 m in a clump) wrote before the levels. */
+static void boulder_finds_the_sand_that_it_touches(void **state)
+{
+    (void)state;
+    enum { SAND = 200 };
+    const double radius[][2] = {{0.1, 1e-6}, {10.0, 1e-7}};
+    for (size_t k = 0; k < sizeof radius / sizeof radius[0]; ++k) {
+        clast_dem_config c = scene_space();
+        clast_dem *dem = make(&c);
+        clast_dem_grain grain[SAND + 1];
+        clast_dem_measures m;
+        const double between = radius[k][0] + radius[k][1] * (1.0 - 1e-3);
+        grain[SAND] = at(0.0, 0.0, 0.0);
+        grain[SAND].scale = radius[k][0];
+        for (int i = 0; i < SAND; ++i) { // even over the boulder
+            const double z = 2.0 * (i + 0.5) / SAND - 1.0;
+            const double r = sqrt(1.0 - z * z);
+            grain[i] = at(between * r * cos(2.4 * i), between * r * sin(2.4 * i), between * z);
+            grain[i].scale = radius[k][1];
+        }
+        CHECK_OK(clast_dem_add_grains(dem, SAND + 1, grain));
+        CHECK_OK(clast_dem_step(dem, 1));
+        clast_dem_measure(dem, &m);
+        assert_int_equal(m.n_contact, SAND);
+        clast_dem_destroy(dem);
+    }
+}
+
 static void refused_memory_leaves_nothing(void **state)
 {
     (void)state;
@@ -581,6 +610,7 @@ int main(void)
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(overlapping_starts_are_refused),
         cmocka_unit_test(explosion_is_a_speed_that_no_contact_stops),
+        cmocka_unit_test(boulder_finds_the_sand_that_it_touches),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,7 +61,7 @@ static void branches_take_the_short_way_round(void **state)
     clast_assembly a = {0};
     clast_shape ball = {0};
     clast_table fabric = {0};
-    const double period[2] = {4.0, 0.0};
+    const double period[3] = {4.0, 0.0, 0.0};
     const double p[2][3] = {{0.25, 0.0, 0.0}, {3.75, 0.5, 0.0}};
     const double middle[3] = {0.0, 0.25, 0.0};
     CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));

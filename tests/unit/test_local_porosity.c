@@ -10,10 +10,10 @@ static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
 static void cube_is_cut_to_known_bodies(void **state)
 {
     (void)state;
-    static clx_cell cell;
+    clx_cell cell = {0};
     const double low[3] = {-1.0, -1.0, -1.0};
     const double high[3] = {1.0, 1.0, 1.0};
-    clx_cell_box(low, high, &cell);
+    CHECK_OK(clx_cell_box(low, high, &cell));
     CHECK_REL(clx_cell_volume(&cell), 8.0, 1e-15);
     CHECK_REL(clx_cell_reach2(&cell), 3.0, 1e-15);
     // eight corners off: the cuboctahedron (corners in edge middles), 5/6 of the cube
@@ -29,6 +29,7 @@ static void cube_is_cut_to_known_bodies(void **state)
     CHECK_OK(clx_cell_cut(&cell, all, -5.0, 99)); // takes everything
     assert_int_equal(cell.n_face, 0);
     CHECK_ABS(clx_cell_volume(&cell), 0.0, 0.0);
+    clx_cell_free(&cell);
 }
 
 static void add(clast_assembly *a, double x, double y, double z, double radius)
@@ -176,6 +177,55 @@ static void cells_fill_the_bed(void **state)
     }
 }
 
+/// A boulder in gravel, 12 : 1, has a cell of hundreds of faces; the command failed whole beyond
+/// 200.
+static void boulder_in_gravel_has_a_cell(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    const double turn = CLAST_PI * (3.0 - sqrt(5.0)); // Fibonacci points of the sphere
+    double sum = 0.0;
+    add(&a, 0.0, 0.0, 3.0, 1.2);
+    for (int k = 0; k < 600; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / 600.0;
+        const double r = 1.3 * sqrt(1.0 - z * z);
+        add(&a, r * cos(turn * k), r * sin(turn * k), 3.0 + 1.3 * z, 0.1);
+    }
+    CHECK_OK(clast_bed_parse("box:-3,-3,3,3", &bed));
+    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 6.0, &local));
+    for (int64_t i = 0; i < local.n_row; ++i) {
+        sum += clast_table_numbers(&local, "cell_m3")[i];
+    }
+    CHECK_REL(sum, 216.0, 1e-12);
+    CHECK_ABS(clast_table_numbers(&local, "n_face")[0], 600.0, 0.0);
+    // planes at 1.3 / 2 + (1.44 - 0.01) / 2.6 = 1.2 around it: a little more than the sphere
+    const double cell = clast_table_numbers(&local, "cell_m3")[0];
+    const double ball = 4.0 / 3.0 * CLAST_PI * 1.2 * 1.2 * 1.2;
+    assert_true(cell > ball && cell < 1.02 * ball);
+    clast_table_free(&local);
+    clast_assembly_free(&a);
+}
+
+/// A grain inside of another has no cell: no porosity, where 1 - V / 0 was written.
+static void hidden_grain_has_no_porosity(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_bed bed;
+    clast_table local = {0};
+    add(&a, 1.0, 1.0, 1.0, 0.9);
+    add(&a, 1.1, 1.0, 1.0, 0.1);
+    CHECK_OK(clast_bed_parse("box:0,0,2,2", &bed));
+    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 2.0, &local));
+    CHECK_REL(clast_table_numbers(&local, "cell_m3")[0], 8.0, 1e-14);
+    CHECK_ABS(clast_table_numbers(&local, "cell_m3")[1], 0.0, 0.0);
+    assert_true(isnan(clast_table_numbers(&local, "porosity")[1]));
+    clast_table_free(&local);
+    clast_assembly_free(&a);
+}
+
 static clast_status make_local(void *context)
 {
     clast_bed bed;
@@ -208,6 +258,8 @@ int main(void)
         cmocka_unit_test(close_packing_has_twelve_faces_and_its_porosity),
         cmocka_unit_test(unequal_spheres_share_by_the_radical_plane),
         cmocka_unit_test(cells_fill_the_bed),
+        cmocka_unit_test(boulder_in_gravel_has_a_cell),
+        cmocka_unit_test(hidden_grain_has_no_porosity),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

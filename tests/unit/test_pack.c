@@ -591,6 +591,63 @@ static void bed_without_room_for_the_next_grain_ends(void **state)
     end(&b);
 }
 
+/// Two grains of 30 mm, each a fill of its own, that begin at rest 0.12 to 0.2 m above the floor.
+static void pour_slowly(double gravity, double viscosity)
+{
+    bed b;
+    clast_pack *pack = NULL;
+    begin(&b);
+    clast_grading_destroy(b.grading);
+    CHECK_OK(clast_grading_uniform(0.03, 0.03, &b.grading));
+    b.input.grading = b.grading;
+    b.config.dem.width = 0.04;
+    b.config.dem.height = 0.2;
+    b.config.mass = 0.04; /* two of 37 g */
+    b.config.fill_high = 0.8;
+    b.config.initial_speed = 0.0;
+    b.config.shake_amplitude = 0.0;
+    b.config.dem.gravity = gravity;
+    b.config.dem.fluid_viscosity = viscosity;
+    b.config.dem.collision_time = 4e-3;
+    b.config.dem.time_step = 4e-4;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    while (clast_pack_phase_of(pack) == CLAST_PACK_GENERATE) {
+        CHECK_OK(clast_pack_advance(pack, 1000));
+    }
+    assert_int_equal(clast_dem_n_grain(clast_pack_dem(pack)), 2);
+    clast_pack_destroy(pack);
+    end(&b);
+}
+
+/* Seconds were compared with 10 + 10 times the height in metres: grains that fall slowly, on a
+   small body or in a thick fluid, ended the run at its first fill, though the bed was nowhere near.
+ */
+static void slow_falls_are_waited_for(void **state)
+{
+    (void)state;
+    pour_slowly(2e-4, 0.0);    /* 1.2e-4 m/s2 less buoyancy: 16 s for the first 15 mm */
+    pour_slowly(9.81, 1000.0); /* Stokes: 0.8 mm/s, 19 s */
+}
+
+/* Without gravity and speed no second fill can come: told at once. */
+static void what_never_falls_is_told(void **state)
+{
+    (void)state;
+    bed b;
+    clast_pack *pack = NULL;
+    begin(&b);
+    b.config.mass = 0.5;
+    b.config.dem.height = 1.0;
+    b.config.fill_low = 0.95;
+    b.config.dem.gravity = 0.0;
+    b.config.initial_speed = 0.0;
+    CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
+    CHECK_STATUS(clast_pack_advance(pack, 1000), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "nothing draws"));
+    clast_pack_destroy(pack);
+    end(&b);
+}
+
 /* In a closed container no grain leaves; one that is outside, whatever brought it there, ends the
  * run with its number. */
 static void leaving_grain_ends_the_run(void **state)
@@ -698,6 +755,8 @@ int main(void)
         cmocka_unit_test(density_goes_with_the_shape),
         cmocka_unit_test(density_is_drawn_by_weight),
         cmocka_unit_test(bed_without_room_for_the_next_grain_ends),
+        cmocka_unit_test(slow_falls_are_waited_for),
+        cmocka_unit_test(what_never_falls_is_told),
         cmocka_unit_test(leaving_grain_ends_the_run),
         cmocka_unit_test(wide_grain_finds_the_axis),
         cmocka_unit_test(what_cannot_work_is_refused),
