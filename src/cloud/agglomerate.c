@@ -2,19 +2,23 @@
 #include "cloud/agglomerate.h"
 
 #include "base/alloc.h"
+#include "cloud/contract.h"
 #include <math.h>
 #include <string.h>
 
-#define FIELD(type, name)        #name, offsetof(clast_agglomerate_config, name), type
-#define DEEP(type, name, member) #name, offsetof(clast_agglomerate_config, collide.member), type
+#define FIELD(type, name) #name, .offset = offsetof(clast_agglomerate_config, name), type
+#define DEEP(type, name, member)                                                                   \
+#name, .offset = offsetof(clast_agglomerate_config, collide.member), type
 const clast_field clast_agglomerate_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, kernel), 0, 0, 0, "-",
-     "collision kernel, or a sum: brownian+settling; see the table above", "constant"},
+     "collision kernel, or a sum: brownian+settling; see the table above", "constant",
+     .common = true, .group = "kernel and time"},
     {FIELD(CLAST_FIELD_F64, duration), 1.0, 0.0, 1e300, "s",
-     "time that passes, with several snapshots from each to the next", NULL},
-    {FIELD(CLAST_FIELD_I32, n_step), 10, 1, 1000000, "-", "steps of a snapshot", NULL},
+     "time that passes, with several snapshots from each to the next", NULL, .common = true},
+    {FIELD(CLAST_FIELD_I32, n_step), 10, 1, 1000000, "-", "steps of a snapshot", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_I32, repeats), 1, 1, 1000000, "-",
-     "runs with other draws, of which means are told", NULL},
+     "runs with other draws, of which means are told", NULL, .common = true},
     {DEEP(CLAST_FIELD_CHOICE, collisions, collisions), 0, 0, 0, "-",
      "event by event, or a Poisson number of events a sub-step", "next|poisson"},
     {DEEP(CLAST_FIELD_F64, leap, leap), 0.01, 1e-6, 1.0, "-",
@@ -26,40 +30,41 @@ const clast_field clast_agglomerate_fields[] = {
     {DEEP(CLAST_FIELD_F64, alpha, alpha), 1.0, 0.0, 1.0, "-", "share of collisions that stick",
      NULL},
     {DEEP(CLAST_FIELD_CHOICE, radius_law, radius_law), 0, 0, 0, "-",
-     "radius of an aggregate: of the summed volume, or a0 (i / k_f)^(1 / D_f)", "volume|fractal"},
+     "radius of an aggregate: of the summed volume, or a0 (i / k_f)^(1 / D_f)", "volume|fractal",
+     .group = "radii of aggregates"},
     {DEEP(CLAST_FIELD_F64, monomer_radius, monomer_radius), 0.0, 0.0, 1e300, "m",
-     "radius a0 of a monomer where no column gives radii", NULL},
+     "radius a0 of a monomer where no column gives radii", NULL, .common = true},
     {DEEP(CLAST_FIELD_F64, fractal_dimension, fractal_dimension), 1.8, 1.0, 3.0, "-", "D_f", NULL},
     {DEEP(CLAST_FIELD_F64, fractal_prefactor, fractal_prefactor), 1.0, 1e-3, 1e3, "-", "k_f", NULL},
     {DEEP(CLAST_FIELD_F64, constant, medium.constant), 1e-6, 0.0, 1e300, "-",
-     "K of kernel constant [m^d/s]", NULL},
+     "K of kernel constant [m^d/s]", NULL, .common = true, .group = "kernels and fluid"},
     {DEEP(CLAST_FIELD_F64, additive, medium.additive), 1e-6, 0.0, 1e300, "-",
      "b of kernel additive [m^d/s]", NULL},
     {DEEP(CLAST_FIELD_F64, product, medium.product), 1e-6, 0.0, 1e300, "-",
      "c of kernel product [m^d/s]", NULL},
-    {DEEP(CLAST_FIELD_F64, temperature, medium.temperature), 293.15, 0.0, 1e5, "-",
-     "of the fluid [K]", NULL},
-    {DEEP(CLAST_FIELD_F64, viscosity, medium.viscosity), 1.002e-3, 0.0, 1e6, "-",
-     "dynamic viscosity [Pa s]", NULL},
+    {DEEP(CLAST_FIELD_F64, temperature, medium.temperature), 293.15, 0.0, 1e5, "K", "of the fluid",
+     NULL},
+    {DEEP(CLAST_FIELD_F64, viscosity, medium.viscosity), 1.002e-3, 0.0, 1e6, "Pa s",
+     "dynamic viscosity of the fluid", NULL},
     {DEEP(CLAST_FIELD_F64, density, medium.density), 998.2, 0.0, 1e5, "kg/m^3", "of the fluid",
      NULL},
     {DEEP(CLAST_FIELD_F64, particle_density, medium.particle_density), 0.0, 0.0, 1e5, "kg/m^3",
      "of the particles' solid", NULL},
     {DEEP(CLAST_FIELD_F64, mean_free_path, medium.mean_free_path), 0.0, 0.0, 1.0, "m",
      "of a gas, for the slip correction; 0: none", NULL},
-    {DEEP(CLAST_FIELD_F64, shear, medium.shear), 0.0, 0.0, 1e12, "-", "shear rate G [1/s]", NULL},
+    {DEEP(CLAST_FIELD_F64, shear, medium.shear), 0.0, 0.0, 1e12, "1/s", "shear rate G", NULL},
     {DEEP(CLAST_FIELD_F64, shear_constant, medium.shear_constant), 0.0, 0.0, 100.0, "-",
      "constant of shear_turbulent, 1.3 as often printed; 0: sqrt(8 pi/15) = 1.2944", NULL},
-    {DEEP(CLAST_FIELD_F64, dissipation, medium.dissipation), 0.0, 0.0, 1e12, "-",
-     "turbulent dissipation eps [m^2/s^3]", NULL},
-    {DEEP(CLAST_FIELD_F64, speed_rms, medium.speed_rms), 0.0, 0.0, 1e6, "-",
-     "turbulent velocity of the fluid, one component [m/s]", NULL},
-    {DEEP(CLAST_FIELD_F64, gravity, medium.gravity), 9.80665, 0.0, 1e6, "-", "g [m/s^2]", NULL},
+    {DEEP(CLAST_FIELD_F64, dissipation, medium.dissipation), 0.0, 0.0, 1e12, "m^2/s^3",
+     "turbulent dissipation eps", NULL},
+    {DEEP(CLAST_FIELD_F64, speed_rms, medium.speed_rms), 0.0, 0.0, 1e6, "m/s",
+     "turbulent velocity of the fluid, one component", NULL},
+    {DEEP(CLAST_FIELD_F64, gravity, medium.gravity), 9.80665, 0.0, 1e6, "m/s^2", "gravity g", NULL},
     {DEEP(CLAST_FIELD_F64, efficiency, medium.efficiency), 1.0, 0.0, 1.0, "-",
      "collision efficiency E of settling", NULL},
     {FIELD(CLAST_FIELD_CHOICE, rebuild), 0, 0, 0, "-",
      "when later snapshots get new cells: when the cloud has changed, always, never",
-     "changed|always|never"},
+     "changed|always|never", .group = "cells in time"},
     {FIELD(CLAST_FIELD_F64, change_level), 0.01, 1e-12, 0.5, "-",
      "false alarms of the test that finds the cloud changed", NULL},
     {FIELD(CLAST_FIELD_I32, fixed), 0, 0, 1000, "-",
@@ -315,17 +320,43 @@ done:
     return status;
 }
 
+static clast_status check_arguments(const clast_agglomerate_input *input,
+                                    const clast_agglomerate_config *config,
+                                    const clast_agglomeration *result)
+{
+    clast_status status = CLAST_OK;
+    static char nameless[] = "";
+    CLX_NEED(input);
+    CLX_NEED(config);
+    CLX_NEED(result);
+    clast_decompose_config decompose = config->decompose;
+    if (input->domain != NULL && decompose.domain == NULL) {
+        decompose.domain = nameless;
+    }
+    CLX_TRY(clast_fields_check(clast_agglomerate_fields, config));
+    CLX_TRY(clast_fields_check(clast_decompose_fields, &decompose));
+    CLX_CHECK(input->n_snapshot >= 1 && input->n_snapshot < INT32_MAX, CLAST_E_ARGUMENT,
+              "%lld snapshots were given", (long long)input->n_snapshot);
+    CLX_NEED(input->snapshot);
+    for (int64_t k = 0; k < input->n_snapshot; ++k) {
+        CLX_TRY(clx_cloud_check(&input->snapshot[k]));
+    }
+    CLX_CHECK(input->fixed_cell == NULL || input->fixed_volume != NULL, CLAST_E_CONFIG,
+              "a column of cells needs a column of their volumes");
+done:
+    return status;
+}
+
 clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                const clast_agglomerate_config *config, clast_agglomeration *result)
 {
     clast_status status = CLAST_OK;
-    clast_agglomeration made = {.has_fixed = config->fixed > 0 || input->fixed_cell != NULL};
+    clast_agglomeration made = {0};
     clx_evolution run = {0};
     columns c = {0};
+    CLX_TRY(check_arguments(input, config, result));
     const int64_t n_row = input->n_snapshot * config->n_step + 1;
-    CLX_CHECK(input->n_snapshot >= 1, CLAST_E_USAGE, "no snapshot was given");
-    CLX_CHECK(input->fixed_cell == NULL || input->fixed_volume != NULL, CLAST_E_CONFIG,
-              "a column of cells needs a column of their volumes");
+    made.has_fixed = config->fixed > 0 || input->fixed_cell != NULL;
     CLX_CHECK((double)n_row * config->repeats < 0x1p31, CLAST_E_LIMIT,
               "%lld times in each of %d repeats are beyond 2^31", (long long)n_row,
               config->repeats);

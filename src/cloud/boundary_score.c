@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/contract.h"
 #include "math/quadrature.h"
 #include "math/sort.h"
 #include "math/special.h"
@@ -272,11 +273,12 @@ clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, co
     clast_boundary_score made = {0};
     double *z = NULL;
     const clx_depth_law line = {.d = 1, .c = {1.0}};
-    CLX_CHECK(n >= 1 && d >= 1 && d <= 3, CLAST_E_USAGE,
-              "a boundary score needs points in 1 to 3 dimensions, not %lld in %d", (long long)n,
-              d);
+    CLX_NEED(result);
+    CLX_TRY(clx_cube_check(u, n, d, 1, "a boundary score"));
+    CLX_NEED(side);
     for (int32_t j = 0; j < d; ++j) {
-        CLX_CHECK(side[j] > 0.0, CLAST_E_USAGE, "side %d of the domain is %g", j, side[j]);
+        CLX_CHECK(side[j] > 0.0 && isfinite(side[j]), CLAST_E_ARGUMENT,
+                  "side %d of the domain is %g", j, side[j]);
     }
     const clx_depth_law law = clx_depth_law_of_box(d, side);
     CLX_TRY(clx_boundary_depths(&law, u, n, &z));

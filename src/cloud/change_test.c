@@ -3,6 +3,7 @@
 #include <clast/agglomerate.h>
 
 #include "base/alloc.h"
+#include "cloud/contract.h"
 #include "math/special.h"
 #include <math.h>
 
@@ -18,8 +19,8 @@ static int64_t block_of(const double *u, int32_t d, int32_t g)
     return block;
 }
 
-clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n, int32_t d,
-                               double *p)
+static clast_status compare(const double *u_old, const double *u_new, int64_t n, int32_t d,
+                            double *p)
 {
     clast_status status = CLAST_OK;
     int64_t(*count)[2] = NULL;
@@ -45,5 +46,17 @@ clast_status clast_change_test(const double *u_old, const double *u_new, int64_t
     *p = n_filled > 1 ? clx_chi2_sf(chi2, (double)(n_filled - 1)) : 1.0;
 done:
     clx_free(count);
+    return status;
+}
+
+clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n, int32_t d,
+                               double *p)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(p);
+    CLX_TRY(clx_cube_check(u_old, n, d, 0, "a test of change"));
+    CLX_TRY(clx_cube_check(u_new, n, d, 0, "a test of change"));
+    CLX_TRY(compare(u_old, u_new, n, d, p));
+done:
     return status;
 }

@@ -19,7 +19,11 @@ void clast_cloud_free(clast_cloud *cloud)
 clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud)
 {
     if (dimension < 1 || dimension > 3) {
-        return clx_fail(CLAST_E_USAGE, "a cloud has 1, 2 or 3 dimensions, not %d", dimension);
+        return clx_fail(CLAST_E_ARGUMENT, "a cloud has 1, 2 or 3 dimensions, not %d", dimension);
+    }
+    if (cloud == NULL || n < 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "clast_cloud_alloc: %lld points, cloud %s", (long long)n,
+                        cloud == NULL ? "NULL" : "given");
     }
     clast_cloud made = {.n = n, .dimension = dimension};
     const clast_status status = clx_alloc(&made.x, n, (size_t)dimension * sizeof *made.x);

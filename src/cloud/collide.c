@@ -2,7 +2,9 @@
 #include "cloud/collide.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/parallel.h"
+#include <clast/agglomerate.h>
 #include <math.h>
 
 enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1 };
@@ -218,17 +220,79 @@ static void sort_by_cell(step_context *s)
     s->start[0] = 0;
 }
 
+/// Ranges of the members that this configuration uses; a caller may leave the others at 0.
+static clast_status check_config(const clast_collide_config *config)
+{
+    clast_status status = CLAST_OK;
+    const clast_field *fields = clast_agglomerate_fields;
+    clast_collide_config used = *config;
+    if (config->collisions == CLAST_COLLISIONS_NEXT) {
+        used.leap = clast_fields_find(fields, "leap")->value;
+    }
+    if (config->radius_law == CLAST_RADIUS_VOLUME) {
+        used.fractal_dimension = clast_fields_find(fields, "fractal_dimension")->value;
+        used.fractal_prefactor = clast_fields_find(fields, "fractal_prefactor")->value;
+    }
+    CLX_CHECK(config->kernel != 0 && config->kernel >> CLAST_N_KERNEL == 0, CLAST_E_CONFIG,
+              "kernel: the mask %#x holds %s; begin with clast_kernel_parse",
+              (unsigned)config->kernel, config->kernel == 0 ? "none" : "bits beyond the table");
+    CLX_TRY(clx_fields_check_part(fields, offsetof(clast_agglomerate_config, collide),
+                                  offsetof(clast_agglomerate_config, collide) + sizeof used,
+                                  &used));
+    CLX_CHECK(config->radius_law != CLAST_RADIUS_FRACTAL || config->monomer_radius > 0.0,
+              CLAST_E_CONFIG, "monomer_radius: fractal radii need one > 0");
+done:
+    return status;
+}
+
+static clast_status check_medium(const clast_medium *medium, uint32_t kernel)
+{
+    const size_t begin = offsetof(clast_agglomerate_config, collide.medium);
+    const clast_status status =
+        clx_fields_check_part(clast_agglomerate_fields, begin, begin + sizeof *medium, medium);
+    return status == CLAST_OK ? clast_kernel_check(kernel, medium) : status;
+}
+
+static clast_status check_population(const clast_population *p, const clast_collide_cells *cells)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(p);
+    CLX_NEED(cells);
+    CLX_CHECK(p->n >= 0 && p->dimension >= 1 && p->dimension <= 3, CLAST_E_ARGUMENT,
+              "%lld particles in %d dimensions", (long long)p->n, p->dimension);
+    CLX_CHECK(p->n == 0 || (p->x != NULL && p->monomers != NULL && p->radius != NULL &&
+                            p->mass != NULL && p->owner != NULL),
+              CLAST_E_ARGUMENT, "x, monomers, radius, mass or owner of %lld particles is NULL",
+              (long long)p->n);
+    CLX_CHECK(cells->n >= 0 && (cells->n == 0 || cells->volume != NULL) &&
+                  (p->n == 0 || cells->of_particle != NULL),
+              CLAST_E_ARGUMENT, "%d cells, and volume or of_particle is NULL", cells->n);
+    for (int64_t i = 0; i < p->n; ++i) {
+        CLX_CHECK(cells->of_particle[i] < cells->n, CLAST_E_ARGUMENT,
+                  "particle %lld lies in cell %d of %d", (long long)i + 1, cells->of_particle[i],
+                  cells->n);
+        CLX_CHECK(p->monomers[i] >= 0 && isfinite(p->radius[i]) && p->radius[i] >= 0.0 &&
+                      isfinite(p->mass[i]) && p->mass[i] >= 0.0,
+                  CLAST_E_ARGUMENT,
+                  "particle %lld has %lld monomers, the radius %g and the mass %g",
+                  (long long)i + 1, (long long)p->monomers[i], p->radius[i], p->mass[i]);
+    }
+done:
+    return status;
+}
+
 static clast_status check_cells(const clast_collide_cells *cells,
                                 const clast_collide_config *config)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clast_kernel_check(config->kernel,
-                               cells->medium == NULL ? &config->medium : cells->medium));
+    if (cells->medium == NULL) {
+        CLX_TRY(clast_kernel_check(config->kernel, &config->medium));
+    }
     for (int32_t c = 0; c < cells->n; ++c) {
-        CLX_CHECK(cells->volume[c] > 0.0 && isfinite(cells->volume[c]), CLAST_E_USAGE,
+        CLX_CHECK(cells->volume[c] > 0.0 && isfinite(cells->volume[c]), CLAST_E_ARGUMENT,
                   "cell %d has the volume %g", c, cells->volume[c]);
         if (cells->medium != NULL) {
-            CLX_TRY(clast_kernel_check(config->kernel, &cells->medium[c]));
+            CLX_TRY(check_medium(&cells->medium[c], config->kernel));
         }
     }
 done:
@@ -243,6 +307,25 @@ static clast_status check_weights(const clast_population *p)
                   "the weight of particle %lld is %g; it must be a number > 0", (long long)i + 1,
                   p->weight[i]);
     }
+done:
+    return status;
+}
+
+static clast_status check_step(const clast_population *population, const clast_collide_cells *cells,
+                               double dt, uint64_t step, const clast_collide_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(config);
+    CLX_CHECK(step < UINT64_C(1) << 32, CLAST_E_ARGUMENT, "step %llu is beyond 2^32",
+              (unsigned long long)step);
+    CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_ARGUMENT, "the time step is %g", dt);
+    CLX_TRY(check_config(config));
+    CLX_TRY(check_population(population, cells));
+    CLX_TRY(check_cells(cells, config));
+    CLX_TRY(check_weights(population));
+    CLX_CHECK((clast_kernel_needs(config->kernel) & CLAST_NEEDS_VELOCITY) == 0 ||
+                  population->velocity != NULL,
+              CLAST_E_CONFIG, "kernel ballistic needs the particles' velocities");
 done:
     return status;
 }
@@ -274,20 +357,11 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
                            int64_t *n_event)
 {
     clast_status status = CLAST_OK;
-    step_context s = {.population = population,
-                      .cells = cells,
-                      .config = config,
-                      .dt = dt,
-                      .step = step,
-                      .needs = clast_kernel_needs(config->kernel)};
+    step_context s = {
+        .population = population, .cells = cells, .config = config, .dt = dt, .step = step};
+    CLX_TRY(check_step(population, cells, dt, step, config));
     const int64_t n = population->n;
-    CLX_CHECK(step < UINT64_C(1) << 32, CLAST_E_USAGE, "step %llu is beyond 2^32",
-              (unsigned long long)step);
-    CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_USAGE, "the time step is %g", dt);
-    CLX_TRY(check_cells(cells, config));
-    CLX_TRY(check_weights(population));
-    CLX_CHECK((s.needs & CLAST_NEEDS_VELOCITY) == 0 || population->velocity != NULL, CLAST_E_CONFIG,
-              "kernel ballistic needs the particles' velocities");
+    s.needs = clast_kernel_needs(config->kernel);
     CLX_TRY(clx_alloc(&s.scratch.order, n, sizeof *s.scratch.order));
     CLX_TRY(clx_alloc(&s.scratch.next, n, sizeof *s.scratch.next));
     CLX_TRY(clx_alloc(&s.scratch.frozen, n, sizeof *s.scratch.frozen));

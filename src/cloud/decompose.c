@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "cloud/cells.h"
+#include "cloud/contract.h"
 #include "cloud/cut_cells.h"
 #include "cloud/events.h"
 #include "cloud/passes.h"
@@ -12,19 +13,20 @@
 #include <math.h>
 #include <string.h>
 
-#define FIELD(type, name) #name, offsetof(clast_decompose_config, name), type
+#define FIELD(type, name) #name, .offset = offsetof(clast_decompose_config, name), type
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
-     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", ""},
+     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", "",
+     .common = true, .group = "domain"},
     {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
-     "points outside the domain: refuse the file, or leave them out", "error|drop"},
+     "points outside the domain: refuse the file, or leave them out", "error|drop", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
      "how far to go: tests and passes, first test and one pass, one pass, tests alone",
-     "full|first|fast|test"},
+     "full|first|fast|test", .common = true, .group = "method"},
     {FIELD(CLAST_FIELD_CHOICE, mesh), CLAST_CELLS_AUTO, 0, 0, "-",
      "what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant "
      "in 3-D, else boxes",
-     "boxes|components|bins|labels|tree|auto"},
+     "boxes|components|bins|labels|tree|auto", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
     {FIELD(CLAST_FIELD_F64, level), 0.05, 1e-6, 0.5, "-", "level of each uniformity test", NULL},
@@ -38,8 +40,8 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_I32, ghost_samples), 0, 0, 65535, "-",
      "expected scores by so many ghost samples; 0: without sampling", NULL},
     {FIELD(CLAST_FIELD_BOOL, crossfit), 0, 0, 0, "-",
-     "count events also with the cells of one half of the points and the counts of the other",
-     NULL},
+     "events by cross-fitting too: cells of one half of the points, counts of the other half", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_CHOICE, lower), 0, 0, 0, "-",
      "lower threshold: the 20th percentile, or searched in [Q20, Q40) like the upper one, after it "
      "or jointly",
@@ -48,9 +50,9 @@ const clast_field clast_decompose_fields[] = {
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
     {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
-     "collision kernel times time step [m^d]", NULL},
+     "collision kernel times time step [m^d]", NULL, .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
-     "level of the test in each tree cell", NULL},
+     "level of the test in each tree cell", NULL, .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
      "level of the test that splits the whole cloud into a tree: uniform clouds split by chance",
      NULL},
@@ -64,9 +66,39 @@ const clast_field clast_decompose_fields[] = {
      "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
      "cells",
      NULL},
-    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL},
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
+     .group = "random numbers"},
     {0}};
 #undef FIELD
+
+const char *clast_decompose_stop_text(clast_decompose_stop stop)
+{
+    switch (stop) {
+    case CLAST_STOP_UNTESTED:
+        return "not tested: fewer than 5 points";
+    case CLAST_STOP_ACCEPTED:
+        return "accepted by the tests";
+    case CLAST_STOP_TESTED:
+        return "rejected by the tests; the variant does not split";
+    case CLAST_STOP_UNIFORM:
+        return "split; the tests then accept";
+    case CLAST_STOP_NOTHING:
+        return "no bin is left to select";
+    case CLAST_STOP_ONE_PASS:
+        return "split in the one pass of the variant";
+    case CLAST_STOP_MAX_PASS:
+        return "at the limit: the tests still reject after max_pass passes";
+    case CLAST_STOP_SPLIT:
+        return "rejected by the tests and split";
+    case CLAST_STOP_TREE:
+        return "accepted by the tests, split by the tree";
+    case CLAST_STOP_WHOLE:
+        return "rejected by the tests, not by the tree at tree_root_level: not split";
+    case CLAST_STOP_DEPTH:
+        return "at the limit: cells of 20 halvings are still uneven";
+    }
+    return "";
+}
 
 static void free_cells(clast_cells *cells)
 {
@@ -160,6 +192,18 @@ static bool is_uneven(const clast_uniformity *tests, const clast_decompose_confi
     return n_reject >= config->votes;
 }
 
+static clast_decompose_stop tree_stop(const clast_uniformity *tests,
+                                      const clx_uniformity_tree_cells *tree)
+{
+    if (tree->n_deepest > 0) {
+        return CLAST_STOP_DEPTH;
+    }
+    if (tree->n > 1) {
+        return tests->reject ? CLAST_STOP_SPLIT : CLAST_STOP_TREE;
+    }
+    return tests->reject ? CLAST_STOP_WHOLE : CLAST_STOP_ACCEPTED;
+}
+
 static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
                                const clast_decompose_config *config, clast_decomposition *result)
 {
@@ -187,6 +231,7 @@ static clast_status tree_cells(const clast_cloud *cloud, const clx_sample *m,
         }
     }
     tell_points(m, of_sample, cells);
+    result->stop = tree_stop(&result->before, &tree);
     cells->key = tree.key;
     cells->group = tree.group;
     tree.key = NULL;
@@ -303,10 +348,16 @@ static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *
     if (cloud->weight != NULL) {
         CLX_TRY(clx_alloc(&half->weight, half->n, sizeof *half->weight));
     }
+    if (cloud->variable != NULL) {
+        CLX_TRY(clx_alloc(&half->variable, half->n, sizeof *half->variable));
+    }
     for (int64_t i = 0; i < half->n; ++i) {
         memcpy(half->x + i * d, cloud->x + (2 * i + first) * d, (size_t)d * sizeof *half->x);
         if (cloud->weight != NULL) {
             half->weight[i] = cloud->weight[2 * i + first];
+        }
+        if (cloud->variable != NULL) {
+            half->variable[i] = cloud->variable[2 * i + first];
         }
     }
 done:
@@ -378,20 +429,37 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
     const bool is_tree = takes_tree(config, cloud);
     if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
-        result->stop = CLAST_STOP_UNIFORM;
+        result->stop = m->n_test < 5           ? CLAST_STOP_UNTESTED
+                       : result->before.reject ? CLAST_STOP_TESTED
+                                               : CLAST_STOP_ACCEPTED;
         return one_cell(m, &result->cells);
     }
     return is_tree ? tree_cells(cloud, m, config, result) : bin_cells(m, config, result);
+}
+
+/// The domain's name may be missing where the domain itself is given.
+static clast_status check_config(const clast_decompose_config *config)
+{
+    clast_decompose_config named = *config;
+    static char nameless[] = "";
+    named.domain = config->domain != NULL ? config->domain : nameless;
+    return clast_fields_check(clast_decompose_fields, &named);
 }
 
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
-    clast_decomposition made = {.dimension = cloud->dimension};
+    clast_decomposition made = {0};
     clx_sample m = {0};
     clast_uniformity_config vote;
     double side[3];
+    CLX_NEED(config);
+    CLX_NEED(result);
+    CLX_TRY(check_config(config));
+    CLX_TRY(clx_domain_check(domain));
+    CLX_TRY(clx_cloud_check(cloud));
+    made.dimension = cloud->dimension;
     CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
@@ -424,7 +492,12 @@ done:
 clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
                              clast_decomposition *result)
 {
+    clast_status status = CLAST_OK;
     clast_domain domain = {0};
-    clast_status status = clast_domain_parse(config->domain, &domain);
-    return status == CLAST_OK ? clast_decompose_in(&domain, cloud, config, result) : status;
+    CLX_NEED(config);
+    CLX_TRY(clast_fields_check(clast_decompose_fields, config));
+    CLX_TRY(clast_domain_parse(config->domain, &domain));
+    CLX_TRY(clast_decompose_in(&domain, cloud, config, result));
+done:
+    return status;
 }

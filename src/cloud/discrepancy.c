@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/contract.h"
 #include "cloud/pair_sums.h"
 #include "math/special.h"
 #include <math.h>
@@ -129,9 +130,10 @@ clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d, clast
     clast_status status = CLAST_OK;
     sums total;
     double pair[CLAST_N_DISCREPANCY];
-    CLX_CHECK(n >= 2 && d >= 1 && d <= 3, CLAST_E_USAGE,
-              "a discrepancy needs at least 2 points in 1 to 3 dimensions, not %lld in %d",
-              (long long)n, d);
+    CLX_NEED(result);
+    CLX_TRY(clx_cube_check(u, n, d, 2, "a discrepancy"));
+    CLX_CHECK((unsigned)method <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
+              (int)method);
     CLX_TRY(point_sums(u, n, d, &total));
     if (method == CLAST_SUMS_EXACT || (method == CLAST_SUMS_AUTO && n <= EXACT_LIMIT)) {
         CLX_TRY(clx_pair_sums_exact(u, n, d, pair));

@@ -1,6 +1,7 @@
 // Domains and their measure-preserving maps to the unit cube.
 #include <clast/domain.h>
 
+#include "base/number.h"
 #include "cloud/surface.h"
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static int parse_numbers(const char *text, double *number)
         if (n == MAX_NUMBER) {
             return -1;
         }
-        number[n] = strtod(at, &end);
+        number[n] = clx_number_read(at, &end);
         if (end == at || !isfinite(number[n]) || (*end != ',' && *end != '\0')) {
             return -1;
         }
@@ -59,6 +60,10 @@ clast_status clast_domain_parse(const char *text, clast_domain *domain)
                  {"cylinder:", CLAST_DOMAIN_CYLINDER, 2},
                  {"half-pipe:", CLAST_DOMAIN_HALF_PIPE, 2},
                  {"sphere:", CLAST_DOMAIN_SPHERE, 1}};
+    if (text == NULL || domain == NULL) {
+        return clx_fail(CLAST_E_ARGUMENT, "clast_domain_parse: %s is NULL",
+                        text == NULL ? "text" : "domain");
+    }
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
         const size_t length = strlen(kinds[k].name);
         if (strncmp(text, kinds[k].name, length) != 0) {

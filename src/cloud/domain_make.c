@@ -69,7 +69,11 @@ done:
 clast_status clast_domain_of_map(const clast_domain_map_functions *functions, clast_domain *domain)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(functions->dimension >= 1 && functions->dimension <= 3, CLAST_E_USAGE,
+    CLX_NEED(functions);
+    CLX_NEED(domain);
+    CLX_NEED(functions->map);
+    CLX_NEED(functions->unmap);
+    CLX_CHECK(functions->dimension >= 1 && functions->dimension <= 3, CLAST_E_ARGUMENT,
               "a domain has 1, 2 or 3 dimensions, not %d", functions->dimension);
     CLX_CHECK(functions->volume > 0.0 && isfinite(functions->volume), CLAST_E_CONFIG,
               "the volume of a domain is a number > 0, not %g", functions->volume);
@@ -143,6 +147,10 @@ clast_status clast_domain_of_mesh(const clast_mesh *mesh, double scale, clast_do
     clast_domain made = {.kind = CLAST_DOMAIN_MESH, .dimension = 3};
     clast_domain_surface *s = NULL;
     clast_mass mass = {0};
+    CLX_NEED(mesh);
+    CLX_NEED(domain);
+    CLX_CHECK(scale > 0.0 && isfinite(scale), CLAST_E_ARGUMENT, "the scale of a domain is %g",
+              scale);
     CLX_TRY(clx_alloc(&s, 1, sizeof *s));
     CLX_TRY(clast_mesh_copy(mesh, &s->mesh));
     for (int32_t v = 0; v < s->mesh.n_vert; ++v) {

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/contract.h"
 #include "cloud/gauss_sum.h"
 #include "math/special.h"
 #include <math.h>
@@ -191,9 +192,10 @@ clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, cla
     double l[3][3] = {{0}};
     score_context context = {u, d, NULL};
     block_context blocks = {.d = d, .l = l};
-    CLX_CHECK(n >= 2 && d >= 1 && d <= 3, CLAST_E_USAGE,
-              "a Henze-Zirkler test needs at least 2 points in 1 to 3 dimensions, not %lld in %d",
-              (long long)n, d);
+    CLX_NEED(result);
+    CLX_TRY(clx_cube_check(u, n, d, 2, "a Henze-Zirkler test"));
+    CLX_CHECK((unsigned)sums <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
+              (int)sums);
     CLX_TRY(clx_alloc(&context.y, n * d, sizeof *context.y));
     CLX_TRY(clx_alloc(&blocks.block, n_block_of(n), sizeof *blocks.block));
     clx_parallel_for(n, POINTS_A_BLOCK, take_scores, &context);

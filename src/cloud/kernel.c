@@ -180,6 +180,10 @@ clast_status clast_kernel_parse(const char *text, uint32_t *mask)
 {
     uint32_t made = 0;
     const char *at = text;
+    if (text == NULL || mask == NULL) {
+        return clx_fail(CLAST_E_ARGUMENT, "clast_kernel_parse: %s is NULL",
+                        text == NULL ? "text" : "mask");
+    }
     for (;;) {
         const size_t length = strcspn(at, "+,");
         const int32_t k = find(at, length);
@@ -213,6 +217,10 @@ uint32_t clast_kernel_needs(uint32_t mask)
 
 clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
 {
+    if (m == NULL || mask == 0 || mask >> CLAST_N_KERNEL != 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "clast_kernel_check: mask %#x, medium %s", (unsigned)mask,
+                        m == NULL ? "NULL" : "given");
+    }
     const struct {
         uint32_t need;
         double value;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/contract.h"
 #include "math/special.h"
 #include <math.h>
 
@@ -67,9 +68,8 @@ clast_status clast_pearson_test(const double *u, int64_t n, int32_t d, clast_pea
     clast_pearson made = {.p_bonferroni = 1.0};
     sum_context context = {.u = u, .d = d};
     double product[3][3] = {{0}};
-    CLX_CHECK(n >= 3 && d >= 1 && d <= 3, CLAST_E_USAGE,
-              "a correlation needs at least 3 points in 1 to 3 dimensions, not %lld in %d",
-              (long long)n, d);
+    CLX_NEED(result);
+    CLX_TRY(clx_cube_check(u, n, d, 3, "a correlation"));
     CLX_TRY(clx_alloc(&context.block, (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK,
                       sizeof *context.block));
     moments(&context, n, product);

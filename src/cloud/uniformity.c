@@ -2,7 +2,9 @@
 #include "cloud/uniformity.h"
 
 #include "base/alloc.h"
+#include "base/field.h"
 #include "cloud/boundary_score.h"
+#include "cloud/contract.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,6 +18,10 @@ clast_status clast_uniformity_choose(const char *tests, uint32_t *left_out)
 {
     uint32_t chosen = 0;
     const char *at = tests;
+    if (tests == NULL || left_out == NULL) {
+        return clx_fail(CLAST_E_ARGUMENT, "clast_uniformity_choose: %s is NULL",
+                        tests == NULL ? "tests" : "left_out");
+    }
     while (*at != '\0') {
         const size_t length = strcspn(at, ",");
         int k = 0;
@@ -137,6 +143,32 @@ done:
     return status;
 }
 
+/// Level and votes as clast_decompose_fields has them.
+static clast_status check_config(const clast_uniformity_config *config)
+{
+    clast_status status = CLAST_OK;
+    const clast_field *fields = clast_decompose_fields;
+    CLX_TRY(clx_field_check(clast_fields_find(fields, "level"), &config->level));
+    CLX_TRY(clx_field_check(clast_fields_find(fields, "votes"), &config->votes));
+    CLX_CHECK(config->left_out < (1U << CLAST_N_TEST) - 1U, CLAST_E_CONFIG,
+              "left_out: %#x leaves no test to vote, or names tests that there are not",
+              (unsigned)config->left_out);
+done:
+    return status;
+}
+
+static clast_status check_sides(const double side[3], int32_t d)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(side);
+    for (int32_t j = 0; j < d; ++j) {
+        CLX_CHECK(side[j] > 0.0 && isfinite(side[j]), CLAST_E_ARGUMENT,
+                  "side %d of the domain is %g", j, side[j]);
+    }
+done:
+    return status;
+}
+
 // The four arguments of a sample stand in the published order.
 // NOLINTNEXTLINE(readability-function-size)
 clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const double side[3],
@@ -144,6 +176,11 @@ clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const 
 {
     clast_status status = CLAST_OK;
     clast_uniformity made = {0};
+    CLX_NEED(config);
+    CLX_NEED(result);
+    CLX_TRY(check_config(config));
+    CLX_TRY(clx_cube_check(u, n, d, 0, "a test of uniformity"));
+    CLX_TRY(check_sides(side, d));
     if (n >= 1) {
         CLX_TRY(measure_score(u, n, d, side, config->paper, &made));
     }

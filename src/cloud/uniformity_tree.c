@@ -287,6 +287,9 @@ static clast_status grow(growth *g, const node *cell)
     }
     node whole = *cell;
     whole.group = cell->is_of_uneven ? -2 - g->n_untested++ : -1;
+    if (cell->depth >= CLX_MORTON_LEVELS && cell->end - cell->begin >= g->config->least) {
+        ++g->cells->n_deepest;
+    }
     return add_cell(g, &whole);
 }
 

@@ -8,9 +8,10 @@ typedef struct clx_uniformity_tree_cells {
     int64_t capacity;
     double (*low)[3], (*high)[3];
     int64_t *count;
-    uint64_t *key;  ///< [n] Morton code of the low corner, ascending
-    int32_t *group; ///< [n] >= 0: the 2^d halves of one box share a number; -1: a whole that was
-                    ///< found uniform; -2, -3 ..: parts that had too few points for a test
+    uint64_t *key;     ///< [n] Morton code of the low corner, ascending
+    int32_t *group;    ///< [n] >= 0: the 2^d halves of one box share a number; -1: a whole that was
+                       ///< found uniform; -2, -3 ..: parts that had too few points for a test
+    int32_t n_deepest; ///< cells that could not be tested for being 20 halvings deep
 } clx_uniformity_tree_cells;
 
 typedef struct clx_uniformity_tree_config {

@@ -2,6 +2,7 @@
 #include <clast/workspace.h>
 
 #include "base/alloc.h"
+#include "cloud/contract.h"
 #include "cloud/passes.h"
 #include "cloud/uniformity.h"
 #include <math.h>
@@ -17,6 +18,7 @@ clast_status clast_workspace_create(clast_workspace **workspace)
 {
     clast_status status = CLAST_OK;
     clast_workspace *made = NULL;
+    CLX_NEED(workspace);
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     CLX_TRY(clx_pool_create(&made->pool));
     made->n_point = -1;
@@ -35,14 +37,46 @@ void clast_workspace_destroy(clast_workspace *workspace)
     }
 }
 
+/// Whether two coordinates are the same double: (di, dj) of them lie di stride = dj axis_stride
+/// apart.
+static bool overlap(const clast_points *p)
+{
+    bool is = false;
+    for (int64_t j = 1; j < p->dimension; ++j) {
+        is = is || (j * p->axis_stride % p->stride == 0 && j * p->axis_stride / p->stride < p->n);
+    }
+    return is;
+}
+
+static clast_status check_points(const clast_points *p)
+{
+    clast_status status = CLAST_OK;
+    const int64_t most = INT64_C(1) << 40; // doubles between two points, or two coordinates
+    CLX_NEED(p);
+    CLX_CHECK(p->dimension >= 1 && p->dimension <= 3, CLAST_E_ARGUMENT,
+              "points have 1, 2 or 3 dimensions, not %d", p->dimension);
+    CLX_CHECK(p->n >= 0, CLAST_E_ARGUMENT, "%lld points", (long long)p->n);
+    CLX_CHECK(p->n == 0 || p->x != NULL, CLAST_E_ARGUMENT, "%lld points, and x is NULL",
+              (long long)p->n);
+    CLX_CHECK(p->stride > 0 && p->stride <= most, CLAST_E_ARGUMENT,
+              "the stride between points is %lld; 3 for xyzxyz..", (long long)p->stride);
+    CLX_CHECK(p->dimension == 1 || (p->axis_stride > 0 && p->axis_stride <= most), CLAST_E_ARGUMENT,
+              "the stride between coordinates is %lld; 1 for xyzxyz..", (long long)p->axis_stride);
+    CLX_CHECK(!overlap(p), CLAST_E_ARGUMENT,
+              "the strides %lld and %lld let points share coordinates", (long long)p->stride,
+              (long long)p->axis_stride);
+    CLX_CHECK(p->weight == NULL || (p->weight_stride > 0 && p->weight_stride <= most),
+              CLAST_E_ARGUMENT, "the stride between weights is %lld", (long long)p->weight_stride);
+done:
+    return status;
+}
+
 /// The caller's points one behind the other; x and weight are the pool's, or borrowed when they lie
 /// so already.
 static clast_status gather(const clast_points *points, clast_cloud *cloud)
 {
     clast_status status = CLAST_OK;
     const int32_t d = points->dimension;
-    CLX_CHECK(d >= 1 && d <= 3, CLAST_E_USAGE, "points have 1, 2 or 3 dimensions, not %d", d);
-    CLX_CHECK(points->n >= 0, CLAST_E_USAGE, "%lld points", (long long)points->n);
     cloud->n = points->n;
     cloud->dimension = d;
     CLX_TRY(clx_alloc(&cloud->x, points->n, (size_t)d * sizeof *cloud->x));
@@ -61,9 +95,9 @@ done:
     return status;
 }
 
-clast_status clast_workspace_decompose(clast_workspace *workspace, const clast_points *points,
-                                       const clast_decompose_config *config,
-                                       const clast_decomposition **result)
+static clast_status decompose(clast_workspace *workspace, const clast_points *points,
+                              const clast_decompose_config *config,
+                              const clast_decomposition **result)
 {
     clast_status status = CLAST_OK;
     clast_cloud cloud = {0};
@@ -81,52 +115,82 @@ done:
     return status;
 }
 
+clast_status clast_workspace_decompose(clast_workspace *workspace, const clast_points *points,
+                                       const clast_decompose_config *config,
+                                       const clast_decomposition **result)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
+    CLX_NEED(config);
+    CLX_NEED(result);
+    CLX_TRY(clast_fields_check(clast_decompose_fields, config));
+    CLX_TRY(check_points(points));
+    CLX_TRY(decompose(workspace, points, config, result));
+done:
+    return status;
+}
+
 clast_status clast_workspace_test(clast_workspace *workspace, const clast_points *points,
                                   const clast_decompose_config *config, clast_uniformity *result)
 {
-    clast_decompose_config alone = *config;
+    clast_status status = CLAST_OK;
     const clast_decomposition *made = NULL;
+    CLX_NEED(config);
+    CLX_NEED(result);
+    CLX_TRY(clast_fields_check(clast_decompose_fields, config)); // before two are set
+    clast_decompose_config alone = *config;
     alone.variant = CLAST_VARIANT_TEST;
     alone.crossfit = false;
-    const clast_status status = clast_workspace_decompose(workspace, points, &alone, &made);
-    if (status == CLAST_OK) {
-        *result = made->before;
-    }
+    CLX_TRY(clast_workspace_decompose(workspace, points, &alone, &made));
+    *result = workspace->last.before;
+done:
+    return status;
+}
+
+static clast_status check_output(const clast_workspace *workspace, const void *output,
+                                 int64_t stride)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
+    CLX_CHECK(workspace->n_point >= 0, CLAST_E_USAGE, "the workspace holds no decomposition yet");
+    CLX_CHECK(workspace->n_point == 0 || output != NULL, CLAST_E_ARGUMENT,
+              "%lld points, and the array to write is NULL", (long long)workspace->n_point);
+    CLX_CHECK(stride > 0, CLAST_E_ARGUMENT, "the stride is %lld; 1 for an array without gaps",
+              (long long)stride);
+done:
     return status;
 }
 
 clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *cell, int64_t stride)
 {
-    if (workspace->n_point < 0) {
-        return clx_fail(CLAST_E_USAGE, "the workspace holds no decomposition yet");
-    }
-    for (int64_t i = 0; i < workspace->n_point; ++i) {
+    const clast_status status = check_output(workspace, cell, stride);
+    for (int64_t i = 0; status == CLAST_OK && i < workspace->n_point; ++i) {
         cell[i * stride] = workspace->last.cells.of_point[i];
     }
-    return CLAST_OK;
+    return status;
 }
 
 clast_status clast_workspace_events(const clast_workspace *workspace, double *events,
                                     int64_t stride)
 {
-    const clast_cells *cells = &workspace->last.cells;
-    if (workspace->n_point < 0) {
-        return clx_fail(CLAST_E_USAGE, "the workspace holds no decomposition yet");
-    }
-    for (int64_t i = 0; i < workspace->n_point; ++i) {
+    const clast_status status = check_output(workspace, events, stride);
+    for (int64_t i = 0; status == CLAST_OK && i < workspace->n_point; ++i) {
+        const clast_cells *cells = &workspace->last.cells;
         const int32_t c = cells->of_point[i];
         events[i * stride] = c >= 0 ? cells->events[c] / (double)cells->count[c] : 0.0;
     }
-    return CLAST_OK;
+    return status;
 }
 
 clast_status clast_workspace_collide(clast_workspace *workspace, clast_population *particles,
                                      const clast_collide_cells *cells, clast_workspace_step step,
                                      const clast_collide_config *config, int64_t *n_event)
 {
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
     clx_pool *const before = clx_pool_enter(workspace->pool);
-    const clast_status status =
-        clast_collide(particles, cells, step.dt, step.step, config, n_event);
+    status = clast_collide(particles, cells, step.dt, step.step, config, n_event);
     (void)clx_pool_enter(before);
+done:
     return status;
 }

@@ -491,8 +491,8 @@ static void wrong_cells_are_refused(void **state)
     clast_population p = singles(5);
     const clast_collide_config c = kernel("additive");
     const clast_collide_cells cells = one_cell(&volume);
-    CHECK_STATUS(clast_collide(&p, &cells, 0.5, 3, &c, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_collide(&p, &cells, -1.0, 3, &c, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_collide(&p, &cells, 0.5, 3, &c, NULL), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_collide(&p, &cells, -1.0, 3, &c, NULL), CLAST_E_ARGUMENT);
     p.velocity = NULL;
     const double one = 1.0;
     const clast_collide_cells good = one_cell(&one);

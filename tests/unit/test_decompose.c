@@ -208,6 +208,81 @@ static void crossfit_has_no_bias_on_uniform_points(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
+/* Halves of a cloud that is even but hot on one side are split by the temperature as the whole is:
+ * they lost the variable, and were one cell each. */
+static void crossfit_keeps_the_variable(void **state)
+{
+    (void)state;
+    enum { N = 800 };
+    static double x[2 * N];
+    static double temperature[N];
+    double count[2][4] = {{0}};
+    double expected = 0.0;
+    clast_decomposition d = {0};
+    clast_decompose_config c = config_of(square);
+    set(&c, "mesh", "tree");
+    set(&c, "crossfit", "true");
+    set(&c, "extrapolate", "false");
+    set(&c, "tree_level", "1e-9"); // no cell is split for its counts
+    set(&c, "tree_root_level", "1e-12");
+    clx_rng rng = clx_rng_at(9, CLX_STREAM_TEST, 7);
+    for (int i = 0; i < N; ++i) {
+        x[2 * i] = clx_rng_uniform(&rng);
+        x[2 * i + 1] = clx_rng_uniform(&rng);
+        temperature[i] = x[2 * i] < 0.5 ? 300.0 : 400.0;
+        count[i % 2][(x[2 * i] < 0.5 ? 0 : 2) + (x[2 * i + 1] < 0.5 ? 0 : 1)] += 1.0;
+    }
+    for (int k = 0; k < 4; ++k) {
+        expected += 2e-6 * count[0][k] * count[1][k] / 0.25;
+    }
+    const clast_cloud cloud = {.n = N, .dimension = 2, .x = x, .variable = temperature};
+    CHECK_OK(clast_decompose(&cloud, &c, &d));
+    assert_int_equal(d.cells.n, 4);
+    CHECK_REL(d.events_cross, expected, 1e-12);
+    clast_decomposition_free(&d);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* How a decomposition of [n][2] points ended, in words. */
+static const char *stop_of(const clast_cloud *cloud, const clast_decompose_config *c)
+{
+    clast_decomposition d = {0};
+    CHECK_OK(clast_decompose(cloud, c, &d));
+    const char *words = clast_decompose_stop_text(d.stop);
+    clast_decomposition_free(&d);
+    return words;
+}
+
+/* A tree that split a rejected cloud into many cells said "the tests accept", as did tests alone
+ * that rejected and clouds too small for a test: no stop was set, and 0 is that one. */
+static void a_stop_is_what_happened(void **state)
+{
+    (void)state;
+    static double same[2 * 100];
+    clast_decompose_config c = config_of(square);
+    clast_cloud cloud = cloud_of("u2_n50");
+    assert_string_equal(stop_of(&cloud, &c), "accepted by the tests");
+    cloud.n = 4;
+    assert_string_equal(stop_of(&cloud, &c), "not tested: fewer than 5 points");
+    cloud = cloud_of("f2_n500");
+    assert_string_equal(stop_of(&cloud, &c), "split; the tests then accept");
+    set(&c, "variant", "first");
+    assert_string_equal(stop_of(&cloud, &c), "split in the one pass of the variant");
+    set(&c, "variant", "test");
+    assert_string_equal(stop_of(&cloud, &c), "rejected by the tests; the variant does not split");
+    set(&c, "variant", "full");
+    set(&c, "mesh", "tree");
+    assert_string_equal(stop_of(&cloud, &c), "rejected by the tests and split");
+    set(&c, "tree_root_level", "1e-12");
+    set(&c, "tests", "pearson,symmetric"); // both say no, at p = 1e-5 or so
+    for (int i = 0; i < 200; ++i) {
+        same[i] = 0.3;
+    }
+    cloud = (clast_cloud){.n = 100, .dimension = 2, .x = same};
+    assert_string_equal(stop_of(&cloud, &c), "at the limit: cells of 20 halvings are still uneven");
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
 /* The middle 36 % of a square at half the density of its rim: more bins are thin than the 20 % that
  * the percentile takes (the score sees depths, so a hole and not a strip). Searched, the lower
  * threshold lies above it and is the nearest of all rows to its ideal score. */
@@ -388,6 +463,8 @@ int main(void)
         cmocka_unit_test(chosen_tests_and_statistics_vote),
         cmocka_unit_test(paper_prints_what_the_paper_printed),
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
+        cmocka_unit_test(crossfit_keeps_the_variable),
+        cmocka_unit_test(a_stop_is_what_happened),
         cmocka_unit_test(a_lower_threshold_is_searched_like_the_upper_one),
         cmocka_unit_test(both_thresholds_are_searched_jointly),
         cmocka_unit_test(strict_thresholds_leave_ties_ambient),

@@ -257,7 +257,7 @@ static void bad_points_are_told_and_leave_no_result(void **state)
     dense[7] = 0.5;
     CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
     points.dimension = 4;
-    CHECK_STATUS(clast_workspace_decompose(workspace, &points, &c, &made), CLAST_E_USAGE);
+    CHECK_STATUS(clast_workspace_decompose(workspace, &points, &c, &made), CLAST_E_ARGUMENT);
     clast_workspace_destroy(workspace);
     clast_workspace_destroy(NULL);
     clast_fields_free(clast_decompose_fields, &c);
