@@ -1,64 +1,68 @@
 // The option table of an aggregation, and the combinations that no single range can see.
 #include "aggregate/config.h"
 
+#include "base/number.h"
 #include "math/vec3.h"
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FIELD(type, name) #name, offsetof(clast_aggregate_config, name), CLAST_FIELD_##type
-#define TEXT(name, value, help)                                                                    \
+#define FIELD(type, name)                                                                          \
+#name, .offset = offsetof(clast_aggregate_config, name), CLAST_FIELD_##type
+#define TEXT(name, value, ...)                                                                     \
     {                                                                                              \
-        FIELD(TEXT, name), 0, 0, 0, "-", help, value                                               \
+        FIELD(TEXT, name), 0, 0, 0, "-", .text = value, .help = __VA_ARGS__                        \
     }
-#define NUMBER(name, value, low, high, unit, help)                                                 \
+#define NUMBER(name, value, low, high, unit, ...)                                                  \
     {                                                                                              \
-        FIELD(F64, name), value, low, high, unit, help, NULL                                       \
+        FIELD(F64, name), value, low, high, unit, __VA_ARGS__                                      \
     }
-#define COUNT(name, value, low, high, help)                                                        \
+#define COUNT(name, value, low, high, ...)                                                         \
     {                                                                                              \
-        FIELD(I32, name), value, low, high, "-", help, NULL                                        \
+        FIELD(I32, name), value, low, high, "-", __VA_ARGS__                                       \
     }
-#define CHOICE(name, value, words, help)                                                           \
+#define CHOICE(name, value, words, ...)                                                            \
     {                                                                                              \
-        FIELD(CHOICE, name), value, 0, 0, "-", help, words                                         \
+        FIELD(CHOICE, name), value, 0, 0, "-", .text = words, .help = __VA_ARGS__                  \
     }
-#define LIST(name, low, high, unit, value, help)                                                   \
+#define LIST(name, low, high, unit, value, ...)                                                    \
     {                                                                                              \
-        FIELD(F64_LIST, name), 0, low, high, unit, help, value                                     \
+        FIELD(F64_LIST, name), 0, low, high, unit, .text = value, .help = __VA_ARGS__              \
     }
-#define TEXTS(name, value, help)                                                                   \
+#define TEXTS(name, value, ...)                                                                    \
     {                                                                                              \
-        FIELD(TEXT_LIST, name), 0, 0, 0, "-", help, value                                          \
+        FIELD(TEXT_LIST, name), 0, 0, 0, "-", .text = value, .help = __VA_ARGS__                   \
     }
-#define FLAG(name, help)                                                                           \
+#define FLAG(name, ...)                                                                            \
     {                                                                                              \
-        FIELD(BOOL, name), 0, 0, 1, "-", help, NULL                                                \
+        FIELD(BOOL, name), 0, 0, 1, "-", __VA_ARGS__                                               \
     }
 
 const clast_field clast_aggregate_fields[] = {
     CHOICE(mode, 0, "core|cluster",
-           "grow on a core, or merge a population of grains cluster by cluster"),
-    TEXT(core, "", "core: surface file, state.h5, sphere, or ellipsoid:a,b,c"),
-    NUMBER(core_size, 0, 0, 1e6, "m", "size of the core; 0: as its file says"),
+           "grow on a core, or merge a population of grains cluster by cluster", .group = "shapes"),
+    TEXT(core, "", "core: surface file, state.h5, sphere, or ellipsoid:a,b,c", .common = true),
+    NUMBER(core_size, 0, 0, 1e6, "m", "size of the core; 0: as its file says", .common = true),
     CHOICE(core_meaning, 0, "length|volume|mean_diameter", "what core_size measures"),
     NUMBER(core_density, 2500, 1e-6, 1e6, "kg/m^3", "density of the core"),
-    TEXTS(coat, "", "coating shape: as core"),
+    TEXTS(coat, "", "coating shape: as core", .common = true),
     LIST(coat_weight, 0, DBL_MAX, "-", "", "chance of each coating shape; none: all equal"),
     LIST(class_limit, 0, 1e6, "m", "",
          "sizes up to the k-th limit take the k-th coating shape, larger ones the last"),
-    LIST(coat_density, 1e-6, 1e6, "kg/m^3", "2500", "density: one for all shapes, or one each"),
+    LIST(coat_density, 1e-6, 1e6, "kg/m^3", "2500", "density: one for all shapes, or one each",
+         .common = true),
     TEXT(core_spheres, "", "sphere composite of the core (CSV x,y,z,r); none: filled"),
     TEXTS(coat_spheres, "", "sphere composite of each coating shape"),
     COUNT(fill_spheres, 100, 1, 1e6, "spheres of each composite that is filled here"),
     CHOICE(fill, 0, "largest|random|published", "how it is filled (see clast fill)"),
-    TEXT(unit, "", "length unit of coordinates in surface files"),
+    TEXT(unit, "", "length unit of coordinates in surface files", .common = true),
     FLAG(accept_faults, "use surfaces that are open or cross themselves as they are"),
 
-    TEXT(sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts"),
+    TEXT(sizes, "", "CSV of sizes, of sizes with counts, or of bins low,high with counts",
+         .common = true, .group = "sizes"),
     TEXT(size_column, "", "its column; none: the first"),
-    TEXT(size_unit, "", "its unit, um, mm, m or phi; none: from the column's name"),
+    TEXT(size_unit, "", "its unit, um, mm, m or phi; none: from the column's name", .common = true),
     LIST(size, 1e-12, 1e6, "m", "", "a size, instead of a file"),
     CHOICE(size_law, 0, "list|uniform|loguniform|normal|lognormal|weibull",
            "sizes from the list, or drawn from a law"),
@@ -72,14 +76,15 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(n_particle, 0, 0, 1e8, "particles to place; 0: the whole list"),
     FLAG(size_draw, "draw n_particle sizes from the histogram at random"),
     FLAG(size_by_mass, "the histogram's counts are masses, not numbers"),
-    COUNT(replicate, 1, 1, 1e6, "how often the list is used (N_A of the paper)"),
+    COUNT(replicate, 1, 1, 1e6, "how often the list is used (N_A of the paper)", .common = true),
     CHOICE(size_meaning, 0, "length|volume|mean_diameter",
            "sizes are maximum lengths, volume-equivalent or (L I S)^(1/3) diameters"),
     CHOICE(order, 0, "given|shuffled|descending", "order of placement"),
 
-    NUMBER(cone, CLAST_PI / 180.0, 0, CLAST_PI, "rad", "half-angle of the cone of rays"),
-    COUNT(rays, 1, 1, 1e6, "rays tried for each particle (N_r)"),
-    COUNT(orientations, 1, 1, 1e6, "orientations tried on each ray (N_o)"),
+    NUMBER(cone, CLAST_PI / 180.0, 0, CLAST_PI, "rad", "half-angle of the cone of rays",
+           .common = true, .group = "growth"),
+    COUNT(rays, 1, 1, 1e6, "rays tried for each particle (N_r)", .common = true),
+    COUNT(orientations, 1, 1, 1e6, "orientations tried on each ray (N_o)", .common = true),
     TEXT(axis, "random", "axis of the cone: random, or a fixed x,y,z"),
     CHOICE(origin, 0, "auto|core|mass|grain|sphere",
            "where rays start: core's centre, centre of mass, a random placed grain or sphere"),
@@ -92,7 +97,8 @@ const clast_field clast_aggregate_fields[] = {
 
     CHOICE(contact, 0, "exact|spheres|march",
            "first touch of true surfaces, of sphere composites, "
-           "or the published march"),
+           "or the published march",
+           .common = true, .group = "contact"),
     CHOICE(flavour, 0, "release|figures", "the published engine that march repeats"),
     NUMBER(march_coarse, 0, 0, 10, "-", "coarse step constant; 0: release 0.05, figures 0.01"),
     NUMBER(march_fine, 0.0005, 1e-9, 10, "-", "fine step constant"),
@@ -101,19 +107,23 @@ const clast_field clast_aggregate_fields[] = {
 
     TEXTS(envelope, "surface_hull",
           "envelopes, the first gives d_agg: surface_hull, sphere_hull, sphere_rays, wrap, "
-          "alpha, enclosing_sphere, gyration_sphere"),
-    COUNT(envelope_every, 1, 1, 1e9, "particles between two rows of porosity"),
+          "alpha, enclosing_sphere, gyration_sphere",
+          .group = "envelopes and porosity"),
+    COUNT(envelope_every, 1, 1, 1e9,
+          "particles between two rows of porosity; alpha, wrap: seconds each"),
     {FIELD(BOOL, solid_union), 1, 0, 1, "-",
      "measure the volume of the union too, which takes sampling where grains overlap", NULL},
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(envelope_length, 0, 0, 1e6, "m",
            "radius of the ball of the wrap and alpha envelopes, which need it"),
 
-    NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never"),
+    NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never",
+           .group = "when to stop"),
     NUMBER(stop_size, 0, 0, 1e6, "m", "stop when d_agg reaches this; 0: never"),
     NUMBER(stop_porosity, 0, 0, 1, "-", "stop when the porosity reaches this; 0: never"),
 
-    FLAG(fit, "find packing and replicate that explain the observed size, density or velocity"),
+    FLAG(fit, "find packing and replicate that explain the observed size, density or velocity",
+         .group = "fit to an observation"),
     NUMBER(observed_size, 0, 0, 1e6, "m", "fit: observed D_agg; 0: not observed"),
     NUMBER(observed_size_error, 0, 0, 1e6, "m", "fit: its standard error"),
     NUMBER(observed_density, 0, 0, 1e6, "kg/m^3", "fit: observed density; 0: not observed"),
@@ -124,23 +134,23 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(fit_repeats, 3, 2, 1000, "fit: aggregates grown at each packing and replicate"),
     COUNT(fit_replicate_max, 32, 1, 1e6, "fit: greatest replicate tried"),
 
-    CHOICE(pick, 0, "random|mass|brownian", "cluster mode: how two clusters are chosen"),
+    CHOICE(pick, 0, "random|mass|brownian", "cluster mode: how two clusters are chosen",
+           .group = "clusters"),
     COUNT(n_final, 1, 1, 1e8, "cluster mode: clusters left at the end"),
 
-    COUNT(repeats, 1, 1, 1e6, "independent aggregates"),
-    NUMBER(
-        confidence, 0.95, 0.5, 0.9999, "-",
-        "level of the intervals over repeats; fit: reached unless chi2 is rejected at this level"),
-    {FIELD(U64, seed), 1, 0, 0, "-", "seed of every random number", NULL},
-    COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints"),
+    COUNT(repeats, 1, 1, 1e6, "independent aggregates", .group = "repeats and random numbers"),
+    NUMBER(confidence, 0.95, 0.5, 0.9999, "-", "level of the intervals over repeats"),
+    {FIELD(U64, seed), 1, 0, 0, "-", "seed of every random number", NULL, .common = true},
+    COUNT(checkpoint_every, 200, 1, 1e9, "particles between two checkpoints", .group = "output"),
     {FIELD(BOOL, picture), 1, 0, 1, "-", "picture.png in the run folder", NULL},
-    FLAG(printable, "printable.stl: one closed surface around all grains and necks at contacts"),
+    FLAG(printable,
+         "printable.3mf, printable.stl (mm): one closed surface around all grains and their necks"),
     NUMBER(neck, 0, 0, 1e6, "m",
            "printable: thickness of the necks; 0: half the thinnest grain, 3 spacings at least"),
     NUMBER(spacing, 0, 0, 1e6, "m",
            "printable: spacing of the sampling grid; 0: a quarter neck, coarser where the file "
            "would pass 50 MB"),
-    FLAG(force, "replace an earlier run in the output folder; refused without this"),
+    FLAG(force, "replace an earlier run in the output folder, once the new one has succeeded"),
     TEXT(resume, "", "run folder to go on with; all other options come from it"),
     {0},
 };
@@ -150,7 +160,7 @@ clast_status clx_numbers_parse(const char *text, int32_t n, double *number)
     const char *at = text;
     for (int32_t k = 0; k < n; ++k) {
         char *end = NULL;
-        number[k] = strtod(at, &end);
+        number[k] = clx_number_read(at, &end);
         const char wanted = k + 1 < n ? ',' : '\0';
         if (end == at || *end != wanted || !isfinite(number[k])) {
             return clx_fail(CLAST_E_CONFIG, "'%s' is not %d numbers with commas between", text, n);

@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include <clast/structure.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +12,8 @@ enum {
     N_BETWEEN = 3, ///< nodes grown within a bracket
     HOPELESS = 50  ///< rise of chi2 that ends the path when it comes twice
 };
+
+static const char *const PHASE = "fit: aggregates";
 
 const char *clast_fit_observable_name(int32_t observable)
 {
@@ -39,8 +40,6 @@ typedef struct job {
     clast_aggregate_config config; ///< borrows the lists and texts of the fit's
     int32_t n;
     double (*value)[CLX_FIT_N_MODEL]; ///< [n]
-    clast_status *status;             ///< [n]
-    char (*detail)[256];              ///< [n]
 } job;
 
 static clast_status measure(const clast_aggregate *aggregate, double value[CLX_FIT_N_MODEL])
@@ -78,16 +77,16 @@ done:
     return status;
 }
 
-static void grow_some(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status grow_some(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     job *j = context;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        j->status[i] = grow_one(j, (int32_t)i, j->value[i]);
-        if (j->status[i] != CLAST_OK) { // the message is the worker's: carry it over
-            (void)snprintf(j->detail[i], sizeof j->detail[i], "%s", clast_error_detail());
-        }
+        CLX_TRY(grow_one(j, (int32_t)i, j->value[i]));
     }
+done:
+    return status;
 }
 
 static void summarise(const job *j, clx_fit_node *node)
@@ -112,21 +111,31 @@ static clast_status run_job(job *j)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&j->value, j->n, sizeof *j->value));
-    CLX_TRY(clx_alloc(&j->status, j->n, sizeof *j->status));
-    CLX_TRY(clx_alloc(&j->detail, j->n, sizeof *j->detail));
-    clx_parallel_for(j->n, 1, grow_some, j);
-    for (int32_t i = 0; i < j->n; ++i) {
-        CLX_CHECK(j->status[i] == CLAST_OK, j->status[i], "%s", j->detail[i]);
-    }
+    CLX_TRY(clx_parallel_try(j->n, 1, grow_some, j));
 done:
     return status;
 }
 
-static clast_status report(clx_fit *fit)
+/// Aggregates that the whole fit will grow, as far as can be told: a packing not yet searched
+/// counts as those that were, the first one as all doublings of N_A and the values between.
+static int32_t expected_runs(const clx_fit *fit, int32_t level)
+{
+    int32_t n_double = 1;
+    for (int32_t n = 1; n < fit->config->fit_replicate_max && n_double < 32; ++n_double) {
+        n *= 2;
+    }
+    const int32_t planned = (n_double + N_BETWEEN) * fit->config->fit_repeats;
+    const double each = level > 0 ? (double)fit->n_run_before / level : planned;
+    const double total = fit->n_run_before + each * (fit->n_level - level);
+    const double least = fit->n_run + (double)fit->config->fit_repeats; // it is not the end yet
+    return (int32_t)fmin(fmax(total, least), INT32_MAX);
+}
+
+static clast_status report(clx_fit *fit, int32_t level)
 {
     const clast_monitor *m = fit->monitor;
     if (m != NULL && m->report != NULL) {
-        m->report(m->context, "fit", fit->n_run, 0);
+        m->report(m->context, PHASE, fit->n_run, expected_runs(fit, level));
     }
     if (m != NULL && m->stop != NULL && m->stop(m->context)) {
         return clx_fail(CLAST_E_STOPPED, "stopped after %d aggregates of the fit", fit->n_run);
@@ -159,11 +168,9 @@ static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
     fit->n_run += j.n;
     fit->node[fit->n_node] = made;
     *node = &fit->node[fit->n_node++];
-    CLX_TRY(report(fit));
+    CLX_TRY(report(fit, level));
 done:
     clx_free(j.value);
-    clx_free(j.status);
-    clx_free(j.detail);
     return status;
 }
 
@@ -255,6 +262,7 @@ clast_status clx_fit_grow(clx_fit *fit)
     clast_status status = CLAST_OK;
     for (int32_t level = 0; level < fit->n_level; ++level) {
         double best = INFINITY;
+        fit->n_run_before = fit->n_run;
         CLX_TRY(search_level(fit, level));
         fit->n_tried = level + 1;
         clx_fit_set_chi2(fit);
@@ -265,6 +273,9 @@ clast_status clx_fit_grow(clx_fit *fit)
             level_chi2(fit, level - 1) > best + HOPELESS) {
             break;
         }
+    }
+    if (fit->monitor != NULL && fit->monitor->report != NULL) {
+        fit->monitor->report(fit->monitor->context, PHASE, fit->n_run, fit->n_run);
     }
 done:
     return status;
@@ -294,7 +305,7 @@ static clast_status parse_packing(const char *text, clx_fit_packing *packing)
     packing->rays = parse_count(&at);
     packing->orientations = parse_count(&at);
     if (packing->rays == 0 || packing->orientations == 0 || *at != '\0' ||
-        clast_unit_parse(cone, "rad", &packing->cone) != CLAST_OK ||
+        clast_unit_parse_asked(cone, "rad", &packing->cone) != CLAST_OK ||
         !(packing->cone >= 0.0 && packing->cone <= CLAST_PI)) {
         return clx_fail(CLAST_E_CONFIG,
                         "fit_packing: '%s' is not cone:rays:orientations, like 50deg:30:10", text);

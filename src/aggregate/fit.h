@@ -17,6 +17,7 @@ typedef struct clx_fit_node {
     double mean[CLX_FIT_N_MODEL];
     double deviation[CLX_FIT_N_MODEL];
     double chi2, weight;
+    bool is_inside; ///< every observed quantity is met within its error
 } clx_fit_node;
 
 typedef struct clx_fit {
@@ -30,7 +31,8 @@ typedef struct clx_fit {
     int64_t node_room;
     double observed[CLAST_FIT_N_OBSERVABLE], error[CLAST_FIT_N_OBSERVABLE];
     int32_t n_run;
-    int32_t n_tried; ///< packings grown
+    int32_t n_run_before; ///< aggregates grown before the packing at hand
+    int32_t n_tried;      ///< packings grown
 } clx_fit;
 
 void clx_fit_free(clx_fit *fit);
@@ -43,6 +45,9 @@ clast_status clx_fit_grow(clx_fit *fit);
 
 /// Fills in between the grown nodes, weighs all, and says what came out.
 clast_status clx_fit_weigh(clx_fit *fit, clast_aggregate_fit *result);
+
+/// Verdict, p-value and the outcome in words, from what the result holds by then.
+void clx_fit_judge(const clx_fit *fit, clast_aggregate_fit *result);
 
 /// Sets chi2 of every node from the scatter of all grown so far.
 void clx_fit_set_chi2(clx_fit *fit);

@@ -1,11 +1,9 @@
-// What a fit's nodes say together: interpolation, chi2, weights, and the outcome in words.
+// What a fit's nodes say together: interpolation, chi2, weights.
 #include "aggregate/fit.h"
 
 #include "base/alloc.h"
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /// Relative scatter of repeats, pooled over all grown nodes: a few repeats at one node know it
 /// poorly.
@@ -83,11 +81,13 @@ void clx_fit_set_chi2(clx_fit *fit)
     for (int32_t i = 0; i < fit->n_node; ++i) {
         clx_fit_node *node = &fit->node[i];
         node->chi2 = 0.0;
+        node->is_inside = true;
         for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
             if (isfinite(fit->observed[k])) {
                 const double off =
                     (node->mean[k] - fit->observed[k]) / total_error(fit, k, node->mean[k]);
                 node->chi2 += off * off;
+                node->is_inside = node->is_inside && fabs(off) <= 1.0;
             }
         }
     }
@@ -206,59 +206,6 @@ static void compare(const clx_fit *fit, const clx_fit_node *best, clast_aggregat
     }
 }
 
-/// Chance of a chi2 this great or greater with n = 1, 2 or 3.
-static double chance_of(double chi2, int32_t n)
-{
-    const double half = 0.5 * chi2;
-    if (n == 2) {
-        return exp(-half);
-    }
-    const double tail = erfc(sqrt(half));
-    return n == 1 ? tail : tail + 2.0 * sqrt(half / CLAST_PI) * exp(-half);
-}
-
-static void append(char *text, size_t size, const char *more)
-{
-    const size_t n = strlen(text);
-    (void)snprintf(text + n, size - n, "%s", more);
-}
-
-static void say_pulls(clast_aggregate_fit *r)
-{
-    char part[160];
-    for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
-        if (isfinite(r->observed[k])) {
-            (void)snprintf(part, sizeof part, "%s %.4g against %.4g +- %.2g %s (%+.1f errors); ",
-                           clast_fit_observable_name(k), r->model[k].best, r->observed[k],
-                           r->error[k], clast_fit_observable_unit(k), r->pull[k]);
-            append(r->words, sizeof r->words, part);
-        }
-    }
-}
-
-static void say(clast_aggregate_fit *r)
-{
-    char part[200];
-    append(r->words, sizeof r->words,
-           r->reached ? "the observation is reached: " : "the observation cannot be reached: ");
-    say_pulls(r);
-    (void)snprintf(part, sizeof part,
-                   "porosity %.3f with cone %.3g deg, rays %d, orientations %d, "
-                   "replicate %d",
-                   r->porosity.best, r->cone * 180.0 / CLAST_PI, r->rays, r->orientations,
-                   r->replicate);
-    append(r->words, sizeof r->words, part);
-    if (!r->reached && r->at_level == 0) {
-        append(r->words, sizeof r->words, "; this is the loosest packing tried");
-    }
-    if (!r->reached && r->at_level == r->n_level - 1 && r->n_level > 1 && !r->cut_short) {
-        append(r->words, sizeof r->words, "; this is the tightest packing tried");
-    }
-    if (r->at_limit) {
-        append(r->words, sizeof r->words, "; replicate is at its limit: raise fit_replicate_max");
-    }
-}
-
 clast_status clx_fit_weigh(clx_fit *fit, clast_aggregate_fit *result)
 {
     clast_status status = CLAST_OK;
@@ -275,12 +222,9 @@ clast_status clx_fit_weigh(clx_fit *fit, clast_aggregate_fit *result)
     made.replicate = node->replicate;
     made.chi2 = node->chi2;
     made.at_level = node->level;
-    made.at_limit = node->replicate == fit->config->fit_replicate_max;
     compare(fit, node, &made);
-    made.chance = chance_of(made.chi2, made.n_observed);
-    made.reached = made.chance >= 1.0 - fit->config->confidence;
     CLX_TRY(estimate_all(fit, best, &made));
-    say(&made);
+    clx_fit_judge(fit, &made);
     *result = made;
 done:
     return status;
@@ -347,6 +291,7 @@ static clast_status make_table(const clx_fit *fit, clast_table *table)
                                             {"porosity", "-"},
                                             {"porosity_deviation", "-"},
                                             {"chi2", "-"},
+                                            {"inside", "-"},
                                             {"weight", "-"}};
     clast_status status = CLAST_OK;
     clast_table made = {0};
@@ -367,6 +312,7 @@ static clast_status make_table(const clx_fit *fit, clast_table *table)
             made.column[c++].number[i] = node->deviation[k];
         }
         made.column[c++].number[i] = node->chi2;
+        made.column[c++].number[i] = node->is_inside;
         made.column[c].number[i] = node->weight;
     }
     *table = made;

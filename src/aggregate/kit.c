@@ -8,10 +8,7 @@
 #include "contact/touch_tree.h"
 #include "geom/bvh.h"
 #include "math/vec3.h"
-#include <stdio.h>
 #include <string.h>
-
-enum { DETAIL = 512 };
 
 void clx_kit_free(clx_kit *kit)
 {
@@ -196,8 +193,6 @@ done:
 typedef struct {
     const clast_aggregate_config *config;
     clx_kit *kit;
-    clast_status *status;   ///< [n_shape + n_group]
-    char (*detail)[DETAIL]; ///< [n_shape + n_group] the workers' messages
 } kit_job;
 
 static clast_status make_group_form(const kit_job *job, int32_t g)
@@ -207,35 +202,24 @@ static clast_status make_group_form(const kit_job *job, int32_t g)
     return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
 }
 
-static void make_some(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status make_some(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     const kit_job *job = context;
     const int64_t n_shape = job->kit->n_shape;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        job->status[i] = i < n_shape ? make_shape(job->config->contact, &job->kit->shape[i])
-                                     : make_group_form(job, (int32_t)(i - n_shape));
-        if (job->status[i] != CLAST_OK) {
-            (void)snprintf(job->detail[i], DETAIL, "%s", clast_error_detail());
-        }
+        CLX_TRY(i < n_shape ? make_shape(job->config->contact, &job->kit->shape[i])
+                            : make_group_form(job, (int32_t)(i - n_shape)));
     }
+done:
+    return status;
 }
 
 static clast_status make_all(const clast_aggregate_config *config, clx_kit *kit)
 {
-    clast_status status = CLAST_OK;
-    const int64_t n = (int64_t)kit->n_shape + kit->n_group;
     kit_job job = {.config = config, .kit = kit};
-    CLX_TRY(clx_alloc(&job.status, n, sizeof *job.status));
-    CLX_TRY(clx_alloc(&job.detail, n, sizeof *job.detail));
-    clx_parallel_for(n, 1, make_some, &job);
-    for (int64_t i = 0; i < n; ++i) {
-        CLX_CHECK(job.status[i] == CLAST_OK, job.status[i], "%s", job.detail[i]);
-    }
-done:
-    clx_free(job.status);
-    clx_free(job.detail);
-    return status;
+    return clx_parallel_try((int64_t)kit->n_shape + kit->n_group, 1, make_some, &job);
 }
 
 /// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.

@@ -12,7 +12,6 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <math.h>
-#include <stdatomic.h>
 
 /// Places [low, high] along the ray where two spheres intersect.
 typedef struct {
@@ -37,7 +36,6 @@ typedef struct {
     double size;                ///< of the particle, as the sizes mean it
     march_ray *ray;             ///< [n_ray]
     clx_march_landing *landing; ///< [n_ray * n_orientation]
-    _Atomic bool out_of_memory;
 } marching;
 
 /// Farthest hit of the line (both directions) through the ray's origin; false if it meets none.
@@ -238,17 +236,18 @@ static clast_status run_trial(const marching *m, int64_t trial, span_list *list,
     return status;
 }
 
-static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status run_trials(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     (void)worker;
     marching *m = context;
     span_list list = {0};
     for (int64_t trial = begin; trial < end; ++trial) {
-        if (run_trial(m, trial, &list, &m->landing[trial]) != CLAST_OK) {
-            atomic_store(&m->out_of_memory, true);
-        }
+        CLX_TRY(run_trial(m, trial, &list, &m->landing[trial]));
     }
+done:
     clx_free(list.item);
+    return status;
 }
 
 /// Grain whose spheres come nearest to the landed particle's, and the point between them.
@@ -293,14 +292,12 @@ clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double si
     const int64_t n_trial = (int64_t)c->rays * c->orientations;
     marching m = {.march = march, .aim = aim, .size = size};
     int64_t best = 0;
-    atomic_init(&m.out_of_memory, false);
     CLX_TRY(clx_alloc(&m.ray, c->rays, sizeof *m.ray));
     CLX_TRY(clx_alloc(&m.landing, n_trial, sizeof *m.landing));
     for (int32_t i = 0; i < c->rays; ++i) {
         make_ray(&m, i, &m.ray[i]);
     }
-    clx_parallel_for(n_trial, 4, run_trials, &m);
-    CLX_CHECK(!atomic_load(&m.out_of_memory), CLAST_E_MEMORY, "no memory for a trial of the march");
+    CLX_TRY(clx_parallel_try(n_trial, 4, run_trials, &m));
     for (int64_t i = 1; i < n_trial; ++i) {
         best = m.landing[i].distance < m.landing[best].distance ? i : best;
     }

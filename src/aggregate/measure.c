@@ -209,7 +209,7 @@ done:
     return status;
 }
 
-enum { AT_END = 2, DETAIL = 512 };
+enum { AT_END = 2 };
 
 /// The measures at the end that run on one thread each and do not need each other.
 typedef struct {
@@ -217,8 +217,6 @@ typedef struct {
     const clast_assembly *grains;
     clast_aggregate_result *result;
     clast_extent extent;
-    clast_status status[AT_END];
-    char detail[AT_END][DETAIL];
 } end_measures;
 
 static clast_status measure_one(end_measures *m, int64_t which)
@@ -227,16 +225,16 @@ static clast_status measure_one(end_measures *m, int64_t which)
                       : measure(m->a, m->grains, END_TOLERANCE, m->result->envelope);
 }
 
-static void measure_some(int64_t begin, int64_t end, int32_t worker, void *context)
+static clast_status measure_some(int64_t begin, int64_t end, int32_t worker, void *context)
 {
+    clast_status status = CLAST_OK;
     end_measures *m = context;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        m->status[i] = measure_one(m, i);
-        if (m->status[i] != CLAST_OK) { // the message is the worker's: carry it over
-            (void)snprintf(m->detail[i], DETAIL, "%s", clast_error_detail());
-        }
+        CLX_TRY(measure_one(m, i));
     }
+done:
+    return status;
 }
 
 /// The union shares its pairs among all threads; hulls run side by side, each on one; other
@@ -250,10 +248,7 @@ static clast_status measure_all(end_measures *m)
                                   m->a->kind[k] == CLAST_ENVELOPE_SPHERE_HULL);
     }
     CLX_TRY(measure_solid(m->a, m->grains, m->result));
-    clx_parallel_for(AT_END, all_hulls ? 1 : AT_END, measure_some, m);
-    for (int i = 0; i < AT_END; ++i) {
-        CLX_CHECK(m->status[i] == CLAST_OK, m->status[i], "%s", m->detail[i]);
-    }
+    CLX_TRY(clx_parallel_try(AT_END, all_hulls ? 1 : AT_END, measure_some, m));
 done:
     return status;
 }

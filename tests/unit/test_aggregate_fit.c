@@ -85,7 +85,12 @@ static void fit_finds_what_it_was_grown_with(void **state)
     set_up(&s);
     observe(&s, 4, 3);
     CHECK_OK(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes));
-    assert_true(fit.reached);
+    assert_int_equal(fit.verdict, CLAST_FIT_INSIDE);
+    assert_int_equal(fit.n_choice, 2); /* two data, two choices: no p-value */
+    assert_int_equal(fit.n_freedom, 0);
+    assert_true(isnan(fit.p_value));
+    assert_non_null(strstr(fit.words, "no degree of freedom is left"));
+    assert_int_equal(fit.packing_edge, 0);
     assert_int_equal(fit.rays, 4);
     assert_in_range(fit.replicate, 2, 4);
     assert_true(fit.n_replica.low <= 3.0 && 3.0 <= fit.n_replica.high);
@@ -94,7 +99,8 @@ static void fit_finds_what_it_was_grown_with(void **state)
     assert_true(isnan(fit.observed[CLAST_FIT_VELOCITY]));
     assert_true(fit.model[CLAST_FIT_VELOCITY].best > 0.0);
     assert_int_equal(fit.n_observed, 2);
-    assert_non_null(strstr(fit.words, "is reached"));
+    assert_non_null(strstr(fit.words, "yes, inside the observed interval: size "));
+    assert_non_null(strstr(fit.words, " um against "));
     /* the table: weights sum to 1, grown rows have runs, chi2 is least at the best row */
     const double *weight = clast_table_numbers(&nodes, "weight");
     const double *chi2 = clast_table_numbers(&nodes, "chi2");
@@ -113,7 +119,8 @@ static void fit_finds_what_it_was_grown_with(void **state)
     tear_down(&s);
 }
 
-static void fit_says_when_nothing_explains_it(void **state)
+/* A density of 402 against 310 +- 50 on the border of the grid was called "reached". */
+static void fit_says_when_the_best_is_at_the_edge(void **state)
 {
     (void)state;
     scene s;
@@ -125,15 +132,72 @@ static void fit_says_when_nothing_explains_it(void **state)
     s.config.observed_density *= 0.3; /* three times looser than loose */
     s.config.observed_density_error *= 0.3;
     CHECK_OK(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes));
-    assert_false(fit.reached);
+    assert_int_equal(fit.verdict, CLAST_FIT_EDGE);
+    assert_int_equal(fit.packing_edge, -1);
     assert_true(fit.pull[CLAST_FIT_DENSITY] > 2.0);
     assert_int_equal(fit.at_level, 0);
     assert_true(fit.least[CLAST_FIT_DENSITY] > s.config.observed_density);
-    assert_non_null(strstr(fit.words, "cannot be reached"));
+    assert_non_null(strstr(fit.words, "at the edge of what was tried"));
     assert_non_null(strstr(fit.words, "loosest"));
     CHECK_OK(clast_aggregate_fit_json(&fit, &text));
-    assert_non_null(strstr(text, "\"reached\": false"));
+    assert_non_null(strstr(text, "\"verdict\": \"edge\""));
+    assert_non_null(strstr(text, "\"packing\": \"loosest\""));
+    assert_non_null(strstr(text, "\"p_value\": null"));
     clast_text_free(text);
+    clast_table_free(&nodes);
+    tear_down(&s);
+}
+
+/* A velocity that no packing has leaves the choice to size and density, and a degree of freedom. */
+static void fit_says_no_within_what_was_tried(void **state)
+{
+    (void)state;
+    scene s;
+    clast_aggregate_fit fit;
+    clast_table nodes = {0};
+    set_up(&s);
+    observe(&s, 4, 2);
+    s.config.observed_velocity = 1e3;
+    s.config.observed_velocity_error = 200.0;
+    CHECK_OK(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes));
+    assert_int_equal(fit.verdict, CLAST_FIT_NO);
+    assert_int_equal(fit.packing_edge, 0);
+    assert_int_equal(fit.replicate_edge, 0);
+    assert_int_equal(fit.n_freedom, 1);
+    CHECK_REL(fit.p_value, erfc(sqrt(0.5 * fit.chi2)), 1e-12); /* chi2 of one normal number */
+    assert_non_null(strstr(fit.words, "no, outside the observed interval"));
+    assert_non_null(strstr(fit.words, "p-value"));
+    clast_table_free(&nodes);
+    tear_down(&s);
+}
+
+typedef struct progress {
+    int32_t n;
+    int64_t done, total;
+} progress;
+
+static void note_progress(void *context, const char *phase, int64_t done, int64_t total)
+{
+    progress *p = context;
+    assert_non_null(strstr(phase, "aggregates"));
+    assert_true(done >= p->done && total >= done && total > 0);
+    *p = (progress){p->n + 1, done, total};
+}
+
+static void fit_reports_a_total(void **state)
+{
+    (void)state;
+    scene s;
+    clast_aggregate_fit fit;
+    clast_table nodes = {0};
+    progress p = {0};
+    const clast_monitor monitor = {.report = note_progress, .context = &p};
+    set_up(&s);
+    observe(&s, 4, 2);
+    CHECK_OK(clast_aggregate_fit_run(&s.config, &s.input, &monitor, &fit, &nodes));
+    assert_true(p.n > 3);
+    assert_int_equal(p.done, fit.n_run);
+    assert_int_equal(p.total, fit.n_run);
     clast_table_free(&nodes);
     tear_down(&s);
 }
@@ -236,7 +300,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fit_finds_what_it_was_grown_with),
-        cmocka_unit_test(fit_says_when_nothing_explains_it),
+        cmocka_unit_test(fit_says_when_the_best_is_at_the_edge),
+        cmocka_unit_test(fit_says_no_within_what_was_tried),
+        cmocka_unit_test(fit_reports_a_total),
         cmocka_unit_test(fit_is_the_same_for_any_threads),
         cmocka_unit_test(fit_refuses_what_it_cannot_do),
         cmocka_unit_test(fit_survives_refused_memory),

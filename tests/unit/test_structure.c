@@ -139,7 +139,7 @@ static void radial_profile_cuts_balls_exactly(void **state)
     const double *share = clast_table_numbers(&t, "solid_fraction");
     for (int k = 0; k < 4; ++k) { /* shells of 0.5 within the big ball */
         CHECK_REL(share[k], 1.0, 1e-14);
-        CHECK_REL(clast_table_numbers(&t, "density_kg_m3")[k], 1000.0, 1e-14);
+        CHECK_REL(clast_table_numbers(&t, "density_kg/m^3")[k], 1000.0, 1e-14);
     }
     /* from 2 to 3: half the small balls less what bulges over: two spheres cut by the ball of 3,
      * pi (R + r - d)^2 (d^2 + 2 d (R + r) - 3 (R - r)^2) / (12 d) with R 3, r 1, d 3 */
@@ -279,6 +279,34 @@ static double value_of(const clast_table *t, const char *name)
     return NAN;
 }
 
+/* Grains that sink into a great core add more volume than the third power of the radius of
+ * gyration: the slope is no dimension, and its row said that it was one. */
+static void slope_above_three_is_no_dimension(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_table t = {0};
+    clast_structure_options options = clast_structure_options_default();
+    options.n_line = 64;
+    options.envelope.n_ray = 1000;
+    with_ball(&a);
+    add(&a, 0.0, 0.0, 0.0, 1.0);
+    for (int i = 0; i < 120; ++i) {
+        const double z = (2.0 * i + 1.0) / 120.0 - 1.0;
+        const double r = 0.9 * sqrt(1.0 - z * z);
+        add(&a, r * cos(2.4 * i), r * sin(2.4 * i), 0.9 * z, 0.1);
+    }
+    CHECK_OK(clast_structure(&a, &options, &t));
+    assert_true(value_of(&t, "fractal_growth") > 3.0);
+    for (int64_t i = 0; i < t.n_row; ++i) {
+        if (strcmp(t.column[0].text[i], "fractal_growth") == 0) {
+            assert_non_null(strstr(t.column[4].text[i], "no fractal"));
+        }
+    }
+    clast_table_free(&t);
+    clast_assembly_free(&a);
+}
+
 static void structure_names_every_measure(void **state)
 {
     (void)state;
@@ -363,6 +391,7 @@ int main(void)
         cmocka_unit_test(radial_profile_cuts_balls_exactly),
         cmocka_unit_test(chain_has_dimension_one),
         cmocka_unit_test(lattice_has_dimension_three),
+        cmocka_unit_test(slope_above_three_is_no_dimension),
         cmocka_unit_test(structure_names_every_measure),
         cmocka_unit_test(structure_survives_refused_memory),
     };
