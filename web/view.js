@@ -1,7 +1,9 @@
 // The report's 3-D view: one instanced mesh per shape, coloured by size, order or shape, with a growth slider.
 //
 // The page holds, per run, a <script type="application/json" class="view-data"> with
-//   {unit, length, n_grain, n_shown, shapes: [{name, position, index, grain, pose}]}
+//   {unit, length, n_grain, n_shown, bar, size, order, shape, shape_name, shapes: [{name, colour, position, index, grain, pose}]}
+// bar: colours from low to high; size, order: {title, log, low, high, unit, ticks: [[place, text]]}, the colour bars of a picture of
+// the same run (size times unit is on its scale; no `size`: grains without volume); shape: colours, shapes[].colour says which;
 // position: base64 of float32 [n][3] in the shape's frame; index: base64 of uint32 [n][3];
 // grain: base64 of uint32 [m], the grain's place in the order of growth;
 // pose: base64 of float32 [m][9]: position[3], quaternion w x y z [4], scale, size; lengths in `length` metres.
@@ -13,10 +15,9 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 const CREASE = 0.6; // rad: sharper edges stay edges
+const BAR = 260; // px: width of the colour bar, as in page.css
 const MAX_VIEWS = 6; // browsers allow about 16 WebGL contexts
-const CATEGORY = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442', '#8c8c8c'];
-const SEQUENCE = ['#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b',
-  '#fde725'].map((c) => new Color(c));
+const TINT = '#c9b79c'; // grains of one size, as in pictures
 const BACKGROUND = { light: '#f4f6f8', dark: '#12161b' };
 
 function bytes(text) {
@@ -26,10 +27,10 @@ function bytes(text) {
   return out.buffer;
 }
 
-function sequence(t, out) {
-  const x = Math.min(Math.max(t, 0), 1) * (SEQUENCE.length - 1);
-  const i = Math.min(Math.floor(x), SEQUENCE.length - 2);
-  return out.copy(SEQUENCE[i]).lerp(SEQUENCE[i + 1], x - i);
+function sequence(colours, t, out) {
+  const x = Math.min(Math.max(t, 0), 1) * (colours.length - 1);
+  const i = Math.min(Math.floor(x), colours.length - 2);
+  return out.copy(colours[i]).lerp(colours[i + 1], x - i);
 }
 
 function geometryOf(shape) {
@@ -69,7 +70,9 @@ function lights(scene, camera) {
   key.position.set(-1.2, 1.6, 1.4);
   fill.position.set(1.6, -0.4, 0.6);
   camera.add(key, fill);
-  scene.add(camera, new HemisphereLight('#ffffff', '#8c8478', 0.95), new AmbientLight('#ffffff', 0.15));
+  const sky = new HemisphereLight('#ffffff', '#8c8478', 0.95);
+  sky.position.set(0, 0, 1);
+  scene.add(camera, sky, new AmbientLight('#ffffff', 0.15));
 }
 
 function radiusOf(meshes) {
@@ -88,41 +91,29 @@ function radiusOf(meshes) {
   return r || 1;
 }
 
-function sizeRange(meshes) {
-  let low = Infinity;
-  let high = 0;
-  for (const mesh of meshes) {
-    for (const s of mesh.userData.size) {
-      low = Math.min(low, s);
-      high = Math.max(high, s);
-    }
-  }
-  return [low, high];
+/// Place of a value on a colour bar.
+function placeOf(bar, value) {
+  return bar.log ? Math.log(value / bar.low) / Math.log(bar.high / bar.low) : (value - bar.low) / (bar.high - bar.low);
 }
 
-function lengthText(metres, unit) {
-  if (unit !== 'm') return `${Number(metres.toPrecision(3))}`;
-  const [factor, name] = metres < 1e-6 ? [1e9, 'nm'] : metres < 1e-3 ? [1e6, 'µm'] : metres < 1 ? [1e3, 'mm'] : [1, 'm'];
-  return `${Number((metres * factor).toPrecision(3))} ${name}`;
+function isWide(bar) {
+  return bar.high > 1.01 * bar.low;
 }
 
 function paint(view) {
-  const { meshes, data, range } = view;
+  const { meshes, data } = view;
   const colour = new Color();
-  const wide = range[1] > 1.01 * range[0];
-  const log = range[1] > 8 * range[0];
-  const part = (s) => (log ? Math.log(s / range[0]) / Math.log(range[1] / range[0])
-    : (s - range[0]) / (range[1] - range[0]));
   meshes.forEach((mesh, s) => {
     mesh.userData.grain.forEach((g, i) => {
-      if (view.by === 'shape') colour.set(CATEGORY[s % CATEGORY.length]);
-      else if (view.by === 'order') sequence(g / Math.max(data.n_grain - 1, 1), colour);
-      else sequence(wide ? part(mesh.userData.size[i]) : 0.55, colour);
+      if (view.by === 'shape') colour.set(data.shape[data.shapes[s].colour]);
+      else if (!isWide(data[view.by])) colour.set(TINT);
+      else if (view.by === 'order') sequence(view.colours, placeOf(data.order, g + 1), colour);
+      else sequence(view.colours, placeOf(data.size, mesh.userData.size[i] * data.size.unit), colour);
       mesh.setColorAt(i, colour);
     });
     mesh.instanceColor.needsUpdate = true;
   });
-  view.legend.replaceChildren(...legendOf(view, log));
+  view.legend.replaceChildren(...legendOf(view));
 }
 
 function tag(name, className, text) {
@@ -132,23 +123,38 @@ function tag(name, className, text) {
   return made;
 }
 
-function legendOf(view, log) {
-  if (view.by === 'shape') {
-    return view.data.shapes.slice(0, 16).map((shape, s) => {
-      const row = tag('span', 'view-key', shape.name);
-      const dot = tag('i', 'view-dot');
-      dot.style.background = CATEGORY[s % CATEGORY.length];
-      row.prepend(dot);
-      return row;
-    });
+function shapeLegend(data) {
+  return data.shape.map((colour, k) => {
+    const row = tag('span', 'view-key', data.shape_name[k]);
+    const dot = tag('i', 'view-dot');
+    dot.style.background = colour;
+    row.prepend(dot);
+    return row;
+  });
+}
+
+/// Ticks of the bar; a label that would touch the one before it is left out, the mark stays.
+function ticksOf(bar) {
+  const scale = tag('div', 'view-scale');
+  let free = -1;
+  for (const [place, text] of [...bar.ticks].sort((a, b) => a[0] - b[0])) {
+    const half = (4 + 3.6 * text.length) / BAR; // of the label, as a share of the bar
+    const mark = tag('i', 'view-tick', place - half > free ? text : '');
+    mark.style.left = `${100 * place}%`;
+    if (mark.textContent) free = place + half;
+    scale.append(mark);
   }
-  const metres = view.data.length;
-  const ends = view.by === 'order' ? ['first', 'last']
-    : view.range.map((s) => lengthText(s * metres, view.data.unit));
-  const bar = tag('i', 'view-bar');
-  bar.style.background = `linear-gradient(90deg, ${SEQUENCE.map((c) => `#${c.getHexString()}`).join(',')})`;
-  const what = view.by === 'order' ? 'order of placement' : `grain size${log ? ', log scale' : ''}`;
-  return [tag('span', '', what), tag('span', '', ends[0]), bar, tag('span', '', ends[1])];
+  return scale;
+}
+
+function legendOf(view) {
+  if (view.by === 'shape') return shapeLegend(view.data);
+  const bar = view.data[view.by];
+  const title = tag('span', 'view-title', bar.title + (bar.log ? ', log scale' : ''));
+  if (!isWide(bar)) return [title, tag('span', '', `${Number(bar.low.toPrecision(4))}, all grains`)];
+  const strip = tag('i', 'view-bar');
+  strip.style.background = `linear-gradient(90deg, ${view.data.bar.join(',')})`;
+  return [title, strip, ticksOf(bar)];
 }
 
 /// Shows the grains placed before `n`.
@@ -164,7 +170,7 @@ function grow(view, n) {
 
 function frame(view) {
   const distance = (1.04 * view.radius) / Math.sin((view.camera.fov * Math.PI) / 360 * Math.min(1, view.camera.aspect));
-  view.camera.position.set(0.62, 0.42, 0.66).setLength(distance);
+  view.camera.position.set(0.52, -0.742, 0.423).setLength(distance); // as `clast render` looks: z is up
   view.camera.near = distance / 200;
   view.camera.far = distance * 20;
   view.camera.updateProjectionMatrix();
@@ -202,6 +208,7 @@ function colourChoice(view) {
   const made = tag('select');
   made.title = 'Colour';
   for (const [value, text] of [['size', 'Colour by size'], ['order', 'Colour by order'], ['shape', 'Colour by shape']]) {
+    if (!view.data[value]) continue;
     const option = tag('option', '', text);
     option.value = value;
     made.append(option);
@@ -274,14 +281,15 @@ function close(view) {
 }
 
 function build(host, data, renderer) {
-  const view = { host, data, renderer, by: 'size', before: [...host.childNodes].filter((n) => !n.dataset?.offer) };
+  const view = { host, data, renderer, by: data.size ? 'size' : 'order', before: [...host.childNodes].filter((n) => !n.dataset?.offer) };
   view.scene = new Scene();
   view.scene.background = new Color(BACKGROUND.light);
   view.camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  view.camera.up.set(0, 0, 1);
+  view.colours = data.bar.map((c) => new Color(c));
   view.meshes = data.shapes.map(meshOf);
   view.scene.add(...view.meshes);
   view.radius = radiusOf(view.meshes);
-  view.range = sizeRange(view.meshes);
   lights(view.scene, view.camera);
   view.stage = tag('div', 'view-stage');
   view.legend = tag('div', 'view-legend');

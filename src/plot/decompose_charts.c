@@ -241,7 +241,7 @@ static clast_status draw_events(const clast_decomposition *r, const char *path)
     const int64_t n = r->cells.n;
     CLX_TRY(clx_alloc(&x, n, sizeof *x));
     for (int64_t c = 0; c < n; ++c) {
-        x[c] = (double)r->cells.count[c];
+        x[c] = r->cells.weight[c]; // real particles
         most = fmax(most, x[c]);
     }
     const double cap_x[2] = {0.0, most};

@@ -2,6 +2,7 @@
 #include <clast/statistics_charts.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "base/status.h"
 #include "math/least_squares.h"
 #include <clast/chart.h>
@@ -50,8 +51,8 @@ static clast_status draw_feature(const clast_fit_data *data, const clast_porosit
     bounds(x, n, span);
     const double line[2] = {ls.b[0] + ls.b[1] * span[0], ls.b[0] + ls.b[1] * span[1]};
     const double r = copysign(sqrt(fmax(ls.r2, 0.0)), ls.b[1]);
-    (void)snprintf(label, sizeof label, "%.4g %s %.4g %s (r = %.3f)", ls.b[0],
-                   ls.b[1] < 0.0 ? "\342\210\222" : "+", fabs(ls.b[1]), name, r);
+    (void)clx_number_print(label, sizeof label, "%.4g %s %.4g %s (r = %.3f)", ls.b[0],
+                           ls.b[1] < 0.0 ? "\342\210\222" : "+", fabs(ls.b[1]), name, r);
     (void)snprintf(axis, sizeof axis, "%s%s", name,
                    fit->model.kind == CLAST_MODEL_COLUMNS ? "" : " (-)");
     const clast_series series[2] = {
@@ -83,8 +84,8 @@ static clast_status draw_predicted(const clast_porosity_fit *fit, const char *pa
     const double pad = 0.05 * (span[1] - span[0]);
     span[0] -= pad;
     span[1] += pad;
-    (void)snprintf(title, sizeof title, "R\302\262 = %.3f, held-out mean error %.2g", fit->model.r2,
-                   fit->model.cv_mean_error);
+    (void)clx_number_print(title, sizeof title, "R\302\262 = %.3f, held-out mean error %.2g",
+                           fit->model.r2, fit->model.cv_mean_error);
     const clast_series series[3] = {
         {.kind = CLAST_SERIES_LINE, .label = "equal", .x = span, .y = span, .n = 2, .colour = 6},
         {.kind = CLAST_SERIES_POINTS,

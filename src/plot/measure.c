@@ -64,6 +64,46 @@ static void widen_heat(span *x, span *y, span *value, const clast_heat *h)
     widen_all(value, h->value, (int64_t)h->n_x * h->n_y);
 }
 
+static bool is_at(double value, double limit)
+{
+    return fabs(value - limit) <= 1e-9 * fabs(limit);
+}
+
+/// Whether a line has a stretch at `limit`: along it lies a, across it b. A step goes level from
+/// (x, y) of a point to the next x, then up or down.
+static bool stays_at(const double *a, const double *b, int64_t n, double limit, bool once)
+{
+    for (int64_t i = 1; i < n; ++i) {
+        if (is_at(a[i], limit) && (once || is_at(a[i - 1], limit)) && b[i] != b[i - 1]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Goes on beyond ends of the axis along which a line runs: on the frame it would not be seen.
+static void clear_frame(const clast_chart *c, bool of_x, clx_ticks *t)
+{
+    const double share = 0.03;
+    const double range = t->high - t->low;
+    const double end[2] = {t->low, t->high};
+    for (int k = 0; k < 2; ++k) {
+        bool is_hidden = false;
+        for (int32_t i = 0; i < c->n_series; ++i) {
+            const clast_series *e = &c->series[i];
+            const bool is_step = e->kind == CLAST_SERIES_STEP;
+            if (e->kind == CLAST_SERIES_LINE || is_step) {
+                is_hidden = is_hidden || stays_at(of_x ? e->x : e->y, of_x ? e->y : e->x, e->n,
+                                                  end[k], of_x && is_step);
+            }
+        }
+        const double factor = pow(t->high / t->low, share);
+        const double beyond = t->log ? end[k] * (k == 0 ? 1.0 / factor : factor)
+                                     : end[k] + (k == 0 ? -share : share) * range;
+        *(k == 0 ? &t->low : &t->high) = is_hidden ? beyond : end[k];
+    }
+}
+
 clast_status clx_figure_measure(clx_figure *figure)
 {
     const clast_chart *c = figure->chart;
@@ -81,6 +121,12 @@ clast_status clx_figure_measure(clx_figure *figure)
     figure->has_value = c->value_axis.label != NULL;
     CLX_TRY(settle(&x, &c->x, c->heat == NULL, 6, &figure->x));
     CLX_TRY(settle(&y, &c->y, c->heat == NULL, 5, &figure->y));
+    if (c->heat == NULL && !(c->x.low < c->x.high)) {
+        clear_frame(c, true, &figure->x);
+    }
+    if (c->heat == NULL && !(c->y.low < c->y.high)) {
+        clear_frame(c, false, &figure->y);
+    }
     if (figure->has_value) {
         CLX_TRY(settle(&value, &c->value_axis, false, 5, &figure->value));
     }

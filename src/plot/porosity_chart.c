@@ -3,6 +3,7 @@
 #include <clast/porosity_chart.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include <clast/chart.h>
 #include <stdio.h>
 #include <string.h>
@@ -62,7 +63,7 @@ clast_status clast_porosity_chart_write(const clast_table *profile, const clast_
     const double zero[2] = {0.0, 0.0};
     const double one[2] = {1.0, 1.0};
     const double value[2] = {bulk->porosity, bulk->porosity};
-    (void)snprintf(bulk_label, sizeof bulk_label, "bulk: %.4f", bulk->porosity);
+    (void)clx_number_print(bulk_label, sizeof bulk_label, "bulk: %.4f", bulk->porosity);
     const clast_series series[] = {{.kind = CLAST_SERIES_BAND,
                                     .label = "evaluated",
                                     .x = span,
@@ -128,7 +129,7 @@ clast_status clast_stress_chart_write(const clast_table *profile, const char *un
 {
     static const char *const name[3] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa"};
     static const char *const label[3] = {"xx", "yy", "zz"};
-    const clast_axis axis = {.label = "stress (Pa), pressure above 0"};
+    const clast_axis axis = {.label = "stress, compression positive (Pa)"};
     clast_status status = CLAST_OK;
     over o = {0};
     clast_series series[3];

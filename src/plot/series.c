@@ -1,4 +1,5 @@
 // How each kind of series is drawn.
+#include "base/number.h"
 #include "plot/figure.h"
 
 #include "math/colour.h"
@@ -110,13 +111,14 @@ static void write_cells(clx_figure *f)
     static const double middle[2] = {0.5, 0.5};
     const double size = fmin(8.0, (f->right - f->left) / h->n_x / 3.2);
     for (int64_t k = 0; k < (int64_t)h->n_x * h->n_y; ++k) {
-        double rgb[3];
-        char text[16];
-        if (!isfinite(h->value[k])) {
-            continue;
+        double rgb[3] = {1.0, 1.0, 1.0};
+        char text[16] = "\342\200\223"; // of a value that does not exist
+        const bool has_value = isfinite(h->value[k]);
+        if (has_value) {
+            (h->is_signed ? clx_colour_diverging
+                          : clx_colour_sequence)(clx_ticks_place(&f->value, h->value[k]), rgb);
+            (void)clx_number_print(text, sizeof text, "%.2f", h->value[k]);
         }
-        (h->is_signed ? clx_colour_diverging
-                      : clx_colour_sequence)(clx_ticks_place(&f->value, h->value[k]), rgb);
         const double light = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
         const double ink = light > 0.5 ? 0.0 : 1.0;
         const int64_t row = k / h->n_x;
@@ -124,7 +126,6 @@ static void write_cells(clx_figure *f)
         const double x = h->x_low + column * (h->x_high - h->x_low) / h->n_x;
         const double y = h->y_low + ((double)row + 0.5) * (h->y_high - h->y_low) / h->n_y;
         cairo_set_source_rgb(f->canvas->cr, ink, ink, ink);
-        (void)snprintf(text, sizeof text, "%.2f", h->value[k]);
         clx_canvas_text(f->canvas, clx_figure_x(f, x), clx_figure_y(f, y), middle, size, text);
     }
 }

@@ -2,11 +2,13 @@
 #include <clast/statistics_charts.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "base/status.h"
 #include "math/sort.h"
 #include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { N_CURVE = 201, LABEL_SIZE = 96 };
 
@@ -22,6 +24,27 @@ static void bounds(const double *x, int64_t n, double *low, double *high)
     }
 }
 
+/// What lengths in metres are multiplied with, and their axis label then, for an axis "... (m)" up
+/// to `most`; 1 and the same label for all else.
+static double length_axis(const char *label, double most, char text[LABEL_SIZE])
+{
+    static const struct {
+        double metre;
+        const char *name;
+    } units[] = {{1.0, "m"}, {1e-3, "mm"}, {1e-6, "\302\265m"}, {1e-9, "nm"}};
+    const size_t n = strlen(label);
+    size_t k = 0;
+    (void)snprintf(text, LABEL_SIZE, "%s", label);
+    if (n < 4 || strcmp(label + n - 4, " (m)") != 0) {
+        return 1.0;
+    }
+    while (k + 1 < sizeof units / sizeof *units && most < units[k].metre) {
+        ++k;
+    }
+    (void)snprintf(text, LABEL_SIZE, "%.*s (%s)", (int)(n - 4), label, units[k].name);
+    return 1.0 / units[k].metre;
+}
+
 clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
 {
     static const double border[4] = {2.0 / 3.0, 2.0 / 3.0, 0.0, 1.0};
@@ -29,9 +52,20 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
                                         {0.34, 0.03, "blades"},
                                         {0.83, 0.97, "spheres"},
                                         {0.34, 0.97, "discs"}};
+    clast_status status = CLAST_OK;
     char title[LABEL_SIZE];
+    char label[LABEL_SIZE] = "";
+    double *size = NULL;
     double low = 0.0;
     double high = 0.0;
+    if (set->size != NULL) {
+        bounds(set->size, set->n, &low, &high);
+        CLX_TRY(clx_alloc(&size, set->n, sizeof *size));
+        const double factor = length_axis(set->size_label, high, label);
+        for (int64_t i = 0; i < set->n; ++i) {
+            size[i] = factor * set->size[i];
+        }
+    }
     const clast_series series[3] = {{.kind = CLAST_SERIES_LINE,
                                      .x = border,
                                      .y = border + 2,
@@ -47,28 +81,27 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
                                     {.kind = CLAST_SERIES_POINTS,
                                      .x = set->flatness,
                                      .y = set->elongation,
-                                     .value = set->size,
+                                     .value = size,
                                      .n = set->n}};
     (void)snprintf(title, sizeof title, "Zingg diagram of %lld grain%s", (long long)set->n,
                    set->n == 1 ? "" : "s");
-    if (set->size != NULL) {
-        bounds(set->size, set->n, &low, &high);
-    }
     const bool has_size = set->size != NULL && low > 0.0 && high > low * (1.0 + 1e-9);
     const bool is_log = has_size && high > 5.0 * low;
-    const clast_chart chart = {
-        .title = title,
-        .x = {.label = "flatness S/I (-)", .low = 0.0, .high = 1.0},
-        .y = {.label = "elongation I/L (-)", .low = 0.0, .high = 1.0},
-        .value_axis = {.label = has_size ? set->size_label : NULL, .log = is_log},
-        .series = series,
-        .n_series = 3,
-        .note = notes,
-        .n_note = 4,
-        .equal = true,
-        .width = has_size ? 500.0 : 430.0,
-        .height = 440.0};
-    return clast_chart_write(&chart, path);
+    const clast_chart chart = {.title = title,
+                               .x = {.label = "flatness S/I (-)", .low = 0.0, .high = 1.0},
+                               .y = {.label = "elongation I/L (-)", .low = 0.0, .high = 1.0},
+                               .value_axis = {.label = has_size ? label : NULL, .log = is_log},
+                               .series = series,
+                               .n_series = 3,
+                               .note = notes,
+                               .n_note = 4,
+                               .equal = true,
+                               .width = has_size ? 500.0 : 430.0,
+                               .height = 440.0};
+    CLX_TRY(clast_chart_write(&chart, path));
+done:
+    clx_free(size);
+    return status;
 }
 
 /// Density of the fitted normal over the bars and three deviations to either side, as far as it
@@ -76,7 +109,8 @@ clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
 static void normal_curve(const clast_histogram *h, double x[N_CURVE], double y[N_CURVE])
 {
     const double s = h->deviation_ml;
-    const double low = fmin(h->edge[0], h->mean - 3.0 * s);
+    const double from = h->edge[0] >= 0.0 ? 0.0 : -HUGE_VAL; // sizes are not negative
+    const double low = fmax(from, fmin(h->edge[0], h->mean - 3.0 * s));
     const double high = fmax(h->edge[h->n_bin], h->mean + 3.0 * s);
     for (int i = 0; i < N_CURVE; ++i) {
         x[i] = low + (high - low) * i / (N_CURVE - 1);
@@ -89,11 +123,17 @@ static clast_status draw_histogram(const clast_histogram *h, const char *label, 
                                    const char *path)
 {
     char law[LABEL_SIZE];
+    char axis[2 * LABEL_SIZE] = "probability density";
     double x[N_CURVE];
     double y[N_CURVE];
+    const char *unit = strrchr(label, '(');
+    if (unit != NULL && label[strlen(label) - 1] == ')') {
+        (void)snprintf(axis, sizeof axis, "probability density (%s%s",
+                       strcmp(unit, "(-)") == 0 ? "" : "1/", unit + 1);
+    }
     const bool has_law = h->deviation_ml > 0.0 && h->n_bin > 1;
-    (void)snprintf(law, sizeof law, "N(\316\274 = %.4g, \317\203 = %.4g)", h->mean,
-                   h->deviation_ml);
+    (void)clx_number_print(law, sizeof law, "N(\316\274 = %.4g, \317\203 = %.4g)", h->mean,
+                           h->deviation_ml);
     if (has_law) {
         normal_curve(h, x, y);
     }
@@ -107,7 +147,7 @@ static clast_status draw_histogram(const clast_histogram *h, const char *label, 
         {.kind = CLAST_SERIES_LINE, .label = law, .x = x, .y = y, .n = N_CURVE, .colour = 1}};
     const clast_chart chart = {.title = title,
                                .x = {.label = label},
-                               .y = {.label = "probability density"},
+                               .y = {.label = axis},
                                .series = series,
                                .n_series = has_law ? 2 : 1};
     return clast_chart_write(&chart, path);
@@ -130,8 +170,8 @@ static clast_status judge(const double *x, int64_t n, char *title, size_t size)
     status = clast_shapiro_wilk(finite, m, &w, &p);
     CLX_CHECK(status != CLAST_E_MEMORY, status, "no memory for a histogram's title");
     if (status == CLAST_OK) {
-        (void)snprintf(title, size, "n = %lld, Shapiro-Wilk W = %.3f, p = %.3g%s", (long long)m, w,
-                       p, m > 5000 ? " (n > 5000: extrapolated)" : "");
+        (void)clx_number_print(title, size, "n = %lld, Shapiro-Wilk W = %.3f, p = %.3g%s",
+                               (long long)m, w, p, m > 5000 ? " (n > 5000: extrapolated)" : "");
     } else {
         (void)snprintf(title, size, "n = %lld, no test of normality (too few or equal values)",
                        (long long)m);
@@ -147,9 +187,19 @@ clast_status clast_chart_histogram(const double *x, int64_t n, const char *label
     clast_status status = CLAST_OK;
     clast_histogram h = {0};
     char title[LABEL_SIZE];
+    char shown[LABEL_SIZE];
     CLX_TRY(judge(x, n, title, sizeof title));
     CLX_TRY(clast_histogram_of(x, n, &h));
-    CLX_TRY(draw_histogram(&h, label, title, path));
+    const double factor = length_axis(label, fabs(h.edge[h.n_bin]), shown);
+    for (int32_t k = 0; k <= h.n_bin; ++k) {
+        h.edge[k] *= factor;
+    }
+    for (int32_t k = 0; k < h.n_bin; ++k) {
+        h.density[k] /= factor;
+    }
+    h.mean *= factor;
+    h.deviation_ml *= factor;
+    CLX_TRY(draw_histogram(&h, shown, title, path));
 done:
     clast_histogram_free(&h);
     return status;

@@ -1,6 +1,8 @@
 // Axis ticks: round numbers, few enough to read.
 #include "plot/ticks.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,11 +17,11 @@ static double round_step(double rough)
 static void label_number(double value, double step, double largest, char *text, size_t size)
 {
     if (largest >= 1e6 || step < 1e-4) {
-        (void)snprintf(text, size, "%.4g", value);
+        (void)clx_number_print(text, size, "%.4g", value);
         return;
     }
     const int decimals = step >= 1.0 ? 0 : (int)ceil(-log10(step) - 1e-9);
-    (void)snprintf(text, size, "%.*f", decimals, value);
+    (void)clx_number_print(text, size, "%.*f", decimals, value);
 }
 
 static void linear(double low, double high, bool widen, int wanted, clx_ticks *t)
@@ -49,8 +51,8 @@ static void add_tick(clx_ticks *t, double value)
         return;
     }
     t->at[t->n] = value;
-    (void)snprintf(t->label[t->n], sizeof t->label[0],
-                   value >= 0.999e-3 && value < 1.001e5 ? "%g" : "%.0e", value);
+    (void)clx_number_print(t->label[t->n], sizeof t->label[0],
+                           value >= 0.999e-3 && value < 1.001e5 ? "%g" : "%.0e", value);
     ++t->n;
 }
 
@@ -59,11 +61,17 @@ static void add_minor(clx_ticks *t, int first, int last)
     for (int k = first; k <= last; ++k) {
         for (int m = 2; m <= 9 && t->n_minor < CLX_MAX_MINOR; ++m) {
             const double value = m * pow(10.0, k);
-            if (value >= t->low && value <= t->high) {
+            if (value >= t->low * (1.0 - 1e-9) && value <= t->high * (1.0 + 1e-9)) {
                 t->minor[t->n_minor++] = value;
             }
         }
     }
+}
+
+/// True for digit times a power of ten.
+static bool is_lead(double value, double digit)
+{
+    return fabs(value / pow(10.0, floor(log10(value) + 1e-9)) - digit) < 1e-6;
 }
 
 static void logarithmic(double low, double high, bool widen, int wanted, clx_ticks *t)
@@ -73,6 +81,10 @@ static void logarithmic(double low, double high, bool widen, int wanted, clx_tic
     if (widen && b - a > 0.8) {
         a = floor(a + 1e-9);
         b = ceil(b - 1e-9);
+    } else if (widen) { // or the first and the last point would lie on the frame
+        const double room = 0.04 * (b - a);
+        a -= room;
+        b += room;
     }
     t->low = pow(10.0, a);
     t->high = pow(10.0, b);
@@ -87,9 +99,16 @@ static void logarithmic(double low, double high, bool widen, int wanted, clx_tic
     }
     const bool few = t->n < 2; // under two powers in sight: label 2 and 5 as well
     for (int i = 0; few && i < t->n_minor; ++i) {
-        const double lead = t->minor[i] / pow(10.0, floor(log10(t->minor[i]) + 1e-9));
-        if (fabs(lead - 2.0) < 1e-6 || fabs(lead - 5.0) < 1e-6) {
+        if (is_lead(t->minor[i], 2.0) || is_lead(t->minor[i], 5.0)) {
             add_tick(t, t->minor[i]);
+        }
+    }
+    if (t->n < 2) { // a short piece of a decade: evenly spaced numbers
+        const double step = round_step((t->high - t->low) / wanted);
+        t->n = 0;
+        const double begin = ceil(t->low / step);
+        for (int k = 0; (begin + k) * step <= t->high && t->n < CLX_MAX_TICK; ++k) {
+            add_tick(t, (begin + k) * step);
         }
     }
 }

@@ -1,6 +1,8 @@
 // Labels are drawn on a transparent cairo surface of the picture's size and laid over it.
 #include "render/label.h"
 
+#include "base/number.h"
+
 #include <cairo.h>
 #include <math.h>
 #include <stdio.h>
@@ -162,9 +164,10 @@ static void draw_scale(cairo_t *cr, const clx_layout *layout, double pixel, doub
     const double thick = 0.22 * layout->text;
     const double left = layout->scale_middle - 0.5 * length;
     if (unit.name[0] != '\0') {
-        (void)snprintf(label, sizeof label, "%.10g %s", shown, unit.name);
+        (void)clx_number_print(label, sizeof label, "%.10g %s", shown, unit.name);
     } else {
-        (void)snprintf(label, sizeof label, "%.10g model unit%s", shown, shown == 1.0 ? "" : "s");
+        (void)clx_number_print(label, sizeof label, "%.10g model unit%s", shown,
+                               shown == 1.0 ? "" : "s");
     }
     cairo_rectangle(cr, left, layout->scale_bottom - thick, length, thick);
     cairo_fill(cr);

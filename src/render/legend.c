@@ -1,6 +1,7 @@
 // What a grain's colour means.
 #include "render/legend.h"
 
+#include "base/number.h"
 #include "math/colour.h"
 #include "math/vec3.h"
 #include <stdio.h>
@@ -38,10 +39,10 @@ static double linear_light(double s)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
-static void set_albedo(clx_scene_grain *grain, const double rgb[3])
+static void set_albedo(clx_scene *scene, int32_t g, const double rgb[3])
 {
-    for (int k = 0; k < 3; ++k) {
-        grain->albedo[k] = linear_light(rgb[k]);
+    for (int k = 0; scene != NULL && k < 3; ++k) {
+        scene->grain[g].albedo[k] = linear_light(rgb[k]);
     }
 }
 
@@ -70,7 +71,7 @@ static void add_tick(clx_legend *legend, double value)
     const double place = b > a ? (v - a) / (b - a) : 0.5;
     if (legend->n < CLX_LEGEND_TICKS && place >= -1e-9 && place <= 1.0 + 1e-9) {
         legend->place[legend->n] = fmin(fmax(place, 0.0), 1.0);
-        (void)snprintf(legend->text[legend->n++], CLX_LEGEND_TEXT, "%.10g", value);
+        (void)clx_number_print(legend->text[legend->n++], CLX_LEGEND_TEXT, "%.10g", value);
     }
 }
 
@@ -152,6 +153,7 @@ static clast_status colour_by_size(const clast_assembly *assembly,
               "a grain has no volume, so it cannot be coloured by size");
     const clx_length_unit unit = clx_length_unit_for(legend->high, metre_per_unit);
     legend->kind = CLX_LEGEND_BAR;
+    legend->factor = unit.factor;
     legend->low *= unit.factor;
     legend->high *= unit.factor;
     legend->log = wants_log(config, legend->low, legend->high);
@@ -160,7 +162,7 @@ static clast_status colour_by_size(const clast_assembly *assembly,
     for (int32_t g = 0; g < assembly->n_grain; ++g) {
         double rgb[3];
         clx_legend_colour(place_of(legend, size_of(assembly, g) * unit.factor), rgb);
-        set_albedo(&scene->grain[g], rgb);
+        set_albedo(scene, g, rgb);
     }
     make_ticks(legend);
 done:
@@ -178,7 +180,7 @@ static void colour_by_order(const clast_assembly *assembly, const clast_render_c
     for (int32_t g = 0; g < assembly->n_grain; ++g) {
         double rgb[3];
         clx_legend_colour(place_of(legend, g + 1.0), rgb);
-        set_albedo(&scene->grain[g], rgb);
+        set_albedo(scene, g, rgb);
     }
     make_ticks(legend);
     // The ends are named; round numbers too close to them give way.
@@ -216,7 +218,7 @@ static void colour_by_shape(const clast_assembly *assembly, clx_scene *scene, cl
         double rgb[3];
         const int32_t s = assembly->shape_id[g];
         clx_colour_category(order[s < CLX_LEGEND_SHAPES ? s : CLX_LEGEND_SHAPES - 1], rgb);
-        set_albedo(&scene->grain[g], rgb);
+        set_albedo(scene, g, rgb);
     }
 }
 
@@ -246,7 +248,7 @@ static clast_status colour_all(const clast_assembly *assembly, const char *tint,
                         "tint '%s' is not a colour; write it as #rrggbb, like #c8b89a", tint);
     }
     for (int32_t g = 0; g < assembly->n_grain; ++g) {
-        set_albedo(&scene->grain[g], rgb);
+        set_albedo(scene, g, rgb);
     }
     return CLAST_OK;
 }

@@ -11,6 +11,7 @@ typedef struct clx_legend {
     char title[64];
     bool log;
     double low, high;               ///< of the bar, in the units of the ticks
+    double factor;                  ///< of sizes, from coordinates to the units of the ticks
     int n;                          ///< ticks, or shapes listed
     double place[CLX_LEGEND_TICKS]; ///< of the ticks: 0 at low, 1 at high
     char text[CLX_LEGEND_TICKS][CLX_LEGEND_TEXT];
@@ -30,6 +31,6 @@ clx_length_unit clx_length_unit_for(double length, double metre_per_unit);
 /// sRGB of the bar at 0 <= t <= 1.
 void clx_legend_colour(double t, double rgb[3]);
 
-/// Gives every grain its albedo and describes them.
+/// Gives every grain its albedo and describes them. `scene` NULL: describes alone.
 clast_status clx_legend_make(const clast_assembly *assembly, const clast_render_config *config,
                              double metre_per_unit, clx_scene *scene, clx_legend *legend);

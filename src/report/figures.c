@@ -1,13 +1,11 @@
-// Charts, pictures and tables of a run on a page.
+// Charts and pictures of a run on a page.
 #include "report/figures.h"
 
 #include "base/alloc.h"
 #include "base/path.h"
 #include "report/page.h"
-#include "report/quantity.h"
 #include <clast/aggregate_charts.h>
 #include <clast/chart.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -202,65 +200,4 @@ clast_status clx_figures_pictures(clx_file *file, const clx_run *run, int64_t li
     (void)clx_file_print(file, "%s", is_open ? "</div>\n" : "");
 done:
     return status;
-}
-
-static void put_cell(clx_file *file, const clast_column *column, int64_t row)
-{
-    if (column->number == NULL) {
-        (void)clx_file_print(file, "<td>");
-        clx_page_text(file, column->text[row]);
-    } else if (isfinite(column->number[row])) {
-        (void)clx_file_print(file, "<td class=\"n\">%.6g", column->number[row]);
-    } else {
-        (void)clx_file_print(file, "<td class=\"n\">\342\200\223");
-    }
-    (void)clx_file_print(file, "</td>");
-}
-
-static void put_table(clx_file *file, const clast_table *table, int32_t rows)
-{
-    (void)clx_file_print(file, "<div class=\"scroll\"><table>\n<tr>");
-    for (int32_t c = 0; c < table->n_column; ++c) {
-        (void)clx_file_print(file, table->column[c].number != NULL ? "<th class=\"n\">" : "<th>");
-        clx_page_text(file, table->column[c].name);
-        (void)clx_file_print(file, "</th>");
-    }
-    (void)clx_file_print(file, "</tr>\n");
-    for (int64_t r = 0; r < table->n_row && r < rows; ++r) {
-        (void)clx_file_print(file, "<tr>");
-        for (int32_t c = 0; c < table->n_column; ++c) {
-            put_cell(file, &table->column[c], r);
-        }
-        (void)clx_file_print(file, "</tr>\n");
-    }
-    (void)clx_file_print(file, "</table></div>");
-}
-
-static void put_table_link(clx_file *file, const clx_run *run, const clast_table *table)
-{
-    if (run->can_link) {
-        (void)clx_file_print(file, "<a href=\"");
-        clx_page_href(file, run->link);
-        clx_page_href(file, table->name);
-        (void)clx_file_print(file, ".csv\">");
-    }
-    clx_page_text(file, table->name);
-    (void)clx_file_print(file, ".csv%s", run->can_link ? "</a>" : "");
-}
-
-void clx_figures_tables(clx_file *file, const clx_run *run, int32_t rows)
-{
-    for (int32_t i = 0; i < run->n_table; ++i) {
-        const clast_table *table = &run->table[i];
-        const bool is_history = strcmp(table->name, "history") == 0;
-        (void)clx_file_print(file, "<details class=\"card wide\"%s><summary>",
-                             is_history ? " open" : "");
-        clx_page_text(file, is_history ? "History" : table->name);
-        (void)clx_file_print(file, " <small>%" PRId64 " rows</small></summary>", table->n_row);
-        put_table(file, table, rows);
-        (void)clx_file_print(file, "<p class=\"note\">%s",
-                             table->n_row > rows ? "The first rows of " : "All rows of ");
-        put_table_link(file, run, table);
-        (void)clx_file_print(file, ".</p></details>\n");
-    }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Charts of the run's tables, the folder's pictures, and the tables' first rows.
+// Charts of the run's tables, and the folder's pictures.
 #include "base/file.h"
 #include "report/run.h"
 
@@ -12,6 +12,3 @@ clast_status clx_figures_compare(clx_file *file, const clx_run *run, int32_t n_r
 /// The folder's .png and .svg files inside the page, as far as `limit` bytes allow; charts that are
 /// drawn from the tables are left out.
 clast_status clx_figures_pictures(clx_file *file, const clx_run *run, int64_t limit);
-
-/// First rows of each table, with a link to its file.
-void clx_figures_tables(clx_file *file, const clx_run *run, int32_t rows);

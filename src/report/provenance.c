@@ -3,7 +3,11 @@
 
 #include "report/page.h"
 #include "report/quantity.h"
+#include <clast/agglomerate.h>
 #include <clast/aggregate.h>
+#include <clast/decompose.h>
+#include <clast/pack.h>
+#include <clast/porosity_fit.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,11 +52,9 @@ static void put_host(clx_file *file, const json_t *host)
     json_object_foreach((json_t *)host, key, value)
     {
         (void)clx_file_print(file, "%s", is_first ? "" : " \302\267 ");
-        if (json_is_number(value)) {
-            clx_page_text(file, key);
-            (void)clx_file_print(file, " ");
-        }
+        (void)clx_file_print(file, "%s", strcmp(key, "compiler") == 0 ? "compiler " : "");
         put_plain(file, value);
+        (void)clx_file_print(file, "%s", strcmp(key, "cores") == 0 ? " cores" : "");
         is_first = false;
     }
 }
@@ -61,7 +63,6 @@ static void put_facts(clx_file *file, const json_t *manifest)
 {
     const char *key = NULL;
     json_t *value = NULL;
-    char label[CLX_QUANTITY_SIZE];
     (void)clx_file_print(
         file, "<div class=\"card wide\"><h4>Provenance</h4><table class=\"pairs narrow\">\n");
     json_object_foreach((json_t *)manifest, key, value)
@@ -71,7 +72,7 @@ static void put_facts(clx_file *file, const json_t *manifest)
             continue;
         }
         (void)clx_file_print(file, "<tr><th>");
-        clx_page_text(file, clx_quantity_of(key, label).label);
+        clx_quantity_put_label(file, key, NULL);
         (void)clx_file_print(file, "</th><td>");
         if (strcmp(key, "command_line") == 0) {
             put_command_line(file, value);
@@ -80,7 +81,7 @@ static void put_facts(clx_file *file, const json_t *manifest)
         } else if (strcmp(key, "peak_memory_bytes") == 0) {
             (void)clx_file_print(file, "%.1f\302\240MiB", json_number_value(value) / 1048576.0);
         } else if (json_is_real(value) && strcmp(key, "seed") != 0) {
-            clx_quantity_put(file, json_number_value(value), clx_quantity_of(key, label).unit);
+            clx_quantity_put(file, json_number_value(value), clx_quantity_of(key, NULL).unit);
         } else {
             put_plain(file, value);
         }
@@ -93,7 +94,8 @@ static void put_inputs(clx_file *file, const json_t *inputs)
 {
     (void)clx_file_print(
         file,
-        "<div class=\"card wide\"><h4>Inputs</h4><div class=\"scroll\"><table>\n<tr><th>Role</th>"
+        "<div class=\"card wide\"><h4>Inputs</h4><div class=\"scroll\" tabindex=\"0\"><table>\n"
+        "<tr><th>Role</th>"
         "<th>File</th><th class=\"n\">Bytes</th><th>SHA-256</th></tr>\n");
     for (size_t i = 0; i < json_array_size(inputs); ++i) {
         const json_t *input = json_array_get(inputs, i);
@@ -110,33 +112,60 @@ static void put_inputs(clx_file *file, const json_t *inputs)
     (void)clx_file_print(file, "</table></div></div>\n");
 }
 
-/// The field table of the command, for units and explanations; NULL when not known.
-static const clast_field *fields_of(const json_t *manifest)
+/// The field of a configuration key of that command, for its unit and meaning, or NULL.
+static const clast_field *field_of(const char *command, const char *key)
 {
-    const char *command = json_string_value(json_object_get(manifest, "command"));
-    return command != NULL && strcmp(command, "aggregate") == 0 ? clast_aggregate_fields : NULL;
+    static const struct {
+        const char *command;
+        const clast_field *fields;
+    } known[] = {{"aggregate", clast_aggregate_fields},   {"pack", clast_pack_fields},
+                 {"decompose", clast_decompose_fields},   {"agglomerate", clast_agglomerate_fields},
+                 {"agglomerate", clast_decompose_fields}, {"fit", clast_porosity_fit_fields}};
+    const clast_field *field = NULL;
+    for (size_t k = 0; k < sizeof known / sizeof *known && field == NULL; ++k) {
+        if (command != NULL && strcmp(known[k].command, command) == 0) {
+            field = clast_fields_find(known[k].fields, key);
+        }
+    }
+    return field;
+}
+
+/// Numbers with their unit, all else as it is written in a configuration.
+static void put_setting(clx_file *file, const clast_field *field, const json_t *value)
+{
+    const bool has_unit = field != NULL && strcmp(field->unit, "-") != 0;
+    if (has_unit && json_is_number(value)) {
+        clx_quantity_put(file, json_number_value(value), field->unit);
+        return;
+    }
+    if (!has_unit || !json_is_array(value)) {
+        put_plain(file, value);
+        return;
+    }
+    for (size_t i = 0; i < json_array_size(value); ++i) {
+        (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
+        put_setting(file, field, json_array_get(value, i));
+    }
 }
 
 static void put_config(clx_file *file, const json_t *manifest, const json_t *config)
 {
-    const clast_field *fields = fields_of(manifest);
+    const char *command = json_string_value(json_object_get(manifest, "command"));
     const char *key = NULL;
     json_t *value = NULL;
     (void)clx_file_print(file,
                          "<details class=\"card wide\"><summary>Configuration "
-                         "<small>%zu keys, SI units</small></summary><div class=\"scroll\">"
-                         "<table>\n<tr><th>Key</th><th>Value</th><th>Unit</th>"
-                         "<th>Meaning</th></tr>\n",
+                         "<small>%zu keys</small></summary>"
+                         "<div class=\"scroll\" tabindex=\"0\"><table>\n"
+                         "<tr><th>Key</th><th>Value</th><th>Meaning</th></tr>\n",
                          json_object_size(config));
     json_object_foreach((json_t *)config, key, value)
     {
-        const clast_field *field = fields != NULL ? clast_fields_find(fields, key) : NULL;
+        const clast_field *field = field_of(command, key);
         (void)clx_file_print(file, "<tr><td><code>");
         clx_page_text(file, key);
         (void)clx_file_print(file, "</code></td><td>");
-        put_plain(file, value);
-        (void)clx_file_print(file, "</td><td>");
-        clx_page_text(file, field != NULL ? clx_quantity_unit(field->unit) : "");
+        put_setting(file, field, value);
         (void)clx_file_print(file, "</td><td>");
         clx_page_text(file, field != NULL ? field->help : "");
         (void)clx_file_print(file, "</td></tr>\n");

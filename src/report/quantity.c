@@ -1,135 +1,95 @@
-// Labels, units and digits of the report's numbers.
+// Units and digits of the report's numbers.
 #include "report/quantity.h"
 
+#include "base/number.h"
 #include "report/page.h"
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const clx_quantity known[] = {
-    {"n_repeat", "Repeats", "", false},
-    {"n_grain", "Grains", "", true},
-    {"n_particle", "Particles placed", "", false},
-    {"n_contact", "Contacts", "", false},
-    {"n_cluster", "Clusters", "", false},
-    {"porosity", "Porosity", "", true},
-    {"porosity_bulk", "Bulk porosity", "", true},
-    {"bulk", "Bulk porosity", "", true},
-    {"d_agg", "Aggregate diameter", "m", true},
-    {"density", "Bulk density", "kg/m^3", true},
-    {"mass", "Mass", "kg", false},
-    {"solid_sum", "Solid volume, sum of the grains", "m^3", false},
-    {"solid_union", "Solid volume, union of the grains", "m^3", false},
-    {"envelope", "Envelope volume", "m^3", false},
-    {"envelope_error", "Bound on the envelope's error", "m^3", false},
-    {"radius_of_gyration", "Radius of gyration", "m", true},
-    {"settling_velocity", "Settling velocity in air", "m/s", false},
-    {"max_overlap", "Greatest overlap", "m", false},
-    {"max_overlap_relative", "Greatest overlap by grain size", "", false},
-    {"n_lost", "Particles left at a step limit", "", false},
-    {"fractal_dimension", "Fractal dimension", "", false},
-    {"coordination", "Coordination number", "", true},
-    {"time", "Simulated time", "s", false},
-    {"n_step", "Steps", "", false},
-    {"n_sphere", "Spheres", "", true},
-    {"filled_fraction", "Filled fraction", "", true},
-    {"wall_s", "Wall time", "s", false},
-    {"contact_s", "Wall time of contact search", "s", false},
-    {"envelope_s", "Wall time of envelopes", "s", false},
-};
+enum { MAX_SCALE = 7 };
 
-static const struct {
-    const char *ending, *unit;
-} endings[] = {{"_kg/m^3", "kg/m^3"}, {"_m3", "m^3"},  {"_m2", "m^2"},      {"_kg", "kg"},
-               {"_m", "m"},           {"_m/s", "m/s"}, {"_s", "s"},         {"_rad", "rad"},
-               {"_um", "\302\265m"},  {"_mm", "mm"},   {"_deg", "\302\260"}};
-
-static size_t ending_of(const char *key, const char **unit)
-{
-    const size_t n = strlen(key);
-    for (size_t k = 0; k < sizeof endings / sizeof *endings; ++k) {
-        const size_t length = strlen(endings[k].ending);
-        if (n > length && strcmp(key + n - length, endings[k].ending) == 0) {
-            *unit = endings[k].unit;
-            return length;
-        }
-    }
-    *unit = "";
-    return 0;
-}
-
-clx_quantity clx_quantity_of(const char *key, char label[CLX_QUANTITY_SIZE])
-{
-    for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
-        if (strcmp(known[k].key, key) == 0) {
-            return known[k];
-        }
-    }
-    const char *unit = "";
-    const size_t cut = ending_of(key, &unit);
-    (void)snprintf(label, CLX_QUANTITY_SIZE, "%.*s", (int)(strlen(key) - cut), key);
-    label[0] = (char)toupper((unsigned char)label[0]);
-    for (char *c = label; *c != '\0'; ++c) {
-        *c = *c == '_' ? ' ' : *c;
-    }
-    return (clx_quantity){.key = key, .label = label, .unit = unit};
-}
-
+/// Units of one kind, the largest first; a value gets the first of which it has `least`.
 typedef struct {
-    double factor; ///< from SI
-    const char *name;
-} scale;
+    const char *si_unit;
+    double least;
+    bool has_floor;
+    struct {
+        double factor; ///< from SI
+        const char *name;
+    } unit[MAX_SCALE];
+} ladder;
 
-/// The largest unit of which the value has at least one; the smallest for less, the last for 0.
-static scale pick(double value, const scale *scales, int n)
-{
-    for (int i = 0; i < n; ++i) {
-        if (fabs(value) * scales[i].factor >= 0.9995) {
-            return scales[i];
-        }
-    }
-    return scales[value != 0.0 ? n - 1 : 0];
-}
+static const ladder ladders[] = {
+    {"m", 1.0, true, {{1.0, "m"}, {1e3, "mm"}, {1e6, "\302\265m"}, {1e9, "nm"}}},
+    {"m^2",
+     1e-3,
+     false,
+     {{1.0, "m\302\262"}, {1e6, "mm\302\262"}, {1e12, "\302\265m\302\262"}, {1e18, "nm\302\262"}}},
+    {"m^3",
+     1e-3,
+     false,
+     {{1.0, "m\302\263"},
+      {1e6, "cm\302\263"},
+      {1e9, "mm\302\263"},
+      {1e18, "\302\265m\302\263"},
+      {1e27, "nm\302\263"}}},
+    {"kg",
+     1.0,
+     false,
+     {{1.0, "kg"},
+      {1e3, "g"},
+      {1e6, "mg"},
+      {1e9, "\302\265g"},
+      {1e12, "ng"},
+      {1e15, "pg"},
+      {1e18, "fg"}}},
+    {"s", 1.0, false, {{1.0, "s"}, {1e3, "ms"}, {1e6, "\302\265s"}, {1e9, "ns"}}},
+    {"m/s", 1.0, false, {{1.0, "m/s"}, {1e3, "mm/s"}, {1e6, "\302\265m/s"}, {1e9, "nm/s"}}},
+    {"J",
+     1.0,
+     false,
+     {{1.0, "J"}, {1e3, "mJ"}, {1e6, "\302\265J"}, {1e9, "nJ"}, {1e12, "pJ"}, {1e15, "fJ"}}},
+    {"N", 1.0, false, {{1.0, "N"}, {1e3, "mN"}, {1e6, "\302\265N"}, {1e9, "nN"}, {1e12, "pN"}}},
+    {"Pa", 1.0, false, {{1e-9, "GPa"}, {1e-6, "MPa"}, {1e-3, "kPa"}, {1.0, "Pa"}}},
+    {"rad", 0.0, false, {{180.0 / CLAST_PI, "\302\260"}}},
+    {"1/m", 0.0, false, {{1e-3, "1/mm"}}}};
 
-static scale scale_of(double value, const char *unit)
+/// Unit as a page shows it, where there is but one of its kind: "kg/m^3" -> "kg/m³", "-" -> "".
+static const char *plain_unit(const char *si_unit)
 {
-    static const scale length[] = {{1.0, "m"}, {1e3, "mm"}, {1e6, "\302\265m"}, {1e9, "nm"}};
-    static const scale volume[] = {
-        {1.0, "m\302\263"}, {1e9, "mm\302\263"}, {1e18, "\302\265m\302\263"}, {1e27, "nm\302\263"}};
-    static const scale mass[] = {{1.0, "kg"},        {1e3, "g"},   {1e6, "mg"},
-                                 {1e9, "\302\265g"}, {1e12, "ng"}, {1e15, "pg"}};
-    static const scale time[] = {{1.0, "s"}, {1e3, "ms"}, {1e6, "\302\265s"}};
-    if (strcmp(unit, "m") == 0) {
-        return pick(value, length, 4);
-    }
-    if (strcmp(unit, "m^3") == 0) {
-        return pick(value, volume, 4);
-    }
-    if (strcmp(unit, "kg") == 0) {
-        return pick(value, mass, 6);
-    }
-    if (strcmp(unit, "s") == 0) {
-        return pick(value, time, 3);
-    }
-    return (scale){1.0, clx_quantity_unit(unit)};
-}
-
-const char *clx_quantity_unit(const char *si_unit)
-{
-    static const struct {
-        const char *plain, *shown;
-    } units[] = {{"-", ""},
-                 {"kg/m^3", "kg/m\302\263"},
-                 {"m^3", "m\302\263"},
-                 {"m^2", "m\302\262"},
-                 {"m/s^2", "m/s\302\262"}};
+    static const char *const units[][2] = {{"-", ""},
+                                           {"kg/m^3", "kg/m\302\263"},
+                                           {"m/s^2", "m/s\302\262"},
+                                           {"J/m^2", "J/m\302\262"},
+                                           {"deg", "\302\260"},
+                                           {"um", "\302\265m"}};
     for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
-        if (strcmp(units[k].plain, si_unit) == 0) {
-            return units[k].shown;
+        if (strcmp(units[k][0], si_unit) == 0) {
+            return units[k][1];
         }
     }
     return si_unit;
+}
+
+clx_quantity_scale clx_quantity_scale_for(double value, const char *si_unit)
+{
+    const ladder *l = NULL;
+    for (size_t k = 0; k < sizeof ladders / sizeof *ladders; ++k) {
+        l = strcmp(ladders[k].si_unit, si_unit) == 0 ? &ladders[k] : l;
+    }
+    if (l == NULL) {
+        return (clx_quantity_scale){1.0, plain_unit(si_unit), false};
+    }
+    int best = 0;
+    int n = 0;
+    while (n < MAX_SCALE && l->unit[n].name != NULL) {
+        ++n;
+    }
+    while (value != 0.0 && best + 1 < n && fabs(value) * l->unit[best].factor < 0.9995 * l->least) {
+        ++best;
+    }
+    return (clx_quantity_scale){l->unit[best].factor, l->unit[best].name, l->has_floor};
 }
 
 /// -12 as superscript digits.
@@ -147,43 +107,62 @@ static void raise_digits(int power, char out[32])
     }
 }
 
-void clx_quantity_format(double value, const char *si_unit, char text[CLX_QUANTITY_SIZE],
-                         const char **unit)
+void clx_quantity_format(double value, const clx_quantity_scale *scale,
+                         char text[CLX_QUANTITY_SIZE])
 {
-    const scale s = scale_of(value, si_unit);
-    const double shown = value * s.factor;
-    *unit = s.name;
-    if (shown == floor(shown) && fabs(shown) < 1e9 && (s.name[0] == '\0' || shown == 0.0)) {
-        (void)snprintf(text, CLX_QUANTITY_SIZE, "%.0f", shown);
-    } else if (fabs(shown) >= 1e-3 && fabs(shown) < 1e5) {
-        const int digits = 3 - (int)floor(log10(fabs(shown)));
-        (void)snprintf(text, CLX_QUANTITY_SIZE, "%.*f", digits > 0 ? digits : 0, shown);
+    const double shown = value * scale->factor;
+    const double size = fabs(shown);
+    const bool is_count = shown == floor(shown) && size < 1e9;
+    if (is_count && (scale->name[0] == '\0' || shown == 0.0)) {
+        (void)clx_number_print(text, CLX_QUANTITY_SIZE, "%.0f", shown);
+    } else if (scale->has_floor && size < 1e-3) {
+        (void)snprintf(text, CLX_QUANTITY_SIZE, "%s0.001", shown < 0.0 ? "> \342\210\222" : "< ");
+    } else if (size >= 1e-3 && size < 1e6) {
+        const int digits = 3 - (int)floor(log10(size));
+        (void)clx_number_print(text, CLX_QUANTITY_SIZE, "%.*f", digits > 0 ? digits : 0, shown);
     } else {
-        const int power = (int)floor(log10(fabs(shown)) + 1e-12);
+        const int power = (int)floor(log10(size) + 1e-12);
         char superscript[32];
         raise_digits(power, superscript);
-        (void)snprintf(text, CLX_QUANTITY_SIZE, "%.3f\302\240\303\227\302\24010%s",
-                       shown / pow(10.0, power), superscript);
+        (void)clx_number_print(text, CLX_QUANTITY_SIZE, "%.3f\302\240\303\227\302\24010%s",
+                               shown / pow(10.0, power), superscript);
     }
 }
 
 void clx_quantity_put(clx_file *file, double value, const char *si_unit)
 {
     char text[CLX_QUANTITY_SIZE];
-    const char *unit = "";
     if (!isfinite(value)) {
         (void)clx_file_print(file, "<span title=\"%s\">\342\200\223</span>",
                              isnan(value) ? "not known" : "infinite");
         return;
     }
-    clx_quantity_format(value, si_unit, text, &unit);
+    const clx_quantity_scale scale = clx_quantity_scale_for(value, si_unit);
+    clx_quantity_format(value, &scale, text);
     (void)clx_file_print(file, "<span title=\"%.17g ", value);
-    clx_page_text(file, clx_quantity_unit(si_unit));
-    (void)clx_file_print(file, "\">%s", text);
-    if (unit[0] != '\0') {
-        (void)clx_file_print(file, "\302\240<span class=\"unit\">");
-        clx_page_text(file, unit);
+    clx_page_text(file, plain_unit(si_unit));
+    (void)clx_file_print(file, "\">");
+    clx_page_text(file, text);
+    if (scale.name[0] != '\0') {
+        const bool is_degree = strcmp(scale.name, "\302\260") == 0;
+        (void)clx_file_print(file, "%s<span class=\"unit\">", is_degree ? "" : "\302\240");
+        clx_page_text(file, scale.name);
         (void)clx_file_print(file, "</span>");
     }
     (void)clx_file_print(file, "</span>");
+}
+
+void clx_quantity_put_word(clx_file *file, double value, const char *words)
+{
+    const char *at = words;
+    for (int k = 0; k < 16 && at != NULL && *at != '\0'; ++k) {
+        const char *bar = strchr(at, '|');
+        if (value == k) {
+            const int n = bar != NULL ? (int)(bar - at) : (int)strlen(at);
+            (void)clx_file_print(file, "%.*s", n, at);
+            return;
+        }
+        at = bar != NULL ? bar + 1 : NULL;
+    }
+    clx_quantity_put(file, value, "");
 }

@@ -1,25 +1,42 @@
 #pragma once
-// What the keys of summary.json mean, and numbers as people read them.
+// What the keys and columns of a run mean, and numbers as people read them.
 #include "base/file.h"
 
+enum { CLX_QUANTITY_SIZE = 128 };
+
 typedef struct clx_quantity {
-    const char *key, *label;
-    const char *unit; ///< SI unit; "" for none
-    bool is_headline; ///< one of the few large figures at the top
+    char label[CLX_QUANTITY_SIZE]; ///< "" for an unknown key
+    const char *unit;              ///< SI unit; "" for none
+    const char *words;             ///< of the numbers 0, 1, ... as "no|yes"; "" for none
+    bool is_headline;              ///< one of the few large figures at the top
 } clx_quantity;
 
-enum { CLX_QUANTITY_SIZE = 96 };
+/// The quantity of a key of summary.json or of a column ("size_m", "porosity_surface_hull",
+/// "interval.d_agg.low"); its unit is the one that the name ends in, if any.
+///
+/// @param place  table or list that holds the key, for keys that mean something else there; may be
+///               NULL
+clx_quantity clx_quantity_of(const char *key, const char *place);
 
-/// The quantity of a key; unknown keys get their words as label and the unit that they end in.
-/// `label` is used for those.
-clx_quantity clx_quantity_of(const char *key, char label[CLX_QUANTITY_SIZE]);
+/// A unit to show, and how many of them are one SI unit.
+typedef struct clx_quantity_scale {
+    double factor;
+    const char *name;
+    bool has_floor; ///< values below a thousandth are rounding errors, not quantities
+} clx_quantity_scale;
 
-/// Value in a readable unit: 0.000675 "m" -> "675" "µm"; the unit goes to *unit.
-void clx_quantity_format(double value, const char *si_unit, char text[CLX_QUANTITY_SIZE],
-                         const char **unit);
+/// The unit in which `value` of this SI unit reads best: 0.000675 "m" -> 1e6, "µm".
+clx_quantity_scale clx_quantity_scale_for(double value, const char *si_unit);
+
+/// Value in that unit with four digits: "675.0", "1.200 × 10⁻⁵", "< 0.001".
+void clx_quantity_format(double value, const clx_quantity_scale *scale,
+                         char text[CLX_QUANTITY_SIZE]);
+
+/// The label, or the key itself as code when it is not known.
+void clx_quantity_put_label(clx_file *file, const char *key, const char *place);
 
 /// Writes value and unit with the full value as a tooltip; nothing but a dash for nan and inf.
 void clx_quantity_put(clx_file *file, double value, const char *si_unit);
 
-/// Unit as a page shows it: "kg/m^3" -> "kg/m³", "-" -> "".
-const char *clx_quantity_unit(const char *si_unit);
+/// Writes the word of the number, "2" of "no|yes" as the number itself.
+void clx_quantity_put_word(clx_file *file, double value, const char *words);

@@ -9,12 +9,13 @@
 #include "report/provenance.h"
 #include "report/run.h"
 #include "report/summary.h"
+#include "report/tables.h"
 #include "report/view3d.h"
 #include <clast/state.h>
 #include <stdio.h>
 #include <string.h>
 
-#define FIELD(type, name) #name, offsetof(clast_report_config, name), type
+#define FIELD(type, name) #name, .offset = offsetof(clast_report_config, name), type
 const clast_field clast_report_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, title), 0, 0, 0, "-",
      "title of the page; made from the runs' names when not given", ""},
@@ -73,6 +74,10 @@ static const char *word_of(const clx_run *run, const char *key)
 /// Name, command and outcome of the run; index -1: the only run, whose name is above already.
 static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
 {
+    static const struct {
+        const char *before, *key;
+    } words[] = {
+        {"clast ", "command"}, {"version ", "clast_version"}, {"", "outcome"}, {"", "started"}};
     if (index >= 0) {
         (void)clx_file_print(file, "<section class=\"run\" id=\"run-%d\">\n<h2>", (int)index + 1);
         clx_page_text(file, run->name);
@@ -81,16 +86,13 @@ static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
         (void)clx_file_print(file, "<section>\n");
     }
     (void)clx_file_print(file, "<p class=\"sub\">");
-    if (run->manifest != NULL) {
-        (void)clx_file_print(file, "clast ");
-        clx_page_text(file, word_of(run, "command"));
-        (void)clx_file_print(file, " \302\267 version ");
-        clx_page_text(file, word_of(run, "clast_version"));
-        (void)clx_file_print(file, " \302\267 ");
-        clx_page_text(file, word_of(run, "outcome"));
-        (void)clx_file_print(file, " \302\267 ");
-        clx_page_text(file, word_of(run, "started"));
-        (void)clx_file_print(file, " \302\267 ");
+    for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
+        const char *word = word_of(run, words[k].key);
+        if (word[0] != '\0') {
+            (void)clx_file_print(file, "%s", words[k].before);
+            clx_page_text(file, word);
+            (void)clx_file_print(file, " \302\267 ");
+        }
     }
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, run->path);
@@ -106,11 +108,13 @@ static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,
     if (has_view(run, config)) {
         CLX_TRY(put_view(file, run, config));
     }
-    (void)clx_file_print(file, "<h3>Numbers</h3>\n");
-    clx_summary_tables(file, run, config->rows);
+    if (json_object_size(run->summary) > 0) {
+        (void)clx_file_print(file, "<h3>Numbers</h3>\n");
+        clx_summary_tables(file, run, config->rows);
+    }
     (void)clx_file_print(file, "<h3>Charts and tables</h3>\n");
     CLX_TRY(clx_figures_charts(file, run, index));
-    clx_figures_tables(file, run, config->rows);
+    CLX_TRY(clx_tables_put(file, run, config->rows));
     CLX_TRY(clx_figures_pictures(file, run, (int64_t)config->picture_mb * 1000000));
     (void)clx_file_print(file, "<h3>Origin</h3>\n");
     clx_provenance_put(file, run);

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include <clast/run_folder.h>
 #include <clast/table_file.h>
 #include <stdio.h>
 #include <string.h>
@@ -152,21 +153,46 @@ static void set_link(const char *page, clx_run *run)
     run->can_link = used >= 0 && used < (int)sizeof run->link;
 }
 
+/// manifest.json; of a study, which has none, its study.json as the configuration of a manifest.
+static clast_status read_manifest(clx_run *run)
+{
+    clast_status status = CLAST_OK;
+    json_t *study = NULL;
+    if (clx_run_has(run, "manifest.json")) {
+        return read_object(run, "manifest.json", &run->manifest);
+    }
+    if (!clx_run_has(run, "study.json")) {
+        return CLAST_OK;
+    }
+    CLX_TRY(read_object(run, "study.json", &study));
+    run->manifest =
+        json_pack("{s:s, s:O*}", "command", "study", "config", json_object_get(study, "study"));
+    CLX_CHECK(run->manifest != NULL, CLAST_E_MEMORY, "not enough memory for %s", run->path);
+done:
+    json_decref(study);
+    return status;
+}
+
+/// A study has none.
+static clast_status read_summary(clx_run *run)
+{
+    if (clx_run_has(run, "summary.json")) {
+        return read_object(run, "summary.json", &run->summary);
+    }
+    run->summary = json_object();
+    return run->summary != NULL ? CLAST_OK : clx_fail(CLAST_E_MEMORY, "not enough memory");
+}
+
 clast_status clx_run_read(const char *folder, const char *page, clx_run *run)
 {
     clast_status status = CLAST_OK;
     clx_run made = {0};
     CLX_TRY(set_path(folder, &made));
     set_link(page, &made);
+    CLX_TRY(clast_run_folder_check(made.path));
     CLX_TRY(clx_folder_list(made.path, &made.files));
-    CLX_CHECK(
-        clx_run_has(&made, "summary.json"), CLAST_E_IO,
-        "%s is no run folder: it has no summary.json; name a folder that a clast command wrote",
-        folder);
-    CLX_TRY(read_object(&made, "summary.json", &made.summary));
-    if (clx_run_has(&made, "manifest.json")) {
-        CLX_TRY(read_object(&made, "manifest.json", &made.manifest));
-    }
+    CLX_TRY(read_manifest(&made));
+    CLX_TRY(read_summary(&made));
     CLX_TRY(read_tables(&made));
     *run = made;
     made = (clx_run){0};

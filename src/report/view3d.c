@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "io/json.h"
+#include "render/legend.h"
 #include "report/page.h"
 #include <clast/mesh_simplify.h>
 #include <math.h>
@@ -245,8 +246,9 @@ static clast_status put_shape(clx_file *file, const view *v, int32_t index)
     CLX_TRY(surface_of(v, shape, &surface));
     (void)clx_file_print(file, "\n{\"name\": ");
     put_text(file, shape->name);
-    (void)clx_file_print(file, ", \"smooth\": %s",
-                         shape->kind == CLAST_SHAPE_MESH ? "false" : "true");
+    (void)clx_file_print(file, ", \"smooth\": %s, \"colour\": %d",
+                         shape->kind == CLAST_SHAPE_MESH ? "false" : "true",
+                         (int)(index < CLX_LEGEND_SHAPES ? index : CLX_LEGEND_SHAPES - 1));
     CLX_TRY(put_surface(file, &surface, v->length));
     CLX_TRY(put_grains(file, v, index));
     (void)clx_file_print(file, "}");
@@ -264,6 +266,71 @@ static bool is_used(const view *v, int32_t shape)
         }
     }
     return false;
+}
+
+/// Colour bar of a picture of the same assembly; a pose's size times `unit` is on its scale. None
+/// of sizes where a grain has no volume.
+static clast_status put_bar(clx_file *file, const view *v, int32_t colour, const char *name)
+{
+    clast_render_config config = {.colour = colour, .scale = CLAST_RENDER_SCALE_AUTO};
+    clx_legend legend = {0};
+    const double metre = strcmp(v->assembly->unit, "m") == 0 ? 1.0 : 0.0;
+    const clast_status status = clx_legend_make(v->assembly, &config, metre, NULL, &legend);
+    if (status != CLAST_OK) {
+        return status == CLAST_E_GEOMETRY ? CLAST_OK : status;
+    }
+    (void)clx_file_print(
+        file,
+        ", \"%s\": {\"title\": \"%s\", \"log\": %s, \"low\": %.9g, \"high\": %.9g, "
+        "\"unit\": %.9g, \"ticks\": [",
+        name, legend.title, legend.log ? "true" : "false", legend.low, legend.high,
+        legend.factor * v->length);
+    for (int k = 0; k < legend.n; ++k) {
+        (void)clx_file_print(file, "%s[%.6g, \"%s\"]", k > 0 ? ", " : "", legend.place[k],
+                             legend.text[k]);
+    }
+    (void)clx_file_print(file, "]}");
+    return CLAST_OK;
+}
+
+static void put_colour(clx_file *file, bool is_first, const double rgb[3])
+{
+    (void)clx_file_print(file, "%s\"#", is_first ? "" : ", ");
+    for (int k = 0; k < 3; ++k) {
+        (void)clx_file_print(file, "%02x", (unsigned)lround(255.0 * fmin(fmax(rgb[k], 0.0), 1.0)));
+    }
+    (void)clx_file_print(file, "\"");
+}
+
+/// The colours of a picture of the same assembly, and what they mean.
+static clast_status put_colours(clx_file *file, const view *v)
+{
+    enum { N_BAR = 17 };
+    clast_status status = CLAST_OK;
+    clast_render_config config = {.colour = CLAST_RENDER_COLOUR_SHAPE};
+    clx_legend shapes = {0};
+    (void)clx_file_print(file, ", \"bar\": [");
+    for (int k = 0; k < N_BAR; ++k) {
+        double rgb[3];
+        clx_legend_colour((double)k / (N_BAR - 1), rgb);
+        put_colour(file, k == 0, rgb);
+    }
+    (void)clx_file_print(file, "]");
+    CLX_TRY(put_bar(file, v, CLAST_RENDER_COLOUR_SIZE, "size"));
+    CLX_TRY(put_bar(file, v, CLAST_RENDER_COLOUR_ORDER, "order"));
+    CLX_TRY(clx_legend_make(v->assembly, &config, 0.0, NULL, &shapes));
+    (void)clx_file_print(file, ", \"shape\": [");
+    for (int k = 0; k < shapes.n; ++k) {
+        put_colour(file, k == 0, shapes.rgb[k]);
+    }
+    (void)clx_file_print(file, "], \"shape_name\": [");
+    for (int k = 0; k < shapes.n; ++k) {
+        (void)clx_file_print(file, "%s", k > 0 ? ", " : "");
+        put_text(file, shapes.text[k]);
+    }
+    (void)clx_file_print(file, "]");
+done:
+    return status;
 }
 
 static view begin(const clast_assembly *assembly, int32_t limit)
@@ -294,9 +361,10 @@ clast_status clx_view3d_put(clx_file *file, const clast_assembly *assembly, int3
               "needs a browser with WebGL and JavaScript; all else on this page does "
               "not.</p></div>\n<script type=\"application/json\" class=\"view-data\">{\"unit\": ");
     put_text(file, assembly->unit);
-    (void)clx_file_print(file,
-                         ", \"length\": %.17g, \"n_grain\": %d, \"n_shown\": %d, \"shapes\": [",
-                         v.length, (int)assembly->n_grain, (int)v.n_shown);
+    (void)clx_file_print(file, ", \"length\": %.17g, \"n_grain\": %d, \"n_shown\": %d", v.length,
+                         (int)assembly->n_grain, (int)v.n_shown);
+    CLX_TRY(put_colours(file, &v));
+    (void)clx_file_print(file, ", \"shapes\": [");
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         if (is_used(&v, s)) {
             (void)clx_file_print(file, "%s", is_first ? "" : ",");

@@ -1,10 +1,19 @@
 """CLI: clast report writes one page that stands alone."""
 import json
 import os
+import re
 import tempfile
 import unittest
 
 from clitest import Case, clast
+
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../data")
+
+
+def seen(page):
+    """What a reader sees: no tags, no attributes, no styles, no data of the 3-D view, no command line or configuration."""
+    page = re.sub(r"(?s)<(style|script|svg)\b.*?</\1>", "", page)
+    return re.sub(r"<[^>]*>", " ", page[:page.find("<h3>Origin")]).replace("&nbsp;", " ")
 
 
 class Report(Case):
@@ -42,6 +51,69 @@ class Report(Case):
         page = self.page(os.path.join(grown, "report.html"))
         for part in ["Porosity while the aggregate grows", 'class="view-data"', '"n_grain": 6,', "half-angle"]:
             self.assertIn(part, page)
+
+    def test_every_row_has_a_label_and_a_unit(self):
+        # rows were named "Words" and "N run", and the history said 0.00027 in a column size_m
+        self.put("summary.json", json.dumps({
+            "words": "reached", "n_run": 208, "max_overlap": 1.69e-19, "z_low": 0.005, "odd_thing_m": 2.5e-6,
+            "stress": {"stress_xx": 2.5e6}, "edge": {"packing": "loosest", "replicate": None}, "observables": {"size": {"observed": 6.35e-4, "pull": 1.15}}}))
+        self.put("history.csv", "n,size_m,overlap_m,lost,mass_kg,what_is_it\n0,0.00027,0,0,1.6e-8,1\n1,4e-5,1.7e-19,1,1.7e-8,2\n")
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        page = self.page(os.path.join(self.run_path, "report.html"))
+        for part in ["<th>Conclusion</th>", "<th>Runs</th>", "&lt; 0.001", "<th><code>odd_thing_m</code></th>", "<h4>Contact stress</h4>",
+                     ">Grain size <small>(\u00b5m)</small></th>", ">270.0<", ">40.00<", ">16.00<", "<code>what_is_it</code>", ">yes<",
+                     "Aggregate diameter", "Bed evaluated from", "<td>loosest</td>"]:
+            self.assertIn(part, page)
+        text = seen(page)
+        for unit in [r"5\.000\s+mm", r"2\.500\s+MPa", r"635\.0\s+\u00b5m"]:
+            self.assertRegex(text, unit)
+        for bad in ["Words", "N run", "odd thing", "what is it", "By envelope"]:
+            self.assertNotIn(bad, text)
+        self.assertNotRegex(text, r"\d(\.\d+)?e-\d+")
+
+    def test_no_page_of_a_command_has_a_key_for_a_label(self):
+        packed = os.path.join(self.folder.name, "packed")
+        cube = ["--domain", "box:0,0,0,1,1,1"]
+        runs = [
+            ["pack", "--domain", "periodic", "--width", "40mm", "--height", "0.1m", "--curve", "6 mm", "--mass", "10g", "--max-steps", "4000"],
+            ["porosity", packed, "--trim", "1mm", "--local", "--pores", "20"],
+            ["decompose", os.path.join(DATA, "d2sd/points_b3_n500.csv"), *cube, "--beta-dt", "1e-6", "--sizes", "2"],
+            ["decompose", os.path.join(DATA, "d2sd/points_s2_n500.csv"), "--domain", "box:0,0,1,1"],
+            ["agglomerate", os.path.join(DATA, "d2sd/points_u3_n50.csv"), *cube, "--constant", "0.02", "--duration", "2", "--n-step", "2"],
+            ["aggregate", "--core", "sphere", "--core-size", "100um", "--coat", "sphere", "--size", "30um", "--n-particle", "5",
+             "--replicate", "5", "--repeats", "2", "--picture=false", "--envelope", "surface_hull", "--envelope", "sphere_rays"],
+        ]
+        for k, words in enumerate(runs):
+            with self.subTest(" ".join(words[:1])):
+                run = packed if words[0] == "pack" else os.path.join(self.folder.name, str(k))
+                made = clast(*words, "-q", "-o", run)
+                self.assertEqual(made.code, 0, made.err)
+                self.assertEqual(clast("report", run).code, 0)
+                page = self.page(os.path.join(run, "report.html"))
+                self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+                text = seen(page)
+                self.assertNotRegex(text, r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
+
+    def test_folders_without_a_summary_have_pages_too(self):
+        # fit, predict and study have tables and a manifest; their folders were "no run folder"
+        beds = os.path.join(self.folder.name, "beds.csv")
+        with open(beds, "w", encoding="utf-8") as file:
+            file.write("flatness,elongation,porosity\n" + "".join(
+                f"{0.4 + 0.01 * (k % 30)},{0.5 + 0.013 * (k * 7 % 29)},{0.36 + 0.001 * (k * 5 % 17)}\n" for k in range(40)))
+        made = os.path.join(self.folder.name, "made")
+        for words, parts in [(["predict", beds], ["<h1>made</h1>", "Standard error, of the model", "Within the model"]),
+                             (["fit", beds], ["Terms of the model", "Flatness S/I, inverse"]),
+                             (["study", "--run", "predict", "--argument", beds, "--vary", "seed=1|2"], ["Results of the runs", "clast study"])]:
+            with self.subTest(words[0]):
+                out = made + words[0]
+                self.assertEqual(clast(*words, "-q", "-o", out).code, 0)
+                self.assertEqual(clast("report", out, "--title", "made").code, 0)
+                page = self.page(os.path.join(out, "report.html"))
+                for part in [*parts[1:], "<h1>made</h1>"]:
+                    self.assertIn(part, page)
+                self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+                self.assertNotIn("origin unknown", page)
+                self.assertNotRegex(seen(page), r"\d(\.\d+)?e-\d+|\b(nan|inf|true|false)\b")
 
     def test_two_runs_need_a_name(self):
         self.assert_fails(2, "report", self.run_path, self.run_path, says=["-o NAME.html", "2 runs"])

@@ -1,7 +1,7 @@
 /* Unit: what a chart shows, checked in its SVG text and by its bytes. */
 #include "support.h"
 
-#include "plot/ticks.h"
+#include "plot/figure.h"
 #include <cairo.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,6 +72,15 @@ static void ticks_are_round_numbers(void **state)
     clx_ticks_make(2.0, 7.0, true, true, 6, &t);
     assert_string_equal(t.label[0], "2");
     assert_string_equal(t.label[1], "5");
+    // 125, 250 and 500 points had one label, and the first and the last lay on the frame
+    clx_ticks_make(125.0, 500.0, true, true, 6, &t);
+    assert_int_equal(t.n, 2);
+    assert_string_equal(t.label[1], "500");
+    assert_true(t.low < 124.0 && t.high > 504.0);
+    clx_ticks_make(110.0, 190.0, true, false, 4, &t); // had none
+    assert_int_equal(t.n, 4);
+    assert_string_equal(t.label[0], "120");
+    assert_string_equal(t.label[3], "180");
 }
 
 static size_t read_file(const char *path, char *bytes, size_t size)
@@ -145,6 +154,33 @@ static void points_on_the_frame_are_whole(void **state)
     assert_int_equal(coloured_with_point(0.5, -0.001), 0);
 }
 
+/* The last step of sizes.svg, at 80 um, lay on the frame: an end along which a line runs gets room,
+ * one that it only meets does not. */
+static void lines_along_the_frame_get_room(void **state)
+{
+    (void)state;
+    const double x[] = {30.0, 50.0, 80.0};
+    const double y[] = {0.25, 0.5, 1.0};
+    const double flat[] = {0.0, 1.0, 1.0};
+    clast_series series = {.kind = CLAST_SERIES_STEP, .x = x, .y = y, .n = 3};
+    clast_chart chart = {.series = &series, .n_series = 1};
+    clx_figure f = {.chart = &chart};
+    CHECK_OK(clx_figure_measure(&f));
+    assert_true(f.x.high > 81.0 && f.x.high < 82.0);
+    CHECK_ABS(f.x.low, 30.0, 1e-12);
+    CHECK_ABS(f.y.high, 1.0, 1e-12); /* one point only */
+    series.kind = CLAST_SERIES_LINE;
+    CHECK_OK(clx_figure_measure(&f));
+    CHECK_ABS(f.x.high, 80.0, 1e-12);
+    series.y = flat; /* a plateau at the top */
+    CHECK_OK(clx_figure_measure(&f));
+    CHECK_ABS(f.y.high, 1.03, 1e-12);
+    CHECK_ABS(f.y.low, 0.0, 1e-12);
+    chart.y.high = 1.0; /* a range that was asked for stays */
+    CHECK_OK(clx_figure_measure(&f));
+    CHECK_ABS(f.y.high, 1.0, 1e-12);
+}
+
 static void heat_maps_have_a_colour_bar(void **state)
 {
     (void)state;
@@ -169,6 +205,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ticks_are_round_numbers),
+        cmocka_unit_test(lines_along_the_frame_get_room),
         cmocka_unit_test(charts_come_in_three_formats_with_equal_bytes),
         cmocka_unit_test(points_on_the_frame_are_whole),
         cmocka_unit_test(heat_maps_have_a_colour_bar),

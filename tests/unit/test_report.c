@@ -151,6 +151,13 @@ static void page_shows_every_part_of_a_run(void **state)
     check_has(page, "href=\"#r0-sizes-glyph");
     check_has(page, "class=\"view-data\"");
     check_has(page, "\"n_grain\": 60, \"n_shown\": 60");
+    // As in the picture, which is logarithmic from a factor 4 on; here it is 8.0. The view began
+    // at 8.
+    check_has(page, "\"size\": {\"title\": \"equivalent diameter (\302\265m)\", \"log\": true");
+    check_has(page, "\"50\"]");
+    check_has(
+        page,
+        "\"order\": {\"title\": \"order of arrival\", \"log\": false, \"low\": 1, \"high\": 60");
     check_has(page, "</html>");
     check_lacks(page, "<?xml");
     check_lacks(page, "src=\"http");

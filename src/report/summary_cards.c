@@ -1,0 +1,328 @@
+// Everything in summary.json as cards. Any object is shown: known keys with label and unit, others
+// as they are written.
+#include "report/summary.h"
+
+#include "report/page.h"
+#include "report/quantity.h"
+#include "report/value.h"
+#include <clast/envelope.h>
+#include <string.h>
+
+static bool is_scalar(const json_t *value)
+{
+    return !json_is_object(value) && !json_is_array(value);
+}
+
+static void put_head(clx_file *file, const char *key, const char *place, bool is_text)
+{
+    (void)clx_file_print(file, is_text ? "<th>" : "<th class=\"n\">");
+    clx_quantity_put_label(file, key, place);
+    (void)clx_file_print(file, "</th>");
+}
+
+/// A card with a row for each value that is neither object nor list.
+static void put_pairs(clx_file *file, const json_t *object, const char *place)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    (void)clx_file_print(file, "<table class=\"pairs\">\n");
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (is_scalar(value)) {
+            (void)clx_file_print(file, "<tr><th>");
+            clx_quantity_put_label(file, key, place);
+            (void)clx_file_print(file, "</th><td>");
+            clx_value_put(file, key, place, value);
+            (void)clx_file_print(file, "</td></tr>\n");
+        }
+    }
+    (void)clx_file_print(file, "</table></div>\n");
+}
+
+/// True for {"surface_hull": 1e-10, ...}: a number for each of some envelopes.
+static bool is_by_envelope(const json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        bool is_known = false;
+        for (int k = 0; k < CLAST_N_ENVELOPE; ++k) {
+            is_known = is_known || strcmp(key, clast_envelope_name((clast_envelope_kind)k)) == 0;
+        }
+        if (!is_known) {
+            return false;
+        }
+    }
+    return clx_value_holds_numbers(object);
+}
+
+/// Quantities of envelopes (volume, porosity) beside each other, a row for each envelope.
+static void put_by_envelope(clx_file *file, const json_t *summary)
+{
+    const char *key = NULL;
+    const char *name = NULL;
+    json_t *value = NULL;
+    json_t *inner = NULL;
+    json_t *names = json_object();
+    (void)clx_file_print(file, "<div class=\"card\"><h4>By envelope</h4><div class=\"scroll\" "
+                               "tabindex=\"0\"><table>\n<tr><th>Envelope</th>");
+    json_object_foreach((json_t *)summary, key, value)
+    {
+        if (is_by_envelope(value)) {
+            put_head(file, key, NULL, false);
+            (void)json_object_update(names, value);
+        }
+    }
+    (void)clx_file_print(file, "</tr>\n");
+    json_object_foreach(names, name, inner)
+    {
+        (void)clx_file_print(file, "<tr><td>");
+        clx_quantity_put_label(file, name, "envelope");
+        (void)clx_file_print(file, "</td>");
+        json_object_foreach((json_t *)summary, key, value)
+        {
+            if (is_by_envelope(value)) {
+                clx_value_put_cell(file, key, NULL, json_object_get(value, name));
+            }
+        }
+        (void)clx_file_print(file, "</tr>\n");
+    }
+    (void)clx_file_print(file, "</table></div></div>\n");
+    json_decref(names);
+}
+
+/// A row of numbers that share the unit of `key`: {mean, low, ...}; "pull" counts errors.
+static void put_spread_row(clx_file *file, const char *place, const char *key, const char *name,
+                           const json_t *head, const json_t *row)
+{
+    const char *part = NULL;
+    json_t *any = NULL;
+    (void)clx_file_print(file, "<tr><td>");
+    clx_quantity_put_label(file, key, place);
+    if (name != NULL) {
+        (void)clx_file_print(file, ", ");
+        clx_quantity_put_label(file, name, "envelope");
+    }
+    (void)clx_file_print(file, "</td>");
+    json_object_foreach((json_t *)head, part, any)
+    {
+        const bool is_ratio = strcmp(part, "pull") == 0;
+        clx_value_put_cell(file, is_ratio ? part : key, place, json_object_get(row, part));
+    }
+    (void)clx_file_print(file, "</tr>\n");
+}
+
+/// The first object of numbers inside {key: {part: number}} or {key: {name: {part: number}}}.
+static const json_t *first_row(const json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        const json_t *row = clx_value_holds_numbers(value) ? value : first_row(value);
+        if (row != NULL) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/// Quantities with parts of the same unit: intervals of repeats, what was observed and grown.
+static void put_spread(clx_file *file, const char *title, const json_t *object)
+{
+    const char *key = NULL;
+    const char *name = NULL;
+    json_t *value = NULL;
+    json_t *inner = NULL;
+    const json_t *head = first_row(object);
+    const json_t *level = json_object_get(object, "confidence");
+    (void)clx_file_print(file, "<div class=\"card wide\"><h4>");
+    clx_quantity_put_label(file, title, NULL);
+    if (json_is_number(level)) {
+        (void)clx_file_print(file, ", interval at level %g", json_number_value(level));
+    }
+    (void)clx_file_print(file, "</h4><div class=\"scroll\" tabindex=\"0\"><table>\n"
+                               "<tr><th>Quantity</th>");
+    json_object_foreach((json_t *)head, key, value)
+    {
+        put_head(file, key, NULL, false);
+    }
+    (void)clx_file_print(file, "</tr>\n");
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (clx_value_holds_numbers(value)) {
+            put_spread_row(file, title, key, NULL, head, value);
+            continue;
+        }
+        json_object_foreach(value, name, inner)
+        {
+            if (json_is_object(inner)) {
+                put_spread_row(file, title, key, name, head, inner);
+            }
+        }
+    }
+    (void)clx_file_print(file, "</table></div></div>\n");
+}
+
+static void put_item_head(clx_file *file, const char *place, const json_t *item)
+{
+    const char *key = NULL;
+    const char *name = NULL;
+    json_t *value = NULL;
+    json_t *inner = NULL;
+    (void)clx_file_print(file, "<tr><th class=\"n\">#</th>");
+    json_object_foreach((json_t *)item, key, value)
+    {
+        if (!json_is_object(value)) {
+            put_head(file, key, place, json_is_string(value));
+            continue;
+        }
+        json_object_foreach(value, name, inner)
+        {
+            (void)clx_file_print(file, "<th class=\"n\">");
+            clx_quantity_put_label(file, key, place);
+            (void)clx_file_print(file, ", ");
+            clx_quantity_put_label(file, name, "envelope");
+            (void)clx_file_print(file, "</th>");
+        }
+    }
+    (void)clx_file_print(file, "</tr>\n");
+}
+
+/// A row with the first item's columns, whatever else this item has.
+static void put_item(clx_file *file, const char *place, const json_t *head, const json_t *item)
+{
+    const char *key = NULL;
+    const char *name = NULL;
+    json_t *value = NULL;
+    json_t *inner = NULL;
+    json_object_foreach((json_t *)head, key, value)
+    {
+        const json_t *mine = json_object_get(item, key);
+        if (!json_is_object(value)) {
+            clx_value_put_cell(file, key, place, mine);
+            continue;
+        }
+        const bool is_own = !is_by_envelope(value);
+        json_object_foreach(value, name, inner)
+        {
+            clx_value_put_cell(file, is_own ? name : key, place, json_object_get(mine, name));
+        }
+    }
+}
+
+static void put_list(clx_file *file, const char *key, const json_t *list, int32_t rows)
+{
+    const size_t n = json_array_size(list);
+    const json_t *head = json_array_get(list, 0);
+    (void)clx_file_print(file, "<details class=\"card wide\"><summary>");
+    clx_quantity_put_label(file, key, NULL);
+    (void)clx_file_print(file,
+                         " <small>%zu</small></summary><div class=\"scroll\" tabindex=\"0\">"
+                         "<table>\n",
+                         n);
+    if (json_is_object(head)) {
+        put_item_head(file, key, head);
+    }
+    for (size_t i = 0; i < n && i < (size_t)rows; ++i) {
+        const json_t *item = json_array_get(list, i);
+        (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
+        if (json_is_object(head)) {
+            put_item(file, key, head, item);
+        } else {
+            clx_value_put_cell(file, key, NULL, item);
+        }
+        (void)clx_file_print(file, "</tr>\n");
+    }
+    (void)clx_file_print(file, "</table></div>");
+    if (n > (size_t)rows) {
+        (void)clx_file_print(file, "<p class=\"note\">The first %d of %zu.</p>", (int)rows, n);
+    }
+    (void)clx_file_print(file, "</details>\n");
+}
+
+/// True when one of the run's tables has this column, by its name with or without a unit.
+static bool is_column(const clx_run *run, const char *key)
+{
+    const size_t n = strlen(key);
+    for (int32_t t = 0; t < run->n_table; ++t) {
+        for (int32_t c = 0; c < run->table[t].n_column; ++c) {
+            const char *name = run->table[t].column[c].name;
+            if (strncmp(name, key, n) == 0 && (name[n] == '\0' || strcmp(name + n, "_s") == 0)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Numbers that one of the run's tables has anyway: history.csv those of the list "events" and of
+/// {"M1": [], "M2": []}, stress.csv those of the object "stress".
+static bool is_in_table(const clx_run *run, const char *key, const json_t *value)
+{
+    const char *name = NULL;
+    json_t *inner = NULL;
+    if (json_is_array(value)) {
+        return is_column(run, key) && !json_is_object(json_array_get(value, 0));
+    }
+    json_object_foreach((json_t *)value, name, inner)
+    {
+        if (json_is_array(inner) && is_column(run, name)) {
+            return true;
+        }
+    }
+    return json_is_object(value) && clx_run_table(run, key) != NULL;
+}
+
+static bool is_flat(const json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (!is_scalar(value)) {
+            return false;
+        }
+    }
+    return json_object_size(object) > 0;
+}
+
+static void put_part(clx_file *file, const clx_run *run, const char *key, const json_t *value,
+                     int32_t rows)
+{
+    if (is_in_table(run, key, value) || is_by_envelope(value)) {
+        return;
+    }
+    if (json_is_array(value) && json_array_size(value) > 0) {
+        put_list(file, key, value, rows);
+    } else if (is_flat(value)) {
+        (void)clx_file_print(file, "<div class=\"card\"><h4>");
+        clx_quantity_put_label(file, key, NULL);
+        (void)clx_file_print(file, "</h4>");
+        put_pairs(file, value, key);
+    } else if (json_is_object(value) && first_row(value) != NULL) {
+        put_spread(file, key, value);
+    }
+}
+
+void clx_summary_tables(clx_file *file, const clx_run *run, int32_t rows)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    bool has_envelope = false;
+    (void)clx_file_print(file, "<div class=\"cards\">\n<div class=\"card\"><h4>Results</h4>");
+    put_pairs(file, run->summary, NULL);
+    json_object_foreach(run->summary, key, value)
+    {
+        has_envelope = has_envelope || is_by_envelope(value);
+    }
+    if (has_envelope) {
+        put_by_envelope(file, run->summary);
+    }
+    json_object_foreach(run->summary, key, value)
+    {
+        put_part(file, run, key, value, rows);
+    }
+    (void)clx_file_print(file, "</div>\n");
+}

@@ -1,0 +1,230 @@
+// The folder's CSV files as tables: a column has one label and one unit, in which it reads best.
+#include "report/tables.h"
+
+#include "base/alloc.h"
+#include "report/page.h"
+#include "report/quantity.h"
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    const clast_column *column;
+    clx_quantity quantity;
+    clx_quantity_scale scale;
+    const clast_column *row_unit; ///< units of a column whose rows have their own, or NULL
+    bool is_name;                 ///< its texts are keys
+} shown;
+
+static bool is_one_of(const char *text, const char *const *names, size_t n)
+{
+    bool is_found = false;
+    for (size_t k = 0; k < n; ++k) {
+        is_found = is_found || strcmp(text, names[k]) == 0;
+    }
+    return is_found;
+}
+
+/// Text column "unit" of tables that name a quantity a row (name, value, unit), or NULL.
+static const clast_column *units_of(const clast_table *table)
+{
+    const int32_t name = clast_table_find(table, "name");
+    const int32_t unit = clast_table_find(table, "unit");
+    if (table->column == NULL || name < 0 || unit < 0) {
+        return NULL;
+    }
+    return table->column[unit].text != NULL ? &table->column[unit] : NULL;
+}
+
+/// The name without parts that only tell one of a kind from its like: "x_low_m" and "y_high_m" are
+/// both "_m", so that they get one unit.
+static void stem_of(const char *name, char stem[CLX_QUANTITY_SIZE])
+{
+    static const char *const like[] = {"low", "high", "mean", "deviation", "x",  "y", "z",
+                                       "xx",  "yy",   "zz",   "xy",        "xz", "yz"};
+    size_t used = 0;
+    stem[0] = '\0';
+    while (*name != '\0' && used < CLX_QUANTITY_SIZE) {
+        char part[CLX_QUANTITY_SIZE];
+        const size_t n = strcspn(name, "_");
+        (void)snprintf(part, sizeof part, "%.*s", (int)n, name);
+        if (!is_one_of(part, like, sizeof like / sizeof *like)) {
+            (void)snprintf(stem + used, CLX_QUANTITY_SIZE - used, "_%s", part);
+            used += n + 1;
+        }
+        name += name[n] == '_' ? n + 1 : n;
+    }
+}
+
+static double greatest(const clast_column *column, int64_t n)
+{
+    double most = 0.0;
+    for (int64_t i = 0; column->number != NULL && i < n; ++i) {
+        most = isfinite(column->number[i]) ? fmax(most, fabs(column->number[i])) : most;
+    }
+    return most;
+}
+
+/// The unit in which the greatest number of the column and its like reads best.
+static clx_quantity_scale scale_of(const clast_table *table, int32_t c, const char *si_unit)
+{
+    char own[CLX_QUANTITY_SIZE];
+    char other[CLX_QUANTITY_SIZE];
+    double most = 0.0;
+    stem_of(table->column[c].name, own);
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        stem_of(table->column[k].name, other);
+        if (k == c || strcmp(own, other) == 0) {
+            most = fmax(most, greatest(&table->column[k], table->n_row));
+        }
+    }
+    return clx_quantity_scale_for(most, si_unit);
+}
+
+static shown show(const clast_table *table, int32_t c)
+{
+    static const char *const names[] = {"name", "feature", "term", "column", "a", "b"};
+    static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
+    const clast_column *column = &table->column[c];
+    shown s = {.column = column, .quantity = clx_quantity_of(column->name, table->name)};
+    s.scale = scale_of(table, c, s.quantity.unit);
+    s.is_name = is_one_of(column->name, names, sizeof names / sizeof *names);
+    if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
+        s.row_unit = units_of(table);
+    }
+    return s;
+}
+
+static void put_head(clx_file *file, const clast_table *table, const shown *s)
+{
+    (void)clx_file_print(file, "<th%s title=\"", s->column->number != NULL ? " class=\"n\"" : "");
+    clx_page_text(file, s->column->name);
+    (void)clx_file_print(file, "\">");
+    clx_quantity_put_label(file, s->column->name, table->name);
+    if (s->scale.name[0] != '\0') {
+        (void)clx_file_print(file, " <small>(");
+        clx_page_text(file, s->scale.name);
+        (void)clx_file_print(file, ")</small>");
+    }
+    (void)clx_file_print(file, "</th>");
+}
+
+static void put_number(clx_file *file, const shown *s, int64_t row)
+{
+    char text[CLX_QUANTITY_SIZE];
+    const double value = s->column->number[row];
+    if (s->row_unit != NULL) {
+        clx_quantity_put(file, value, s->row_unit->text[row]);
+    } else if (!isfinite(value)) {
+        (void)clx_file_print(file, "\342\200\223");
+    } else if (s->quantity.words[0] != '\0') {
+        clx_quantity_put_word(file, value, s->quantity.words);
+    } else {
+        clx_quantity_format(value, &s->scale, text);
+        clx_page_text(file, text);
+    }
+}
+
+static void put_cell(clx_file *file, const shown *s, int64_t row)
+{
+    (void)clx_file_print(file, s->column->number != NULL ? "<td class=\"n\">" : "<td>");
+    if (s->column->number != NULL) {
+        put_number(file, s, row);
+    } else if (s->is_name) {
+        clx_quantity_put_label(file, s->column->text[row], NULL);
+    } else {
+        clx_page_text(file, s->column->text[row]);
+    }
+    (void)clx_file_print(file, "</td>");
+}
+
+static void put_row(clx_file *file, const shown *s, int32_t n, int64_t row)
+{
+    (void)clx_file_print(file, "<tr>");
+    for (int32_t k = 0; k < n; ++k) {
+        put_cell(file, &s[k], row);
+    }
+    (void)clx_file_print(file, "</tr>\n");
+}
+
+static void put_heads(clx_file *file, const clast_table *table, const shown *s, int32_t n)
+{
+    (void)clx_file_print(file, "<tr>");
+    for (int32_t k = 0; k < n; ++k) {
+        put_head(file, table, &s[k]);
+    }
+    (void)clx_file_print(file, "</tr>\n");
+}
+
+/// A table of one row, turned: a row for each column.
+static void put_turned(clx_file *file, const clast_table *table, const shown *s, int32_t n)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        (void)clx_file_print(file, "<tr>");
+        put_head(file, table, &s[k]);
+        put_cell(file, &s[k], 0);
+        (void)clx_file_print(file, "</tr>\n");
+    }
+}
+
+static clast_status put_table(clx_file *file, const clast_table *table, int32_t rows)
+{
+    clast_status status = CLAST_OK;
+    shown *s = NULL;
+    int32_t n = 0;
+    CLX_TRY(clx_alloc(&s, table->n_column, sizeof *s));
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        if (&table->column[c] != units_of(table)) { // the values show theirs
+            s[n++] = show(table, c);
+        }
+    }
+    const bool is_turned = table->n_row == 1;
+    (void)clx_file_print(file, "<div class=\"scroll\" tabindex=\"0\"><table%s>\n",
+                         is_turned ? " class=\"turned\"" : "");
+    if (is_turned) {
+        put_turned(file, table, s, n);
+    } else {
+        put_heads(file, table, s, n);
+    }
+    for (int64_t r = 0; !is_turned && r < table->n_row && r < rows; ++r) {
+        put_row(file, s, n, r);
+    }
+    (void)clx_file_print(file, "</table></div>");
+done:
+    clx_free(s);
+    return status;
+}
+
+static void put_link(clx_file *file, const clx_run *run, const clast_table *table)
+{
+    if (run->can_link) {
+        (void)clx_file_print(file, "<a href=\"");
+        clx_page_href(file, run->link);
+        clx_page_href(file, table->name);
+        (void)clx_file_print(file, ".csv\">");
+    }
+    clx_page_text(file, table->name);
+    (void)clx_file_print(file, ".csv%s", run->can_link ? "</a>" : "");
+}
+
+clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
+{
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < run->n_table; ++i) {
+        const clast_table *table = &run->table[i];
+        const bool is_open = strcmp(table->name, "history") == 0 || table->n_row == 1;
+        (void)clx_file_print(file, "<details class=\"card wide\"%s><summary>",
+                             is_open ? " open" : "");
+        clx_quantity_put_label(file, table->name, "table");
+        (void)clx_file_print(file, " <small>%" PRId64 " row%s</small></summary>", table->n_row,
+                             table->n_row == 1 ? "" : "s");
+        CLX_TRY(put_table(file, table, rows));
+        (void)clx_file_print(file, "<p class=\"note\">%s",
+                             table->n_row > rows ? "The first rows of " : "All rows of ");
+        put_link(file, run, table);
+        (void)clx_file_print(file, ", there in SI units.</p></details>\n");
+    }
+done:
+    return status;
+}

@@ -1,0 +1,57 @@
+// Values of a JSON file as text.
+#include "report/value.h"
+
+#include "report/page.h"
+#include "report/quantity.h"
+#include <string.h>
+
+/// The label of a thing that has one ("henze_zirkler"), else the text as it is.
+static void put_text(clx_file *file, const char *key, const char *text)
+{
+    const bool is_name = strcmp(key, "name") == 0;
+    const clx_quantity q = clx_quantity_of(is_name ? text : "", NULL);
+    clx_page_text(file, q.label[0] != '\0' ? q.label : text);
+}
+
+void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value)
+{
+    const clx_quantity q = clx_quantity_of(key, place);
+    if (json_is_number(value) && q.words[0] != '\0') {
+        clx_quantity_put_word(file, json_number_value(value), q.words);
+    } else if (json_is_number(value)) {
+        clx_quantity_put(file, json_number_value(value), q.unit);
+    } else if (json_is_string(value)) {
+        put_text(file, key, json_string_value(value));
+    } else if (json_is_boolean(value)) {
+        (void)clx_file_print(file, "%s", json_is_true(value) ? "yes" : "no");
+    } else if (json_array_size(value) > 0) {
+        for (size_t i = 0; i < json_array_size(value); ++i) {
+            (void)clx_file_print(file, "%s", i > 0 ? ", " : "");
+            clx_value_put(file, key, place, json_array_get(value, i));
+        }
+    } else {
+        (void)clx_file_print(file, "\342\200\223");
+    }
+}
+
+void clx_value_put_cell(clx_file *file, const char *key, const char *place, const json_t *value)
+{
+    (void)clx_file_print(file, json_is_string(value) ? "<td>" : "<td class=\"n\">");
+    clx_value_put(file, key, place, value);
+    (void)clx_file_print(file, "</td>");
+}
+
+bool clx_value_holds_numbers(const json_t *object)
+{
+    const char *key = NULL;
+    json_t *value = NULL;
+    bool has_number = false;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (!json_is_number(value) && !json_is_null(value)) {
+            return false;
+        }
+        has_number = true;
+    }
+    return has_number;
+}

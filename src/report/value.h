@@ -1,0 +1,14 @@
+#pragma once
+// Values of a JSON file on a page.
+#include "base/file.h"
+#include <jansson.h>
+
+/// A number with the unit of its key, a text, "yes" or "no", a list with commas; a dash for all
+/// else. `place`: as for clx_quantity_of.
+void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value);
+
+/// The same as a number's cell of a table.
+void clx_value_put_cell(clx_file *file, const char *key, const char *place, const json_t *value);
+
+/// True for an object that has numbers, and nothing but numbers and nulls.
+bool clx_value_holds_numbers(const json_t *object);

@@ -1,0 +1,85 @@
+/* Unit: labels of keys and columns, and numbers in the units that people read. */
+#include "support.h"
+
+#include "report/quantity.h"
+#include <string.h>
+
+#define MICRO "\302\265"
+
+static void names_are_found_with_their_units(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key, *place, *label, *unit;
+    } cases[] = {
+        {"size_m", "history", "Grain size", "m"},
+        {"n", "history", "Particles placed", ""},
+        {"n", NULL, "Points", ""},
+        {"words", NULL, "Conclusion", ""},
+        {"n_run", NULL, "Runs", ""},
+        {"density_kg/m^3", NULL, "Bulk density", "kg/m^3"},
+        {"density_kg/m3", "grains", "Density", "kg/m^3"},
+        {"porosity_surface_hull", "history", "Porosity, surface hull", ""},
+        {"surface_hull_m3", "history", "Envelope volume, surface hull", "m^3"},
+        {"surface_hull", "envelope", "surface hull", "m^3"},
+        {"high_d_agg_m", "history_band", "Aggregate diameter, upper bound", "m"},
+        {"mean_porosity_wrap", "history_band", "Porosity, wrap, mean", ""},
+        {"envelope.surface_hull", "results", "Envelope volume, surface hull", "m^3"},
+        {"interval.d_agg.low", "results", "Aggregate diameter, lower bound", "m"},
+        {"interval.porosity.wrap.mean", "results", "Porosity, wrap, mean", ""},
+        {"inverse_flatness", "features", "Flatness S/I, inverse", ""},
+        {"low_m", "sizes", "Lower limit", "m"},
+        {"nobody_knows_m", NULL, "", "m"},
+        {"nobody_knows", "history", "", ""},
+        {"", NULL, "", ""},
+        {"_m", NULL, "", ""},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const clx_quantity q = clx_quantity_of(cases[k].key, cases[k].place);
+        assert_string_equal(q.label, cases[k].label);
+        assert_string_equal(q.unit, cases[k].unit);
+    }
+}
+
+static void a_number_reads_in_the_unit_of_its_size(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *si_unit, *text, *unit;
+    } cases[] = {
+        {2.7e-4, "m", "270.0", MICRO "m"},
+        {0.0, "m", "0", "m"},
+        {1.69e-19, "m", "< 0.001", "nm"},
+        {-1.69e-19, "m", "> \342\210\2220.001", "nm"},
+        {1.941e-11, "m^3", "0.01941", "mm\302\263"},
+        {5.3517e-13, "m^3", "535170", MICRO "m\302\263"},
+        {2.07e-5, "m^3", "20.70", "cm\302\263"},
+        {1.2e-21, "kg", "0.001200", "fg"},
+        {1.5e-8, "kg", "15.00", MICRO "g"},
+        {2.5e6, "Pa", "2.500", "MPa"},
+        {12.0, "Pa", "12.00", "Pa"},
+        {2.1e-5, "J", "21.00", MICRO "J"},
+        {0.017453292519943295, "rad", "1.000", "\302\260"},
+        {310.0, "kg/m^3", "310.0", "kg/m\302\263"},
+        {301.0, "", "301", ""},
+        {-14.76, "", "-14.76", ""},
+        {7.39e-54, "", "7.390\302\240\303\227\302\24010\342\201\273\342\201\265\342\201\264", ""},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        char text[CLX_QUANTITY_SIZE];
+        const clx_quantity_scale scale = clx_quantity_scale_for(cases[k].value, cases[k].si_unit);
+        clx_quantity_format(cases[k].value, &scale, text);
+        assert_string_equal(text, cases[k].text);
+        assert_string_equal(scale.name, cases[k].unit);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_found_with_their_units),
+        cmocka_unit_test(a_number_reads_in_the_unit_of_its_size),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
