@@ -3,6 +3,8 @@
 #include <clast/decompose.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Agglomeration in time: cells by decomposition, collisions in them, again at each snapshot.
 // [docs/theory/agglomeration.md]
 
@@ -70,3 +72,5 @@ CLAST_API void clast_agglomeration_free(clast_agglomeration *result);
 /// moved a little, more rarely.
 CLAST_API clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n,
                                          int32_t d, double *p);
+
+CLAST_END

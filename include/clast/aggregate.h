@@ -9,6 +9,8 @@
 #include <clast/sizes.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 typedef enum { CLAST_AGGREGATE_CORE, CLAST_AGGREGATE_CLUSTER } clast_aggregate_mode;
 
 /// How the first touch is found.
@@ -262,3 +264,5 @@ CLAST_API clast_status clast_aggregate_band(const clast_table *history, double c
 CLAST_API clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
                                                 const clast_sizes *sizes,
                                                 const clast_table *history, clast_table *table);
+
+CLAST_END

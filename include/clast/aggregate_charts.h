@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Charts of an aggregation from its tables, as files or as SVG in memory.
 
 /// What to draw, from which table.
@@ -43,3 +45,5 @@ CLAST_API clast_status clast_aggregate_chart_svg(clast_aggregate_chart chart,
 /// All charts that fit as FOLDER/NAME.svg: history.svg, diameter.svg, density.svg, sizes.svg.
 CLAST_API clast_status clast_aggregate_charts_write(const clast_table *history,
                                                     const clast_table *wanted, const char *folder);
+
+CLAST_END

@@ -3,6 +3,8 @@
 #include <clast/aggregate.h>
 #include <clast/sizes_file.h>
 
+CLAST_BEGIN
+
 /// Everything that a configuration names, loaded. Owns what `input` points to.
 typedef struct clast_aggregate_source {
     clast_assembly core;
@@ -21,3 +23,5 @@ CLAST_API void clast_aggregate_unload(clast_aggregate_source *source); ///< may 
 CLAST_API int32_t clast_aggregate_n_file(const clast_aggregate_config *config);
 CLAST_API const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i,
                                            const char **role);
+
+CLAST_END

@@ -1,12 +1,24 @@
 #pragma once
 #include <clast/aggregate.h>
 
+CLAST_BEGIN
+
 /// What may be observed of an aggregate.
 enum { CLAST_FIT_SIZE, CLAST_FIT_DENSITY, CLAST_FIT_VELOCITY, CLAST_FIT_N_OBSERVABLE };
 
 /// "size", "density", "settling_velocity" and their SI units.
 CLAST_API const char *clast_fit_observable_name(int32_t observable);
 CLAST_API const char *clast_fit_observable_unit(int32_t observable);
+
+/// Whether the best choice explains the observation.
+typedef enum clast_fit_verdict {
+    CLAST_FIT_INSIDE, ///< every observed quantity is met within its error (|pull| <= 1)
+    CLAST_FIT_EDGE,   ///< it is not, and the best choice lies on the border of what was tried
+    CLAST_FIT_NO      ///< it is not, and the best choice lies between others that were tried
+} clast_fit_verdict;
+
+/// "inside", "edge", "no".
+CLAST_API const char *clast_fit_verdict_name(clast_fit_verdict verdict);
 
 /// A quantity under the posterior weights.
 typedef struct clast_fit_estimate {
@@ -29,14 +41,18 @@ typedef struct clast_aggregate_fit {
     double least[CLAST_FIT_N_OBSERVABLE], most[CLAST_FIT_N_OBSERVABLE]; ///< over all runs' means
     double chi2;
     int32_t n_observed;
-    double chance;    ///< of a chi2 this great or greater with n_observed observations
-    bool reached;     ///< chance >= 1 - config->confidence: chi2 is not rejected at that level
-    int32_t n_level;  ///< packings tried
-    bool cut_short;   ///< tighter packings were left out: chi2 had risen by 50 twice
-    int32_t n_run;    ///< aggregates grown
-    int32_t at_level; ///< of the best node; 0: the loosest
-    bool at_limit;    ///< the best N_A is the greatest that was allowed
-    char words[640];  ///< the outcome in sentences
+    int32_t n_choice;  ///< fitted: the packing where there are several, N_A where it may exceed 1
+    int32_t n_freedom; ///< degrees of freedom: n_observed - n_choice, at least 0
+    double p_value;    ///< of chi2 with n_freedom degrees of freedom; NAN where none is left
+    clast_fit_verdict verdict;
+    int32_t
+        packing_edge; ///< the best packing is -1: the loosest tried, 1: the tightest, 0: neither
+    int32_t replicate_edge; ///< the best N_A is -1: 1, 1: config->fit_replicate_max, 0: neither
+    int32_t n_level;        ///< packings tried
+    bool cut_short;         ///< tighter packings were left out: chi2 had risen by 50 twice
+    int32_t n_run;          ///< aggregates grown
+    int32_t at_level;       ///< of the best node; 0: the loosest
+    char words[1024];       ///< the outcome in sentences
 } clast_aggregate_fit;
 
 /// Finds (cone, rays, orientations, N_A) that explain config->observed_size, observed_density,
@@ -50,12 +66,15 @@ typedef struct clast_aggregate_fit {
 ///                                                               [docs/theory/aggregate-fit.md]
 ///
 /// @param nodes  empty; one row per packing and N_A: cone_rad, rays, orientations, replicate, n_run
-///               (0: interpolated), means and deviations, chi2, weight
+///               (0: interpolated), means and deviations, chi2, inside (1: within the errors),
+///               weight
 /// @return CLAST_E_CONFIG when nothing is observed, an observation has no error, or options are set
 ///         that the fit is to find; CLAST_E_STOPPED when the monitor asks. An observation that is
-///         not reached is not an error: fit->reached is false and fit->words say so
+///         not explained is not an error: fit->verdict and fit->words say so
 /// @note the same bytes for any thread count
 CLAST_API clast_status clast_aggregate_fit_run(const clast_aggregate_config *config,
                                                const clast_aggregate_input *input,
                                                const clast_monitor *monitor,
                                                clast_aggregate_fit *fit, clast_table *nodes);
+
+CLAST_END

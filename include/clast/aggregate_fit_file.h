@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/aggregate_fit.h>
 
+CLAST_BEGIN
+
 // Fits from files and to files.
 
 /// The outcome as one JSON object; free the text with clast_text_free.
@@ -14,3 +16,5 @@ CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, 
 CLAST_API clast_status clast_aggregate_fit_study(const clast_aggregate_config *config,
                                                  const char *folder, const clast_monitor *monitor,
                                                  clast_aggregate_fit *fit);
+
+CLAST_END

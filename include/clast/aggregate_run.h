@@ -3,6 +3,8 @@
 #include <clast/aggregate.h>
 #include <clast/comm.h>
 
+CLAST_BEGIN
+
 /// Results of the repeats, in order. {0} is empty.
 typedef struct clast_aggregate_report {
     int32_t n;
@@ -34,7 +36,7 @@ CLAST_API clast_status clast_aggregate_report_json(const clast_aggregate_report 
 /// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, report is empty;
 ///         CLAST_E_CONVERGE when a stop criterion was not reached (all files are written);
 ///         CLAST_E_USAGE when the folder holds a run, finished or not, and config->force is not
-///         set; with it that run's files are removed first (others stay)
+///         set (run_folder.h)
 CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config, const char *folder,
                                            const clast_comm *comm, const clast_monitor *monitor,
                                            clast_aggregate_report *report);
@@ -44,3 +46,5 @@ CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config,
 CLAST_API clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
                                               const clast_monitor *monitor,
                                               clast_aggregate_report *report);
+
+CLAST_END

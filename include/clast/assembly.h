@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/shape.h>
 
+CLAST_BEGIN
+
 /// Placed shapes: what aggregates and packings end as. Grain i is shape[shape_id[i]] scaled,
 /// turned, moved: x_world = position + scale * R(orientation) * x_shape.
 typedef struct clast_assembly {
@@ -62,3 +64,5 @@ CLAST_API void clast_assembly_bounds(const clast_assembly *assembly, double low[
 /// icosphere of `level`).
 CLAST_API clast_status clast_assembly_grain_surface(const clast_assembly *assembly, int32_t i,
                                                     int level, clast_mesh *mesh);
+
+CLAST_END

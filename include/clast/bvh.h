@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// A bounding volume hierarchy over the triangles of a mesh: inside tests, closest points, rays.
 ///
 /// Opaque; read-only once made, so any number of threads may ask it at once. Queries allocate
@@ -51,3 +53,5 @@ CLAST_API double clast_bvh_signed_distance(const clast_bvh *bvh, const double po
 CLAST_API bool clast_bvh_ray(const clast_bvh *bvh, const double origin[3],
                              const double direction[3], double t_low, double t_high,
                              clast_hit *hit);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 // Charts from one drawing code to SVG, PDF and PNG: axes, lines, steps, scatter, bars, bands, error
 // bars, heat maps.
 
@@ -72,3 +74,5 @@ CLAST_API clast_status clast_chart_write(const clast_chart *chart, const char *p
 /// The same in memory as SVG text, for a page; the caller frees *bytes with clast_bytes_free.
 CLAST_API clast_status clast_chart_svg(const clast_chart *chart, unsigned char **bytes, size_t *n);
 CLAST_API void clast_bytes_free(unsigned char *bytes);
+
+CLAST_END

@@ -51,6 +51,7 @@
 #include <clast/pack.h>
 #include <clast/pack_file.h>
 #include <clast/pack_run.h>
+#include <clast/packing_file.h>
 #include <clast/parallel.h>
 #include <clast/points_file.h>
 #include <clast/pores.h>
@@ -65,6 +66,7 @@
 #include <clast/render.h>
 #include <clast/report.h>
 #include <clast/rigid.h>
+#include <clast/run_folder.h>
 #include <clast/scene.h>
 #include <clast/settling.h>
 #include <clast/shape.h>

@@ -2,6 +2,8 @@
 #include <clast/field.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// Points in one, two or three dimensions, with optional properties; arrays may be borrowed by the
 /// functions that read them.
 typedef struct clast_cloud {
@@ -38,3 +40,5 @@ CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *
 CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
                                               const clast_cloud_columns *columns,
                                               clast_cloud *cloud);
+
+CLAST_END

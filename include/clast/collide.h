@@ -2,6 +2,8 @@
 #include <clast/field.h>
 #include <clast/kernel.h>
 
+CLAST_BEGIN
+
 // Monte Carlo collisions of particles in cells where they are well mixed: one call per time step on
 // the caller's arrays. [docs/theory/agglomeration.md section 2]
 
@@ -68,9 +70,13 @@ typedef struct clast_collide_cells {
 ///
 /// @param step     number of the step, below 2^32: with the seed it fixes every draw
 /// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL
-/// @return CLAST_E_CONFIG when a cell's medium lacks what the kernel needs, CLAST_E_USAGE for a
-/// volume that is not > 0, CLAST_E_LIMIT beyond 50000 kinds in a cell with block = 0
+/// @return CLAST_E_CONFIG for a configuration out of the ranges of clast_agglomerate_fields (of
+/// what it uses) or a medium that lacks what the kernel needs, CLAST_E_ARGUMENT for arrays that are
+/// NULL, volumes not > 0, cells that there are not; nothing is then changed. CLAST_E_LIMIT beyond
+/// 50000 kinds in a cell with block = 0
 /// @note a cell of n particles of s kinds: O(s) per event; the same bytes for any thread count
 CLAST_API clast_status clast_collide(clast_population *population, const clast_collide_cells *cells,
                                      double dt, uint64_t step, const clast_collide_config *config,
                                      int64_t *n_event);
+
+CLAST_END

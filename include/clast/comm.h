@@ -6,6 +6,8 @@
 // bytes as on one.
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 enum { CLAST_COMM_WORDS = 3 };
 
 /// One rank's view of all. Functions are called from one thread of each rank. A failure between
@@ -38,3 +40,5 @@ CLAST_API const clast_comm *clast_comm_one(void);
 /// @param text  this rank's error text; NULL: clast_error_detail()
 CLAST_API clast_status clast_comm_agree(const clast_comm *comm, clast_status status,
                                         const char *text);
+
+CLAST_END

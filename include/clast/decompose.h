@@ -5,6 +5,8 @@
 #include <clast/table.h>
 #include <clast/uniformity.h>
 
+CLAST_BEGIN
+
 // D2SD: cells in which particles are uniform, and agglomeration events that do not depend on a
 // mesh. [Martinez2021; docs/theory/decompose.md]
 
@@ -118,12 +120,23 @@ typedef struct clast_pass {
     bool fallback;
 } clast_pass;
 
+/// How a decomposition ended.
 typedef enum {
-    CLAST_STOP_UNIFORM,  ///< the vote accepts
+    CLAST_STOP_UNTESTED, ///< fewer than 5 points: one cell
+    CLAST_STOP_ACCEPTED, ///< the vote accepts the cloud: one cell
+    CLAST_STOP_TESTED,   ///< the vote rejects, and the variant is the tests alone: one cell
+    CLAST_STOP_UNIFORM,  ///< the vote accepts what the passes left
     CLAST_STOP_NOTHING,  ///< no threshold is left, or nothing new is selected
     CLAST_STOP_ONE_PASS, ///< the variant makes one
-    CLAST_STOP_MAX_PASS
+    CLAST_STOP_MAX_PASS, ///< the vote still rejects after max_pass
+    CLAST_STOP_SPLIT,    ///< the vote rejects; tree cells are uniform or too small to be tested
+    CLAST_STOP_TREE,     ///< the vote accepts; the tree's own test or the variable split the cloud
+    CLAST_STOP_WHOLE,    ///< the vote rejects at level, the tree does not at tree_root_level
+    CLAST_STOP_DEPTH     ///< a tree cell is uneven at the limit of 20 halvings
 } clast_decompose_stop;
+
+/// A stop in words, "rejected by the tests and split".
+CLAST_API const char *clast_decompose_stop_text(clast_decompose_stop stop);
 
 /// Cells. A box [low, high] is in the domain's coordinates for a box or a mesh domain (there not
 /// cut), in the unit cube for mapped domains; components and labels give their bounding box. In a
@@ -191,3 +204,5 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                      const double *x);
 CLAST_API void clast_decomposition_free(clast_decomposition *result);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/decompose.h>
 
+CLAST_BEGIN
+
 // Charts of a decomposition, as in the published figures.
 
 typedef enum {
@@ -24,3 +26,5 @@ CLAST_API clast_status clast_decompose_chart_write(clast_decompose_chart chart,
                                                    const clast_cloud *cloud,
                                                    const clast_decomposition *result,
                                                    const char *path);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/decompose.h>
 
+CLAST_BEGIN
+
 // A decomposition for ParaView.
 
 /// Cells as an unstructured grid (VTU): lines, quadrilaterals or hexahedra with cell, count,
@@ -15,3 +17,5 @@ CLAST_API clast_status clast_cells_write_vtu(const char *path, const clast_decom
 /// the cloud has them; -1 and 0 for points left out.
 CLAST_API clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
                                               const clast_decomposition *result);
+
+CLAST_END

@@ -8,6 +8,8 @@
 #include <clast/field.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// Normal and tangential force of a contact.
 typedef enum {
     CLAST_DEM_LINEAR, ///< spring and dashpot from restitution and collision time, eq. 6, 7, 11-13
@@ -109,10 +111,10 @@ typedef struct clast_dem_measures {
     double elastic_energy;   ///< in contacts, normal and tangential [J]
     double momentum[3];      ///< [kg m/s]
     int64_t n_listed;        ///< pairs in the neighbour lists
-    int64_t n_contact;       ///< touching pairs of grains
-    int64_t n_wall_contact;  ///< grains touching walls
+    int64_t n_contact;       ///< pairs of grains that touch; clumps once, in however many spheres
+    int64_t n_wall_contact;  ///< the same of a grain with a wall, or a triangle of the container
     double max_overlap;      ///< deepest contact [m]
-    double coordination;     ///< mean touching grains a grain, walls left out
+    double coordination;     ///< 2 n_contact / n_grain
     int64_t n_refresh;       ///< times that neighbour lists were brought up to date
     clast_dem_verification verified;
 } clast_dem_measures;
@@ -182,3 +184,5 @@ CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);
 /// point), branch_x_m .. (from a's centre to b's, or to the point on a wall), force_x_N .. (of a on
 /// b). `table` must be empty. Memories are not renewed.
 CLAST_API clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table);
+
+CLAST_END

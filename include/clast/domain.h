@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 // Domains whose volume a map with constant Jacobian carries to the unit cube, so that uniform
 // points stay uniform; and domains inside a closed surface, by extension to its bounding box.
 // [Martinez2021 sec. 3.3; docs/theory/decompose.md]
@@ -76,3 +78,5 @@ CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, dou
 /// The inverse map: the point x [dimension] whose image in the unit cube is u [dimension]. A mesh:
 /// in its bounding box, inside or not.
 CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, double *x);
+
+CLAST_END

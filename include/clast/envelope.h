@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/assembly.h>
 
+CLAST_BEGIN
+
 /// The volumes that may be called "the aggregate's own": each a name, a meaning, a stated error.
 #define CLAST_ENVELOPE_LIST(X)                                                                     \
     X(SURFACE_HULL, "surface_hull", "convex hull of the true surfaces")                            \
@@ -75,3 +77,5 @@ CLAST_API clast_status clast_assembly_enclosing_sphere(const clast_assembly *ass
 /// Radius of gyration: root mean square distance of the mass from its centre, each grain's own
 /// extent included.      Rg^2 = (1/M) sum m_i (|r_i - c|^2 + trace(I_i) / (2 m_i))
 CLAST_API double clast_assembly_radius_of_gyration(const clast_assembly *assembly);
+
+CLAST_END

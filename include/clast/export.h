@@ -2,6 +2,8 @@
 #include <clast/assembly.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Assemblies to the files that other programs read.
 
 typedef enum {
@@ -29,12 +31,14 @@ typedef struct clast_export_options {
     int level;   ///< icosphere level of spheres and ellipsoids, 0 .. 9: 20 4^level triangles
     bool points; ///< VTU: a point a grain with quaternion and scale instead of surfaces
     clast_colour colour; ///< PLY
+    const char *unit;    ///< of the coordinates in STL, OBJ and PLY ("mm"); NULL: the assembly's
 } clast_export_options;
 
 /// What was written.
 typedef struct clast_export_report {
     clast_export_format format;
     int64_t n_vertex, n_triangle; ///< 0 for formats without surfaces
+    const char *unit;             ///< of lengths in the file; lasts as long as options and assembly
 } clast_export_report;
 
 /// Lower-case name of a format ("vtu").
@@ -48,8 +52,9 @@ CLAST_API clast_export_format clast_export_format_of_path(const char *path);
 ///
 /// @param options  may be NULL: {.level = 3}
 /// @param report   may be NULL
-/// @return CLAST_E_USAGE for an unknown extension or 3MF in model units; CLAST_E_GEOMETRY for
-/// coordinates beyond STL's 32-bit numbers; CLAST_E_LIMIT beyond the format's counts; CLAST_E_DISK
+/// @return CLAST_E_USAGE for an unknown extension, 3MF in model units, or a unit for another
+/// format; CLAST_E_GEOMETRY for coordinates beyond STL's 32-bit numbers; CLAST_E_LIMIT beyond the
+/// format's counts; CLAST_E_DISK
 CLAST_API clast_status clast_assembly_write(const clast_assembly *assembly, const char *path,
                                             const clast_export_options *options,
                                             clast_export_report *report);
@@ -62,3 +67,5 @@ CLAST_API clast_status clast_assembly_table(const clast_assembly *assembly, clas
 /// ParaView collection: n VTU files (paths relative to the collection) and their times.
 CLAST_API clast_status clast_pvd_write(const char *path, int64_t n, const double *time,
                                        const char *const *name);
+
+CLAST_END

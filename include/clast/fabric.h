@@ -2,6 +2,8 @@
 #include <clast/assembly.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// How an assembly's contacts and grains are directed: columns name, value, unit, meaning.
 ///
 /// Contacts (absent where they are not known): mean coordination, shares of grains with none and
@@ -15,7 +17,9 @@
 /// horizontal. Random directions give eigenvalues of 1/3; a layered bed has a high vertical entry
 /// of the shortest axis.
 ///
-/// @param period  x and y period [m], 0 for none; NULL: none
+/// @param period  x, y and z period [m], 0 for none; NULL: none
 /// @param table   must be empty; written only on success
-CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const double period[2],
+CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const double period[3],
                                     clast_table *table);
+
+CLAST_END

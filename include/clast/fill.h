@@ -5,6 +5,8 @@
 #include <clast/shape.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// How the next sphere is found.
 typedef enum {
     CLAST_FILL_LARGEST,  ///< the largest sphere that fits, by branch and bound; no random draw
@@ -103,3 +105,5 @@ CLAST_API clast_status clast_fill_measure(const clast_mesh *mesh, const clast_sp
 /// @note overlapping sets cost the exact union of each prefix
 CLAST_API clast_status clast_fill_history(const clast_mesh *mesh, const clast_spheres *spheres,
                                           clast_table *table);
+
+CLAST_END

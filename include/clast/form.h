@@ -2,6 +2,8 @@
 #include <clast/status.h>
 #include <math.h>
 
+CLAST_BEGIN
+
 // The form of a grain: ratios of its three dimensions L >= I >= S. Which L, I and S is another
 // question (clast/grain.h): tools disagree about "elongation" mostly because they measure these
 // three differently, and sometimes because they print the inverse.
@@ -66,14 +68,16 @@ CLAST_API int32_t clast_form_factor_find(const char *text);
 
 /// All 13 factors of L >= I >= S > 0 (any unit), in the order of the list.
 ///
-/// NaN where the formula has no value: the disc-rod and oblate-prolate index of a grain with L = S,
-/// and every factor of lengths that are not finite, not positive or not in this order.
+/// NaN where the formula has no value: the disc-rod and oblate-prolate index of a grain with L = S
+/// (within 1e-6, which is the rounding of surface files), and every factor of lengths that are not
+/// finite, not positive or not in this order.
 CLAST_API void clast_form_factors(double l, double i, double s, double value[CLAST_N_FORM_FACTOR]);
 
 /// One of them.
 CLAST_API double clast_form_factor_value(clast_form_factor factor, double l, double i, double s);
 
-/// The 13 factors and then their inverses 1/X; NaN where X is 0 or has no value.
+/// The 13 factors and then their inverses 1/X; NaN where X has no value, is 0, or, of
+/// those two indices, within 1e-6 of it.
 CLAST_API void clast_form_features(double l, double i, double s,
                                    double value[CLAST_N_FORM_FEATURE]);
 
@@ -98,7 +102,10 @@ typedef enum {
     CLAST_N_ZINGG
 } clast_zingg;
 
+/// The class; CLAST_N_ZINGG where a ratio is not a number.
 CLAST_API clast_zingg clast_form_zingg(double flatness, double elongation);
 
-/// "sphere", "disc", "rod", "blade".
+/// "sphere", "disc", "rod", "blade"; "-" for no class.
 CLAST_API const char *clast_zingg_name(clast_zingg zingg);
+
+CLAST_END

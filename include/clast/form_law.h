@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 // How form varies from grain to grain: flatness and elongation as independent normal variables cut
 // to a range.                                [docs/theory/grading.md; Rettinger2022 section 7.1]
 
@@ -33,3 +35,5 @@ typedef struct clast_form_law_moments {
 } clast_form_law_moments;
 
 CLAST_API clast_form_law_moments clast_form_law_cut(const clast_form_law *law);
+
+CLAST_END

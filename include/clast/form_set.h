@@ -2,6 +2,8 @@
 #include <clast/form.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // The forms of a set of grains, from a table of flatness and elongation or of L, I and S.
 
 /// Why a row was left out.
@@ -58,3 +60,5 @@ CLAST_API clast_status clast_form_set_factors(const clast_form_set *set, clast_t
 
 /// Rows left out, as columns row (from 1) and reason.
 CLAST_API clast_status clast_form_set_left_out(const clast_form_set *set, clast_table *table);
+
+CLAST_END

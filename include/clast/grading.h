@@ -4,6 +4,8 @@
 #include <clast/sizes.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// Sieve curve: the mass between neighbouring sieves. Between two sieves the curve of mass passing
 /// is a straight line over log size, as sieve curves are drawn.
 typedef struct clast_curve {
@@ -40,11 +42,11 @@ CLAST_API const clast_curve_case *clast_curve_case_at(int32_t i);
 /// @return CLAST_E_CONFIG with the known names
 CLAST_API clast_status clast_curve_named(const char *name, clast_curve *curve);
 
-/// Share of the mass that passes a sieve of this size. [m]
+/// Share of the mass that passes a sieve of this size; NaN for a curve of no class. [m]
 CLAST_API double clast_curve_passing(const clast_curve *curve, double size);
 
 /// Size that this share of the mass passes, 0 .. 1: D50 for 0.5; exact on the straight lines of the
-/// curve, the smallest such size where the curve is level. [m]
+/// curve, the smallest such size where the curve is level; NaN for a curve without mass. [m]
 CLAST_API double clast_curve_size(const clast_curve *curve, double share);
 
 /// Geometric mean size of a class, sqrt(s_i s_i+1) [m].                                   [eq. 8]
@@ -85,7 +87,8 @@ CLAST_API void clast_grading_destroy(clast_grading *grading); ///< NULL is allow
 
 /// Distribution of a sieve curve. Empty classes below the first and above the last filled one do
 /// not count.
-/// @return CLAST_E_CONFIG for `exact` counts of a `linear` spread
+/// @return CLAST_E_CONFIG for `exact` counts of a `linear` spread, and for what clast_curve_make
+/// refuses
 CLAST_API clast_status clast_grading_of_curve(const clast_curve *curve, clast_grading_spread spread,
                                               clast_grading_count count, clast_grading **grading);
 
@@ -156,3 +159,5 @@ typedef struct clast_grading_match {
 CLAST_API clast_status clast_grading_compare(const clast_curve *curve, const clast_grading *grading,
                                              const clast_grading_sample *sample, clast_table *table,
                                              clast_grading_match *match);
+
+CLAST_END

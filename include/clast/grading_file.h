@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/grading.h>
 
+CLAST_BEGIN
+
 /// Sieve curve from delimited text with a header, one row a sieve in any order. The size column is
 /// called sieve, size, diameter, opening, d or phi and carries its unit (sieve_mm, "size (um)",
 /// phi). A second column holds either
@@ -24,10 +26,12 @@ CLAST_API clast_status clast_curve_parse(const char *name, const void *bytes, si
 /// Sizes by one text, as in the option `curve`: a published case (U1 ... B70), "uniform:LOW,HIGH",
 /// "lognormal:MEAN,DEVIATION" or "lognormal:MEAN,DEVIATION,LOW,HIGH", one size ("11 mm"),
 /// "list:FILE" or "masses:FILE" (clast_sizes_read; its counts are numbers or masses), or the file
-/// of a sieve curve.
+/// of a sieve curve. Each size has its unit: a bare one is refused.
 ///
 /// @param curve    {0}; stays empty unless the text names a curve
 /// @param grading  made in any case
 CLAST_API clast_status clast_grading_load(const char *text, clast_grading_spread spread,
                                           clast_grading_count count, clast_curve *curve,
                                           clast_grading **grading);
+
+CLAST_END

@@ -1,6 +1,9 @@
 #pragma once
 #include <clast/form.h>
 #include <clast/mesh.h>
+#include <clast/shape.h>
+
+CLAST_BEGIN
 
 // What can be measured on one grain. Lengths in the surface's own unit; density 1.
 
@@ -10,7 +13,10 @@
     X(ELLIPSOID, "ellipsoid",                                                                      \
       "full axes of the ellipsoid with the grain's volume and moments of inertia",                 \
       "Rettinger2022 eqs 25-27; Stueckrath2006")                                                   \
-    X(BOX, "box", "edges of the box of least volume around the grain", "Zingg1935; Blott2008")     \
+    X(BOX, "box",                                                                                  \
+      "edges of the least box found around the grain: no turn about one of its axes makes it "     \
+      "smaller, an upper bound of the least volume",                                               \
+      "Zingg1935; Blott2008")                                                                      \
     X(FITTED, "fitted",                                                                            \
       "longest caliper; longest caliper at right angles to it; width at right angles to both",     \
       "Bagheri2015, standard protocol")                                                            \
@@ -77,6 +83,16 @@ CLAST_API clast_status clast_grain_measure(const clast_mesh *mesh, clast_grain *
 /// hull_volume_added is that of the surface given where it is closed, else NaN.
 CLAST_API clast_status clast_grain_measure_hull(const clast_mesh *mesh, clast_grain *grain);
 
+/// Measures of a union of spheres (a clump), overlaps counted once.
+///
+/// Closed forms: volume, area, centroid, inertia, ellipsoid, principal widths, the longest caliper
+/// (L of `fitted` and `feret`, too), sphericity, volume of the hull and convexity. NaN: what only a
+/// polyhedron has here, the other calipers, boxes, shadows, hull_area, roundness and angularity.
+///
+/// @return CLAST_E_GEOMETRY if there is no sphere or one is not positive and finite
+/// @note O(n^2)
+CLAST_API clast_status clast_grain_measure_clump(const clast_spheres *spheres, clast_grain *grain);
+
 /// Name ("ellipsoid"), definition and source of a definition of L, I, S; NULL beyond the last.
 CLAST_API const char *clast_axes_name(int32_t axes);
 CLAST_API const char *clast_axes_definition(int32_t axes);
@@ -84,3 +100,5 @@ CLAST_API const char *clast_axes_source(int32_t axes);
 
 /// Multiplies all lengths by a factor > 0: a grain measured in mm becomes one in metres with 1e-3.
 CLAST_API void clast_grain_scale(clast_grain *grain, double factor);
+
+CLAST_END

@@ -2,6 +2,8 @@
 #include <clast/form_set.h>
 #include <clast/statistics.h>
 
+CLAST_BEGIN
+
 // The statistics of a set of grains as one step: tables and charts into a folder.
 
 typedef struct clast_grain_statistics {
@@ -27,3 +29,5 @@ CLAST_API void clast_grain_statistics_free(clast_grain_statistics *statistics);
 /// @return CLAST_E_DISK; CLAST_E_USAGE for another extension
 CLAST_API clast_status clast_grain_statistics_write(const clast_grain_statistics *statistics,
                                                     const char *folder, const char *extension);
+
+CLAST_END

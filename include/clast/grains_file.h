@@ -3,6 +3,8 @@
 #include <clast/table.h>
 #include <clast/volume_file.h>
 
+CLAST_BEGIN
+
 // Grains from any file that holds some: surfaces, harmonic series, voxel volumes, points, tables.
 
 typedef enum {
@@ -11,7 +13,8 @@ typedef enum {
     CLAST_GRAINS_SERIES,  ///< coefficients of spherical harmonics: one grain
     CLAST_GRAINS_VOXELS,  ///< volume: one grain a label, or a part above a threshold
     CLAST_GRAINS_POINTS,  ///< points inside or on one grain: its convex hull, or its cubes
-    CLAST_GRAINS_TABLE    ///< one grain a row: L, I, S or flatness and elongation
+    CLAST_GRAINS_TABLE,   ///< one grain a row: L, I, S or flatness and elongation
+    CLAST_GRAINS_CLUMP    ///< spheres x, y, z, radius: one grain, their union
 } clast_grains_kind;
 
 typedef struct clast_grains_options {
@@ -32,10 +35,13 @@ typedef struct clast_grains_options {
 typedef struct clast_grain_record {
     char *name; ///< "stone.stl"; "scan.txt#3" for label 3; "stones.csv:7" for row 7
     clast_grains_kind kind;
-    bool has_surface; ///< false for rows of tables: only L, I, S (ellipsoid) and what follows
-    bool has_size;    ///< false for rows of ratios alone: L, I, S are then those of D = 1
-    int64_t n_voxel;  ///< of a label, else 0
-    double unit_m;    ///< metres in one unit where the file itself says so, else 0
+    bool has_surface;  ///< false for rows of tables: only L, I, S (ellipsoid) and what follows
+    bool has_size;     ///< false for rows of ratios alone: L, I, S are then those of D = 1
+    int64_t n_voxel;   ///< of a label, else 0
+    double unit_m;     ///< metres in one unit where the file itself says so, else 0
+    int32_t degree;    ///< series: greatest degree used
+    double power_last; ///< series: share of the form's power in the last two degrees used
+    double power_cut;  ///< series: share in the degrees above, which were left out
     clast_grain grain;
 } clast_grain_record;
 
@@ -61,7 +67,7 @@ CLAST_API clast_status clast_grains_read(int32_t n_file, const char *const *path
                                          const clast_grains_options *options, clast_grains *grains);
 CLAST_API void clast_grains_free(clast_grains *grains);
 
-/// "surface", "series", "voxels", "points", "table".
+/// "surface", "series", "voxels", "points", "table", "clump".
 CLAST_API const char *clast_grains_kind_name(clast_grains_kind kind);
 
 /// Multiplies the lengths of all grains: by the file's own unit where it has one, else by
@@ -73,3 +79,5 @@ CLAST_API void clast_grains_to_metres(clast_grains *grains, double unit_m);
 /// `in_metres`, and have none otherwise.
 CLAST_API clast_status clast_grains_table(const clast_grains *grains, clast_axes_kind axes,
                                           bool in_metres, clast_table *table);
+
+CLAST_END

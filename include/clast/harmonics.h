@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/grain.h>
 
+CLAST_BEGIN
+
 /// A star-shaped grain as a series of spherical harmonics about a point inside it:
 ///
 ///     r(theta, phi) = sum_n sum_{0 <= m <= n} P_nm(cos theta) (a_nm cos m phi + b_nm sin m phi)
@@ -18,6 +20,11 @@ enum { CLAST_HARMONICS_MAX_DEGREE = 256 };
 /// Room for all terms up to a degree, zeroed; `series` must be empty.
 CLAST_API clast_status clast_harmonics_alloc(int32_t degree, clast_harmonics *series);
 CLAST_API void clast_harmonics_free(clast_harmonics *series);
+
+/// Power of the degrees from low to high: the mean square over all directions of what they add to
+/// the radius, by 4 pi. Where the last degrees hold much of degrees 1 and above, the series ends
+/// before the grain's form does.
+CLAST_API double clast_harmonics_power(const clast_harmonics *series, int32_t low, int32_t high);
 
 /// Surface sampled on an icosahedron divided `level` times (0 to 8: 20 * 4^level triangles).
 ///
@@ -43,3 +50,5 @@ CLAST_API clast_status clast_harmonics_mass(const clast_harmonics *series, int32
 /// angularity from its surface of this level.
 CLAST_API clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degree,
                                                int level, clast_grain *grain);
+
+CLAST_END

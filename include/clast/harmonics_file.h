@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/harmonics.h>
 
+CLAST_BEGIN
+
 /// Reads a coefficient file: rows `n m Re(a) Im(a)` of a series sum a_nm Y_nm over -n <= m <= n, in
 /// any order; text after '#' is skipped.
 ///
@@ -14,3 +16,5 @@ CLAST_API clast_status clast_harmonics_read(const char *path, clast_harmonics *s
 
 /// The same from memory: a pure function of the bytes.
 CLAST_API clast_status clast_harmonics_parse(const void *bytes, size_t n, clast_harmonics *series);
+
+CLAST_END

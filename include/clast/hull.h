@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// Convex hull of a mesh's vertices: a closed, outward triangle surface whose vertices are the
 /// mesh's own extreme points, unmoved. Triangles that lie in one plane are kept as triangles.
 ///
@@ -12,3 +14,5 @@
 ///         extent from one point, line or plane (the message says which)
 /// @note O(n log n), re-entrant
 CLAST_API clast_status clast_mesh_hull(const clast_mesh *mesh, clast_mesh *hull);
+
+CLAST_END

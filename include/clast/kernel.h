@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 // Collision kernels: the volume swept per time by a pair of particles, beta(1, 2) [m^3/s].
 // [docs/theory/agglomeration.md section 1]
 
@@ -78,3 +80,5 @@ CLAST_API double clast_kernel_value(uint32_t mask, const clast_medium *medium,
 /// Stokes settling velocity [m/s] of a particle that is lighter in the fluid by its own solid
 /// volume: m (1 - rho_f / rho_p) g / (6 pi mu a).
 CLAST_API double clast_settling_speed(const clast_medium *medium, const clast_collider *a);
+
+CLAST_END

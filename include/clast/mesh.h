@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 /// A triangle surface: vertices in model units or metres, triangles counter-clockwise from outside.
 ///
 /// {0} is a valid empty mesh. Whoever declares it frees it.
@@ -63,3 +65,5 @@ CLAST_API clast_status clast_mesh_ellipsoid(const double semi_axes[3], int level
 /// x, y, z.
 CLAST_API void clast_mesh_transform(clast_mesh *mesh, double scale, const double orientation[4],
                                     const double position[3]);
+
+CLAST_END

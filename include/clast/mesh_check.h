@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// A connected piece of a surface: triangles joined by shared edges.
 typedef struct clast_mesh_part {
     int32_t n_triangle;
@@ -81,3 +83,5 @@ CLAST_API void clast_mesh_check_free(clast_mesh_check_result *result);
 
 /// Closed, oriented and manifold, and not flat: no blocking fault.
 CLAST_API bool clast_mesh_check_passed(const clast_mesh_check_result *result);
+
+CLAST_END

@@ -1,5 +1,7 @@
 #pragma once
-#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
+
+CLAST_BEGIN
 
 // Surfaces from files and to files. Coordinates stay in the file's own unit and in double.
 
@@ -57,7 +59,30 @@ CLAST_API clast_mesh_format clast_mesh_format_of_path(const char *path);
 CLAST_API clast_status clast_mesh_read(const char *path, clast_mesh *mesh,
                                        clast_mesh_read_report *report);
 
-/// The same from memory: a pure function of the bytes. CLAST_MESH_ANY decides by content.
+/// Reads a surface as every command does that needs a solid: clast_mesh_read, then
+/// clast_mesh_weld_auto.
+///
+/// @param weld  what was merged; may be NULL
+CLAST_API clast_status clast_mesh_read_welded(const char *path, clast_mesh *mesh,
+                                              clast_mesh_repair_report *weld);
+
+/// Whether a surface that was read from a file bounds a solid: closed and outward.
+///
+/// @param path       the file's name, for the message
+/// @param otherwise  what else the caller's user can do, for the message; NULL: nothing
+/// @return CLAST_E_GEOMETRY with the counts that `clast mesh check` gives and the command that
+///         closes this file (clast_mesh_cure)
+CLAST_API clast_status clast_mesh_require_solid(const char *path, const clast_mesh *mesh,
+                                                const char *otherwise);
+
+/// The shell command that makes a file's surface closed and outward, tried here in memory:
+/// "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.
+///
+/// @param command  [size]; "" when repair does not help
+CLAST_API clast_status clast_mesh_cure(const char *path, const clast_mesh *mesh, char *command,
+                                       size_t size);
+
+/// As clast_mesh_read from memory: a pure function of the bytes. CLAST_MESH_ANY decides by content.
 CLAST_API clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                                         clast_mesh *mesh, clast_mesh_read_report *report);
 
@@ -77,3 +102,5 @@ typedef struct clast_mesh_write_options {
 ///         coordinates that are not finite or do not fit the format; CLAST_E_DISK (nothing is left)
 CLAST_API clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
                                         const clast_mesh_write_options *options);
+
+CLAST_END

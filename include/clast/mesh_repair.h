@@ -2,6 +2,8 @@
 #include <clast/field.h>
 #include <clast/mesh_check.h>
 
+CLAST_BEGIN
+
 /// Merges vertices nearer than `tolerance` times the extent (the diagonal of the box), drops
 /// triangles that collapse and vertices that nothing uses. Kept vertices do not move: each vertex
 /// goes to the nearest kept one, in the order of their numbers. 0 merges equal vertices.
@@ -72,3 +74,13 @@ typedef struct clast_mesh_repair_report {
 CLAST_API clast_status clast_mesh_repair(const clast_mesh *mesh,
                                          const clast_mesh_repair_config *config, clast_mesh *out,
                                          clast_mesh_repair_report *report);
+
+/// The one weld that every command applies to a surface that it reads: vertices of open edges that
+/// rounding has parted become one (CLAST_WELD_AUTO). Nothing else changes; a surface without open
+/// edges, or one that no weld helps, keeps its bits.
+///
+/// @param mesh    replaced on success
+/// @param report  n_merged, weld_distance and n_collapsed; may be NULL
+CLAST_API clast_status clast_mesh_weld_auto(clast_mesh *mesh, clast_mesh_repair_report *report);
+
+CLAST_END

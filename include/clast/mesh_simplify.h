@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// How far two surfaces are apart. Each is sampled at its vertices and at points spread over its
 /// triangles; from each sample the distance to the other surface is exact.
 typedef struct clast_mesh_deviation {
@@ -48,3 +50,5 @@ CLAST_API clast_status clast_mesh_simplify(const clast_mesh *mesh, int32_t n_fac
 ///
 /// @return CLAST_E_GEOMETRY if a coordinate does not fit a float; the mesh is then unchanged
 CLAST_API clast_status clast_mesh_round_float(clast_mesh *mesh);
+
+CLAST_END

@@ -3,6 +3,8 @@
 // <mpi.h> nor MPI's compiler wrapper.
 #include <clast/comm.h>
 
+CLAST_BEGIN
+
 /// Starts MPI and fills `comm` for all its ranks; end with clast_mpi_end. For programs that do not
 /// use MPI otherwise.
 ///
@@ -20,3 +22,5 @@ CLAST_API clast_status clast_mpi_create(int32_t communicator, clast_comm *comm);
 
 /// Releases it on all ranks; {0} is allowed.
 CLAST_API void clast_mpi_destroy(clast_comm *comm);
+
+CLAST_END

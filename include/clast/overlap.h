@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/assembly.h>
 
+CLAST_BEGIN
+
 /// How the volume of overlapping grains is found.
 typedef struct clast_union_options {
     double tolerance; ///< wanted relative standard error of the union's volume
@@ -39,3 +41,31 @@ CLAST_API clast_status clast_assembly_union(const clast_assembly *assembly,
 /// Fills assembly->contact with all pairs of grains that come within `gap` of each other, in rising
 /// order; the contact point lies halfway between the closest points. What was there is replaced.
 CLAST_API clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap);
+
+/// A box that repeats: its corner and its periods in x, y and z, 0 for none [m].
+typedef struct clast_period {
+    double low[3];
+    double length[3];
+} clast_period;
+
+/// The same across the borders of a periodic box too, in which every grain's centroid lies; of each
+/// contact across a border the point is on the side of the grain of lower number.
+///
+/// @param period  NULL: none
+CLAST_API clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
+                                                             const clast_period *period);
+
+/// How many grains overlap, and by how much.
+typedef struct clast_overlaps {
+    int32_t n;    ///< pairs that overlap by more than 1e-9 of the smaller grain's radius
+    double depth; ///< greatest of them: the least shift found that parts the pair [m]
+    double share; ///< greatest depth by the smaller grain's volume-equivalent radius
+} clast_overlaps;
+
+/// @param period  NULL: none; else every grain's centroid lies in the box
+/// @note the same bytes for any thread count
+CLAST_API clast_status clast_assembly_overlaps(const clast_assembly *assembly,
+                                               const clast_period *period,
+                                               clast_overlaps *overlaps);
+
+CLAST_END

@@ -6,6 +6,8 @@
 #include <clast/monitor.h>
 #include <clast/porosity.h>
 
+CLAST_BEGIN
+
 typedef enum {
     CLAST_PACK_GENERATE, ///< grains are made in the upper part and fall
     CLAST_PACK_SHAKE,    ///< all are made; shaken for shaking_time
@@ -77,7 +79,7 @@ typedef struct clast_pack_config {
 
     double layer, cut, trim; ///< porosity profile [m], [-], [m]; trim below 0: as published
     double series_time;      ///< between rows of the time series [s]
-    double frame_time;       ///< between pictures of the state for ParaView; 0: only the end [s]
+    double frame_time;       ///< between frames for ParaView; 0: none [s]
     double checkpoint_time;  ///< between checkpoints, of the clock [s]
     char *resume;            ///< run folder to go on with
     bool force;              ///< replace an earlier run in the output folder
@@ -141,12 +143,18 @@ typedef struct clast_pack_result {
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
-    double top;           ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
-    double untrimmed;     ///< bulk porosity with nothing left out at the ends
-    double trim;          ///< left out at both ends [m]
-    double mass_wanted;   ///< [kg]
-    double flatness[2];   ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
-    double elongation[2]; ///< I/L, the same
+    double top;         ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
+    double untrimmed;   ///< bulk porosity with nothing left out at the ends
+    double trim;        ///< left out at both ends [m]
+    double mass_wanted; ///< [kg]
+    int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
+    bool is_moving;     ///< some grain is as fast as still_speed or faster
+    double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
+    bool fell;   ///< it was still falling then: it sank by more than two mean diameters
+    double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
+    double elongation[2];  ///< I/L, the same
+    int64_t n_frame;       ///< frames for ParaView of a run (clast_pack_run), in all its parts
+    double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
 } clast_pack_result;
 
 CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);
@@ -163,3 +171,5 @@ CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
 /// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
 /// @return CLAST_E_USAGE when sizes follow no sieve curve
 CLAST_API clast_status clast_pack_achieved(const clast_pack *pack, clast_table *table);
+
+CLAST_END

@@ -2,6 +2,8 @@
 // What a packing reads: sizes and shapes named in its configuration.
 #include <clast/pack.h>
 
+CLAST_BEGIN
+
 /// What a configuration names, loaded. Owns what `input` points to.
 typedef struct clast_pack_source {
     clast_curve curve;
@@ -22,3 +24,5 @@ CLAST_API void clast_pack_unload(clast_pack_source *source); ///< may be called 
 CLAST_API int32_t clast_pack_n_file(const clast_pack_config *config);
 CLAST_API const char *clast_pack_file(const clast_pack_config *config, int32_t i,
                                       const char **role);
+
+CLAST_END

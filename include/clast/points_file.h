@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Particle positions from files, as tables of named columns.
 
 /// {0} is valid: the first snapshot.
@@ -26,3 +28,5 @@ CLAST_API clast_status clast_points_read(const char *path, const clast_points_op
 /// The same from memory, HDF5 excepted; `name` stands for the path.
 CLAST_API clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
                                           const clast_points_options *options, clast_table *table);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/porosity.h>
 
+CLAST_BEGIN
+
 typedef struct clast_radial_options {
     clast_porosity_method method;
     int32_t n_ring;  ///< rings of equal width up to the wall
@@ -23,7 +25,7 @@ CLAST_API clast_status clast_radial_porosity(const clast_assembly *assembly, con
 typedef struct clast_pore_options {
     int64_t n_point; ///< even points in the bed, of which those in pores count
     int32_t n_bin;
-    double period[2]; ///< of the bed in x and y; 0: none
+    double period[3]; ///< of the bed in x, y and z; 0: none
 } clast_pore_options;
 
 typedef struct clast_pores {
@@ -48,3 +50,5 @@ CLAST_API void clast_pores_free(clast_pores *pores);
 CLAST_API clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed *bed,
                                            const double z[2], const clast_pore_options *options,
                                            clast_pores *pores);
+
+CLAST_END

@@ -3,11 +3,14 @@
 #include <clast/assembly.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 typedef enum {
     CLAST_BED_CYLINDER, ///< vertical, about (centre[0], centre[1])
     CLAST_BED_BOX,      ///< between vertical walls
     CLAST_BED_PERIODIC, ///< box that repeats in x and y: grains count whole, wherever they poke out
-    CLAST_BED_MESH      ///< inside of a closed surface
+    CLAST_BED_MESH,     ///< inside of a closed surface
+    CLAST_BED_PERIODIC_3D ///< box that repeats in x, y and z: it has neither bottom nor top
 } clast_bed_kind;
 
 /// The container that a porosity refers to; z points up.
@@ -17,6 +20,7 @@ typedef struct clast_bed {
     double radius;             ///< cylinder [m]
     double low[2], high[2];    ///< box and periodic; bounds of a surface [m]
     double floor;              ///< height of the bottom [m]
+    double ceiling;            ///< periodic in all three directions: height of the box's top [m]
     const clast_mesh *surface; ///< mesh: closed and outward; borrowed
 } clast_bed;
 
@@ -33,14 +37,22 @@ CLAST_API clast_bed clast_bed_of_surface(const clast_mesh *closed);
 CLAST_API void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *edge,
                                  double *volume);
 
-/// Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1" or "periodic:X0,Y0,X1,Y1",
-/// each number with an optional unit; the floor is at 0.
+/// Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1", "periodic:X0,Y0,X1,Y1" or, in
+/// all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1", each number with an optional unit; the floor
+/// is at 0, or at Z0.
 ///
 /// @return CLAST_E_CONFIG with the text and what was expected
 CLAST_API clast_status clast_bed_parse(const char *text, clast_bed *bed);
 
 /// The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.
 CLAST_API int clast_bed_format(const clast_bed *bed, char *text, size_t size);
+
+/// Periods in x, y and z [m], 0 for none; false for a bed that has none. The first image begins at
+/// (low[0], low[1], floor).
+CLAST_API bool clast_bed_period(const clast_bed *bed, double period[3]);
+
+/// Moves every grain's centroid into the bed's first image.
+CLAST_API void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly);
 
 /// The bed as a one-row table "bed" (text column bed, floor_m), which a run keeps in its state.
 CLAST_API clast_status clast_bed_table(const clast_bed *bed, clast_table *table);
@@ -84,7 +96,8 @@ CLAST_API clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t
                                          const double *edge, double *solid);
 
 /// Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the
-/// last grain. What lies below the floor counts in the first slice.
+/// last grain. What lies below the floor counts in the first slice. A bed that is periodic in all
+/// directions ends at its ceiling; what sticks out above comes in below.
 ///
 ///     n(z) = 1 - V_solid / (A h_p)                               [Rettinger et al. sec. 4.4]
 ///
@@ -103,7 +116,9 @@ typedef struct clast_porosity_bulk {
     double top;           ///< height where the porosity rises through the cut, before trimming [m]
 } clast_porosity_bulk;
 
-/// Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.
+/// Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices. A
+/// bed that is periodic in all directions has no ends: its whole box counts, the cut does not, and
+/// a trim is CLAST_E_USAGE.
 ///
 /// @param profile  of clast_porosity_profile with the same options
 /// @return CLAST_E_GEOMETRY when no slice is denser than the cut, or trimming leaves nothing
@@ -111,3 +126,5 @@ CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, co
                                               const clast_porosity_options *options,
                                               const clast_table *profile,
                                               clast_porosity_bulk *bulk);
+
+CLAST_END

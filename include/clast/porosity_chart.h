@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/porosity.h>
 
+CLAST_BEGIN
+
 /// Draws porosity over height with the evaluated interval and the bulk value, as Fig. 7 of the
 /// paper, into a .svg, .pdf or .png.
 ///
@@ -25,3 +27,5 @@ CLAST_API clast_status clast_porosity_band_chart_write(const clast_table *band, 
 /// Normal stresses over height, of clast_stress_profile.
 CLAST_API clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
                                                 const char *path);
+
+CLAST_END

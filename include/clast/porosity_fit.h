@@ -2,6 +2,8 @@
 #include <clast/field.h>
 #include <clast/porosity_model.h>
 
+CLAST_BEGIN
+
 // Fitting linear porosity models to a table of beds: correlation ranking, removal of features that
 // say the same, cross-validated linear models, diagnostics.              [docs/theory/predict.md]
 
@@ -83,3 +85,5 @@ CLAST_API clast_status clast_porosity_fit_data(const clast_fit_data *data,
                                                const char *name, const char *source,
                                                clast_porosity_fit *fit);
 CLAST_API void clast_porosity_fit_free(clast_porosity_fit *fit);
+
+CLAST_END

@@ -2,6 +2,8 @@
 #include <clast/form_set.h>
 #include <clast/statistics.h>
 
+CLAST_BEGIN
+
 // Linear models of a bed's porosity in features of its grains' form: the published ones and those
 // of a user's own fit.                                              [docs/theory/predict.md]
 
@@ -159,3 +161,5 @@ CLAST_API clast_status clast_porosity_prediction_table(const clast_porosity_mode
                                                        const clast_form_inputs *inputs,
                                                        const clast_prediction *prediction,
                                                        clast_table *table);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/porosity_model.h>
 
+CLAST_BEGIN
+
 // Porosity models from files and to files.
 
 /// Reads a model file, JSON as clast_porosity_model_write makes it.
@@ -19,3 +21,5 @@ CLAST_API clast_status clast_porosity_model_parse(const char *name, const void *
 CLAST_API clast_status clast_porosity_model_write(const clast_porosity_model *model,
                                                   const char *const (*provenance)[2], int32_t n,
                                                   const char *path);
+
+CLAST_END

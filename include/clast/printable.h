@@ -2,6 +2,8 @@
 #include <clast/assembly.h>
 #include <clast/monitor.h>
 
+CLAST_BEGIN
+
 /// How an assembly becomes one body that can be printed.
 typedef struct clast_printable_config {
     double neck; ///< diameter of the ball that joins two grains at their contact [m]; 0: half the
@@ -22,7 +24,16 @@ typedef struct clast_printable_report {
     double void_volume;      ///< their volume, filled unless keep_voids [m3]
     double solid_volume;     ///< sum of the grains' volumes [m3]
     double volume;           ///< enclosed by the surface [m3]
+    double n_triangle_expected; ///< by the grains' surface and the spacing, before any work
 } clast_printable_report;
+
+/// What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and
+/// n_triangle_expected (50 bytes each in an STL) of the report, at no cost.
+///
+/// @return CLAST_E_USAGE for an assembly that cannot be printed or a spacing beyond its extent
+CLAST_API clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
+                                                     const clast_printable_config *config,
+                                                     clast_printable_report *report);
 
 /// One closed, oriented surface in one piece around all grains and the necks at their contacts.
 ///
@@ -39,3 +50,5 @@ CLAST_API clast_status clast_assembly_printable(const clast_assembly *assembly,
                                                 const clast_printable_config *config,
                                                 const clast_monitor *monitor, clast_mesh *mesh,
                                                 clast_printable_report *report);
+
+CLAST_END

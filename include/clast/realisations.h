@@ -2,6 +2,8 @@
 // The same bed made several times: means and what they are good for.
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// Mean of a few values and how well it is known.
 typedef struct clast_mean {
     int32_t n;
@@ -21,3 +23,5 @@ CLAST_API clast_mean clast_mean_of(int32_t n, const double *value);
 /// @return CLAST_E_USAGE when slices differ
 CLAST_API clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile,
                                                    clast_table *band);
+
+CLAST_END

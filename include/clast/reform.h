@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 // Form taken off a grain and put on again: stretching along the principal axes changes L, I and S
 // of the mass-equivalent ellipsoid exactly, and nothing else of the shape's character.
 //                    [docs/theory/grading.md; Rettinger2022 section 3.2, fig. 5 and appendix A]
@@ -32,3 +34,5 @@ CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double li
 /// @param n_face  >= 4
 /// @return as clast_mesh_hull and clast_mesh_simplify
 CLAST_API clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out);
+
+CLAST_END

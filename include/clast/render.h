@@ -3,6 +3,8 @@
 #include <clast/field.h>
 #include <clast/monitor.h>
 
+CLAST_BEGIN
+
 // Pictures of assemblies by a ray tracer, without a display or a graphics card.
 
 /// Pixels in memory, row by row from the top, straight (not premultiplied) sRGB and alpha.
@@ -94,3 +96,5 @@ CLAST_API extern const clast_field clast_render_fields[];
 CLAST_API clast_status clast_render_assembly(const clast_assembly *assembly,
                                              const clast_render_config *config,
                                              const clast_monitor *monitor, clast_image *image);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/field.h>
 
+CLAST_BEGIN
+
 // One offline HTML page for one or more run folders: numbers, charts, pictures, an interactive 3-D
 // view, tables, configuration and provenance.
 
@@ -17,16 +19,18 @@ CLAST_API extern const clast_field clast_report_fields[];
 
 /// Writes the page, whole or not at all. It needs no network and no other file.
 ///
-/// A run folder needs summary.json; manifest.json, history.csv, other tables (*.csv), pictures
-/// (*.png, *.svg) and state.h5 are shown when they are there. All texts from files are escaped and
-/// the page forbids every script but its own.
+/// A run folder needs summary.json, a manifest.json that says done, or study.json; these, tables
+/// (*.csv), pictures (*.png, *.svg) and state.h5 are shown when they are there. All texts from
+/// files are escaped and the page forbids every script but its own.
 ///
 /// @param runs    [n_run] folders
 /// @param config  NULL: the defaults
-/// @return CLAST_E_IO for a folder without summary.json, CLAST_E_FORMAT for a malformed file,
+/// @return CLAST_E_IO for a folder with none of them, CLAST_E_FORMAT for a malformed file,
 ///         CLAST_E_DISK
 CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run,
                                           const clast_report_config *config, const char *path);
 
 /// FOLDER/report.html of one run, as a command does at its end.
 CLAST_API clast_status clast_report_write_run(const char *folder);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/assembly.h>
 
+CLAST_BEGIN
+
 typedef struct clast_rigid_options {
     bool hull;     ///< take the convex hull of every surface; else surfaces are convex
     int32_t faces; ///< above 0: take hulls of at most so many triangles
@@ -24,3 +26,5 @@ typedef struct clast_rigid_options {
 CLAST_API clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *name,
                                             const clast_rigid_options *options, clast_shape *shape,
                                             double *added);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 /// What a body falls through, and how it is pulled.
 typedef struct clast_fluid {
     double density;   ///< kg/m3
@@ -56,3 +58,5 @@ typedef struct clast_settling {
 CLAST_API clast_status clast_terminal_velocity(double diameter, double density,
                                                const clast_drag *drag, const clast_fluid *fluid,
                                                clast_settling *settling);
+
+CLAST_END

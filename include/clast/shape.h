@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// Spheres in a shape's frame: a filling, a clump, or a sphere composite.
 typedef struct clast_spheres {
     int32_t n;
@@ -83,3 +85,5 @@ CLAST_API clast_status clast_shape_clump(const char *name, const clast_spheres *
 /// A surface for pictures and files: the shape's own mesh, or an icosphere of the given level (one
 /// for each sphere of a clump: closed surfaces that may pass through each other).
 CLAST_API clast_status clast_shape_surface(const clast_shape *shape, int level, clast_mesh *mesh);
+
+CLAST_END

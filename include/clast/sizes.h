@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 /// Sizes as they came: sizes or bins with counts. [m]
 typedef struct clast_sizes {
     int64_t n;
@@ -11,3 +13,5 @@ typedef struct clast_sizes {
 
 CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
 CLAST_API void clast_sizes_free(clast_sizes *sizes);
+
+CLAST_END

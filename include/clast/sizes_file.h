@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/sizes.h>
 
+CLAST_BEGIN
+
 /// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
 /// blanks; '#' starts a comment; a first line that is no number names the columns).
 ///
@@ -18,3 +20,5 @@ CLAST_API clast_status clast_sizes_read(const char *path, const char *column, co
 /// The same from memory; `name` stands for the path in messages.
 CLAST_API clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
                                          const char *unit, clast_sizes *sizes);
+
+CLAST_END

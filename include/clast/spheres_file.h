@@ -1,12 +1,15 @@
 #pragma once
 #include <clast/shape.h>
 
+CLAST_BEGIN
+
 // Sphere sets (fillings, composites, clumps) to files and back.
 
 /// Reads a sphere set: a state file (.h5) or delimited text with columns x, y, z and radius.
 ///
-/// Text columns are found by name (x, y, z, radius or r, with or without a unit as in x_um) or,
-/// when the header names none of them, by place: the first four.
+/// Text columns are found by name (x, y, z and radius, r, diameter or d, with or without a unit as
+/// in x_um) or, when the header names no x, y, z, by place: the first four. Numbers stay as they
+/// are (a diameter is halved).
 ///
 /// @param name     of the set in a state file; NULL: its only one. Must be NULL for text
 /// @param spheres  empty; filled on success
@@ -23,3 +26,5 @@ CLAST_API clast_status clast_spheres_read(const char *path, const char *name,
 ///         CLAST_E_FORMAT when the existing state file is damaged (it is left as it is)
 CLAST_API clast_status clast_spheres_write(const char *path, const char *name,
                                            const clast_spheres *spheres, const char *unit);
+
+CLAST_END

@@ -2,6 +2,8 @@
 #include <clast/assembly.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // A run's state in one HDF5 file: placed shapes, sphere fillings, tables, the configuration.
 // The layout is in docs/theory/state-file.md; equal content gives equal bytes.
 
@@ -59,3 +61,5 @@ CLAST_API clast_status clast_state_read_spheres(const char *path, const char *na
 /// The named table of a state file.
 CLAST_API clast_status clast_state_read_table(const char *path, const char *name,
                                               clast_table *table);
+
+CLAST_END

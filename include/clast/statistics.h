@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Statistics of samples and of a table's columns: summaries with bootstrap intervals, normality,
 // histograms, correlation and principal components.            [docs/theory/statistics.md]
 
@@ -110,3 +112,5 @@ CLAST_API void clast_histogram_free(clast_histogram *histogram);
 /// Columns low, high, count, density, normal (mean density of the fitted normal over the bin).
 CLAST_API clast_status clast_histogram_table(const clast_histogram *histogram, const char *name,
                                              clast_table *table);
+
+CLAST_END

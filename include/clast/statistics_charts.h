@@ -3,6 +3,8 @@
 #include <clast/porosity_fit.h>
 #include <clast/statistics.h>
 
+CLAST_BEGIN
+
 // Charts of a set of grains in the style of Rettinger et al. 2022, Fig. 2 and 3, and of a fitted
 // model in that of their Fig. 8 and 9. The path's extension (.svg, .pdf, .png) is the format.
 
@@ -34,3 +36,5 @@ typedef enum {
 CLAST_API const char *clast_fit_chart_name(clast_fit_chart chart);
 CLAST_API clast_status clast_chart_fit(clast_fit_chart chart, const clast_fit_data *data,
                                        const clast_porosity_fit *fit, const char *path);
+
+CLAST_END

@@ -2,6 +2,8 @@
 // Stress of a bed from the forces of its contacts.                     [docs/theory/porosity.md]
 #include <clast/porosity.h>
 
+CLAST_BEGIN
+
 /// Mean stress between two heights, and what follows from it: columns name, value, unit, meaning.
 ///
 ///     sigma_ij = 1/V sum f_i l_j                            [Love1927, Weber1966; pressure > 0]
@@ -20,3 +22,5 @@ CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed
 /// over the area, averaged over the slice: branches are shared out by their length in each slice.
 CLAST_API clast_status clast_stress_profile(const clast_table *contacts, const clast_bed *bed,
                                             const clast_table *profile, clast_table *table);
+
+CLAST_END

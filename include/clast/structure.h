@@ -4,6 +4,8 @@
 #include <clast/settling.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 /// A power law N = k (R / a)^D fitted to an assembly.
 ///
 /// N counts solid volume in units of the mean grain's, a is that grain's volume-equivalent radius,
@@ -88,3 +90,5 @@ CLAST_API clast_structure_options clast_structure_options_default(void);
 /// two grains, contacts that are not known) have no row. `table` must be empty.
 CLAST_API clast_status clast_structure(const clast_assembly *assembly,
                                        const clast_structure_options *options, clast_table *table);
+
+CLAST_END

@@ -5,6 +5,8 @@
 #include <clast/monitor.h>
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 typedef struct clast_study_config {
     char *run;                ///< the command, "aggregate" or "mesh check"
     char *config;             ///< YAML that all runs share, or ""
@@ -81,3 +83,5 @@ typedef struct clast_study_report {
 CLAST_API clast_status clast_study_run(const clast_study_config *config, const char *folder,
                                        const clast_study_worker *worker, const clast_comm *comm,
                                        const clast_monitor *monitor, clast_study_report *report);
+
+CLAST_END

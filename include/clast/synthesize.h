@@ -3,6 +3,8 @@
 #include <clast/form_law.h>
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 // Grains that nobody scanned: convex hulls of random bodies with a wanted form, size and roughness.
 //                                                                [docs/theory/synthetic.md]
 
@@ -49,3 +51,5 @@ typedef struct clast_synthesize_report {
 ///         and seed allow when the roughness is beyond it
 CLAST_API clast_status clast_synthesize_grain(const clast_synthesize_config *config, uint64_t index,
                                               clast_mesh *mesh, clast_synthesize_report *report);
+
+CLAST_END

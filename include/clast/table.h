@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 /// A column: numbers or texts, with a unit ("m", "-", "kg/m^3").
 typedef struct clast_column {
     char *name; ///< unique in its table; ends in the unit where it has one (diameter_m)
@@ -38,3 +40,5 @@ CLAST_API int32_t clast_table_find(const clast_table *table, const char *name);
 
 /// Numbers of the named column, or NULL.
 CLAST_API double *clast_table_numbers(const clast_table *table, const char *name);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/table.h>
 
+CLAST_BEGIN
+
 // Tables from files and to files: delimited text (RFC 4180 and its common dialects) and JSON.
 
 /// How to read delimited text; {0} guesses everything.
@@ -57,3 +59,5 @@ CLAST_API clast_status clast_table_write_csv(const clast_table *table, const cha
 /// Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON
 /// does not have, become null. The file appears whole or not at all.
 CLAST_API clast_status clast_table_write_json(const clast_table *table, const char *path);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/status.h>
 
+CLAST_BEGIN
+
 // Is a set of points uniform in the unit interval, square or cube? Five tests, each callable alone.
 // Points are u [n][d], d = 1, 2 or 3, every coordinate in [0, 1]; a domain is mapped to the cube
 // first (clast/domain.h). [Martinez2021 sec. 2; docs/theory/uniformity.md]
@@ -39,7 +41,7 @@ typedef struct clast_discrepancy {
 /// All three discrepancies of n >= 2 points.
 ///
 /// @param u  [n][d] in [0, 1]    @param result  [CLAST_N_DISCREPANCY]
-/// @return CLAST_E_USAGE for n < 2 or d outside 1..3
+/// @return CLAST_E_ARGUMENT for n < 2, d outside 1..3, points outside the cube
 CLAST_API clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d,
                                               clast_sums sums, clast_discrepancy *result);
 
@@ -65,7 +67,7 @@ typedef struct clast_pearson {
     double p_bonferroni; ///< min(1, n_pair min p); 1 in one dimension
 } clast_pearson;
 
-/// @return CLAST_E_USAGE for n < 3. A coordinate without spread has r = 0, p = 1.
+/// @return CLAST_E_ARGUMENT for n < 3. A coordinate without spread has r = 0, p = 1.
 CLAST_API clast_status clast_pearson_test(const double *u, int64_t n, int32_t d,
                                           clast_pearson *result);
 
@@ -86,3 +88,5 @@ CLAST_API clast_status clast_boundary_score_test(const double *u, int64_t n, int
 /// Expected score of n uniform points in a box of these sides.             [de Moivre;
 /// docs/theory/uniformity.md]
 CLAST_API double clast_boundary_score_ideal(double n, int32_t d, const double *side);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/voxels.h>
 
+CLAST_BEGIN
+
 // Grey values or labels of a scanned volume, as files hold them.
 
 typedef enum {
@@ -46,3 +48,5 @@ CLAST_API clast_status clast_volume_labels(const clast_volume *volume, clast_vox
 /// @param volume  its values move to `voxels`; it is empty after success
 CLAST_API clast_status clast_volume_parts(clast_volume *volume, double threshold,
                                           clast_voxels *voxels);
+
+CLAST_END

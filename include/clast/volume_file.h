@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/volume.h>
 
+CLAST_BEGIN
+
 /// What the bytes themselves do not say.
 typedef struct clast_volume_options {
     int32_t n[3];           ///< of a file without a header; all 0: none given
@@ -27,3 +29,5 @@ CLAST_API clast_status clast_volume_parse(const void *bytes, size_t n,
 CLAST_API clast_status clast_volume_read_h5(const char *path, const char *dataset,
                                             const clast_volume_options *options,
                                             clast_volume *volume);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/mesh.h>
 
+CLAST_BEGIN
+
 /// A volume of labelled bricks: 0 is outside, every other number one grain (or phase).
 typedef struct clast_voxels {
     int32_t n[3];     ///< bricks along x, y, z
@@ -51,3 +53,5 @@ CLAST_API clast_status clast_voxels_points(const clast_voxels *voxels,
 ///         cubes
 CLAST_API clast_status clast_voxels_of_points(const clast_mesh *points, double spacing,
                                               clast_voxels *voxels, double low[3]);
+
+CLAST_END

@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/voxels.h>
 
+CLAST_BEGIN
+
 /// Reads a voxel text file: `Xsize: n`, `Ysize: n`, `Zsize: n`, one line with the edge of a cube
 /// (`Resolution: r` or `VoxelScale: r`), then one whole number a cube, x fastest, blanks or lines
 /// between them. Further `Name: value` lines before the numbers are skipped.
@@ -13,3 +15,5 @@ CLAST_API clast_status clast_voxels_read(const char *path, clast_voxels *voxels)
 
 /// The same from memory: a pure function of the bytes.
 CLAST_API clast_status clast_voxels_parse(const void *bytes, size_t n, clast_voxels *voxels);
+
+CLAST_END

@@ -2,9 +2,11 @@
 #include <clast/collide.h>
 #include <clast/decompose.h>
 
+CLAST_BEGIN
+
 // Decomposition inside the time loop of a flow solver: points stay in the caller's arrays, and
 // memory is kept from call to call. One call for each step: test, decompose, cells, events,
-// collide. [docs/theory/decompose.md section 12]
+// collide. [docs/theory/decompose.md section 15]
 
 /// Points in the caller's arrays. Coordinate j of point i is x[i * stride + j * axis_stride]:
 /// (3, 1) for xyzxyz.., (1, n) for three arrays behind each other, (8, 1) in records of 8 doubles.
@@ -32,7 +34,9 @@ CLAST_API clast_status clast_workspace_test(clast_workspace *workspace, const cl
                                             clast_uniformity *result);
 
 /// Steps 1 to 3. *result is borrowed: it stands until the next call with this workspace and must
-/// not be freed. It is NULL after a failure.
+/// not be freed. It is NULL after a failure, but for a call that is refused for its arguments:
+/// CLAST_E_ARGUMENT (NULL, strides not > 0 or such that points share coordinates) or a field out of
+/// its range (CLAST_E_CONFIG) change nothing.
 ///
 /// @note The first call takes memory from the system; a later one only for an array that has
 /// outgrown twice the size of any before.
@@ -64,3 +68,5 @@ typedef struct clast_workspace_step {
 CLAST_API clast_status clast_workspace_collide(
     clast_workspace *workspace, clast_population *particles, const clast_collide_cells *cells,
     clast_workspace_step step, const clast_collide_config *config, int64_t *n_event);
+
+CLAST_END
