@@ -20,10 +20,8 @@ static void print_fit(const clast_aggregate_fit *fit)
     print_estimate("density", &fit->model[CLAST_FIT_DENSITY], 1.0, "kg/m^3");
     print_estimate("settling velocity", &fit->model[CLAST_FIT_VELOCITY], 1.0, "m/s");
     print_estimate("porosity", &fit->porosity, 1.0, "");
-    (void)printf(
-        "\nchi2 %.3g for %d observed (chance %.2g); %d aggregates grown at %d packings%s\n",
-        fit->chi2, fit->n_observed, fit->chance, fit->n_run, fit->n_level,
-        fit->cut_short ? ", tighter ones left out" : "");
+    (void)printf("\n%d aggregates grown at %d packings%s\n", fit->n_run, fit->n_level,
+                 fit->cut_short ? ", tighter ones left out" : "");
 }
 
 clast_status aggregate_fit(const cli_common *common, const clast_aggregate_config *config)
@@ -44,8 +42,11 @@ clast_status aggregate_fit(const cli_common *common, const clast_aggregate_confi
         print_fit(&fit);
     }
     clast_text_free(text);
-    if (status == CLAST_OK && !fit.reached) {
-        return cli_fail(CLAST_E_NO, "the observation cannot be reached");
+    if (status == CLAST_OK && fit.verdict != CLAST_FIT_INSIDE) {
+        return cli_fail(CLAST_E_NO,
+                        fit.verdict == CLAST_FIT_EDGE
+                            ? "not explained: the best lies at the edge of what was tried"
+                            : "not explained by what was tried");
     }
     return status;
 }

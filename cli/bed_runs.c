@@ -2,7 +2,6 @@
 #include "bed_runs.h"
 
 #include "command.h"
-#include "folder.h"
 #include "json.h"
 
 #include <clast/porosity_chart.h>
@@ -185,14 +184,15 @@ clast_status cli_bed_runs_print(const cli_bed_runs *runs)
     return CLAST_OK;
 }
 
-static clast_status write_table(const char *folder, const char *name, const clast_table *table)
+static clast_status write_table(const clast_run_folder *run, const char *name,
+                                const clast_table *table)
 {
-    char path[CLI_PATH];
-    const clast_status status = cli_folder_path(path, folder, name);
+    char path[CLAST_RUN_PATH];
+    const clast_status status = clast_run_folder_file(run, name, path);
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
-static clast_status write_means(const cli_bed_runs *runs, const char *folder)
+static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder *run)
 {
     static const char *const name[] = {"mean", "deviation", "low", "high"};
     const quantities q = named_means_of(runs);
@@ -210,33 +210,33 @@ static clast_status write_means(const cli_bed_runs *runs, const char *folder)
             table.column[c + 1].number[k] = value[c];
         }
     }
-    status = status == CLAST_OK ? write_table(folder, "means.csv", &table) : status;
+    status = status == CLAST_OK ? write_table(run, "means.csv", &table) : status;
     clast_table_free(&table);
     return status;
 }
 
 /// The mean of profiles as a table and a chart.
 static clast_status write_band(const cli_bed_runs *runs, const clast_table *profile,
-                               const char *folder, const char *csv, const char *svg)
+                               const clast_run_folder *run, const char *csv, const char *svg)
 {
-    char path[CLI_PATH];
+    char path[CLAST_RUN_PATH];
     clast_table band = {0};
     clast_status status = clast_porosity_mean_profile(runs->n, profile, &band);
-    status = status == CLAST_OK ? write_table(folder, csv, &band) : status;
-    status = status == CLAST_OK ? cli_folder_path(path, folder, svg) : status;
+    status = status == CLAST_OK ? write_table(run, csv, &band) : status;
+    status = status == CLAST_OK ? clast_run_folder_file(run, svg, path) : status;
     status = status == CLAST_OK ? clast_porosity_band_chart_write(&band, runs->unit, path) : status;
     clast_table_free(&band);
     return status;
 }
 
-clast_status cli_bed_runs_write(const cli_bed_runs *runs, const char *folder)
+clast_status cli_bed_runs_write(const cli_bed_runs *runs, const clast_run_folder *run)
 {
-    clast_status status = write_means(runs, folder);
+    clast_status status = write_means(runs, run);
     if (status == CLAST_OK) {
-        status = write_band(runs, runs->profile, folder, "mean_profile.csv", "mean_profile.svg");
+        status = write_band(runs, runs->profile, run, "mean_profile.csv", "mean_profile.svg");
     }
     if (status == CLAST_OK && runs->radial[0].n_column > 0) {
-        status = write_band(runs, runs->radial, folder, "mean_radial.csv", "mean_radial.svg");
+        status = write_band(runs, runs->radial, run, "mean_radial.csv", "mean_radial.svg");
     }
     return status;
 }

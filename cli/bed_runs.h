@@ -1,6 +1,6 @@
 #pragma once
 // Several beds of one kind: the mean of every number that clast porosity finds, and its interval.
-#include <clast/status.h>
+#include <clast/run_folder.h>
 #include <clast/table.h>
 #include <jansson.h>
 #include <stdint.h>
@@ -29,6 +29,6 @@ json_t *cli_bed_runs_json(const cli_bed_runs *runs);
 clast_status cli_bed_runs_print(const cli_bed_runs *runs);
 
 /// means.csv, mean_profile.csv and .svg, mean_radial.csv and .svg where rings were asked for.
-clast_status cli_bed_runs_write(const cli_bed_runs *runs, const char *folder);
+clast_status cli_bed_runs_write(const cli_bed_runs *runs, const clast_run_folder *run);
 
 void cli_bed_runs_free(cli_bed_runs *runs);

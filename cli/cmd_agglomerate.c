@@ -2,12 +2,12 @@
 #include "command.h"
 #include "json.h"
 #include "points.h"
+#include "results.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     clast_agglomerate_config agglomerate; // first: the tables share offsets
@@ -15,13 +15,15 @@ typedef struct {
     char *monomers_column, *speed_rms_column, *temperature_column, *shear_column,
         *dissipation_column, *fixed_column, *fixed_volume_column;
     int32_t charts;
+    bool force;
 } config;
 
 static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
-#define COLUMN(name, help)                                                                         \
+#define COLUMN(name, ...)                                                                          \
     {                                                                                              \
-#name, offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""                    \
+#name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", .text = "",       \
+               .help = __VA_ARGS__                                                                 \
     }
 static const clast_field own[] = {
     COLUMN(monomers_column, "column of whole numbers of monomers; none: 1 each"),
@@ -31,8 +33,9 @@ static const clast_field own[] = {
     COLUMN(dissipation_column, "column of dissipation rates [m^2/s^3]; cells take the mean"),
     COLUMN(fixed_column, "column of cell numbers of a mesh of yours, evolved beside"),
     COLUMN(fixed_volume_column, "column of those cells' volumes"),
-    {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-", "format of charts",
-     "svg|png|pdf"},
+    {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+     "format of charts", "svg|png|pdf", .group = "output"},
+    CLI_FORCE(config),
 };
 #undef COLUMN
 
@@ -53,8 +56,8 @@ static void join_details(void)
         "Cells by `clast decompose` (its options below), collisions in each cell at the rate alpha "
         "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
         "files are snapshots of the same\nparticles, --duration apart; cells are made anew when "
-        "the cloud has changed.\n-o FOLDER writes history.csv, particles.csv, summary.json and "
-        "charts (moments, number).\n\nkernel               beta(1, 2)\n");
+        "the cloud has changed.\n-o FOLDER writes history.csv, particles.csv, summary.json, "
+        "manifest.json and charts (moments, number).\n\nkernel               beta(1, 2)\n");
     const clast_kernel_info *table = clast_kernel_table();
     for (int k = 0; k < CLAST_N_KERNEL && used < sizeof details; ++k) {
         used += (size_t)snprintf(details + used, sizeof details - used, "%-20s %s   [%s]\n",
@@ -234,11 +237,9 @@ static clast_status draw(const clast_table *h, const char *path, const char *con
     return clast_chart_write(&chart, path);
 }
 
-static clast_status write_folder(const clast_agglomeration *r, json_t *out, const char *end,
-                                 const char *folder)
+static clast_status write_folder(const clast_agglomeration *r, const char *end, const char *folder)
 {
     char path[4096];
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     (void)snprintf(path, sizeof path, "%s/history.csv", folder);
     clast_status status = clast_table_write_csv(&r->history, path);
     if (status == CLAST_OK) {
@@ -256,7 +257,27 @@ static clast_status write_folder(const clast_agglomeration *r, json_t *out, cons
         status = draw(&r->history, path, (const char *const[]){"M2", "exact_M2", NULL},
                       "sum of squared monomer numbers (-)");
     }
-    return status == CLAST_OK ? cli_write_summary(out, folder) : status;
+    return status;
+}
+
+static clast_status keep_results(const cli_common *common, const config *c,
+                                 const clast_agglomeration *r, const json_t *out,
+                                 clast_run_folder *folder)
+{
+    clast_status status = CLAST_OK;
+    const cli_input inputs[] = {{"domain", cli_domain_file(c->agglomerate.decompose.domain)},
+                                {NULL, NULL}};
+    for (int32_t k = 0; k < common->n_argument && status == CLAST_OK; ++k) {
+        status = clast_run_folder_input(folder, "points", common->argument[k]);
+    }
+    if (status == CLAST_OK) {
+        status = cli_results_open(folder, fields, c, c->agglomerate.decompose.seed, inputs);
+    }
+    if (status == CLAST_OK) {
+        status = write_folder(r, chart_end[c->charts], clast_run_folder_path(folder));
+    }
+    status = status == CLAST_OK ? cli_results_summary(folder, out) : status;
+    return clast_run_folder_end(folder, status);
 }
 
 static clast_status run(const cli_common *common, void *values)
@@ -265,8 +286,12 @@ static clast_status run(const cli_common *common, void *values)
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};
+    clast_run_folder *folder = NULL;
     const double begun = cli_clock();
-    clast_status status = cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain);
+    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
+    if (status == CLAST_OK) {
+        status = cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain);
+    }
     if (status == CLAST_OK) {
         status = load(common, c, &l);
         l.input.domain = &domain;
@@ -276,8 +301,8 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK) {
         json_t *out = summary(c, &result, cli_clock() - begun);
-        if (common->output != NULL) {
-            status = write_folder(&result, out, chart_end[c->charts], common->output);
+        if (folder != NULL) {
+            status = keep_results(common, c, &result, out, folder);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(out);
@@ -288,6 +313,7 @@ static clast_status run(const cli_common *common, void *values)
             }
         }
     }
+    clast_run_folder_destroy(folder);
     clast_agglomeration_free(&result);
     clast_domain_free(&domain);
     free_loaded(&l);
@@ -297,7 +323,11 @@ static clast_status run(const cli_common *common, void *values)
 const cli_command cli_agglomerate = {
     .name = "agglomerate",
     .arguments = "POINTS...",
-    .summary = "let the particles of a cloud collide and stick in uniform cells, in time",
+    .summary = "particles of a cloud collide and stick in uniform cells, in time",
+    .example =
+        {"clast agglomerate data/d2sd/points_u3_n50.csv --domain box:0,0,0,1,1,1 --constant 0.01",
+         "clast agglomerate t0.vtu t1.vtu --domain cylinder:0.1,1 --duration 0.5s -o run/",
+         "clast agglomerate drops.csv --domain sphere:1 --kernel brownian --monomer-radius 1um"},
     .details = details,
     .fields = fields,
     .config_size = sizeof(config),

@@ -33,6 +33,18 @@ static clast_status print(const cli_common *common, const clast_aggregate_report
     return status;
 }
 
+/// The surfaces of a run's folder with their unit, what to print first.
+static void print_surfaces(const cli_common *common, const clast_aggregate_config *config,
+                           const char *folder)
+{
+    if (folder == NULL || common->json) {
+        return;
+    }
+    (void)printf("surfaces in %s, in mm:%s aggregate.stl%s\n", folder,
+                 config->printable ? " printable.3mf, printable.stl," : "",
+                 config->printable ? "" : "; for printing, --printable adds one closed body");
+}
+
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_aggregate_config *config = context;
@@ -56,6 +68,7 @@ static clast_status run(const cli_common *common, void *context)
     if (report.n > 0) {
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;
+        print_surfaces(common, config, status == CLAST_OK ? folder : NULL);
     }
     clast_aggregate_report_free(&report);
     return status;
@@ -67,22 +80,28 @@ static const char details[] =
     "centre of mass ends nearest to the target. Nothing moves after that.\n"
     "mpirun -n N clast-mpi aggregate ... (clast built with MPI) grows --repeats on N ranks.\n"
     "--fit finds rays, orientations, cone and replicate that explain an observed size, density or\n"
-    "settling velocity, with their spread, and says when none do (exit code 1).\n"
+    "settling velocity, with their spread, and says when none do (exit code 1); fit.csv, fit.svg.\n"
     "Rossi and Bonadonna (2021), SCARLET-1.0; contact: march repeats their two programs.\n\n"
     "With -o RUN: state.h5, history.csv (history_band.csv: mean and interval of repeats), "
     "sizes.csv\n"
-    "(wanted and placed), structure.csv, radial.csv, summary.json, aggregate.stl (um), "
+    "(wanted and placed), structure.csv, radial.csv, summary.json, aggregate.stl (mm), "
     "manifest.json,\n"
     "charts (history.svg, diameter.svg, density.svg, sizes.svg), picture.png and the page\n"
-    "report.html; --printable adds printable.stl and its\n"
-    "smallest feature (printable.json). A folder that holds a run is refused: go on "
+    "report.html. Of several repeats the first is the one in structure.csv, radial.csv,\n"
+    "aggregate.stl and picture.png. --printable adds one closed body for printers: printable.3mf\n"
+    "(names its unit, mm), printable.stl (mm) and its smallest feature (printable.json). A folder\n"
+    "that holds a run is refused: go on "
     "with\n"
-    "--resume RUN if it has not ended, or replace it with --force.";
+    "--resume RUN if it has not ended, or replace it with --force (the new run is made in RUN.new\n"
+    "and takes its place when it has succeeded).";
 
 const cli_command cli_aggregate = {
     .name = "aggregate",
     .arguments = "",
     .summary = "grow virtual aggregates from shapes and grain sizes",
+    .example =
+        {"clast aggregate --core sphere --core-size 270um --coat sphere --size 30um --replicate 20",
+         "clast aggregate examples/27sk21.yaml -o run/", "clast aggregate --resume run/"},
     .details = details,
     .fields = clast_aggregate_fields,
     .config_size = sizeof(clast_aggregate_config),

@@ -16,12 +16,12 @@ typedef struct {
 } config;
 
 static const clast_field fields[] = {
-    {"data", offsetof(config, data), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"data", .offset = offsetof(config, data), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "folder of SCARLET-1.0's shapes and sizes (stl/, *.csv)", "data/scarlet"},
-    {"repeats", offsetof(config, repeats), CLAST_FIELD_I32, 3, 1, 1000, "-",
+    {"repeats", .offset = offsetof(config, repeats), CLAST_FIELD_I32, 3, 1, 1000, "-",
      "times each scene runs; the least time counts", NULL},
-    {"list", offsetof(config, list), CLAST_FIELD_BOOL, 0, 0, 0, "-", "name the scenes and run none",
-     NULL},
+    {"list", .offset = offsetof(config, list), CLAST_FIELD_BOOL, 0, 0, 0, "-",
+     "name the scenes and run none", NULL},
     {0},
 };
 
@@ -190,6 +190,7 @@ const cli_command cli_bench = {
     .name = "bench",
     .arguments = "[SCENE...]",
     .summary = "what this machine gives, beside published figures and limits",
+    .example = {"clast bench --list", "clast bench P1 --repeats 1", "clast bench --json"},
     .details =
         "Runs the named scenes, or all that take seconds, and prints the time (or rate) of each "
         "beside a\nreference: the published figure, the limit that was set, or a plain twin "

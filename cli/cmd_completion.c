@@ -8,13 +8,13 @@ typedef struct {
     int32_t shell;
 } config;
 
-static const clast_field fields[] = {
-    {"shell", offsetof(config, shell), CLAST_FIELD_CHOICE, 0, 0, 0, "-", "which shell", "bash|zsh"},
-    {0}};
+static const clast_field fields[] = {{"shell", .offset = offsetof(config, shell),
+                                      CLAST_FIELD_CHOICE, 0, 0, 0, "-", "which shell", "bash|zsh"},
+                                     {0}};
 
 static void print_options(const cli_command *command)
 {
-    (void)printf("--output --threads --set --json --quiet --help");
+    (void)printf("--output --threads --set --json --quiet --help --help-all");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
         const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
         (void)printf(is_on ? " --no-" : " --");
@@ -90,6 +90,8 @@ const cli_command cli_completion = {
     .name = "completion",
     .arguments = "",
     .summary = "print shell completion: source <(clast completion)",
+    .example = {"source <(clast completion)", "source <(clast completion --shell zsh)",
+                "clast completion > ~/.local/share/bash-completion/completions/clast"},
     .fields = fields,
     .config_size = sizeof(config),
     .run = run,

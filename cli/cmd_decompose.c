@@ -3,13 +3,13 @@
 #include "decompose_sizes.h"
 #include "json.h"
 #include "points.h"
+#include "results.h"
 
 #include <clast/decompose.h>
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     clast_decompose_config decompose; // first: the two tables share offsets
@@ -17,28 +17,30 @@ typedef struct {
     bool test_only;
     int32_t charts;
     cli_sizes sizes;
+    bool force;
 } config;
 
 static const char *const chart_end[3] = {"svg", "png", "pdf"};
 
-enum { N_OWN = 4, MAX_FIELD = 60 };
+enum { N_OWN = 5, MAX_FIELD = 60 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {
-    {"test_only", offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
-     "run the uniformity tests alone", NULL},
-    {"charts", offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-", "format of charts",
-     "svg|png|pdf"},
-    {"sizes", offsetof(config, sizes.n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
+    {"test_only", .offset = offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
+     "run the uniformity tests alone", NULL, .common = true, .group = "what is made"},
+    {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+     "format of charts", "svg|png|pdf"},
+    {"sizes", .offset = offsetof(config, sizes.n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
      "events of random parts of n, n/2, n/4 .. points, so many "
      "sizes, as a table and a chart; 0: none",
      NULL},
-    {"regular", offsetof(config, sizes.regular), CLAST_FIELD_I32, 0, 0, 200, "-",
+    {"regular", .offset = offsetof(config, sizes.regular), CLAST_FIELD_I32, 0, 0, 200, "-",
      "with --sizes: a regular mesh of so many cells an axis "
      "beside; 0: none",
-     NULL}};
+     NULL},
+    CLI_FORCE(config)};
 
 __attribute__((constructor)) static void join_fields(void)
 {
@@ -102,13 +104,6 @@ static json_t *json_labels(const clast_decomposition *r)
     return labels;
 }
 
-static const char *stop_text(clast_decompose_stop stop)
-{
-    static const char *const text[] = {"the tests accept", "nothing is left to select",
-                                       "the variant makes one pass", "max_pass reached"};
-    return text[stop];
-}
-
 static json_t *summary_of(const clast_decomposition *r, double wall)
 {
     json_t *out = json_object();
@@ -121,7 +116,7 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_number(out, "score", r->before.score);
     cli_json_number(out, "ideal_score", r->before.ideal);
     (void)json_object_set_new(out, "passes", json_passes(r));
-    cli_json_text(out, "stop", stop_text(r->stop));
+    cli_json_text(out, "stop", clast_decompose_stop_text(r->stop));
     cli_json_count(out, "n_cell", r->cells.n);
     (void)json_object_set_new(out, "labels", json_labels(r));
     cli_json_number(out, "events", r->events);
@@ -129,14 +124,15 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_number(out, "events_high", r->events_high);
     cli_json_number(out, "events_cross", r->events_cross);
     cli_json_count(out, "n_capped", r->n_capped);
-    cli_json_number(out, "points_per_bin", r->points_per_bin);
+    cli_json_number(out, "points_per_bin",
+                    r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
     cli_json_number(out, "wall_s", wall);
     return out;
 }
 
-static void print_words(const clast_decomposition *r, bool test_only)
+static void print_words(const clast_decomposition *r, const config *c)
 {
     (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
     if (r->n_outside > 0) {
@@ -156,19 +152,23 @@ static void print_words(const clast_decomposition *r, bool test_only)
                  r->before.n_test == 0 ? "too few points to test"
                  : r->before.reject    ? "not uniform"
                                        : "uniform");
-    if (test_only) {
+    if (c->test_only) {
         return;
     }
     for (int32_t k = 0; k < r->n_pass; ++k) {
         const clast_pass *p = &r->pass[k];
-        (void)printf("pass %d: %d x %d x %d bins, threshold %.4g (count %d of %d searched), score "
-                     "%.4g, ideal %.4g\n",
-                     k + 1, p->nb[0], p->nb[1], p->nb[2], p->lambda, p->lambda_count, p->n_lambda,
-                     p->score, p->ideal);
+        (void)printf("pass %d: %d", k + 1, p->nb[0]);
+        for (int32_t j = 1; j < r->dimension; ++j) {
+            (void)printf(" x %d", p->nb[j]);
+        }
+        (void)printf(" bins, threshold %.4g of the mean density (%d points a bin; best of %d), "
+                     "score %.4g, ideal %.4g\n",
+                     p->lambda, p->lambda_count, p->n_lambda, p->score, p->ideal);
     }
-    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g], %d cells at the cap\n",
-                 stop_text(r->stop), r->cells.n, r->events, r->events_low, r->events_high,
-                 r->n_capped);
+    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cells at "
+                 "the cap\n",
+                 clast_decompose_stop_text(r->stop), r->cells.n, r->events, r->events_low,
+                 r->events_high, c->decompose.beta_dt, r->dimension, r->n_capped);
     if (r->smoothing_bias != 0.0) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
@@ -185,16 +185,21 @@ static void print_words(const clast_decomposition *r, bool test_only)
     }
 }
 
-static clast_status cell_table(const clast_decomposition *r, clast_table *table)
+/// Corners of a mapped domain's cells are coordinates of the unit cube, which have no unit.
+static clast_status cell_table(const clast_decomposition *r, bool is_mapped, clast_table *table)
 {
-    static const char *const low[3] = {"x_low_m", "y_low_m", "z_low_m"};
-    static const char *const high[3] = {"x_high_m", "y_high_m", "z_high_m"};
+    static const char *const name_of[2][2][3] = {
+        {{"x_low_m", "y_low_m", "z_low_m"}, {"x_high_m", "y_high_m", "z_high_m"}},
+        {{"u_low", "v_low", "w_low"}, {"u_high", "v_high", "w_high"}}};
+    const char *const *low = name_of[is_mapped ? 1 : 0][0];
+    const char *const *high = name_of[is_mapped ? 1 : 0][1];
     const clast_cells *cells = &r->cells;
     clast_status status = clast_table_init(table, "cells", cells->n);
     for (int32_t j = 0; j < 2 * r->dimension && status == CLAST_OK; ++j) {
         double *column = NULL;
         const int32_t axis = j / 2;
-        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis], "m", &column);
+        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis],
+                                        is_mapped ? "-" : "m", &column);
         for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
             column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
         }
@@ -229,18 +234,22 @@ static clast_status label_table(const clast_decomposition *r, int64_t n_point, c
         status = clast_table_add_number(table, name[k], "-", &column);
         for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
             const int32_t c = cells->of_point[i];
-            column[i] = k == 0 ? c : c < 0 ? 0 : k == 1 ? cells->label[c] : cells->pass[c];
+            column[i] = k == 0   ? c
+                        : c < 0  ? (double)NAN // outside of the domain
+                        : k == 1 ? cells->label[c]
+                                 : cells->pass[c];
         }
     }
     return status;
 }
 
-static clast_status write_tables(const clast_decomposition *r, int64_t n_point, const char *folder)
+static clast_status write_tables(const clast_decomposition *r, bool is_mapped, int64_t n_point,
+                                 const char *folder)
 {
     char path[4096];
     clast_table cells = {0};
     clast_table points = {0};
-    clast_status status = cell_table(r, &cells);
+    clast_status status = cell_table(r, is_mapped, &cells);
     if (status == CLAST_OK) {
         (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
         status = clast_table_write_csv(&cells, path);
@@ -282,34 +291,54 @@ static clast_status write_pictures(const clast_decomposition *r, const clast_clo
     return status;
 }
 
-static clast_status write_folder(const clast_decomposition *r, const clast_cloud *cloud,
-                                 const clast_domain *domain, const config *c, json_t *summary,
-                                 const char *folder)
-{
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
-    clast_status status = write_tables(r, cloud->n, folder);
-    if (status == CLAST_OK) {
-        status = write_pictures(r, cloud, domain, c, folder);
-    }
-    return status == CLAST_OK ? cli_write_summary(summary, folder) : status;
-}
-
 /// events_by_n.csv and its chart.
-static clast_status write_sizes(const clast_domain *domain, const clast_cloud *cloud,
-                                const config *c, const char *folder)
+static clast_status write_sizes(const clast_table *sizes, const config *c, const char *folder)
 {
     char path[4096];
+    (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
+    const clast_status status = clast_table_write_csv(sizes, path);
+    (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, chart_end[c->charts]);
+    return status == CLAST_OK ? cli_decompose_sizes_chart(sizes, path) : status;
+}
+
+/// What a decomposition is of and found.
+typedef struct {
+    const clast_domain *domain;
+    const clast_cloud *cloud;
+    const clast_decomposition *result;
+    const clast_table *sizes; ///< without columns unless asked for
+} job;
+
+static clast_status keep_results(const cli_common *common, const config *c, const job *j,
+                                 const json_t *summary, clast_run_folder *run)
+{
+    const cli_input inputs[] = {{"points", common->argument[0]},
+                                {"domain", cli_domain_file(c->decompose.domain)},
+                                {NULL, NULL}};
+    const char *folder = clast_run_folder_path(run);
+    const bool is_mapped =
+        j->domain->kind != CLAST_DOMAIN_BOX && j->domain->kind != CLAST_DOMAIN_MESH;
+    clast_status status = cli_results_open(run, fields, c, c->decompose.seed, inputs);
+    if (status == CLAST_OK && j->sizes->n_column > 0) {
+        status = write_sizes(j->sizes, c, folder);
+    }
+    status = status == CLAST_OK ? write_tables(j->result, is_mapped, j->cloud->n, folder) : status;
+    status =
+        status == CLAST_OK ? write_pictures(j->result, j->cloud, j->domain, c, folder) : status;
+    status = status == CLAST_OK ? cli_results_summary(run, summary) : status;
+    return clast_run_folder_end(run, status);
+}
+
+static clast_status read_input(const cli_common *common, const config *c, clast_domain *domain,
+                               clast_cloud *cloud)
+{
     clast_table table = {0};
-    clast_status status = cli_decompose_sizes(domain, cloud, &c->decompose, &c->sizes, &table);
+    clast_status status = cli_domain_read(c->decompose.domain, &c->points, domain);
     if (status == CLAST_OK) {
-        (void)mkdir(folder,
-                    0777); // an existing folder is fine, a missing one is told by the writer
-        (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
-        status = clast_table_write_csv(&table, path);
+        status = cli_points_read(common->argument[0], &c->points, &table);
     }
     if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, chart_end[c->charts]);
-        status = cli_decompose_sizes_chart(&table, path);
+        status = clast_cloud_from_table(&table, &c->points.columns, cloud);
     }
     clast_table_free(&table);
     return status;
@@ -318,10 +347,11 @@ static clast_status write_sizes(const clast_domain *domain, const clast_cloud *c
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
-    clast_table table = {0};
     clast_cloud cloud = {0};
     clast_decomposition result = {0};
     clast_domain domain = {0};
+    clast_table sizes = {0};
+    clast_run_folder *folder = NULL;
     const double begun = cli_clock();
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
@@ -329,34 +359,31 @@ static clast_status run(const cli_common *common, void *values)
     if (c->sizes.n_size > 0 && common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "--sizes writes a table and a chart: name a folder with -o");
     }
-    clast_status status = cli_domain_read(c->decompose.domain, &c->points, &domain);
-    if (status == CLAST_OK) {
-        status = cli_points_read(common->argument[0], &c->points, &table);
-    }
-    if (status == CLAST_OK) {
-        status = clast_cloud_from_table(&table, &c->points.columns, &cloud);
-    }
+    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
+    status = status == CLAST_OK ? read_input(common, c, &domain, &cloud) : status;
     if (status == CLAST_OK) {
         status = clast_decompose_in(&domain, &cloud, &c->decompose, &result);
     }
-    if (status == CLAST_OK && c->sizes.n_size > 0 && common->output != NULL) {
-        status = write_sizes(&domain, &cloud, c, common->output);
+    if (status == CLAST_OK && c->sizes.n_size > 0) {
+        status = cli_decompose_sizes(&domain, &cloud, &c->decompose, &c->sizes, &sizes);
     }
     if (status == CLAST_OK) {
         json_t *summary = summary_of(&result, cli_clock() - begun);
-        if (common->output != NULL) {
-            status = write_folder(&result, &cloud, &domain, c, summary, common->output);
+        if (folder != NULL) {
+            const job j = {&domain, &cloud, &result, &sizes};
+            status = keep_results(common, c, &j, summary, folder);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(summary);
         } else {
             json_decref(summary);
             if (status == CLAST_OK) {
-                print_words(&result, c->test_only);
+                print_words(&result, c);
             }
         }
     }
-    clast_table_free(&table);
+    clast_run_folder_destroy(folder);
+    clast_table_free(&sizes);
     clast_cloud_free(&cloud);
     clast_domain_free(&domain);
     clast_decomposition_free(&result);
@@ -366,8 +393,10 @@ static clast_status run(const cli_common *common, void *values)
 const cli_command cli_decompose = {
     .name = "decompose",
     .arguments = "POINTS",
-    .summary = "test a particle cloud for uniformity, split it into uniform cells, count "
-               "agglomeration events",
+    .summary = "test a cloud for uniformity, cut it into uniform cells, count events",
+    .example = {"clast decompose data/d2sd/points_b3_n500.csv --domain box:0,0,0,1,1,1",
+                "clast decompose data/d2sd/points_s2_n500.csv --domain box:0,0,1,1 -o cells/",
+                "clast decompose drops.vtu --domain mesh:pipe.stl --domain-unit mm"},
     .details =
         "Reads delimited text, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. Method: "
         "Martinez Rodriguez et al., Appl. Math. Modelling 90 "
@@ -381,9 +410,11 @@ const cli_command cli_decompose = {
         "        Tree cells hide pairs by being taken as uniform: the sums over cells of two "
         "sizes are extrapolated to none,\n        smoothing_bias is what that took off "
         "(--no-extrapolate: nothing). The interval is 95 %, for Poisson points.\n"
-        "-o FOLDER writes cells.csv (box, volume, count, density, label, pass, events), "
-        "point_cells.csv, thresholds.csv,\nsummary.json, cells.vtu and points.vtp for "
-        "ParaView, and charts: points, density, score, events; with "
+        "-o FOLDER writes cells.csv (box in m, of a mapped domain in coordinates u, v, w of the "
+        "unit cube; volume and density in m^d;\ncount, label, pass, events, weight), "
+        "point_cells.csv, summary.json, manifest.json, cells.vtu and points.vtp for ParaView; "
+        "charts points and "
+        "events;\nwith passes thresholds.csv and charts density and score; with "
         "--sizes K events_by_n.csv and its chart.",
     .fields = fields,
     .config_size = sizeof(config),

@@ -4,16 +4,15 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     int32_t level;
     bool points;
     int32_t colour;
-    char *table;
+    char *table, *unit;
 } export_config;
 
-#define FIELD(type, member) #member, offsetof(export_config, member), type
+#define FIELD(type, member) #member, .offset = offsetof(export_config, member), type
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_I32, level), 3, 0, 7, "-",
      "fineness of spheres and ellipsoids: 20 * 4^level triangles", NULL},
@@ -23,19 +22,11 @@ static const clast_field fields[] = {
      "grain|order|size|shape"},
     {FIELD(CLAST_FIELD_TEXT, table), 0, 0, 0, "-",
      "write this table of the run (.csv or .json) instead of its grains", ""},
+    {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-",
+     "length unit of the coordinates in .stl, .obj and .ply; none: mm, as 3MF has it", ""},
     {0},
 };
 #undef FIELD
-
-/// RUN is a state file or a folder that holds state.h5; what is not there is found by reading it.
-static clast_status find_state(const char *run, char *path, size_t size)
-{
-    struct stat info;
-    const bool is_folder = stat(run, &info) == 0 && S_ISDIR(info.st_mode);
-    const int n = snprintf(path, size, is_folder ? "%s/state.h5" : "%s", run);
-    return n > 0 && (size_t)n < size ? CLAST_OK
-                                     : cli_fail(CLAST_E_IO, "%s: the path is too long", run);
-}
 
 static clast_status report_table(const cli_common *common, const clast_table *table)
 {
@@ -80,13 +71,13 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
         if (report->n_triangle > 0) {
             (void)printf(", %lld triangles", (long long)report->n_triangle);
         }
-        (void)putchar('\n');
+        (void)printf(", lengths in %s\n", report->unit);
         return CLAST_OK;
     }
     json_t *object = json_object();
     cli_json_text(object, "file", common->output);
     cli_json_text(object, "format", clast_export_format_name(report->format));
-    cli_json_text(object, "unit", assembly->unit);
+    cli_json_text(object, "unit", report->unit);
     cli_json_count(object, "n_grain", assembly->n_grain);
     cli_json_count(object, "n_shape", assembly->n_shape);
     cli_json_count(object, "n_vertex", report->n_vertex);
@@ -94,14 +85,25 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
     return cli_print_json(object);
 }
 
+/// Surfaces without a unit of their own are in mm, as printers take them; NULL: the run's.
+static const char *unit_of(const export_config *config, clast_export_format format,
+                           const clast_assembly *assembly)
+{
+    const bool is_bare =
+        format == CLAST_EXPORT_STL || format == CLAST_EXPORT_OBJ || format == CLAST_EXPORT_PLY;
+    const bool is_known = assembly->unit[0] != '\0' && strcmp(assembly->unit, "model") != 0;
+    return config->unit[0] != '\0' ? config->unit : is_bare && is_known ? "mm" : NULL;
+}
+
 static clast_status export_assembly(const cli_common *common, const char *state,
                                     const export_config *config)
 {
     clast_assembly assembly = {0};
     clast_export_report report = {0};
-    const clast_export_options options = {
+    clast_export_options options = {
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
     clast_status status = clast_state_read_assembly(state, &assembly);
+    options.unit = unit_of(config, clast_export_format_of_path(common->output), &assembly);
     if (status == CLAST_OK) {
         status = clast_assembly_write(&assembly, common->output, &options, &report);
     }
@@ -115,9 +117,9 @@ static clast_status export_assembly(const cli_common *common, const char *state,
 static clast_status run(const cli_common *common, void *context)
 {
     const export_config *config = context;
-    char state[4096];
+    char state[CLAST_RUN_PATH];
     if (common->output == NULL) {
-        return cli_fail(CLAST_E_USAGE, "where to? give -o NAME.vtu (or .stl, .obj, .ply, .3mf, "
+        return cli_fail(CLAST_E_USAGE, "where to? give -o NAME.3mf (or .stl, .obj, .ply, .vtu, "
                                        ".csv, .json, .dump)");
     }
     if (clast_export_format_of_path(common->output) == CLAST_EXPORT_ANY) {
@@ -126,7 +128,7 @@ static clast_status run(const cli_common *common, void *context)
                         ".json or .dump",
                         common->output);
     }
-    const clast_status status = find_state(common->argument[0], state, sizeof state);
+    const clast_status status = clast_run_folder_state(common->argument[0], state);
     if (status != CLAST_OK) {
         return status;
     }
@@ -137,15 +139,19 @@ static clast_status run(const cli_common *common, void *context)
 const cli_command cli_export = {
     .name = "export",
     .arguments = "RUN",
-    .summary = "write a run's grains (-o) as VTU, STL, OBJ, PLY, 3MF, CSV, JSON or LAMMPS dump",
-    .details = "RUN is a run's folder or its state.h5. The output's name tells the format:\n"
-               "  .vtu   ParaView: surfaces with grain, order, shape and size, or --points\n"
-               "  .stl   binary, all grains; .obj a group a grain; .ply grain and colour a face\n"
-               "  .3mf   for printers, in millimetres\n"
-               "  .csv   a row a grain: pose, scale, length, volume, density, mass, contacts\n"
-               "  .json  the same table\n"
-               "  .dump  LAMMPS: ellipsoids of equal volume and moments (OVITO shows them)\n"
-               "Coordinates are in the run's unit; --table NAME writes a table of the run.",
+    .summary = "write a run's grains as 3MF, STL, OBJ, PLY, VTU, CSV or LAMMPS dump",
+    .example = {"clast export run/ -o grains.vtu", "clast export run/ -o grains.3mf --level 4",
+                "clast export run/ --table history -o history.json"},
+    .details =
+        "RUN is a run's folder or its state.h5. The output's name tells the format:\n"
+        "  .3mf   for printers: names its unit, mm\n"
+        "  .stl   binary, all grains; .obj a group a grain; .ply grain and colour a face: in mm,\n"
+        "         or as --unit says; the unit stands in the file's header\n"
+        "  .vtu   ParaView: surfaces with grain, order, shape and size, or --points\n"
+        "  .csv   a row a grain: pose, scale, length, volume, density, mass, contacts\n"
+        "  .json  the same table\n"
+        "  .dump  LAMMPS: ellipsoids of equal volume and moments (OVITO shows them)\n"
+        "Other lengths are in the run's unit (m); --table NAME writes a table of the run.",
     .fields = fields,
     .config_size = sizeof(export_config),
     .n_min = 1,

@@ -1,10 +1,10 @@
 // clast fill: spheres inside a surface.
 #include "command.h"
 #include "json.h"
+#include "mesh_words.h"
 
 #include <clast/fill.h>
 #include <clast/mesh_check.h>
-#include <clast/mesh_file.h>
 #include <clast/spheres_file.h>
 #include <clast/table_file.h>
 
@@ -27,7 +27,7 @@ static void stem(const char *path, char *name, size_t size)
     }
 }
 
-static json_t *report_json(const char *file, const char *name, int64_t n_intersection,
+static json_t *report_json(const char *file, const char *name, const clast_mesh_check_result *found,
                            const clast_fill_report *r)
 {
     json_t *o = json_object();
@@ -37,9 +37,9 @@ static json_t *report_json(const char *file, const char *name, int64_t n_interse
     cli_json_count(o, "n_sphere", r->n_sphere);
     cli_json_count(o, "n_placed", r->n_placed);
     cli_json_text(o, "end", end_names[r->end]);
-    cli_json_count(o, "n_open_edge", r->n_open_edge);
+    cli_json_count(o, "n_open_edge", found->n_open_edge);
     cli_json_number(o, "open_share", r->open_share);
-    cli_json_count(o, "n_intersection", n_intersection);
+    cli_json_count(o, "n_intersection", found->n_intersection);
     cli_json_number(o, "solid_volume", r->solid_volume);
     cli_json_number(o, "sphere_volume", r->sphere_volume);
     cli_json_number(o, "filled_fraction", r->filled_fraction);
@@ -104,24 +104,24 @@ static clast_status save(const cli_common *common, const clast_fill_config *conf
     return status;
 }
 
-static clast_status show(const cli_common *common, const char *name, int64_t n_intersection,
-                         const clast_fill_report *report)
+static clast_status show(const cli_common *common, const char *name,
+                         const clast_mesh_check_result *found, const clast_fill_report *report)
 {
     const char *file = common->argument[0];
-    if (n_intersection > 0 && !common->quiet) {
+    if (found->n_intersection > 0 && !common->quiet) {
         (void)fprintf(stderr,
                       "clast fill: note: %s cuts itself at %lld pairs of triangles; its volume "
                       "counts overlaps twice, so shares of it come out low (clast mesh check)\n",
-                      file, (long long)n_intersection);
+                      file, (long long)found->n_intersection);
     }
     if (report->open_share > 1e-6 && !common->quiet) {
         (void)fprintf(stderr,
                       "clast fill: note: %s has %d open edges; their holes were capped, which "
                       "leaves %.2g of the volume uncertain\n",
-                      file, report->n_open_edge, report->open_share);
+                      file, found->n_open_edge, report->open_share);
     }
     if (common->json) {
-        return cli_print_json(report_json(file, name, n_intersection, report));
+        return cli_print_json(report_json(file, name, found, report));
     }
     print_words(file, report);
     return CLAST_OK;
@@ -140,9 +140,11 @@ static clast_status run(const cli_common *common, void *context)
     if (config->name[0] != '\0') {
         (void)snprintf(name, sizeof name, "%s", config->name);
     }
-    clast_status status = clast_mesh_read(common->argument[0], &mesh, NULL);
+    clast_status status = cli_mesh_welded(common, &mesh);
     if (status == CLAST_OK) {
         status = clast_fill(&mesh, config, &monitor, &spheres, &report);
+        status =
+            cli_mesh_refused(common->argument[0], &mesh, "cap its holes with --allow-open", status);
     }
     if (status == CLAST_OK) {
         status = save(common, config, name, &mesh, &spheres);
@@ -151,7 +153,7 @@ static clast_status run(const cli_common *common, void *context)
         status = clast_mesh_check(&mesh, &found);
     }
     if (status == CLAST_OK) {
-        status = show(common, name, found.n_intersection, &report);
+        status = show(common, name, &found, &report);
     }
     clast_mesh_check_free(&found);
     clast_spheres_free(&spheres);
@@ -163,6 +165,9 @@ const cli_command cli_fill = {
     .name = "fill",
     .arguments = "FILE",
     .summary = "fill a surface with spheres",
+    .example = {"clast fill data/scarlet/stl/ellipse.stl --spheres 20 -o spheres.csv",
+                "clast fill data/scarlet/stl/ellipse.stl --overlap --spheres 20 -o clump.csv",
+                "clast fill scan.stl --volume-error 0.05 -o spheres.csv"},
     .details =
         "Reads STL, OBJ, PLY or OFF and works in its unit. -o FILE.csv (x,y,z,radius) or FILE.h5 "
         "saves the\nspheres; a state file keeps several sets by name.\n"

@@ -1,7 +1,7 @@
 // clast fit: linear porosity models of a table of beds.
 #include "command.h"
 #include "json.h"
-#include "manifest.h"
+#include "results.h"
 #include "study_grains.h"
 
 #include <clast/manifest.h>
@@ -12,29 +12,31 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     clast_porosity_fit_config fit; // first: the two tables share offsets
     int32_t features;
     char *grains;
     char *name;
+    bool force;
 } config;
 
-enum { N_OWN = 3, MAX_FIELD = 32 };
+enum { N_OWN = 4, MAX_FIELD = 32 };
 enum { AUTO, FORM, MIXTURE, COLUMNS };
 
 static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {
-    {"features", offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+    {"features", .offset = offsetof(config, features), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "form: 26 of each bed's one form; mixture: 104 of --grains; columns: the table's own; auto: "
      "mixture with --grains, else form where the table has forms, else columns",
-     "auto|form|mixture|columns"},
-    {"grains", offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
-     "study folder, or table of all beds' grains, with a column that names the bed (--group)", ""},
-    {"name", offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", "name of the model",
-     "fitted"}};
+     "auto|form|mixture|columns", .common = true, .group = "features and grains"},
+    {"grains", .offset = offsetof(config, grains), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+     "study folder, or table of all beds' grains, with a column that names the bed (--group)", "",
+     .common = true},
+    {"name", .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", "name of the model",
+     "fitted", .common = true},
+    CLI_FORCE(config)};
 
 __attribute__((constructor)) static void join_fields(void)
 {
@@ -190,17 +192,16 @@ static clast_status write_model(const cli_common *common, const config *c, const
                : status;
 }
 
-static clast_status write_folder(const cli_common *common, const config *c, const job *j)
+static clast_status write_folder(const cli_common *common, const config *c, const job *j,
+                                 const char *folder)
 {
     char path[4096];
-    const char *folder = common->output;
     const struct {
         const char *name;
         const clast_table *table;
     } tables[] = {{"ranking", &j->fit.ranking}, {"trials", &j->fit.trials},
                   {"terms", &j->fit.terms},     {"rows", &j->fit.rows},
                   {"features", &j->data.beds},  {"left_out", &j->data.left_out}};
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     clast_status status = write_model(common, c, j, folder);
     for (size_t k = 0; k < sizeof tables / sizeof tables[0] && status == CLAST_OK; ++k) {
         if (tables[k].table->n_row > 0) {
@@ -233,13 +234,29 @@ static void tell_left_out(const job *j)
     }
 }
 
+static clast_status keep_results(const cli_common *common, const config *c, const job *j,
+                                 clast_run_folder *folder)
+{
+    const cli_input inputs[] = {{"table", common->argument[0]},
+                                {"grains", cli_is_folder(c->grains) ? NULL : c->grains},
+                                {NULL, NULL}};
+    const char *path = clast_run_folder_path(folder);
+    json_t *out = summary(j);
+    clast_status status = cli_results_open(folder, fields, c, c->fit.seed, inputs);
+    status = status == CLAST_OK ? write_folder(common, c, j, path) : status;
+    status = status == CLAST_OK ? write_charts(path, j) : status;
+    status = status == CLAST_OK ? cli_results_summary(folder, out) : status;
+    json_decref(out);
+    return clast_run_folder_end(folder, status);
+}
+
 static clast_status run(const cli_common *common, void *values)
 {
-    const config *c = values;
+    config *c = values;
     char source[256];
     job j = {0};
-    clast_manifest *manifest = NULL;
-    clast_status status = cli_manifest_begin(common, &manifest);
+    clast_run_folder *folder = NULL;
+    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
     if (status == CLAST_OK) {
         status = gather(c, common->argument[0], &j);
     }
@@ -249,22 +266,15 @@ static clast_status run(const cli_common *common, void *values)
                        j.beds.name);
         status = clast_porosity_fit_data(&j.data, &c->fit, c->name, source, &j.fit);
     }
-    if (status == CLAST_OK && common->output != NULL) {
-        status = write_folder(common, c, &j);
-        status = status == CLAST_OK ? write_charts(common->output, &j) : status;
-    }
-    if (status == CLAST_OK) {
-        const cli_input inputs[] = {{"table", common->argument[0]},
-                                    {"grains", cli_is_folder(c->grains) ? NULL : c->grains},
-                                    {NULL, NULL}};
-        status = cli_manifest_end(common, manifest, fields, c, c->fit.seed, inputs);
+    if (status == CLAST_OK && folder != NULL) {
+        status = keep_results(common, c, &j, folder);
     }
     if (status == CLAST_OK && common->json) {
         status = cli_print_json(summary(&j));
     } else if (status == CLAST_OK) {
         print_words(&j);
     }
-    clast_manifest_destroy(manifest);
+    clast_run_folder_destroy(folder);
     free_job(&j);
     return status;
 }
@@ -273,6 +283,9 @@ const cli_command cli_fit = {
     .name = "fit",
     .arguments = "TABLE",
     .summary = "fit a linear porosity model to a table of beds",
+    .example = {"clast fit beds.csv -o model/",
+                "clast fit beds.csv --target porosity --n-term 3 --json",
+                "clast fit beds.csv --grains study/ -o model/"},
     .details =
         "TABLE has a row a bed: its porosity and its form (flatness and elongation, or L, I, S), "
         "or\n"
@@ -287,7 +300,7 @@ const cli_command cli_fit = {
         "terms.csv,\n"
         "rows.csv (residual, held-out value, leverage, studentised residual, Cook's distance),\n"
         "features.csv, left_out.csv and the charts feature, predicted, residuals and leverage "
-        "(SVG), manifest.json.\n"
+        "(SVG), summary.json, manifest.json.\n"
         "Theory: docs/theory/predict.md.",
     .fields = fields,
     .config_size = sizeof(config),

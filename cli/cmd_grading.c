@@ -17,7 +17,7 @@ typedef struct {
     double mass, density, grain_volume;
 } grading_config;
 
-#define FIELD(name) #name, offsetof(grading_config, name)
+#define FIELD(name) #name, .offset = offsetof(grading_config, name)
 static const clast_field grading_fields[] = {
     {FIELD(spread), CLAST_FIELD_CHOICE, CLAST_SPREAD_STEP, 0, 2, "-",
      "sizes within a class: density constant over log size, linear between class means, or class "
@@ -303,7 +303,9 @@ static clast_status run(const cli_common *common, void *config_bytes)
 const cli_command cli_grading = {
     .name = "grading",
     .arguments = "CURVE",
-    .summary = "sieve curves and laws of size: numbers of grains, D10 to D90, drawn sizes",
+    .summary = "sieve curves and laws of size: numbers, D10 to D90, drawn sizes",
+    .example = {"clast grading U3", "clast grading B50 --mass 1kg --density 2650kg/m^3",
+                "clast grading lognormal:5mm,1mm --sample 100 -o sizes.csv"},
     .details =
         "CURVE is U1, U3, U5, U7, B30, B50 or B70 (Rettinger et al. 2022, table 3), the CSV file "
         "of "

@@ -21,18 +21,14 @@ static void print_text(const char *text)
 
 static void print_option(const clast_field *f)
 {
-    (void)printf(".TP\n.B \\-\\-%s",
-                 f->type == CLAST_FIELD_BOOL && f->value != 0.0 ? "[no\\-]" : "");
-    for (const char *c = f->name; *c != '\0'; ++c) {
-        (void)fputs(*c == '_' ? "\\-" : (char[]){*c, '\0'}, stdout);
-    }
+    char words[CLI_WORDS_SIZE];
+    cli_field_name(f, words);
+    (void)printf(".TP\n.B \\-\\-");
+    print_text(words);
     (void)putchar('\n');
     print_text(f->help);
-    if (f->type == CLAST_FIELD_CHOICE) {
-        (void)printf(" {");
-        print_text(f->text);
-        (void)printf("}");
-    }
+    cli_field_values(f, words);
+    print_text(words);
     (void)putchar('\n');
 }
 
@@ -50,7 +46,18 @@ static void print_command(const cli_command *command)
         print_text(command->details);
         (void)printf("\n");
     }
+    (void)printf(".PP\nExamples:\n.nf\n");
+    for (int k = 0; k < 3 && command->example[k] != NULL; ++k) {
+        print_text(command->example[k]);
+        (void)printf("\n");
+    }
+    (void)printf(".fi\n");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        if (cli_field_group(command->fields, f) != NULL) {
+            (void)printf(".PP\n.I ");
+            print_text(cli_field_group(command->fields, f));
+            (void)printf("\n");
+        }
         print_option(f);
     }
 }
@@ -73,6 +80,10 @@ static clast_status run(const cli_common *common, void *values)
         ".TP\n.B \\-\\-set KEY=VALUE\nthe same as \\-\\-KEY VALUE\n"
         ".TP\n.B \\-\\-json\none JSON object on standard output\n"
         ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"
+        ".TP\n.B \\-h, \\-\\-help\nthe first page of a command; \\-\\-help\\-all: every option of "
+        "it\n"
+        ".PP\nA length or an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers "
+        "are SI.\n"
         ".SH EXIT STATUS\n0 done; 1 a check answered no; 2 usage; 3 bad input; 4 not enough memory "
         "or disk; 5 did not converge; 130 or 143 stopped with a checkpoint.\n");
     return CLAST_OK;
@@ -82,6 +93,7 @@ const cli_command cli_man = {
     .name = "man",
     .arguments = "",
     .summary = "print the manual page: clast man | man -l -",
+    .example = {"clast man | man -l -", "clast man > clast.1", "clast man | grep -- cone"},
     .config_size = 1,
     .run = run,
 };

@@ -2,75 +2,114 @@
 #include "command.h"
 #include "mesh_words.h"
 
-#include <clast/mesh_repair.h>
+#include <clast/mesh_file.h>
 
 #include <stdio.h>
 
 typedef struct {
-    double weld;
+    int32_t weld;
+    double weld_tolerance;
 } config;
 
 static const clast_field fields[] = {
-    {"weld", offsetof(config, weld), CLAST_FIELD_F64, 0.0, 0.0, 0.1, "-",
-     "merge vertices nearer than this times the extent before checking", NULL},
+    {"weld", .offset = offsetof(config, weld), CLAST_FIELD_CHOICE, CLAST_WELD_AUTO, 0, 0, "-",
+     "merge near vertices first: those of open edges, as every command does that reads a surface; "
+     "not at all; or all within weld_tolerance",
+     "auto|off|within"},
+    {"weld_tolerance", .offset = offsetof(config, weld_tolerance), CLAST_FIELD_F64, 1e-6, 0.0, 0.1,
+     "-", "for weld within: times the extent", NULL},
     {0}};
 
-/// Adds a note on what was joined before the check.
-static void note_equal_vertices(clast_mesh_check_result *result, int32_t n_merged)
+/// Adds a note on what was merged before the check.
+static void note_weld(clast_mesh_check_result *result, const clast_mesh_repair_report *weld,
+                      int32_t n_open)
 {
-    if (result->n_fault < CLAST_MESH_MAX_FAULT) {
-        clast_mesh_fault *fault = &result->fault[result->n_fault++];
-        fault->blocking = false;
+    if (weld->n_merged == 0 || result->n_fault == CLAST_MESH_MAX_FAULT) {
+        return;
+    }
+    clast_mesh_fault *fault = &result->fault[result->n_fault++];
+    fault->blocking = false;
+    if (weld->weld_distance == 0.0) {
         (void)snprintf(fault->code, sizeof fault->code, "equal_vertices");
         (void)snprintf(fault->text, sizeof fault->text,
                        "%d vertices repeat others bit by bit (seams of normals or textures) and "
                        "were taken as one; `clast mesh repair` merges them",
-                       n_merged);
+                       weld->n_merged);
+    } else {
+        (void)snprintf(fault->code, sizeof fault->code, "merged_vertices");
+        (void)snprintf(fault->text, sizeof fault->text,
+                       "%d vert%s merged with others within %.3g (%.2g of the extent), as every "
+                       "command does; %d open edges as the file has it (--weld off)",
+                       weld->n_merged, weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance,
+                       weld->weld_distance / result->extent, n_open);
     }
 }
 
-/// Checks the mesh welded within tolerance; keeps the result if it has fewer open edges than
-/// `result`, which it then replaces.
-static clast_status check_welded(const clast_mesh *mesh, double tolerance,
-                                 clast_mesh_check_result *result, int32_t *n_merged)
+static clast_status weld_within(clast_mesh *mesh, double tolerance,
+                                clast_mesh_repair_report *report)
 {
     clast_mesh welded = {0};
-    clast_mesh_check_result again = {0};
-    int32_t n = 0;
-    clast_status status = clast_mesh_weld(mesh, tolerance, &welded, &n);
+    const int32_t n_tri = mesh->n_tri;
+    const clast_status status = clast_mesh_weld(mesh, tolerance, &welded, &report->n_merged);
     if (status == CLAST_OK) {
-        status = clast_mesh_check(&welded, &again);
+        report->n_collapsed = n_tri - welded.n_tri;
+        clast_mesh_free(mesh);
+        *mesh = welded;
     }
-    if (status == CLAST_OK && (tolerance > 0.0 || again.n_open_edge < result->n_open_edge)) {
-        const clast_mesh_check_result swap = *result;
-        *result = again;
-        again = swap;
-        *n_merged = n;
-        if (tolerance == 0.0) { // the file's count, since nothing but seams was joined
-            result->n_vertex = mesh->n_vert;
-            note_equal_vertices(result, n);
-        }
-    }
-    clast_mesh_check_free(&again);
-    clast_mesh_free(&welded);
     return status;
 }
 
-static clast_status tell(const cli_common *common, const config *c,
-                         const clast_mesh_check_result *result, int32_t n_merged)
+/// Checks the surface as the file has it, and again where the weld changed it.
+static clast_status check(const config *c, clast_mesh *mesh, clast_mesh_check_result *result,
+                          clast_mesh_repair_report *weld)
 {
+    const int32_t n_vertex = mesh->n_vert;
+    clast_status status = clast_mesh_check(mesh, result);
+    const int32_t n_open = result->n_open_edge;
+    if (status == CLAST_OK && c->weld == CLAST_WELD_WITHIN) {
+        status = weld_within(mesh, c->weld_tolerance, weld);
+    } else if (status == CLAST_OK && c->weld == CLAST_WELD_AUTO && !result->closed) {
+        status = clast_mesh_weld_auto(mesh, weld);
+    }
+    if (status != CLAST_OK || weld->n_merged == 0) {
+        return status;
+    }
+    clast_mesh_check_free(result);
+    status = clast_mesh_check(mesh, result);
+    if (status == CLAST_OK && c->weld == CLAST_WELD_AUTO) {
+        result->n_degenerate += weld->n_collapsed;
+        result->n_vertex = weld->weld_distance == 0.0 ? n_vertex : result->n_vertex;
+        note_weld(result, weld, n_open);
+    }
+    return status;
+}
+
+static clast_status tell(const cli_common *common, const config *c, const clast_mesh *mesh,
+                         const clast_mesh_check_result *result,
+                         const clast_mesh_repair_report *weld)
+{
+    char cure[400] = "";
+    const bool solid = result->closed && result->oriented;
+    const clast_status status =
+        solid ? CLAST_OK : clast_mesh_cure(common->argument[0], mesh, cure, sizeof cure);
+    if (status != CLAST_OK) {
+        return status;
+    }
     if (common->json) {
         json_t *object = cli_check_json(common->argument[0], result);
-        if (object != NULL) {
-            cli_json_number(object, "weld", c->weld);
-            cli_json_count(object, "n_merged", n_merged);
-        }
+        cli_json_number(object, "weld", weld->weld_distance);
+        cli_json_count(object, "n_merged", weld->n_merged);
+        cli_json_text(object, "repair", cure);
         return cli_print_json(object);
     }
-    if (c->weld > 0.0) {
-        (void)printf("merged %d vertices within %g of the extent\n", n_merged, c->weld);
+    if (c->weld == CLAST_WELD_WITHIN) {
+        (void)printf("merged %d vertices within %g of the extent\n", weld->n_merged,
+                     c->weld_tolerance);
     }
     cli_check_words(common->argument[0], result);
+    if (cure[0] != '\0') {
+        (void)printf("  to close it: %s\n", cure);
+    }
     return CLAST_OK;
 }
 
@@ -79,16 +118,13 @@ static clast_status run(const cli_common *common, void *config_bytes)
     const config *c = config_bytes;
     clast_mesh mesh = {0};
     clast_mesh_check_result result = {0};
-    int32_t n_merged = 0;
+    clast_mesh_repair_report weld = {0};
     clast_status status = cli_mesh_input(common, &mesh);
     if (status == CLAST_OK) {
-        status = clast_mesh_check(&mesh, &result);
-    }
-    if (status == CLAST_OK && (c->weld > 0.0 || (!result.closed && result.n_edge > 0))) {
-        status = check_welded(&mesh, c->weld, &result, &n_merged);
+        status = check(c, &mesh, &result, &weld);
     }
     if (status == CLAST_OK) {
-        status = tell(common, c, &result, n_merged);
+        status = tell(common, c, &mesh, &result, &weld);
     }
     if (status == CLAST_OK && !clast_mesh_check_passed(&result)) {
         status = CLAST_E_NO;
@@ -102,9 +138,13 @@ const cli_command cli_mesh_check = {
     .name = "mesh check",
     .arguments = "FILE",
     .summary = "what is this surface, and can it be trusted?",
+    .example = {"clast mesh check data/standin63/grain00.ply",
+                "clast mesh check data/standin63/grain01.ply --json",
+                "clast mesh check scan.stl --weld off"},
     .details = "Reads STL, OBJ, PLY or OFF and says in words and numbers what is wrong and what to "
-               "run.\nVertices that repeat others bit by bit count as one where "
-               "the surface is open otherwise.\nLengths, areas and volumes are in the file's own "
+               "run.\nVertices of open edges that rounding has parted are merged first, as in "
+               "every command that\nreads a surface; the distance is told. --weld off counts the "
+               "file as it is.\nLengths, areas and volumes are in the file's own "
                "unit.\nExit code: 0 when "
                "the surface is closed, oriented and manifold, 1 when not, 3 when unreadable.",
     .fields = fields,

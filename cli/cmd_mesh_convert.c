@@ -5,13 +5,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct {
     char *unit, *out_unit, *name;
     double scale;
 } convert_config;
 
-#define FIELD(type, member) #member, offsetof(convert_config, member), type
+#define FIELD(type, member) #member, .offset = offsetof(convert_config, member), type
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, unit), 0, 0, 0, "-", "length unit of the input's coordinates", ""},
     {FIELD(CLAST_FIELD_TEXT, out_unit), 0, 0, 0, "-",
@@ -118,6 +119,25 @@ static void warn_of_loss(job *j)
     }
 }
 
+/// Facets that 24 bits folded are not in the STL: by its size, which is what a reader will find.
+static void warn_of_folded(job *j)
+{
+    struct stat file;
+    clast_mesh_read_report *r = &j->report;
+    if (j->out_format != CLAST_MESH_STL || stat(j->output, &file) != 0 ||
+        r->n_warning == CLAST_MESH_N_WARNING) {
+        return;
+    }
+    const long long n = j->mesh.n_tri - ((long long)file.st_size - 84) / 50;
+    if (n > 0) {
+        (void)snprintf(
+            r->warning[r->n_warning++], CLAST_MESH_WARNING_SIZE,
+            "%lld triangles have two corners that are one in the 24 bits of STL and were "
+            "left out; write PLY to keep them",
+            n);
+    }
+}
+
 static clast_status print_json(const job *j)
 {
     const clast_mesh_read_report *r = &j->report;
@@ -156,6 +176,9 @@ static clast_status print_text(const job *j)
     if (j->out_unit != NULL) {
         (void)printf(" in %s", j->out_format == CLAST_MESH_3MF ? "mm" : j->out_unit);
     }
+    if (j->out_unit == NULL) {
+        (void)printf(" in model units (--unit names them in the file)");
+    }
     if (j->factor != 1.0) {
         (void)printf(", lengths times %.9g", j->factor);
     }
@@ -193,6 +216,9 @@ static clast_status run(const cli_common *common, void *context)
                                         .name = config->name[0] != '\0' ? config->name : NULL});
     }
     if (status == CLAST_OK) {
+        warn_of_folded(&j);
+    }
+    if (status == CLAST_OK) {
         status = common->json ? print_json(&j) : print_text(&j);
     }
     clast_mesh_free(&j.mesh);
@@ -202,7 +228,10 @@ static clast_status run(const cli_common *common, void *context)
 const cli_command cli_mesh_convert = {
     .name = "mesh convert",
     .arguments = "FILE",
-    .summary = "read a surface (STL, OBJ, PLY, OFF) and write it (-o) as STL, OBJ, PLY, OFF or 3MF",
+    .summary = "read a surface (STL, OBJ, PLY, OFF), write it as one of these or 3MF",
+    .example = {"clast mesh convert data/standin63/grain00.ply -o grain.stl",
+                "clast mesh convert data/standin63/grain00.ply --scale 2 -o large.obj",
+                "clast mesh convert scan.stl --unit um --out-unit mm -o scan.3mf"},
     .details =
         "The format of FILE is found by its content, that of the output by its name. STL is\n"
         "written in binary with 24-bit coordinates; OBJ, PLY and OFF keep every bit; 3MF is\n"

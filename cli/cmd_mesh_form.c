@@ -15,7 +15,7 @@ typedef struct {
     int32_t hull;
 } form_config;
 
-#define FIELD(name) #name, offsetof(form_config, name)
+#define FIELD(name) #name, .offset = offsetof(form_config, name)
 static const clast_field form_fields[] = {
     {FIELD(flatness), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted S/I; 0: the grain's own", NULL},
     {FIELD(elongation), CLAST_FIELD_F64, 0.0, 0.0, 1.0, "-", "wanted I/L; 0: the grain's own",
@@ -133,8 +133,8 @@ static void axes_words(const char *when, const double lis[3])
 
 static void report_words(const cli_common *common, const form_report *r)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles\n", common->argument[0], r->n_before,
-                 common->output, r->n_after);
+    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n", common->argument[0],
+                 r->n_before, common->output, r->n_after);
     axes_words("before", r->before);
     axes_words("after", r->after);
     (void)printf("  volume  %.8g -> %.8g\n", r->volume_hull, r->volume_after);
@@ -151,7 +151,12 @@ static clast_status run(const cli_common *common, void *config_bytes)
         status = check_config(config);
     }
     if (status == CLAST_OK) {
-        status = cli_mesh_input(common, &mesh);
+        status = cli_mesh_welded(common, &mesh);
+    }
+    if (status == CLAST_OK) {
+        status = config->hull > 0 ? CLAST_OK
+                                  : clast_mesh_require_solid(common->argument[0], &mesh,
+                                                             "take its hull with --hull N");
     }
     if (status == CLAST_OK) {
         status = reform(config, &mesh, &out, &report);
@@ -176,6 +181,10 @@ const cli_command cli_mesh_form = {
     .name = "mesh form",
     .arguments = "FILE -o OUT",
     .summary = "a grain in its principal frame, stretched to a wanted form and size",
+    .example =
+        {"clast mesh form data/standin63/grain00.ply --flatness 0.6 --elongation 0.7 -o flat.stl",
+         "clast mesh form data/standin63/grain00.ply --unit-form -o compact.ply",
+         "clast mesh form scan.stl --hull 100 --size 12 -o grain.stl"},
     .details =
         "L, I and S are the full axes of the ellipsoid with the grain's volume and moments of "
         "inertia; the\ngrain is turned so that they lie along x, y, z (never mirrored) and "

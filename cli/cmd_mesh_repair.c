@@ -93,7 +93,7 @@ static clast_status tell(const cli_common *common, const clast_mesh_repair_repor
         }
         return cli_print_json(object);
     }
-    (void)printf("%s:\n", common->argument[0]);
+    (void)printf("%s (model units):\n", common->argument[0]);
     print_changes(report);
     cli_check_words(common->output, check);
     return CLAST_OK;
@@ -135,6 +135,9 @@ const cli_command cli_mesh_repair = {
     .name = "mesh repair",
     .arguments = "FILE -o OUT",
     .summary = "make a surface closed, oriented and manifold",
+    .example = {"clast mesh repair data/scarlet/stl/t_rex.stl -o closed.stl",
+                "clast mesh repair scan.stl --keep largest -o body.ply",
+                "clast mesh repair scan.stl --weld within --weld-tolerance 1e-5 -o closed.stl"},
     .details =
         "Merges near vertices, drops triangles without area, repeated and loose ones, splits "
         "edges at\nT-junctions, turns windings alike and outward, fills holes, parts "

@@ -6,6 +6,7 @@
 #include <clast/hull.h>
 #include <clast/mesh_file.h>
 #include <clast/mesh_simplify.h>
+#include <math.h>
 
 #include <stdio.h>
 
@@ -13,7 +14,7 @@ typedef struct {
     int32_t faces;
 } simplify_config;
 
-static const clast_field simplify_fields[] = {{"faces", offsetof(simplify_config, faces),
+static const clast_field simplify_fields[] = {{"faces", .offset = offsetof(simplify_config, faces),
                                                CLAST_FIELD_I32, 300, 4, 2e9, "-",
                                                "number of triangles wanted", NULL},
                                               {0}};
@@ -43,7 +44,7 @@ static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify
 
 static void simplify_words(const cli_common *common, const clast_mesh_simplify_report *r)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles\n", common->argument[0],
+    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n", common->argument[0],
                  r->n_triangle_before, common->output, r->n_triangle_after);
     (void)printf("  volume %.12g -> %.12g (relative change %.2g; rounding of %.2g taken back)\n",
                  r->volume_before, r->volume_after, r->volume_after / r->volume_before - 1.0,
@@ -62,10 +63,11 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     clast_mesh_simplify_report report = {0};
     clast_status status = cli_mesh_output(common);
     if (status == CLAST_OK) {
-        status = cli_mesh_input(common, &mesh);
+        status = cli_mesh_welded(common, &mesh);
     }
     if (status == CLAST_OK) {
         status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
+        status = cli_mesh_refused(common->argument[0], &mesh, NULL, status);
     }
     if (status == CLAST_OK && clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
         status = clast_mesh_round_float(&out);
@@ -90,23 +92,51 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     return status;
 }
 
-static void hull_words(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull)
+/// Volume of the surface that the hull was taken of; NaN for points and open surfaces.
+static clast_status solid_volume(const clast_mesh *mesh, double *volume)
 {
-    const double volume = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : 0.0;
-    const double hull_volume = clast_mesh_volume(hull);
-    (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles\n", common->argument[0],
-                 mesh->n_vert, common->output, hull->n_vert, hull->n_tri);
-    (void)printf("  volume %.10g, hull %.10g: %.10g added (%.4g of the hull)\n", volume,
-                 hull_volume, hull_volume - volume, 1.0 - volume / hull_volume);
-    (void)printf("  area %.10g, hull %.10g\n", clast_mesh_area(mesh), clast_mesh_area(hull));
+    clast_mesh welded = {0};
+    clast_mesh_check_result found = {0};
+    clast_status status = clast_mesh_copy(mesh, &welded);
+    *volume = (double)NAN;
+    if (status == CLAST_OK) {
+        status = clast_mesh_weld_auto(&welded, NULL);
+    }
+    if (status == CLAST_OK && welded.n_tri > 0) {
+        status = clast_mesh_check(&welded, &found);
+    }
+    if (status == CLAST_OK && found.closed && found.oriented) {
+        *volume = found.volume;
+    }
+    clast_mesh_check_free(&found);
+    clast_mesh_free(&welded);
+    return status;
 }
 
-static json_t *hull_json(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull)
+static void hull_words(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull,
+                       double volume)
+{
+    const double hull_volume = clast_mesh_volume(hull);
+    (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles; model units\n",
+                 common->argument[0], mesh->n_vert, common->output, hull->n_vert, hull->n_tri);
+    (void)printf("  hull volume %.10g, area %.10g\n", hull_volume, clast_mesh_area(hull));
+    if (isnan(volume)) {
+        (void)printf("  what it adds is not known: the input is %s\n",
+                     mesh->n_tri > 0 ? "not closed (clast mesh check)" : "points");
+        return;
+    }
+    (void)printf(
+        "  surface volume %.10g, area %.10g: the hull adds %.10g (%.4g of its own volume)\n",
+        volume, clast_mesh_area(mesh), hull_volume - volume, 1.0 - volume / hull_volume);
+}
+
+static json_t *hull_json(const cli_common *common, const clast_mesh *mesh, const clast_mesh *hull,
+                         double volume)
 {
     json_t *o = json_object();
-    const double volume = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : 0.0;
     cli_json_text(o, "file", common->argument[0]);
     cli_json_text(o, "output", common->output);
+    cli_json_text(o, "unit", "model");
     cli_json_count(o, "n_vertex", hull->n_vert);
     cli_json_count(o, "n_triangle", hull->n_tri);
     cli_json_number(o, "volume", volume);
@@ -121,6 +151,7 @@ static clast_status run_hull(const cli_common *common, void *config)
 {
     clast_mesh mesh = {0};
     clast_mesh hull = {0};
+    double volume = 0.0;
     (void)config;
     clast_status status = cli_mesh_output(common);
     if (status == CLAST_OK) {
@@ -130,12 +161,15 @@ static clast_status run_hull(const cli_common *common, void *config)
         status = clast_mesh_hull(&mesh, &hull);
     }
     if (status == CLAST_OK) {
+        status = solid_volume(&mesh, &volume);
+    }
+    if (status == CLAST_OK) {
         status = clast_mesh_write(common->output, &hull, NULL);
     }
     if (status == CLAST_OK && common->json) {
-        status = cli_print_json(hull_json(common, &mesh, &hull));
+        status = cli_print_json(hull_json(common, &mesh, &hull, volume));
     } else if (status == CLAST_OK) {
-        hull_words(common, &mesh, &hull);
+        hull_words(common, &mesh, &hull, volume);
     }
     clast_mesh_free(&hull);
     clast_mesh_free(&mesh);
@@ -146,6 +180,9 @@ const cli_command cli_mesh_simplify = {
     .name = "mesh simplify",
     .arguments = "FILE --faces N -o OUT",
     .summary = "fewer triangles, same volume",
+    .example = {"clast mesh simplify data/standin63/grain00.ply --faces 100 -o small.stl",
+                "clast mesh simplify data/standin63/grain01.ply --faces 50 -o smaller.ply",
+                "clast mesh simplify scan.stl --faces 5000 -o small.obj --json"},
     .details = "Edges collapse, cheapest first, each to the point that keeps the volume and moves "
                "the surface\nleast (Lindstrom and Turk 1998). Topology stays; no triangle folds "
                "over. Reports how far the two\nsurfaces are apart. The volume is kept to 1e-12; in "
@@ -163,6 +200,9 @@ const cli_command cli_mesh_hull = {
     .name = "mesh hull",
     .arguments = "FILE -o OUT",
     .summary = "convex hull of a surface or of points",
+    .example = {"clast mesh hull data/scarlet/stl/particle.stl -o hull.stl",
+                "clast mesh hull data/scarlet/stl/t_rex.stl -o hull.ply",
+                "clast mesh hull scan.stl -o hull.obj --json"},
     .details = "Quickhull by qhull_r; reports the volume that the hull adds.",
     .fields = NULL,
     .config_size = 0,

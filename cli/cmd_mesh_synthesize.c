@@ -23,14 +23,16 @@ enum { MAX_FIELD = 32, COUNT_MAX = 1000000, PATH_SIZE = 4096 };
 static clast_field fields[MAX_FIELD];
 
 static const clast_field own = {"count",
-                                offsetof(synthesize_config, count),
+                                .offset = offsetof(synthesize_config, count),
                                 CLAST_FIELD_I32,
                                 1,
                                 1,
                                 COUNT_MAX,
                                 "-",
                                 "grains; more than one go into the folder -o, with grains.csv",
-                                NULL};
+                                NULL,
+                                .group = "number",
+                                .common = true};
 
 __attribute__((constructor)) static void join_fields(void)
 {
@@ -187,7 +189,11 @@ static clast_status run(const cli_common *common, void *config_bytes)
     for (int32_t i = 0; i < config->count && status == CLAST_OK; ++i) {
         status = make_one(common, config, i, &table);
         if (status == CLAST_OK && monitor.stop != NULL && monitor.stop(monitor.context)) {
-            status = CLAST_E_STOPPED;
+            status =
+                cli_fail(CLAST_E_STOPPED,
+                         "stopped after %d of %d grains; those written stay, grains.csv is not "
+                         "there",
+                         i + 1, config->count);
         }
     }
     if (status == CLAST_OK && config->count > 1) {
@@ -207,6 +213,9 @@ const cli_command cli_mesh_synthesize = {
     .name = "mesh synthesize",
     .arguments = "-o OUT",
     .summary = "grains of a wanted form, size and roughness that nobody scanned",
+    .example = {"clast mesh synthesize --flatness 0.5 --elongation 0.8 -o grain.stl",
+                "clast mesh synthesize --count 3 --flatness-deviation 0.1 -o grains/",
+                "clast mesh synthesize --measure normal_roundness --rough 0.8 -o round.ply"},
     .details =
         "Convex hulls of random bodies (spherical harmonics with a power-law spectrum) of at most "
         "--faces\ntriangles, stretched so that flatness, elongation and sieve size of the "

@@ -69,17 +69,52 @@ static void print_no_porosity(const clast_pack_result *r)
     }
 }
 
+static void print_frames(const clast_pack_result *r)
+{
+    if (r->n_frame > 0) {
+        (void)printf("%-26s %lld, every %.6g s of the simulation (frames.pvd)\n", "frames",
+                     (long long)r->n_frame, r->frame_interval);
+    } else if (r->frame_interval > 0.0) {
+        (void)printf("%-26s none: the run ended before the first, at %.6g s\n", "frames",
+                     r->frame_interval);
+    }
+}
+
+/// What still moves, and what that says of the rule that ended the run.
+static void print_motion(const clast_pack_result *r)
+{
+    if (r->dem.n_grain > 0) {
+        (void)printf("%-26s %.3g m/s the fastest grain; %d of %d with fewer than four contacts, "
+                     "walls counted\n",
+                     "motion", r->dem.max_speed, r->n_loose, r->dem.n_grain);
+    }
+    if (r->phase == CLAST_PACK_DONE && r->is_moving) {
+        (void)printf("%-26s the bed was level and still moves: its fastest grain is not below "
+                     "still_speed; --rule speed waits until it is\n",
+                     "warning");
+    }
+    if (r->fell) {
+        (void)printf("%-26s shaking ended while grains fell: the highest sank by %.4g mm since; "
+                     "take a longer --shaking-time\n",
+                     "warning", 1e3 * r->sank);
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
     print_hulls(r);
-    (void)printf("%-26s %d in %d fills, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
-                 r->dem.mass, r->mass_wanted);
+    (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
+                 r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
     if (r->n_waited > 0) {
         (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
                      (long long)r->n_waited);
     }
     (void)printf("%-26s %s%s after %lld steps, %.6g s\n", "phase", clast_pack_phase_name(r->phase),
-                 r->converged ? " (still)" : "", (long long)r->dem.step, r->dem.time);
+                 r->phase != CLAST_PACK_DONE ? ""
+                 : r->is_moving              ? " (level)"
+                                             : " (at rest)",
+                 (long long)r->dem.step, r->dem.time);
+    print_motion(r);
     if (r->n_outside > 0) {
         (void)printf("%-26s %d grains have left the container\n", "outside", r->n_outside);
     }
@@ -89,8 +124,8 @@ static void print_text(const clast_pack_result *r)
     } else {
         print_no_porosity(r);
     }
-    (void)printf("%-26s %.3f (%lld contacts of grains, %lld of walls)\n", "coordination",
-                 r->dem.coordination, (long long)r->dem.n_contact,
+    (void)printf("%-26s %.3f touching grains a grain (%lld contacts of grains, %lld with walls)\n",
+                 "coordination", r->dem.coordination, (long long)r->dem.n_contact,
                  (long long)r->dem.n_wall_contact);
     (void)printf("%-26s %.3g m\n", "deepest overlap", r->dem.max_overlap);
     if (r->dem.verified.n > 0) {
@@ -100,6 +135,7 @@ static void print_text(const clast_pack_result *r)
                      (long long)r->dem.verified.n_off, (long long)r->dem.verified.n_bad,
                      r->dem.verified.worst);
     }
+    print_frames(r);
     (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
                  r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : 0.0);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
@@ -137,17 +173,26 @@ static const char details[] =
     "Defaults are those of Rettinger, Ruede, Vollmer and Frings (eqs 4 to 15, sec. 4); options "
     "name\n"
     "where their program differs. --max-steps ends a run early, as it is then.\n\n"
+    "grains.csv has a row a grain: shape, flatness S/I, elongation I/L, sieve_size_m, "
+    "density_kg/m3,\n"
+    "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
+    "qw, qx, qy, qz that turns the shape into its place.\n\n"
     "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, grains.csv, summary.json, "
     "manifest.json,\n"
     "charts (energy.svg, profile.svg, achieved.svg), frames for ParaView with --frame-time, and\n"
     "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.\n"
     "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
-    "A folder that holds a run is refused: go on with it, or replace it with --force.";
+    "A folder that holds a run is refused: go on with it, or replace it with --force\n"
+    "(the new run is made in RUN.new and takes its place when it has succeeded).";
 
 const cli_command cli_pack = {
     .name = "pack",
     .arguments = "",
     .summary = "pour, shake and calm a bed of grains (DEM); its porosity",
+    .example =
+        {"clast pack --curve 4mm --mass 2g --width 30mm --height 0.1m --shaking-time 0",
+         "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/",
+         "clast pack --resume bed/"},
     .details = details,
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),

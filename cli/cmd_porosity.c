@@ -1,11 +1,11 @@
 // clast porosity: profile and bulk porosity of any assembly.
 #include "bed_runs.h"
 #include "command.h"
-#include "folder.h"
 #include "json.h"
-#include "manifest.h"
+#include "results.h"
 
-#include <clast/manifest.h>
+#include <clast/overlap.h>
+#include <clast/packing_file.h>
 #include <clast/porosity_chart.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,43 +15,58 @@
 
 typedef struct {
     char *bed;
-    double floor;
+    char *floor, *layer, *trim, *gap, *diameter; ///< as typed: the run's unit says how to read them
     int32_t method;
-    double layer, cut, trim;
-    bool at_slice;
-    double gap;
-    bool local;
+    double cut;
+    bool at_slice, local;
     int32_t rings;
     int64_t pores;
+    char *columns;
+    bool force;
 } porosity_config;
 
-#define FIELD(type, member) #member, offsetof(porosity_config, member), type
+/// What was typed, in the run's unit.
+typedef struct {
+    double floor, layer, trim, gap, diameter;
+} lengths;
+
+#define FIELD(type, member) #member, .offset = offsetof(porosity_config, member), type
 static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
-     "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 or mesh:FILE,UNIT; "
-     "none: the run's",
-     ""},
-    {FIELD(CLAST_FIELD_F64, floor), 0, -1e9, 1e9, "m", "height of the bottom, with --bed", NULL},
+     "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), "
+     "periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's",
+     "", .group = "bed and container"},
+    {FIELD(CLAST_FIELD_TEXT, floor), 0, 0, 0, "-", "height of the bottom, with --bed (as 5mm)",
+     "0"},
     {FIELD(CLAST_FIELD_CHOICE, method), CLAST_POROSITY_EXACT, 0, 1, "-",
-     "true shapes, or each grain as the sphere of its volume (published)", "exact|spheres"},
-    {FIELD(CLAST_FIELD_F64, layer), 0, 0, 1e9, "m",
-     "height of a slice; 0: 1 mm as published, or a tenth of the mean diameter where the unit is "
-     "not the metre",
-     NULL},
+     "true shapes, or each grain as the sphere of its volume (published)", "exact|spheres",
+     .group = "bulk porosity"},
+    {FIELD(CLAST_FIELD_TEXT, layer), 0, 0, 0, "-",
+     "height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run "
+     "without unit, whose lengths are bare numbers here too",
+     "0"},
     {FIELD(CLAST_FIELD_F64, cut), 0.5, 0, 1, "-",
      "the bed ends where the porosity rises through this (n_cut)", NULL},
-    {FIELD(CLAST_FIELD_F64, trim), 0, 0, 1e9, "m",
-     "left out at both ends (h_pd; published for periodic beds: 31.5 mm)", NULL},
+    {FIELD(CLAST_FIELD_TEXT, trim), 0, 0, 0, "-",
+     "left out at both ends (h_pd; published for periodic beds: 31.5mm)", "0"},
     {FIELD(CLAST_FIELD_BOOL, at_slice), 0, 0, 1, "-",
      "end the bed with a slice, as the reference program; else between slices", NULL},
-    {FIELD(CLAST_FIELD_F64, gap), 0, 0, 1e9, "m",
-     "grains this close touch, where the run does not know its contacts", NULL},
+    {FIELD(CLAST_FIELD_TEXT, gap), 0, 0, 0, "-",
+     "grains this close touch (as 10um), where the run does not know its contacts", "0",
+     .group = "more measures"},
     {FIELD(CLAST_FIELD_BOOL, local), 0, 0, 1, "-",
      "porosity around each grain too, by radical Voronoi cells of equal-volume spheres", NULL},
     {FIELD(CLAST_FIELD_I32, rings), 0, 0, 100000, "-",
      "porosity over the radius of a cylinder too, in this many rings", NULL},
     {FIELD(CLAST_FIELD_I64, pores), 0, 0, 1e8, "-",
      "sizes of pores too, from this many even points of the bed", NULL},
+    {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
+     "spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed "
+     "over); none: by their names",
+     ""},
+    {FIELD(CLAST_FIELD_TEXT, diameter), 0, 0, 0, "-",
+     "spheres: diameter of all, in place of the file's; 0: the file's", "0"},
+    CLI_FORCE(porosity_config),
     {0},
 };
 #undef FIELD
@@ -63,29 +78,6 @@ static bool ends_with(const char *text, const char *end)
     const size_t n = strlen(text);
     const size_t m = strlen(end);
     return n >= m && strcmp(text + n - m, end) == 0;
-}
-
-/// Spheres of a table as an assembly of scaled unit spheres.
-static clast_status from_spheres(const char *path, clast_assembly *assembly)
-{
-    const double upright[4] = {1.0, 0.0, 0.0, 0.0};
-    clast_spheres spheres = {0};
-    clast_shape ball = {0};
-    clast_status status = clast_spheres_read(path, NULL, &spheres);
-    if (status == CLAST_OK) {
-        status = clast_shape_sphere("sphere", 1.0, &ball);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_shape(assembly, &ball, NULL);
-        (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
-    }
-    for (int32_t i = 0; i < spheres.n && status == CLAST_OK; ++i) {
-        status = clast_assembly_add_grain(assembly, 0, spheres.centre[i], upright,
-                                          spheres.radius[i], 1.0);
-    }
-    clast_shape_free(&ball);
-    clast_spheres_free(&spheres);
-    return status;
 }
 
 /// A run that is measured.
@@ -104,25 +96,27 @@ static void subject_free(subject *s)
     clast_table_free(&s->contacts);
 }
 
-/// The file that is measured: a folder's state.h5.
-static clast_status state_path(const char *input, char path[4096])
-{
-    struct stat info;
-    const bool is_folder = stat(input, &info) == 0 && S_ISDIR(info.st_mode);
-    const int n = snprintf(path, 4096, is_folder ? "%s/state.h5" : "%s", input);
-    return n > 0 && n < 4096 ? CLAST_OK : cli_fail(CLAST_E_IO, "%s: the path is too long", input);
-}
-
 /// The grains, and the run's own bed and contact forces where it has them.
-static clast_status read_input(const char *input, subject *s)
+static clast_status read_input(const char *input, const porosity_config *config, subject *s)
 {
-    char path[CLI_PATH];
-    const clast_status found = state_path(input, path);
+    char path[CLAST_RUN_PATH];
+    double diameter = 0.0;
+    clast_status found = clast_run_folder_state(input, path);
+    if (found == CLAST_OK) { // read_lengths checks its unit, once the file's is known
+        found = clast_unit_parse(config->diameter, "m", &diameter);
+    }
     if (found != CLAST_OK) {
         return found;
     }
     if (!ends_with(path, ".h5")) {
-        return from_spheres(path, &s->assembly);
+        const clast_packing_options options = {config->columns, diameter};
+        return clast_packing_read(path, &options, &s->assembly);
+    }
+    if (config->columns[0] != '\0' || diameter > 0.0) {
+        return cli_fail(CLAST_E_USAGE,
+                        "%s is a run, which knows its grains: leave out --columns and "
+                        "--diameter",
+                        input);
     }
     const clast_status status = clast_state_read_assembly(path, &s->assembly);
     if (status == CLAST_OK) {
@@ -150,6 +144,7 @@ typedef struct {
     clast_table stress_profile;
     clast_porosity_bulk bulk;
     double mean_coordination; ///< NAN where contacts are not known
+    clast_overlaps overlaps;
 } findings;
 
 static void findings_free(findings *f)
@@ -164,22 +159,29 @@ static void findings_free(findings *f)
     clast_table_free(&f->stress_profile);
 }
 
-static clast_status measure_contacts(clast_assembly *assembly, const clast_bed *bed, double gap,
-                                     findings *f)
+/// Contacts, directions and overlaps. The contacts of a run of clast pack overlap by what their
+/// forces need, which that run tells: they are not searched for anew.
+static clast_status measure_contacts(subject *s, double gap, findings *f)
 {
-    const double period[2] = {bed->high[0] - bed->low[0], bed->high[1] - bed->low[1]};
+    clast_assembly *assembly = &s->assembly;
+    const clast_bed *bed = &s->bed;
+    clast_period period = {.low = {bed->low[0], bed->low[1], bed->floor}};
+    const bool is_periodic = clast_bed_period(bed, period.length);
     clast_status status = CLAST_OK;
+    f->overlaps = (clast_overlaps){-1, NAN, NAN};
+    if (s->contacts.n_column == 0) {
+        status = clast_assembly_overlaps(assembly, is_periodic ? &period : NULL, &f->overlaps);
+    }
     f->mean_coordination = NAN;
-    if (gap > 0.0) {
-        status = clast_assembly_find_contacts(assembly, gap);
+    if (status == CLAST_OK && gap > 0.0) {
+        status = clast_assembly_find_contacts_periodic(assembly, gap, is_periodic ? &period : NULL);
     }
     if (status == CLAST_OK && assembly->contact != NULL) {
         f->mean_coordination = 2.0 * assembly->n_contact / assembly->n_grain;
         status = clast_assembly_coordination(assembly, &f->coordination);
     }
     if (status == CLAST_OK) {
-        status =
-            clast_fabric(assembly, bed->kind == CLAST_BED_PERIODIC ? period : NULL, &f->fabric);
+        status = clast_fabric(assembly, is_periodic ? period.length : NULL, &f->fabric);
     }
     return status;
 }
@@ -195,18 +197,20 @@ static clast_status check_bed(const clast_porosity_bulk *bulk)
                                               1.0 - bulk->porosity, bulk->z_low, bulk->z_high);
 }
 
-static clast_status measure(subject *s, const clast_porosity_options *options,
+static clast_status measure(subject *s, const clast_porosity_options *options, double gap,
                             const porosity_config *config, findings *f)
 {
     clast_assembly *assembly = &s->assembly;
     const clast_bed *bed = &s->bed;
-    clast_status status = clast_porosity_profile(assembly, bed, options, &f->profile);
+    clast_status status = CLAST_OK;
+    clast_bed_wrap(bed, assembly);
+    status = clast_porosity_profile(assembly, bed, options, &f->profile);
     if (status == CLAST_OK) {
         status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
         status = status == CLAST_OK ? check_bed(&f->bulk) : status;
     }
     if (status == CLAST_OK) {
-        status = measure_contacts(assembly, bed, config->gap, f);
+        status = measure_contacts(s, gap, f);
     }
     if (status == CLAST_OK && config->local) {
         status = clast_local_porosity(assembly, bed, bed->floor, f->bulk.top, &f->local);
@@ -217,11 +221,8 @@ static clast_status measure(subject *s, const clast_porosity_options *options,
         status = clast_radial_porosity(assembly, bed, z, &rings, &f->radial);
     }
     if (status == CLAST_OK && config->pores > 0) {
-        const bool periodic = bed->kind == CLAST_BED_PERIODIC;
-        const clast_pore_options pores = {config->pores,
-                                          PORE_BINS,
-                                          {periodic ? bed->high[0] - bed->low[0] : 0.0,
-                                           periodic ? bed->high[1] - bed->low[1] : 0.0}};
+        clast_pore_options pores = {.n_point = config->pores, .n_bin = PORE_BINS};
+        (void)clast_bed_period(bed, pores.period);
         status = clast_pores_measure(assembly, bed, z, &pores, &f->pores);
     }
     if (status == CLAST_OK && s->contacts.n_row > 0) {
@@ -242,14 +243,14 @@ static int64_t local_moments(const clast_table *local, double *mean, double *dev
     double sum = 0.0;
     double square = 0.0;
     for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
-        if (border[i] == 0.0) {
+        if (border[i] == 0.0 && isfinite(porosity[i])) {
             ++n;
             sum += porosity[i];
         }
     }
     *mean = n > 0 ? sum / (double)n : (double)NAN;
     for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
-        if (border[i] == 0.0) {
+        if (border[i] == 0.0 && isfinite(porosity[i])) {
             square += (porosity[i] - *mean) * (porosity[i] - *mean);
         }
     }
@@ -284,6 +285,11 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     cli_json_number(object, "top", f->bulk.top);
     cli_json_number(object, "solid", f->bulk.solid);
     cli_json_number(object, "coordination", f->mean_coordination);
+    if (f->overlaps.n >= 0) {
+        cli_json_count(object, "n_overlap", f->overlaps.n);
+        cli_json_number(object, "max_overlap", f->overlaps.depth);
+        cli_json_number(object, "max_overlap_share", f->overlaps.share);
+    }
     cli_json_text(object, "unit", assembly->unit);
     if (f->local.n_column > 0) {
         double mean = NAN;
@@ -311,21 +317,12 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     return object;
 }
 
-static clast_status make_folder(const char *folder)
-{
-    struct stat info;
-    if (mkdir(folder, 0777) != 0 && (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))) {
-        return cli_fail(CLAST_E_DISK, "cannot make the folder %s", folder);
-    }
-    return CLAST_OK;
-}
-
 /// Tables and charts.
-static clast_status write_findings(const char *folder, const clast_assembly *assembly,
+static clast_status write_findings(const clast_run_folder *run, const clast_assembly *assembly,
                                    const findings *f)
 {
-    char path[CLI_PATH];
-    clast_status status = make_folder(folder);
+    char path[CLAST_RUN_PATH];
+    clast_status status = CLAST_OK;
     const struct {
         const char *name;
         const clast_table *table;
@@ -335,29 +332,29 @@ static clast_status write_findings(const char *folder, const clast_assembly *ass
                  {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
-            status = cli_folder_path(path, folder, files[k].name);
+            status = clast_run_folder_file(run, files[k].name, path);
             status = status == CLAST_OK ? clast_table_write_csv(files[k].table, path) : status;
         }
     }
     if (status == CLAST_OK) {
-        status = cli_folder_path(path, folder, "profile.svg");
+        status = clast_run_folder_file(run, "profile.svg", path);
     }
     if (status == CLAST_OK) {
         status = clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path);
     }
     if (status == CLAST_OK && f->radial.n_column > 0) {
-        status = cli_folder_path(path, folder, "radial.svg");
+        status = clast_run_folder_file(run, "radial.svg", path);
         status = status == CLAST_OK ? clast_radial_chart_write(&f->radial, assembly->unit, path)
                                     : status;
     }
     if (status == CLAST_OK && f->stress_profile.n_column > 0) {
-        status = cli_folder_path(path, folder, "stress.svg");
+        status = clast_run_folder_file(run, "stress.svg", path);
         status = status == CLAST_OK
                      ? clast_stress_chart_write(&f->stress_profile, assembly->unit, path)
                      : status;
     }
     if (status == CLAST_OK && f->pores.sizes.n_column > 0) {
-        status = cli_folder_path(path, folder, "pores.svg");
+        status = clast_run_folder_file(run, "pores.svg", path);
         status = status == CLAST_OK ? clast_pore_chart_write(&f->pores.sizes, assembly->unit, path)
                                     : status;
     }
@@ -404,25 +401,27 @@ static void bed_file(const char *bed, char path[4096])
     }
 }
 
-/// Says where the results came from: the state of every run, the bed's surface.
-static clast_status write_manifest(const cli_common *common, const porosity_config *config,
-                                   clast_manifest *manifest)
+/// Makes the folder, which says where the results came from: the state of every run, the bed's
+/// surface.
+static clast_status open_results(const cli_common *common, const porosity_config *config,
+                                 clast_run_folder *run)
 {
-    char path[CLI_PATH];
+    char path[CLAST_RUN_PATH];
     clast_status status = CLAST_OK;
-    for (int32_t i = 0; i < common->n_argument && manifest != NULL && status == CLAST_OK; ++i) {
-        status = state_path(common->argument[i], path);
-        status = status == CLAST_OK ? clast_manifest_input(manifest, "run", path) : status;
+    for (int32_t i = 0; i < common->n_argument && run != NULL && status == CLAST_OK; ++i) {
+        status = clast_run_folder_state(common->argument[i], path);
+        status = status == CLAST_OK ? clast_run_folder_input(run, "run", path) : status;
     }
     bed_file(config->bed, path);
     const cli_input inputs[] = {{"bed", path}, {NULL, NULL}};
-    return status == CLAST_OK ? cli_manifest_end(common, manifest, fields, config, 0, inputs)
-                              : status;
+    return status == CLAST_OK ? cli_results_open(run, fields, config, 0, inputs) : status;
 }
 
 static clast_status print(const cli_common *common, const porosity_config *config,
-                          const clast_assembly *assembly, const findings *f)
+                          const clast_assembly *assembly, const clast_bed *bed, const findings *f)
 {
+    const bool is_model = strcmp(assembly->unit, "model") == 0;
+    const char *unit = is_model ? "model units" : assembly->unit;
     if (common->json) {
         json_t *object = to_json(assembly, config, f);
         (void)json_object_set_new(object, "profile", profile_json(f));
@@ -432,9 +431,24 @@ static clast_status print(const cli_common *common, const porosity_config *confi
                  config->method == CLAST_POROSITY_EXACT ? "true shapes"
                                                         : "spheres of equal volume");
     (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,
-                 f->bulk.z_low, f->bulk.z_high, assembly->unit);
-    (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n", f->bulk.top,
-                 assembly->unit, config->cut);
+                 f->bulk.z_low, f->bulk.z_high, unit);
+    if (bed->kind == CLAST_BED_PERIODIC_3D) {
+        (void)printf("bed                 periodic in all three directions: the whole box\n");
+    } else {
+        (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n",
+                     f->bulk.top, unit, config->cut);
+    }
+    if (f->overlaps.n > 0) {
+        (void)printf(
+            "overlaps            %d pair%s of grains, the deepest by %.3g %% of the smaller "
+            "one's radius (of equal volume); the solid counts what they share twice\n",
+            f->overlaps.n, f->overlaps.n == 1 ? "" : "s", 100.0 * f->overlaps.share);
+    } else if (f->overlaps.n < 0) {
+        (void)printf("overlaps            those of the run's own contacts: max_overlap in its "
+                     "summary.json\n");
+    } else {
+        (void)printf("overlaps            none\n");
+    }
     if (isfinite(f->mean_coordination)) {
         (void)printf("mean coordination   %.4f   from %d contacts\n", f->mean_coordination,
                      assembly->n_contact);
@@ -444,8 +458,10 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         double deviation = NAN;
         const int64_t n = local_moments(&f->local, &mean, &deviation);
         if (n > 1) {
-            (void)printf("local porosity      %.4f +- %.4f   over %lld grains away from walls\n",
-                         mean, deviation, (long long)n);
+            (void)printf(
+                "local porosity      %.4f mean, %.4f standard deviation, of %lld grains whose "
+                "cells reach no wall\n",
+                mean, deviation, (long long)n);
         } else {
             (void)printf(
                 "local porosity      every grain's cell but %lld reaches a wall: no mean\n",
@@ -456,7 +472,7 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)printf(
             "pores               %.6g %s   mean distance to the nearest grain; porosity by "
             "points %.4f\n",
-            f->pores.mean, assembly->unit, f->pores.porosity);
+            f->pores.mean, unit, f->pores.porosity);
     }
     for (int64_t k = 0; k < f->fabric.n_row; ++k) {
         (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
@@ -473,15 +489,58 @@ static clast_status print(const cli_common *common, const porosity_config *confi
     return CLAST_OK;
 }
 
+/// A length as typed: with its unit for a run in metres, bare in the unit of any other.
+static clast_status read_length(const char *name, const char *text, const char *unit, double *value)
+{
+    const bool is_metre = strcmp(unit, "m") == 0;
+    const double low = strcmp(name, "floor") == 0 ? -1e9 : 0.0;
+    clast_status status =
+        is_metre ? clast_unit_parse_asked(text, "m", value) : clast_unit_parse(text, "-", value);
+    if (status != CLAST_OK) {
+        return cli_fail(status, "%s: %s%s", name, clast_error_detail(),
+                        is_metre ? "" : "; the run has no unit, so a bare number in its own");
+    }
+    return *value >= low && *value <= 1e9
+               ? CLAST_OK
+               : cli_fail(CLAST_E_CONFIG, "%s: %s is outside [%g, 1e9]", name, text, low);
+}
+
+static clast_status read_lengths(const porosity_config *config, const char *unit, lengths *out)
+{
+    const struct {
+        const char *name, *text;
+        double *value;
+    } wanted[] = {{"floor", config->floor, &out->floor},
+                  {"layer", config->layer, &out->layer},
+                  {"trim", config->trim, &out->trim},
+                  {"gap", config->gap, &out->gap},
+                  {"diameter", config->diameter, &out->diameter}};
+    clast_status status = CLAST_OK;
+    for (size_t k = 0; k < sizeof wanted / sizeof wanted[0] && status == CLAST_OK; ++k) {
+        status = read_length(wanted[k].name, wanted[k].text, unit, wanted[k].value);
+    }
+    return status;
+}
+
 /// Reads a run and measures it.
 static clast_status measure_run(const char *input, const porosity_config *config, subject *s,
                                 findings *found)
 {
-    clast_status status = read_input(input, s);
+    lengths typed = {0};
+    clast_status status = read_input(input, config, s);
+    if (status == CLAST_OK) {
+        status = read_lengths(config, s->assembly.unit, &typed);
+    }
     if (status == CLAST_OK && config->bed[0] != '\0') {
         clast_mesh_free(&s->surface);
         status = clast_bed_load(config->bed, &s->bed, &s->surface);
-        s->bed.floor = s->bed.kind == CLAST_BED_MESH ? s->bed.floor : config->floor;
+        const bool has_floor =
+            s->bed.kind == CLAST_BED_MESH || s->bed.kind == CLAST_BED_PERIODIC_3D;
+        if (status == CLAST_OK && has_floor && typed.floor != 0.0) {
+            status = cli_fail(CLAST_E_USAGE, "--bed %s has a bottom of its own: leave out --floor",
+                              config->bed);
+        }
+        s->bed.floor = has_floor ? s->bed.floor : typed.floor;
     } else if (status == CLAST_OK && !s->has_bed) {
         status = cli_fail(CLAST_E_USAGE,
                           "%s does not say what holds the grains; give --bed, such "
@@ -491,14 +550,14 @@ static clast_status measure_run(const char *input, const porosity_config *config
     clast_porosity_options options = clast_porosity_options_default();
     options.method = (clast_porosity_method)config->method;
     options.cut = config->cut;
-    options.trim = config->trim;
+    options.trim = typed.trim;
     options.at_slice = config->at_slice;
-    if (config->layer > 0.0) {
-        options.layer = config->layer;
+    if (typed.layer > 0.0) {
+        options.layer = typed.layer;
     } else if (strcmp(s->assembly.unit, "m") != 0) {
         options.layer = 0.1 * mean_diameter(&s->assembly);
     }
-    return status == CLAST_OK ? measure(s, &options, config, found) : status;
+    return status == CLAST_OK ? measure(s, &options, typed.gap, config, found) : status;
 }
 
 static clast_status gather(const cli_common *common, const porosity_config *config,
@@ -529,29 +588,23 @@ static clast_status gather(const cli_common *common, const porosity_config *conf
 }
 
 /// Keeps the summary; the object is dropped.
-static clast_status keep_summary(const char *folder, json_t *object)
+static clast_status keep_summary(const clast_run_folder *run, json_t *object)
 {
-    const clast_status status = cli_write_summary(object, folder);
+    const clast_status status = cli_results_summary(run, object);
     json_decref(object);
     return status;
 }
 
-static clast_status write_several(const cli_common *common, const porosity_config *config,
-                                  const cli_bed_runs *runs, clast_manifest *manifest)
-{
-    clast_status status = make_folder(common->output);
-    status = status == CLAST_OK ? cli_bed_runs_write(runs, common->output) : status;
-    status = status == CLAST_OK ? keep_summary(common->output, cli_bed_runs_json(runs)) : status;
-    return status == CLAST_OK ? write_manifest(common, config, manifest) : status;
-}
-
 static clast_status run_several(const cli_common *common, const porosity_config *config,
-                                clast_manifest *manifest)
+                                clast_run_folder *run)
 {
     cli_bed_runs runs = {0};
     clast_status status = gather(common, config, &runs);
-    if (status == CLAST_OK && common->output != NULL) {
-        status = write_several(common, config, &runs, manifest);
+    if (status == CLAST_OK && run != NULL) {
+        status = open_results(common, config, run);
+        status = status == CLAST_OK ? cli_bed_runs_write(&runs, run) : status;
+        status = status == CLAST_OK ? keep_summary(run, cli_bed_runs_json(&runs)) : status;
+        status = clast_run_folder_end(run, status);
     }
     if (status == CLAST_OK) {
         status =
@@ -562,20 +615,20 @@ static clast_status run_several(const cli_common *common, const porosity_config 
 }
 
 static clast_status run_one(const cli_common *common, const porosity_config *config,
-                            clast_manifest *manifest)
+                            clast_run_folder *run)
 {
     subject s = {0};
     findings found = {0};
     clast_status status = measure_run(common->argument[0], config, &s, &found);
-    if (status == CLAST_OK && common->output != NULL) {
-        status = write_findings(common->output, &s.assembly, &found);
-        status = status == CLAST_OK
-                     ? keep_summary(common->output, to_json(&s.assembly, config, &found))
-                     : status;
-        status = status == CLAST_OK ? write_manifest(common, config, manifest) : status;
+    if (status == CLAST_OK && run != NULL) {
+        status = open_results(common, config, run);
+        status = status == CLAST_OK ? write_findings(run, &s.assembly, &found) : status;
+        status =
+            status == CLAST_OK ? keep_summary(run, to_json(&s.assembly, config, &found)) : status;
+        status = clast_run_folder_end(run, status);
     }
     if (status == CLAST_OK) {
-        status = print(common, config, &s.assembly, &found);
+        status = print(common, config, &s.assembly, &s.bed, &found);
     }
     findings_free(&found);
     subject_free(&s);
@@ -584,13 +637,15 @@ static clast_status run_one(const cli_common *common, const porosity_config *con
 
 static clast_status run(const cli_common *common, void *context)
 {
-    clast_manifest *manifest = NULL;
+    porosity_config *c = context;
+    clast_run_folder *folder = NULL;
     clast_status status = check_output(common);
-    status = status == CLAST_OK ? cli_manifest_begin(common, &manifest) : status;
+    status =
+        status == CLAST_OK ? cli_results_begin(common, common->output, &c->force, &folder) : status;
     if (status == CLAST_OK) {
-        status = (common->n_argument > 1 ? run_several : run_one)(common, context, manifest);
+        status = (common->n_argument > 1 ? run_several : run_one)(common, c, folder);
     }
-    clast_manifest_destroy(manifest);
+    clast_run_folder_destroy(folder);
     return status;
 }
 
@@ -598,8 +653,13 @@ const cli_command cli_porosity = {
     .name = "porosity",
     .arguments = "RUN [RUN...]",
     .summary = "profile and bulk porosity of a bed, by true shapes or as published",
+    .example = {"clast porosity bed/", "clast porosity bed/ --local --rings 10 -o porosity/",
+                "clast porosity spheres.csv --bed cylinder:50mm"},
     .details =
-        "RUN is a run's folder, its state.h5, or a CSV of spheres (x, y, z, radius).\n"
+        "RUN is a run's folder, its state.h5, or spheres: text, .xyz, LAMMPS dump, VTK points with "
+        "columns\nx, y, z and radius or diameter (x_mm: metres), voro++ (id x y z, with "
+        "--diameter; "
+        "id x y z r), .xyzd.\n"
         "n(z) = 1 - solid volume / (area times layer); solid volumes are exact: spheres and\n"
         "ellipsoids in closed form, surfaces by integration over their cut triangles.\n"
         "The bed ends where n(z), from above, falls through --cut; bulk is the porosity between\n"

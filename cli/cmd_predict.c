@@ -1,14 +1,13 @@
 // clast predict: porosity of a bed from the forms of its grains.
 #include "command.h"
 #include "json.h"
-#include "manifest.h"
 #include "predict_input.h"
+#include "results.h"
 
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     char *model;
@@ -19,28 +18,31 @@ typedef struct {
     bool each;
     int32_t resamples;
     uint64_t seed;
+    bool force;
 } config;
 
 static const clast_field fields[] = {
-    {"model", offsetof(config, model), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"model", .offset = offsetof(config, model), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "auto (mixture where the forms vary, else single), single, mixture, or a model file of clast "
      "fit",
      "auto"},
-    {"grading", offsetof(config, grading), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+    {"grading", .offset = offsetof(config, grading), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "published size distribution that the bed's resembles, up to scale", "U1|U7|B50"},
-    {"flatness", offsetof(config, flatness), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"flatness", .offset = offsetof(config, flatness), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "mean S/I, or mean and standard deviation as in 0.65+-0.17", ""},
-    {"elongation", offsetof(config, elongation), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"elongation", .offset = offsetof(config, elongation), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "mean I/L, or mean and standard deviation", ""},
-    {"grains", offsetof(config, grains), CLAST_FIELD_I64, 0, 0, 1e12, "-",
+    {"grains", .offset = offsetof(config, grains), CLAST_FIELD_I64, 0, 0, 1e12, "-",
      "number of grains behind the means (0: unknown, no sampling error)", NULL},
-    {"columns", offsetof(config, columns), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"columns", .offset = offsetof(config, columns), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "columns of the table: flatness,elongation or L,I,S (else known by their names)", ""},
-    {"each", offsetof(config, each), CLAST_FIELD_BOOL, 0, 0, 0, "-",
+    {"each", .offset = offsetof(config, each), CLAST_FIELD_BOOL, 0, 0, 0, "-",
      "every row is a bed of that single form: one prediction a row", NULL},
-    {"resamples", offsetof(config, resamples), CLAST_FIELD_I32, 500, 0, 1e6, "-",
+    {"resamples", .offset = offsetof(config, resamples), CLAST_FIELD_I32, 500, 0, 1e6, "-",
      "bootstrap resamples of the grains for the sampling error", NULL},
-    {"seed", offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "random numbers", NULL},
+    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-", "random numbers",
+     NULL},
+    CLI_FORCE(config),
     {0}};
 
 /// Everything of one run.
@@ -177,7 +179,7 @@ static json_t *json_beds(const clast_table *beds)
     return list;
 }
 
-static clast_status print_json(const job *j)
+static json_t *to_json(const job *j)
 {
     json_t *out = json_object();
     json_t *error = json_object();
@@ -192,14 +194,16 @@ static clast_status print_json(const job *j)
         (void)json_object_set_new(out, "out_of_range", json_outside(j));
         cli_json_number(error, "model", p->model_error);
         cli_json_number(error, "coefficients", p->coefficient_error);
-        cli_json_number(error, "sampling", p->sampling_error);
+        if (p->sampling_error > 0.0) { // else not known
+            cli_json_number(error, "sampling", p->sampling_error);
+        }
         (void)json_object_set_new(out, "errors", error);
     } else {
         json_decref(error);
         (void)json_object_set_new(out, "beds", json_beds(&j->beds));
     }
     (void)json_object_set_new(out, "inputs", json_inputs(j));
-    return cli_print_json(out);
+    return out;
 }
 
 static void print_formula(const clast_porosity_model *m)
@@ -228,10 +232,18 @@ static void print_one(const job *j)
     if (v->n_grain > 0) {
         (void)printf("grains     %lld\n", (long long)v->n_grain);
     }
-    (void)printf("flatness   %.4f +- %.4f\nelongation %.4f +- %.4f\nequancy    %.4f +- %.4f%s\n",
-                 v->flatness_mean, v->flatness_deviation, v->elongation_mean,
-                 v->elongation_deviation, v->equancy_mean, v->equancy_deviation,
-                 v->is_independent ? " (flatness and elongation taken as independent)" : "");
+    if (v->has_deviation) {
+        (void)printf(
+            "flatness   %.4f +- %.4f\nelongation %.4f +- %.4f\nequancy    %.4f +- %.4f%s\n",
+            v->flatness_mean, v->flatness_deviation, v->elongation_mean, v->elongation_deviation,
+            v->equancy_mean, v->equancy_deviation,
+            v->is_independent ? " (flatness and elongation taken as independent)" : "");
+    } else {
+        (void)printf(
+            "flatness   %.4f\nelongation %.4f\nequancy    %.4f (of the means: no deviations "
+            "were given)\n",
+            v->flatness_mean, v->elongation_mean, v->equancy_mean);
+    }
     if (j->model.kind == CLAST_MODEL_SINGLE && v->has_deviation) {
         (void)printf("note       a single-form model at the mean form: it leaves the spread of the "
                      "forms out\n");
@@ -263,7 +275,6 @@ static clast_status write_folder(const job *j, const char *folder)
     char path[4096];
     clast_table t = {0};
     clast_status status = CLAST_OK;
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
     (void)snprintf(path, sizeof path, "%s/prediction.csv", folder);
     if (j->has_one) {
         status = clast_porosity_prediction_table(&j->model, &j->inputs, &j->prediction, &t);
@@ -296,32 +307,40 @@ static clast_status answer(const config *c, const cli_common *common, job *j)
     return status == CLAST_OK ? predict_table(c, j) : status;
 }
 
+static clast_status keep_results(const cli_common *common, const config *c, const job *j,
+                                 clast_run_folder *folder)
+{
+    const bool is_file = strcmp(c->model, "auto") != 0 && strcmp(c->model, "single") != 0 &&
+                         strcmp(c->model, "mixture") != 0;
+    const cli_input inputs[] = {{"table", j->has_table ? common->argument[0] : NULL},
+                                {"model", is_file ? c->model : NULL},
+                                {NULL, NULL}};
+    json_t *summary = to_json(j);
+    clast_status status = cli_results_open(folder, fields, c, c->seed, inputs);
+    status = status == CLAST_OK ? write_folder(j, clast_run_folder_path(folder)) : status;
+    status = status == CLAST_OK ? cli_results_summary(folder, summary) : status;
+    json_decref(summary);
+    return clast_run_folder_end(folder, status);
+}
+
 static clast_status run(const cli_common *common, void *values)
 {
-    const config *c = values;
+    config *c = values;
     job j = {0};
-    clast_manifest *manifest = NULL;
-    clast_status status = cli_manifest_begin(common, &manifest);
+    clast_run_folder *folder = NULL;
+    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
     if (status == CLAST_OK) {
         status = answer(c, common, &j);
     }
-    if (status == CLAST_OK && common->output != NULL) {
-        const bool is_file = strcmp(c->model, "auto") != 0 && strcmp(c->model, "single") != 0 &&
-                             strcmp(c->model, "mixture") != 0;
-        const cli_input inputs[] = {{"table", j.has_table ? common->argument[0] : NULL},
-                                    {"model", is_file ? c->model : NULL},
-                                    {NULL, NULL}};
-        status = write_folder(&j, common->output);
-        if (status == CLAST_OK) {
-            status = cli_manifest_end(common, manifest, fields, c, c->seed, inputs);
-        }
+    if (status == CLAST_OK && folder != NULL) {
+        status = keep_results(common, c, &j, folder);
     }
     if (status == CLAST_OK && common->json) {
-        status = print_json(&j);
+        status = cli_print_json(to_json(&j));
     } else if (status == CLAST_OK) {
         (j.has_one ? print_one : print_beds)(&j);
     }
-    clast_manifest_destroy(manifest);
+    clast_run_folder_destroy(folder);
     free_job(&j);
     return status;
 }
@@ -329,7 +348,10 @@ static clast_status run(const cli_common *common, void *values)
 const cli_command cli_predict = {
     .name = "predict",
     .arguments = "[TABLE]",
-    .summary = "predict the porosity of a bed from the flatness and elongation of its grains",
+    .summary = "porosity of a bed from the flatness and elongation of its grains",
+    .example = {"clast predict --flatness 0.65+-0.17 --elongation 0.68+-0.14",
+                "clast predict grains.csv --grading B50",
+                "clast predict beds.csv --model model/model.json --each"},
     .details =
         "From a table of grains (columns flatness and elongation, or L, I, S) or from means and\n"
         "deviations:\n"
@@ -345,7 +367,7 @@ const cli_command cli_predict = {
         "published cross-validation error), the coefficients' printed digits (or a fitted model's\n"
         "covariance) and the sampling of the grains. Inputs outside the range of the model's data\n"
         "are named and in_range is false. Theory: docs/theory/predict.md.\n"
-        "-o FOLDER writes prediction.csv, left_out.csv and manifest.json.",
+        "-o FOLDER writes prediction.csv, left_out.csv, summary.json and manifest.json.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 0,

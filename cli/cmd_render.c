@@ -1,6 +1,7 @@
 // clast render: a picture of surfaces or of a run's assembly.
 #include "command.h"
 #include "json.h"
+#include "study_grains.h"
 
 #include <clast/mesh_file.h>
 #include <clast/render.h>
@@ -9,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /// Last part of a path without its extension, made unique among the assembly's shapes.
 static void name_of(const char *path, const clast_assembly *assembly, char *name, size_t size)
@@ -102,31 +102,23 @@ static clast_status load_state(const char *path, clast_assembly *assembly)
     return status;
 }
 
-/// The state file that an input means: the file itself, or state.h5 of a run's folder; false for a
-/// surface.
-static bool state_path(const char *input, char *path, size_t size)
-{
-    struct stat about;
-    const char *dot = strrchr(input, '.');
-    if (stat(input, &about) == 0 && S_ISDIR(about.st_mode)) {
-        (void)snprintf(path, size, "%s/state.h5", input);
-        return true;
-    }
-    (void)snprintf(path, size, "%s", input);
-    return dot != NULL && strcmp(dot, ".h5") == 0;
-}
-
 static clast_status load(const cli_common *common, clast_assembly *assembly)
 {
-    char path[4096];
+    char path[CLAST_RUN_PATH];
     clast_status status = CLAST_OK;
     (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
     for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
-        if (!state_path(common->argument[i], path, sizeof path)) {
+        const char *input = common->argument[i];
+        if (common->n_argument > 1 && cli_is_folder(input)) {
+            return cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", input);
+        }
+        status = clast_run_folder_state(input, path);
+        const char *dot = strrchr(path, '.');
+        if (status == CLAST_OK && (dot == NULL || strcmp(dot, ".h5") != 0)) {
             status = add_surface(path, assembly);
-        } else if (common->n_argument == 1) {
+        } else if (status == CLAST_OK && common->n_argument == 1) {
             status = load_state(path, assembly);
-        } else {
+        } else if (status == CLAST_OK) {
             status = cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
         }
     }
@@ -192,6 +184,9 @@ const cli_command cli_render = {
     .name = "render",
     .arguments = "INPUT [INPUT...]",
     .summary = "draw surfaces or a run's grains into a PNG picture",
+    .example = {"clast render data/standin63/grain00.ply --width 400 --height 300 -o grain.png",
+                "clast render run/ --colour size --ground -o run.png",
+                "clast render run/ --cut x --azimuth 30deg -o cut.png"},
     .details =
         "INPUT is a surface (STL, OBJ, PLY, OFF; several are drawn together, each at the place\n"
         "that its file gives it), a run's folder, or a state.h5. The output is a PNG file.\n"

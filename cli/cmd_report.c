@@ -48,10 +48,14 @@ static clast_status run(const cli_common *common, void *context)
 const cli_command cli_report = {
     .name = "report",
     .arguments = "RUN [RUN...]",
-    .summary = "one offline HTML page for run folders: numbers, charts, 3-D view, origin",
+    .summary = "one offline HTML page of runs: numbers, charts, 3-D view, origin",
+    .example = {"clast report run/ -o run.html",
+                "clast report run1/ run2/ --title 'Two beds' -o both.html",
+                "clast report study/ --no-view -o study.html"},
     .details =
-        "Each RUN is a folder that a clast command wrote; summary.json must be there. Shown when\n"
-        "present: manifest.json, history.csv and other tables, pictures (.png, .svg), state.h5.\n"
+        "Each RUN is a folder that a clast command wrote; where present are shown\n"
+        "summary.json, manifest.json, history.csv and other tables, pictures (.png, .svg), "
+        "state.h5.\n"
         "Several runs are compared in one table. Without -o the page of a single run goes to\n"
         "RUN/report.html. The page needs no network and no other file; its 3-D view needs WebGL.",
     .fields = clast_report_fields,

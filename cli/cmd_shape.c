@@ -1,5 +1,6 @@
 // clast shape: how large a grain is and what form it has.
 #include "command.h"
+#include "results.h"
 #include "shape_statistics.h"
 #include "shape_words.h"
 
@@ -20,49 +21,64 @@ typedef struct {
     double spacing;
     int32_t resamples;
     uint64_t seed;
+    bool force;
 } config;
 
-#define TEXT(name, help)                                                                           \
+#define TEXT(name, ...)                                                                            \
     {                                                                                              \
-#name, offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""                    \
+#name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", .text = "",       \
+               .help = __VA_ARGS__                                                                 \
     }
 static const clast_field fields[] = {
-    {"axes", offsetof(config, axes), CLAST_FIELD_CHOICE, CLAST_AXES_ELLIPSOID, 0, 0, "-",
+    {"axes", .offset = offsetof(config, axes), CLAST_FIELD_CHOICE, CLAST_AXES_ELLIPSOID, 0, 0, "-",
      "definition of L, I and S behind D and the form factors",
-     "ellipsoid|box|fitted|feret|principal"},
-    {"hull", offsetof(config, hull), CLAST_FIELD_BOOL, 0, 0, 1, "-",
-     "measure the convex hull (as packings use it), not the surface", NULL},
-    TEXT(unit, "unit of the files' coordinates (mm, um, ...): results are then SI; none: model "
-               "units"),
-    {"kind", offsetof(config, kind), CLAST_FIELD_CHOICE, CLAST_GRAINS_AUTO, 0, 0, "-",
-     "what the files hold; auto: by name and content", "auto|surface|series|voxels|points|table"},
-    {"degree", offsetof(config, degree), CLAST_FIELD_I32, -1, -1, CLAST_HARMONICS_MAX_DEGREE, "-",
-     "series: terms up to this degree; -1: all", NULL},
-    {"level", offsetof(config, level), CLAST_FIELD_I32, 5, 0, 8, "-",
+     "ellipsoid|box|fitted|feret|principal", .common = true, .group = "measures"},
+    {"hull", .offset = offsetof(config, hull), CLAST_FIELD_BOOL, 0, 0, 1, "-",
+     "measure the convex hull (as packings use it), not the surface", NULL, .common = true},
+    TEXT(unit,
+         "unit of the files' coordinates (mm, um, ...): results are then SI; none: model "
+         "units",
+         .common = true),
+    {"kind", .offset = offsetof(config, kind), CLAST_FIELD_CHOICE, CLAST_GRAINS_AUTO, 0, 0, "-",
+     "what the files hold; auto: by name and content",
+     "auto|surface|series|voxels|points|table|clump", .common = true, .group = "input"},
+    {"degree", .offset = offsetof(config, degree), CLAST_FIELD_I32, -1, -1,
+     CLAST_HARMONICS_MAX_DEGREE, "-", "series: terms up to this degree; -1: all", NULL,
+     .group = "series and points"},
+    {"level", .offset = offsetof(config, level), CLAST_FIELD_I32, 5, 0, 8, "-",
      "series: surface of 20 x 4^level triangles for calipers and boxes", NULL},
-    {"spacing", offsetof(config, spacing), CLAST_FIELD_F64, 0, 0, 1e300, "-",
+    {"spacing", .offset = offsetof(config, spacing), CLAST_FIELD_F64, 0, 0, 1e300, "-",
      "points: grid they were sampled on, in their unit, for a surface; 0: their convex hull", NULL},
-    TEXT(voxels, "volume without a header: its sizes NX,NY,NZ, x fastest"),
-    {"voxel_type", offsetof(config, voxel_type), CLAST_FIELD_CHOICE, CLAST_VOLUME_U8, 0, 0, "-",
-     "type of its values", "u8|i8|u16|i16|u32|i32|f32|f64"},
-    {"big_endian", offsetof(config, big_endian), CLAST_FIELD_BOOL, 0, 0, 1, "-",
+    TEXT(voxels, "volume without a header: its sizes NX,NY,NZ, x fastest", .common = true,
+         .group = "volumes"),
+    {"voxel_type", .offset = offsetof(config, voxel_type), CLAST_FIELD_CHOICE, CLAST_VOLUME_U8, 0,
+     0, "-", "type of its values", "u8|i8|u16|i16|u32|i32|f32|f64"},
+    {"big_endian", .offset = offsetof(config, big_endian), CLAST_FIELD_BOOL, 0, 0, 1, "-",
      "its values have their high byte first", NULL},
-    {"skip", offsetof(config, skip), CLAST_FIELD_I32, 0, 0, INT32_MAX, "-",
+    {"skip", .offset = offsetof(config, skip), CLAST_FIELD_I32, 0, 0, INT32_MAX, "-",
      "bytes before its values", NULL},
-    TEXT(voxel_edge, "volume: edges of a voxel, A or A,B,C along x, y, z; none: the file's, or 1"),
+    TEXT(voxel_edge, "volume: edges of a voxel, A or A,B,C along x, y, z; none: the file's, or 1",
+         .common = true),
     TEXT(dataset, "volume in an HDF5 file: name of the array [z][y][x]"),
-    TEXT(threshold, "volume: grains are the connected parts above this grey value, their surfaces "
-                    "its level; none: values are labels, 0 outside"),
-    {"least_voxels", offsetof(config, least_voxels), CLAST_FIELD_I32, 1, 1, INT32_MAX, "-",
-     "volume: grains of fewer voxels are left out", NULL},
-    TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names"),
-    TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder"),
-    TEXT(statistics, "write statistics of the set into this folder: tables, Zingg diagram, "
-                     "histograms, correlation, principal components"),
-    {"resamples", offsetof(config, resamples), CLAST_FIELD_I32, 2000, 0, 1e6, "-",
+    TEXT(threshold,
+         "volume: grains are the connected parts above this grey value, their surfaces "
+         "its level; none: values are labels, 0 outside",
+         .common = true),
+    {"least_voxels", .offset = offsetof(config, least_voxels), CLAST_FIELD_I32, 1, 1, INT32_MAX,
+     "-", "volume: grains of fewer voxels are left out", NULL, .common = true},
+    TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names",
+         .common = true, .group = "tables"),
+    TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder", .common = true,
+         .group = "output"),
+    TEXT(statistics,
+         "write statistics of the set into this folder: tables, Zingg diagram, "
+         "histograms, correlation, principal components",
+         .common = true),
+    {"resamples", .offset = offsetof(config, resamples), CLAST_FIELD_I32, 2000, 0, 1e6, "-",
      "statistics: bootstrap resamples for the intervals", NULL},
-    {"seed", offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-",
+    {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-",
      "statistics: random numbers of the resamples", NULL},
+    CLI_FORCE(config),
     {0}};
 
 static clast_status unit_factor(const config *c, double *factor)
@@ -149,19 +165,42 @@ static clast_status write_csv(const cli_common *common, const cli_shape_result *
     return status;
 }
 
+/// The folder of the statistics: manifest, tables, charts, summary.
+static clast_status keep_statistics(const cli_common *common, const config *c,
+                                    const clast_grain_statistics *statistics,
+                                    clast_run_folder *folder)
+{
+    clast_status status = CLAST_OK;
+    json_t *summary = cli_statistics_json(statistics);
+    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
+        status = clast_run_folder_input(folder, "grains", common->argument[i]);
+    }
+    if (status == CLAST_OK) {
+        status = cli_results_open(folder, fields, c, c->seed, &(cli_input){NULL, NULL});
+    }
+    if (status == CLAST_OK) {
+        status = clast_grain_statistics_write(statistics, clast_run_folder_path(folder), "svg");
+    }
+    status = status == CLAST_OK ? cli_results_summary(folder, summary) : status;
+    json_decref(summary);
+    return clast_run_folder_end(folder, status);
+}
+
 /// Statistics of the set, if they are wanted.
 static clast_status add_statistics(const cli_common *common, const config *c,
-                                   const cli_shape_result *shape,
+                                   const cli_shape_result *shape, clast_run_folder *folder,
                                    clast_grain_statistics *statistics)
 {
     const clast_bootstrap bootstrap = {.n_resample = c->resamples, .level = 0.95, .seed = c->seed};
     clast_table table = {0};
     clast_status status = CLAST_OK;
-    if (c->statistics[0] != '\0' && shape->grains.n > 0) {
+    if (folder != NULL && shape->grains.n > 0) {
         status = clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table);
         if (status == CLAST_OK) {
-            status = cli_shape_statistics(common->command, &table, &bootstrap, c->statistics,
-                                          statistics);
+            status = cli_shape_statistics(common->command, &table, &bootstrap, statistics);
+        }
+        if (status == CLAST_OK) {
+            status = keep_statistics(common, c, statistics, folder);
         }
     }
     clast_table_free(&table);
@@ -207,7 +246,8 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
 
 static clast_status run(const cli_common *common, void *config_bytes)
 {
-    const config *c = config_bytes;
+    config *c = config_bytes;
+    clast_run_folder *folder = NULL;
     double unit_m = 0.0;
     clast_grain_statistics statistics = {0};
     cli_shape_result shape = {.axes = (clast_axes_kind)c->axes, .is_hull = c->hull};
@@ -220,7 +260,10 @@ static clast_status run(const cli_common *common, void *config_bytes)
         .columns = c->columns[0] != '\0' ? c->columns : NULL,
         .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
     };
-    clast_status status = unit_factor(c, &unit_m);
+    clast_status status = cli_results_begin(common, c->statistics, &c->force, &folder);
+    if (status == CLAST_OK) {
+        status = unit_factor(c, &unit_m);
+    }
     if (status == CLAST_OK) {
         status = volume_options(c, &options);
     }
@@ -236,7 +279,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
         status = write_csv(common, &shape);
     }
     if (status == CLAST_OK) {
-        status = add_statistics(common, c, &shape, &statistics);
+        status = add_statistics(common, c, &shape, folder, &statistics);
     }
     if (status == CLAST_OK) {
         status = print(common, &shape, &statistics);
@@ -244,6 +287,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
     if (status == CLAST_OK) {
         status = tell_faults(common, &shape.grains);
     }
+    clast_run_folder_destroy(folder);
     clast_grains_free(&shape.grains);
     clast_grain_statistics_free(&statistics);
     return status;
@@ -256,16 +300,20 @@ static clast_status run(const cli_common *common, void *config_bytes)
 const cli_command cli_shape = {
     .name = "shape",
     .arguments = "FILE [FILE...]",
-    .summary = "size and form of grains: volume, L I S, form factors, sphericity, roundness",
+    .summary = "size and form of grains: volume, L I S, form factors, roundness",
+    .example = {"clast shape data/standin63/grain00.ply data/standin63/grain01.ply",
+                "clast shape data/standin63/*.ply --statistics forms/",
+                "clast shape scan.stl --unit um --json"},
     .details =
         "Files: surfaces (STL, OBJ, PLY, OFF), coefficients of spherical harmonics (rows n m Re "
         "Im),\nvolumes of labels or, with --threshold, grey values (NRRD, TIFF stack, HDF5 array, "
         "bare "
-        "values,\nXsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), tables of L,I,S "
+        "values,\nXsize: ... text), points (x,y,z: CSV, VTK, PLY without faces), clumps of spheres "
+        "(x,y,z and\nradius or diameter: the union of the spheres), tables of L,I,S "
         "or flatness,elongation.\n-o FILE.csv writes everything as a table.\n"
         "--statistics FOLDER: means, deviations, quantiles with bootstrap intervals, Shapiro-Wilk, "
-        "Pearson,\nprincipal components as CSV; Zingg diagram, histograms, correlation as SVG "
-        "(docs/theory/statistics.md).\n"
+        "Pearson,\nprincipal components as CSV; Zingg diagram, histograms, correlation as SVG; "
+        "summary.json,\nmanifest.json (docs/theory/statistics.md).\n"
         "Files that cannot be measured get one line on stderr each, the others are measured; exit "
         "code 3.\n\nL >= I >= S by definition (--axes; all are in --json and CSV):" CLAST_AXES_LIST(
             AXES) "\n  D = sqrt((S^2+I^2)/2), the sieve size [Rettinger2022 eq. 1]\n\n"

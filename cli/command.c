@@ -14,7 +14,7 @@ typedef struct {
     void *config;
     const clast_field **touched; ///< list fields that the command line has set already
     int32_t n_touched;
-    bool help;
+    bool help, help_all;
 } parser;
 
 static char refusal[1024];
@@ -112,8 +112,9 @@ static bool common_option(parser *p, const char *name, const char *value, bool *
         p->common.json = true;
     } else if (strcmp(name, "quiet") == 0) {
         p->common.quiet = true;
-    } else if (strcmp(name, "help") == 0) {
+    } else if (strcmp(name, "help") == 0 || strcmp(name, "help-all") == 0) {
         p->help = true;
+        p->help_all = p->help_all || name[4] == '-';
     } else if (strcmp(name, "output") == 0 || strcmp(name, "threads") == 0 ||
                strcmp(name, "set") == 0) {
         *used_value = true;
@@ -288,7 +289,7 @@ static clast_status perform(parser *p, int argc, char **argv)
     const bool is_run = status == CLAST_OK && !p->help;
     status = cli_agree(&p->common, is_run ? check_arguments(p) : status);
     if (status == CLAST_OK && p->help && p->common.comm->rank == 0) {
-        cli_help(p->command);
+        (p->help_all ? cli_help_all : cli_help)(p->command);
     } else if (status == CLAST_OK && !p->help) {
         const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
         clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);

@@ -20,7 +20,8 @@ typedef struct cli_command {
     const char *name;          ///< "mesh check"
     const char *arguments;     ///< "FILE [FILE...]"; "" for none
     const char *summary;       ///< one line
-    const char *details;       ///< more lines for --help, definitions and sources, or NULL
+    const char *details;       ///< more lines for --help-all, definitions and sources, or NULL
+    const char *example[3];    ///< whole command lines, from the root of a clone
     const clast_field *fields; ///< own options; NULL for none
     size_t config_size;        ///< bytes of the configuration struct
     int32_t n_min, n_max;      ///< positional arguments allowed
@@ -46,14 +47,28 @@ clast_status cli_agree(const cli_common *common, clast_status status);
 clast_status cli_fail(clast_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/// Writes the help page of a command.
+/// Writes the first page of a command: examples and the options that most runs need.
 void cli_help(const cli_command *command);
+
+/// Writes everything there is to say about a command, its options in groups.
+void cli_help_all(const cli_command *command);
+
+enum { CLI_NAME_SIZE = 64, CLI_WORDS_SIZE = 512 };
+
+/// The option's name as it is typed: "cone", "[no-]hull".
+void cli_field_name(const clast_field *field, char name[CLI_NAME_SIZE]);
+
+/// Choices, unit and default of an option as they are typed: " {a|b} (default 1deg)", or "".
+void cli_field_values(const clast_field *field, char words[CLI_WORDS_SIZE]);
+
+/// The heading that begins at this field of a table, or NULL; the first field has always one.
+const char *cli_field_group(const clast_field *fields, const clast_field *field);
 
 /// The next command of the registry (cli/commands.def), or NULL after the last.
 const cli_command *cli_command_at(int32_t index);
 
 /// Progress on stderr for a monitor: at most 5 lines a second on a terminal, one a minute in a log.
-/// stop() is true after SIGINT or SIGTERM.
+/// stop() is true after SIGINT, SIGTERM or SIGHUP.
 clast_monitor cli_monitor(const cli_common *common);
 
 /// Seconds since some fixed moment; never goes back.
@@ -62,5 +77,5 @@ double cli_clock(void);
 /// Seconds of processor time of the whole process, all threads added.
 double cli_clock_cpu(void);
 
-/// 130 after SIGINT, 143 after SIGTERM, 0 when neither came.
+/// 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP, 0 when none came.
 int cli_signal_code(void);

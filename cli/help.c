@@ -1,87 +1,237 @@
-// Help pages, from the same field tables that parse the options.
+// Help pages, from the same field tables that parse the options. The first page has 25 lines of 90
+// columns at most (tests/cli/test_help.py).
 #include "command.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+enum { COLUMNS = 90, NAME_COLUMN = 23 };
+
+void cli_field_name(const clast_field *f, char name[CLI_NAME_SIZE])
+{
+    const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
+    (void)snprintf(name, CLI_NAME_SIZE, "%s%s", is_on ? "[no-]" : "", f->name);
+    for (char *c = name; *c != '\0'; ++c) {
+        *c = *c == '_' ? '-' : *c;
+    }
+}
+
+const char *cli_field_group(const clast_field *fields, const clast_field *f)
+{
+    return f->group == NULL && f == fields ? "options" : f->group;
+}
+
+/// A length as people say it: 104mm, 30um.
+static const char *length_unit(double value, double *factor)
+{
+    static const struct {
+        const char *name;
+        double metre;
+    } units[] = {{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
+    int k = 0;
+    while (k < 3 && fabs(value) < 0.999 * units[k].metre) {
+        ++k;
+    }
+    *factor = units[k].metre;
+    return units[k].name;
+}
+
+/// A default as it is typed: 1deg, 104mm, 2650kg/m^3.
+static void quantity_text(double value, const char *unit, char *text, size_t size)
+{
+    double factor = 1.0;
+    const char *name = unit;
+    if (strcmp(unit, "rad") == 0) {
+        factor = CLAST_PI / 180.0;
+        name = "deg";
+    } else if (strcmp(unit, "m") == 0 && value != -1.0) {
+        name = length_unit(value, &factor);
+    } else if (strcmp(unit, "-") == 0 || value == -1.0) {
+        name = "";
+    }
+    (void)snprintf(text, size, "%g%s", value / factor, value == 0.0 ? "" : name);
+}
 
 static void default_text(const clast_field *f, char *text, size_t size)
 {
-    switch (f->type) {
-    case CLAST_FIELD_F64:
-        (void)snprintf(text, size, "%g", f->value);
-        break;
-    case CLAST_FIELD_I32:
-    case CLAST_FIELD_I64:
-    case CLAST_FIELD_U64:
-        (void)snprintf(text, size, "%.0f", f->value);
-        break;
-    case CLAST_FIELD_BOOL:
-        (void)snprintf(text, size, "%s", f->value != 0.0 ? "true" : "false");
-        break;
-    case CLAST_FIELD_CHOICE: {
+    const char *unit = f->unit != NULL ? f->unit : "-";
+    const bool is_list = f->type == CLAST_FIELD_F64_LIST && f->text != NULL;
+    text[0] = '\0';
+    if (f->type == CLAST_FIELD_CHOICE) {
         const int32_t index = (int32_t)f->value;
         clast_field one = *f;
         one.offset = 0;
-        if (clast_field_format(&one, &index, 0, text, size) < 0) {
-            text[0] = '\0';
-        }
-        break;
-    }
-    default:
+        (void)clast_field_format(&one, &index, 0, text, size);
+    } else if (f->type == CLAST_FIELD_F64) {
+        quantity_text(f->value, unit, text, size);
+    } else if (is_list && f->text[0] != '\0' && strchr(f->text, ',') == NULL) {
+        quantity_text(strtod(f->text, NULL), unit, text, size);
+    } else if (f->type == CLAST_FIELD_BOOL) {
+        (void)snprintf(text, size, "%s", f->value != 0.0 ? "on" : "");
+    } else if (f->type <= CLAST_FIELD_U64) {
+        (void)snprintf(text, size, "%.0f", f->value);
+    } else {
         (void)snprintf(text, size, "%s", f->text != NULL ? f->text : "");
     }
 }
 
-static void print_field(const clast_field *f)
+/// How a value with a unit looks where no default shows it.
+static const char *looks_like(const clast_field *f)
 {
-    char name[64];
+    static const char *const look[][2] = {{"m", "270um"},  {"rad", "50deg"},
+                                          {"kg", "0.5kg"}, {"kg/m^3", "2650kg/m^3"},
+                                          {"s", "0.5s"},   {"m/s", "1m/s"}};
+    for (size_t k = 0; f->unit != NULL && k < sizeof look / sizeof look[0]; ++k) {
+        if (strcmp(f->unit, look[k][0]) == 0) {
+            return look[k][1];
+        }
+    }
+    return f->unit != NULL && strcmp(f->unit, "-") != 0 ? f->unit : "";
+}
+
+void cli_field_values(const clast_field *f, char words[CLI_WORDS_SIZE])
+{
     char value[128];
-    const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
-    (void)snprintf(name, sizeof name, "%s%s", is_on ? "[no-]" : "", f->name);
-    for (char *c = name; *c != '\0'; ++c) {
-        *c = *c == '_' ? '-' : *c;
-    }
+    const char *choices = f->type == CLAST_FIELD_CHOICE ? f->text : "";
     default_text(f, value, sizeof value);
-    (void)printf("  --%-20s %s", name, f->help);
-    if (f->type == CLAST_FIELD_CHOICE) {
-        (void)printf(" {%s}", f->text);
-    }
-    if (f->unit != NULL && f->unit[0] != '\0' && strcmp(f->unit, "-") != 0) {
-        (void)printf(" [%s]", f->unit);
-    }
-    if (f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST) {
-        (void)printf(" (may be repeated)");
-    }
-    if (value[0] != '\0') {
-        (void)printf(" (default %s)", value);
+    const bool is_none = value[0] == '\0' || strcmp(value, "0") == 0;
+    const char *look = is_none ? looks_like(f) : "";
+    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
+                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? ", as " : "", look,
+                   f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST
+                       ? " (may be repeated)"
+                       : "",
+                   is_none ? "" : " (default ", is_none ? "" : value, is_none ? "" : ")");
+}
+
+/// Words from column `at` on, broken before COLUMNS, the next lines indented to `indent`.
+static void print_wrapped(const char *text, int at, int indent)
+{
+    while (*text != '\0') {
+        const int n = (int)strcspn(text, " ");
+        if (at > indent && at + 1 + n > COLUMNS) {
+            (void)printf("\n%*s", indent, "");
+            at = indent;
+        } else if (at > indent) {
+            (void)putchar(' ');
+            ++at;
+        }
+        (void)printf("%.*s", n, text);
+        at += n;
+        text += n;
+        text += strspn(text, " ");
     }
     (void)putchar('\n');
 }
 
-void cli_help(const cli_command *command)
+static void print_field(const clast_field *f)
 {
-    (void)printf("usage: clast %s%s%s%s [options]\n\n%s\n", command->name,
+    char name[CLI_NAME_SIZE];
+    char values[CLI_WORDS_SIZE];
+    char text[CLI_WORDS_SIZE + 1024];
+    cli_field_name(f, name);
+    cli_field_values(f, values);
+    (void)snprintf(text, sizeof text, "%s%s", f->help, values);
+    const int at = printf("  --%-*s ", NAME_COLUMN - 5, name);
+    print_wrapped(text, at, at > NAME_COLUMN ? NAME_COLUMN + 1 : at);
+}
+
+/// Length of the longest part of a help text that ends with a clause and has at most `most` bytes:
+/// before a comma, colon or bracket that stands in no brackets; 0 when there is none.
+static int whole_clauses(const char *text, int most)
+{
+    const int n = (int)strcspn(text, ";");
+    int found = n <= most ? n : 0;
+    int depth = 0;
+    for (int k = 0; k < n && k <= most && n > most; ++k) {
+        const bool is_end = (text[k] == ',' || text[k] == ':') && text[k + 1] == ' ';
+        if (depth == 0 && (is_end || (text[k] == ' ' && text[k + 1] == '('))) {
+            found = k;
+        }
+        depth += text[k] == '(' || text[k] == '[' ? 1 : text[k] == ')' || text[k] == ']' ? -1 : 0;
+    }
+    return found;
+}
+
+/// One line: the help's first clauses and the values, as much of both as fits.
+static void print_short(const clast_field *f)
+{
+    char name[CLI_NAME_SIZE];
+    char values[CLI_WORDS_SIZE];
+    cli_field_name(f, name);
+    cli_field_values(f, values);
+    const int at = printf("  --%-*s ", NAME_COLUMN - 5, name);
+    int n = whole_clauses(f->help, COLUMNS - at - (int)strlen(values));
+    if (n == 0 && f->type == CLAST_FIELD_CHOICE) { // the choices are in --help-all
+        char value[128];
+        default_text(f, value, sizeof value);
+        (void)snprintf(values, sizeof values, " (default %s)", value);
+        n = whole_clauses(f->help, COLUMNS - at - (int)strlen(values));
+    }
+    if (n == 0) {
+        values[0] = '\0';
+        n = whole_clauses(f->help, COLUMNS - at);
+    }
+    (void)printf("%.*s%s\n", n > 0 ? n : (int)strlen(f->help), f->help, values);
+}
+
+static void print_usage(const cli_command *command)
+{
+    (void)printf("usage: clast %s%s%s%s [options]\n%s\n", command->name,
                  command->arguments[0] != '\0' ? " " : "", command->arguments,
                  command->takes_config ? " [CONFIG.yaml]" : "", command->summary);
-    if (command->details != NULL) {
-        (void)printf("\n%s\n", command->details);
+    (void)printf("\nexamples:\n");
+    for (int k = 0; k < 3 && command->example[k] != NULL; ++k) {
+        (void)printf("  %s\n", command->example[k]);
     }
-    if (command->fields != NULL) {
-        (void)printf("\noptions (every one is also a key of the YAML file, with '_' for '-'):\n");
-        for (const clast_field *f = command->fields; f->name != NULL; ++f) {
-            print_field(f);
+}
+
+void cli_help(const cli_command *command)
+{
+    bool is_any = false; // of a short table that marks none, all are shown
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        is_any = is_any || f->common;
+    }
+    print_usage(command);
+    (void)printf("\noptions:\n");
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        if (f->common || !is_any) {
+            print_short(f);
         }
     }
     (void)printf(
-        "\ncommon options:\n"
+        "  -o PATH: where results go; -j N: threads; --json: one object on stdout; -q: quiet\n"
+        "more: clast %s --help-all; man clast\n",
+        command->name);
+}
+
+void cli_help_all(const cli_command *command)
+{
+    print_usage(command);
+    if (command->details != NULL) {
+        (void)printf("\n%s\n", command->details);
+    }
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        const char *group = cli_field_group(command->fields, f);
+        if (group != NULL) {
+            (void)printf("\n%s:\n", group);
+        }
+        print_field(f);
+    }
+    (void)printf(
+        "\nof every command:\n"
         "  -o, --output PATH      where results go\n"
-        "  -j, --threads N        threads; 0 means one per core; results do not depend on it\n"
+        "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
         "  --json                 one JSON object on stdout\n"
         "  -q, --quiet            no progress on stderr\n"
-        "  -h, --help             this page\n"
-        "a switch is turned off by --no-NAME or --NAME=false, on by --NAME or --NAME=true\n\n"
-        "exit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough memory or "
-        "disk,\n"
-        "            5 did not converge, 130/143 stopped with a checkpoint\n");
+        "  -h, --help             the first page; --help-all: this one\n"
+        "Every option is a key of the YAML file, too, with '_' for '-'. A switch is turned off by\n"
+        "--no-NAME or --NAME=false, on by --NAME or --NAME=true. A length or an angle needs its "
+        "unit\n"
+        "(270um, 50deg; 0 needs none); other bare numbers are SI.\n\n"
+        "exit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough memory or\n"
+        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
 }

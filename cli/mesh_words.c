@@ -92,7 +92,7 @@ void cli_check_words(const char *file, const clast_mesh_check_result *r)
                  r->n_vertex, r->n_triangle, r->n_edge, r->n_part, (long long)r->euler, r->genus);
     (void)printf("  closed %s, oriented %s, manifold %s\n", yes(r->closed), yes(r->oriented),
                  yes(r->manifold));
-    (void)printf("  extent       %.10g\n", r->extent);
+    (void)printf("  extent       %.10g (model units: the file's own)\n", r->extent);
     (void)printf("  volume       %.10g (four sums differ by %.2g)\n", r->volume, r->volume_spread);
     (void)printf("  area         %.10g (two sums differ by %.2g)\n", r->area,
                  fabs(r->area - r->area_heron));
@@ -117,7 +117,48 @@ clast_status cli_mesh_output(const cli_common *common)
                         "%s: no surface format by that name; write .stl, .obj, .ply or .off",
                         common->output);
     }
+    if (clast_mesh_format_of_path(common->output) == CLAST_MESH_3MF) {
+        return cli_fail(CLAST_E_USAGE,
+                        "%s: 3MF is in mm and this surface's unit is not known; write .stl, then "
+                        "clast mesh convert --unit",
+                        common->output);
+    }
     return CLAST_OK;
+}
+
+/// Says on stderr what the weld joined.
+static void note_weld(const cli_common *common, const clast_mesh_repair_report *weld)
+{
+    if (weld->n_merged > 0 && !common->quiet) {
+        (void)fprintf(stderr,
+                      "clast %s: note: %s: %d vert%s of open edges merged with others within %.3g "
+                      "(model units)\n",
+                      common->command, common->argument[0], weld->n_merged,
+                      weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance);
+    }
+}
+
+clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
+{
+    clast_mesh_repair_report weld = {0};
+    clast_status status = cli_mesh_input(common, mesh);
+    if (status == CLAST_OK) {
+        status = clast_mesh_weld_auto(mesh, &weld);
+    }
+    if (status == CLAST_OK) {
+        note_weld(common, &weld);
+    }
+    return status;
+}
+
+clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,
+                              clast_status status)
+{
+    if (status != CLAST_E_GEOMETRY) {
+        return status;
+    }
+    const clast_status solid = clast_mesh_require_solid(path, mesh, otherwise);
+    return solid != CLAST_OK ? solid : status;
 }
 
 clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh)

@@ -15,3 +15,11 @@ clast_status cli_mesh_output(const cli_common *common);
 
 /// Reads the first argument; the reader's warnings go to stderr.
 clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh);
+
+/// The same, then the weld that every command applies to a surface; what it joined goes to stderr.
+clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh);
+
+/// What a command answers that could not use a surface: when it is no solid, that, and the command
+/// that closes it; else the command's own status and message.
+clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,
+                              clast_status status);

@@ -3,25 +3,30 @@
 
 #include "command.h"
 
-#define TEXT(name, help)                                                                           \
+#include <string.h>
+
+#define TEXT(name, ...)                                                                            \
     {                                                                                              \
-#name, offsetof(clast_cloud_columns, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", help, ""       \
+#name, .offset = offsetof(clast_cloud_columns, name), CLAST_FIELD_TEXT, 0, 0, 0, "-",      \
+               .text = "", .help = __VA_ARGS__                                                     \
     }
 static const clast_field rows[] = {
-    {"columns", offsetof(clast_cloud_columns, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-",
-     "columns of the coordinates, as many as dimensions", "x,y,z"},
+    {"columns", .offset = offsetof(clast_cloud_columns, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0,
+     "-", "columns of the coordinates, as many as dimensions", "x,y,z", .common = true,
+     .group = "columns of the file"},
     TEXT(radius_column, "column of radii [m]"),
     TEXT(diameter_column, "column of diameters [m], instead of radii"),
     TEXT(mass_column, "column of masses [kg]"),
-    {"velocity_columns", offsetof(clast_cloud_columns, velocity_columns), CLAST_FIELD_TEXT_LIST, 0,
-     0, 0, "-", "columns of velocities [m/s], as many as dimensions", ""},
-    TEXT(weight_column, "column of weights: real particles that a parcel stands for"),
+    {"velocity_columns", .offset = offsetof(clast_cloud_columns, velocity_columns),
+     CLAST_FIELD_TEXT_LIST, 0, 0, 0, "-", "columns of velocities [m/s], as many as dimensions", ""},
+    TEXT(weight_column, "column of weights: real particles that a parcel stands for",
+         .common = true),
     TEXT(variable_column, "column of a variable (temperature) in which tree cells are uniform too"),
-    {"dataset", offsetof(cli_points, dataset), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"dataset", .offset = offsetof(cli_points, dataset), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "array or folder of an HDF5 file", ""},
-    {"frame", offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
+    {"frame", .offset = offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
      "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
-    {"domain_unit", offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {"domain_unit", .offset = offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "unit of the coordinates in the file of --domain mesh:FILE; none: as the points", ""},
 };
 #undef TEXT
@@ -49,4 +54,11 @@ clast_status cli_domain_read(const char *text, const cli_points *points, clast_d
             "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
     }
     return clast_domain_read(text, points->domain_unit, domain);
+}
+
+const char *cli_domain_file(const char *text)
+{
+    static const char prefix[] = "mesh:";
+    const size_t n = sizeof prefix - 1;
+    return strncmp(text, prefix, n) == 0 ? text + n : NULL;
 }

@@ -19,3 +19,6 @@ clast_status cli_points_read(const char *path, const cli_points *points, clast_t
 
 /// Reads the domain that --domain names; a missing one is a usage error.
 clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain);
+
+/// File of a domain mesh:FILE, or NULL.
+const char *cli_domain_file(const char *text);

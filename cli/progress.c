@@ -29,11 +29,13 @@ static bool stop(void *context)
 
 typedef struct {
     double begun, last;
+    int64_t first; ///< done when the phase began
     char phase[32];
 } state;
 
 static state now_state;
 
+/// A line five times a second on a terminal, a line a minute in a log, whatever phases go by.
 static void report(void *context, const char *phase, int64_t done, int64_t total)
 {
     state *s = context;
@@ -42,21 +44,26 @@ static void report(void *context, const char *phase, int64_t done, int64_t total
     if (strcmp(s->phase, phase) != 0) {
         (void)snprintf(s->phase, sizeof s->phase, "%s", phase);
         s->begun = t;
-        s->last = t;
-        return;
+        s->first = done;
+        s->last = s->last > 0.0 ? s->last : t;
     }
-    const bool last = total > 0 && done >= total;
+    if (done > total) {
+        total = 0; // it was an estimate
+    }
+    const bool last = total > 0 && done == total;
     if (t - s->last < (terminal ? 0.2 : 60.0) && !(last && terminal)) {
         return;
     }
     s->last = t;
-    const double rate = t > s->begun ? (double)done / (t - s->begun) : 0.0;
+    const double rate = t > s->begun ? (double)(done - s->first) / (t - s->begun) : 0.0;
     (void)fprintf(stderr, "%s%s %lld", terminal ? "\r\033[K" : "", phase, (long long)done);
     if (total > 0) {
         (void)fprintf(stderr, "/%lld (%.0f %%)", (long long)total,
                       100.0 * (double)done / (double)total);
     }
-    (void)fprintf(stderr, ", %.3g/s", rate);
+    if (rate > 0.0) {
+        (void)fprintf(stderr, ", %.3g/s", rate);
+    }
     if (total > 0 && rate > 0.0) {
         (void)fprintf(stderr, ", %.0f s left", (double)(total - done) / rate);
     }
@@ -64,13 +71,24 @@ static void report(void *context, const char *phase, int64_t done, int64_t total
     (void)fflush(stderr);
 }
 
+static void note(void *context, const char *text)
+{
+    (void)context;
+    (void)fprintf(stderr, "%s\n", text);
+}
+
 clast_monitor cli_monitor(const cli_common *common)
 {
-    struct sigaction action = {.sa_handler = on_signal};
+    const struct sigaction action = {.sa_handler = on_signal};
+    struct sigaction before;
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // else: nohup
+        (void)sigaction(SIGHUP, &action, NULL);
+    }
     return (clast_monitor){.report = common->quiet ? NULL : report,
                            .stop = stop,
+                           .note = common->quiet ? NULL : note,
                            .context = &now_state,
                            .n_word = common->n_word,
                            .word = common->word};

@@ -5,10 +5,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
 
 clast_status cli_shape_statistics(const char *command, const clast_table *grains,
-                                  const clast_bootstrap *bootstrap, const char *folder,
+                                  const clast_bootstrap *bootstrap,
                                   clast_grain_statistics *statistics)
 {
     char complaint[512];
@@ -22,8 +21,7 @@ clast_status cli_shape_statistics(const char *command, const clast_table *grains
     if (complaint[0] != '\0') {
         (void)fprintf(stderr, "clast %s: statistics: %s\n", command, complaint);
     }
-    (void)mkdir(folder, 0777); // an existing folder is fine, a missing one is told by the writer
-    return clast_grain_statistics_write(statistics, folder, "svg");
+    return CLAST_OK;
 }
 
 static json_t *interval(double value, double low, double high)
@@ -127,8 +125,14 @@ void cli_statistics_words(const clast_grain_statistics *statistics)
         (void)printf("%s %lld %s", k > 0 ? "," : "", (long long)statistics->zingg[k],
                      clast_zingg_name((clast_zingg)k));
     }
-    (void)printf("\n\n%-30s%10s%10s%10s%10s%10s%10s%10s\n", "factor", "mean", "deviation", "from",
-                 "to (95 %)", "median", "W", "p normal");
+    (void)printf(
+        "\n\nfrom, to: 95 %% interval of the mean (bootstrap); W, p: Shapiro and Wilk's test "
+        "of a normal law");
+    if (statistics->set.size != NULL) {
+        (void)printf("; size: %s", statistics->set.size_label);
+    }
+    (void)printf("\n%-30s%10s%10s%10s%10s%10s%10s%10s\n", "factor", "mean", "deviation", "from",
+                 "to", "median", "W", "p");
     for (int32_t k = 0; k < s->n; ++k) {
         const clast_sample_summary *c = &s->summary[k];
         (void)printf("%-30s", s->name[k]);

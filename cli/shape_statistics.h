@@ -3,10 +3,10 @@
 #include <clast/grain_statistics.h>
 #include <jansson.h>
 
-/// Statistics of a table of grains (flatness and elongation or L, I, S), with tables and SVG charts
-/// in a folder, which is made if missing. Rows left out are told on stderr after `command`.
+/// Statistics of a table of grains (flatness and elongation or L, I, S). Rows left out are told on
+/// stderr after `command`.
 clast_status cli_shape_statistics(const char *command, const clast_table *grains,
-                                  const clast_bootstrap *bootstrap, const char *folder,
+                                  const clast_bootstrap *bootstrap,
                                   clast_grain_statistics *statistics);
 
 /// {n, n_left_out, zingg{}, columns[], correlation{}, pca[]}: what goes under "statistics".

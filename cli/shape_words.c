@@ -4,13 +4,29 @@
 #include <math.h>
 #include <stdio.h>
 
-static void put_triple(json_t *object, const char *key, const double value[3])
+static json_t *triple(const double value[3])
 {
     json_t *list = json_array();
     for (int k = 0; k < 3; ++k) {
         (void)json_array_append_new(list, isfinite(value[k]) ? json_real(value[k]) : json_null());
     }
-    (void)json_object_set_new(object, key, list);
+    return list;
+}
+
+static void put_triple(json_t *object, const char *key, const double value[3])
+{
+    (void)json_object_set_new(object, key, triple(value));
+}
+
+/// The class by the lengths; null where they are not known.
+static void put_zingg(json_t *object, const double lis[3])
+{
+    const clast_zingg zingg = clast_form_zingg(lis[2] / lis[1], lis[1] / lis[0]);
+    if (zingg < CLAST_N_ZINGG) {
+        cli_json_text(object, "zingg", clast_zingg_name(zingg));
+    } else {
+        (void)json_object_set_new(object, "zingg", json_null());
+    }
 }
 
 /// L, I, S, or nulls.
@@ -33,8 +49,7 @@ static void put_factors(json_t *object, const double lis[3])
         cli_json_number(inverses, about->name, value[CLAST_N_FORM_FACTOR + f]);
     }
     (void)json_object_set_new(object, "inverse", inverses);
-    cli_json_text(object, "zingg",
-                  clast_zingg_name(clast_form_zingg(lis[2] / lis[1], lis[1] / lis[0])));
+    put_zingg(object, lis);
 }
 
 static void put_surface(json_t *object, const clast_grain_record *r)
@@ -57,6 +72,11 @@ static void put_surface(json_t *object, const clast_grain_record *r)
     cli_json_number(object, "projected_mean", g->projected_mean);
     cli_json_number(object, "projected_min", g->projected_least);
     cli_json_number(object, "projected_max", g->projected_greatest);
+    if (r->kind == CLAST_GRAINS_SERIES) {
+        cli_json_count(object, "degree", r->degree);
+        cli_json_number(object, "power_last", r->power_last);
+        cli_json_number(object, "power_cut", r->power_cut);
+    }
     if (r->n_voxel > 0) {
         cli_json_count(object, "n_voxel", r->n_voxel);
     }
@@ -65,8 +85,7 @@ static void put_surface(json_t *object, const clast_grain_record *r)
         json_t *direction = json_array();
         put_lengths(one, r, g->axes[a].lis);
         for (int k = 0; k < 3; ++k) {
-            const double *d = g->axes[a].direction[k];
-            (void)json_array_append_new(direction, json_pack("[fff]", d[0], d[1], d[2]));
+            (void)json_array_append_new(direction, triple(g->axes[a].direction[k]));
         }
         (void)json_object_set_new(one, "direction", direction);
         (void)json_object_set_new(axes, clast_axes_name(a), one);
@@ -127,12 +146,36 @@ static const char *unit(const cli_shape_result *shape, int power)
     return shape->in_metres ? metres[power] : "";
 }
 
-/// Wadell's roundness, or why there is none.
-static void roundness_words(const clast_grain *g)
+static void number_text(int digits, double value, char text[32])
 {
+    (void)snprintf(text, 32, "-");
+    if (isfinite(value)) {
+        (void)snprintf(text, 32, "%.*g", digits, value);
+    }
+}
+
+/// A line of n numbers with their unit, "-" for what this kind of grain has no number of.
+static void line_words(const char *name, int n, const double *value, const char *unit_words,
+                       const char *note)
+{
+    (void)printf("%-18s ", name);
+    for (int k = 0; k < n; ++k) {
+        char text[32];
+        number_text(9, value[k], text);
+        (void)printf("%s%s", k > 0 ? ", " : "", text);
+    }
+    (void)printf("%s%s\n", unit_words, note);
+}
+
+/// Wadell's roundness, or why there is none.
+static void roundness_words(const clast_grain_record *r)
+{
+    const clast_grain *g = &r->grain;
     if (isfinite(g->roundness)) {
         (void)printf("roundness          %.3f (Wadell; outline of %d edges)\n", g->roundness,
                      g->n_outline);
+    } else if (r->kind == CLAST_GRAINS_CLUMP) {
+        line_words("roundness", 1, &g->roundness, "", "");
     } else {
         (void)printf("roundness          none (Wadell's needs %d triangles and an outline of %d "
                      "edges)\n",
@@ -140,43 +183,58 @@ static void roundness_words(const clast_grain *g)
     }
 }
 
+static void hull_words(const cli_shape_result *shape, const clast_grain_record *r)
+{
+    const clast_grain *g = &r->grain;
+    char added[64] = "";
+    if (isfinite(g->hull_volume_added)) {
+        const double percent = 100.0 * g->hull_volume_added;
+        (void)snprintf(added, sizeof added, ", %.3f %% more than the %s",
+                       fabs(percent) < 5e-4 ? 0.0 : percent,
+                       r->kind == CLAST_GRAINS_CLUMP ? "spheres' union" : "surface");
+    }
+    line_words("convex hull", 1, &g->hull_volume, unit(shape, 3), added);
+}
+
 static void surface_words(const cli_shape_result *shape, const clast_grain_record *r)
 {
     const clast_grain *g = &r->grain;
-    (void)printf("volume             %.9g%s%s\n", g->volume, unit(shape, 3),
-                 shape->is_hull ? " (convex hull)" : "");
-    (void)printf("area               %.9g%s\n", g->area, unit(shape, 2));
-    (void)printf("centroid           %.9g, %.9g, %.9g%s\n", g->centroid[0], g->centroid[1],
-                 g->centroid[2], unit(shape, 1));
-    (void)printf("moments of inertia %.9g, %.9g, %.9g%s (density 1)\n", g->moments[0],
-                 g->moments[1], g->moments[2], unit(shape, 5));
-    (void)printf("convex hull        %.9g%s", g->hull_volume, unit(shape, 3));
-    if (isfinite(g->hull_volume_added)) {
-        const double added = 100.0 * g->hull_volume_added;
-        (void)printf(", %.3f %% more than the surface", fabs(added) < 5e-4 ? 0.0 : added);
+    const double feret[2] = {g->longest, g->shortest};
+    const double shadow[3] = {g->projected_mean, g->projected_least, g->projected_greatest};
+    line_words("volume", 1, &g->volume, unit(shape, 3), shape->is_hull ? " (convex hull)" : "");
+    line_words("area", 1, &g->area, unit(shape, 2), "");
+    line_words("centroid", 3, g->centroid, unit(shape, 1), "");
+    line_words("moments of inertia", 3, g->moments, unit(shape, 5), " (density 1)");
+    hull_words(shape, r);
+    line_words("sphericity", 1, &g->sphericity, "", "");
+    line_words("convexity", 1, &g->convexity, "", "");
+    roundness_words(r);
+    line_words("normal roundness", 1, &g->normal_roundness, "", "");
+    line_words("angularity", 1, &g->angularity, "", "");
+    line_words("Feret", 2, feret, unit(shape, 1), " (greatest, least)");
+    line_words("projected area", 3, shadow, unit(shape, 2), " (mean, least, greatest)");
+    if (r->kind == CLAST_GRAINS_SERIES) {
+        (void)printf("series             degrees 1 to %d; the last two hold %.2g %% of the form's "
+                     "power, those above (not used) %.2g %%\n",
+                     r->degree, 100.0 * r->power_last, 100.0 * r->power_cut);
     }
-    (void)putchar('\n');
-    (void)printf("sphericity         %.6f\nconvexity          %.6f\n", g->sphericity, g->convexity);
-    roundness_words(g);
-    (void)printf("normal roundness   %.6f\nangularity         %.6f\n", g->normal_roundness,
-                 g->angularity);
-    (void)printf("Feret              %.9g greatest, %.9g least%s\n", g->longest, g->shortest,
-                 unit(shape, 1));
-    (void)printf("projected area     %.9g mean, %.9g least, %.9g greatest%s\n", g->projected_mean,
-                 g->projected_least, g->projected_greatest, unit(shape, 2));
     if (r->n_voxel > 0) {
         (void)printf("voxels             %lld\n", (long long)r->n_voxel);
     }
     for (int a = 0; a < CLAST_N_AXES; ++a) {
-        const double *lis = g->axes[a].lis;
-        (void)printf("L, I, S %-10s %.9g, %.9g, %.9g%s\n", clast_axes_name(a), lis[0], lis[1],
-                     lis[2], unit(shape, 1));
+        char name[32];
+        (void)snprintf(name, sizeof name, "L, I, S %s", clast_axes_name(a));
+        line_words(name, 3, g->axes[a].lis, unit(shape, 1), "");
+    }
+    if (r->kind == CLAST_GRAINS_CLUMP) {
+        (void)printf("-: needs a surface; of a union of spheres the rest is in closed form\n");
     }
 }
 
 static void grain_words(const cli_shape_result *shape, const clast_grain_record *r)
 {
     double value[CLAST_N_FORM_FACTOR];
+    char text[32];
     const double *lis = r->grain.axes[shape->axes].lis;
     (void)printf("%s (%s)%s\n", r->name, clast_grains_kind_name(r->kind),
                  shape->in_metres ? "" : ", lengths in the file's unit");
@@ -184,8 +242,8 @@ static void grain_words(const cli_shape_result *shape, const clast_grain_record 
         surface_words(shape, r);
     }
     if (r->has_size) {
-        (void)printf("sieve size D       %.9g%s\n", clast_form_sieve_size(lis[1], lis[2]),
-                     unit(shape, 1));
+        const double sieve = clast_form_sieve_size(lis[1], lis[2]);
+        line_words("sieve size D", 1, &sieve, unit(shape, 1), "");
     }
     (void)printf("Zingg class        %s\nform factors of L, I, S by %s:\n",
                  clast_zingg_name(clast_form_zingg(lis[2] / lis[1], lis[1] / lis[0])),
@@ -193,8 +251,8 @@ static void grain_words(const cli_shape_result *shape, const clast_grain_record 
     clast_form_factors(lis[0], lis[1], lis[2], value);
     for (int32_t f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
         const clast_form_factor_entry *about = clast_form_factor_about(f);
-        (void)printf("  %-4s %-29s %-28s %.6g\n", about->symbol, about->label, about->formula,
-                     value[f]);
+        number_text(6, value[f], text);
+        (void)printf("  %-4s %-29s %-28s %s\n", about->symbol, about->label, about->formula, text);
     }
 }
 
@@ -235,7 +293,8 @@ void cli_shape_words(const cli_shape_result *shape)
     }
     (void)printf("%lld grains; L, I, S by %s; %s\n", (long long)shape->grains.n,
                  clast_axes_name((int32_t)shape->axes),
-                 shape->in_metres ? "SI units" : "the files' units (give --unit for SI)");
+                 shape->in_metres ? "volume in m3, area in m2, lengths in m"
+                                  : "the files' units (give --unit for SI)");
     (void)printf("%11s %11s %10s %10s %10s %10s %6s %6s %6s %6s %6s %-6s %s\n", "volume", "area",
                  "L", "I", "S", "D", "S/I", "I/L", "spher.", "convex", "round.", "Zingg", "file");
     for (int64_t i = 0; i < shape->grains.n; ++i) {
