@@ -113,7 +113,7 @@ class Results(Case):
     def test_switches_turn_off(self):
         self.assert_fails(2, *SPHERES, "--no-picture=true", says=("no value",))
         self.assert_fails(2, *SPHERES, "--no-core", says=("unknown option",))
-        self.assertIn("--[no-]picture", clast("aggregate", "--help").out)
+        self.assertIn("--[no-]picture", clast("aggregate", "--help-all").out)
 
     def test_a_run_is_a_core_and_a_coating(self):
         run = self.folder / "run"
@@ -200,7 +200,7 @@ class Repeatable(Case):
                    "--orientations", "10", "--repeats", "2", "--checkpoint-every", "3", "--envelope-every", "20", *QUICK)
         whole = self.folder / "whole"
         self.assertEqual(clast(*command, "-o", whole).code, 0)
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             run = self.folder / f"stopped-{number}"
             code, said = self.interrupted(run, command, number)
             self.assertEqual(code, 128 + number, said)
@@ -246,7 +246,7 @@ class BadInput(Case):
         for text, says in (("d_um\n20\n0\n", "sizes.csv:3"), ("d_um\n-4\n", "sizes.csv:2"),
                            ("d_um\n1\n2\nnan\n", "sizes.csv:4"), ("d_um\n1\nbig\n", "'big' is not a number"),
                            ("d_um,count\n10,-1\n", "sizes.csv:2"), ("d_um\n1,2\n", "columns"),
-                           ("d_um\ninf\n", "not finite"), ("", "no sizes")):
+                           ("d_um\ninf\n", "'inf' is not a number"), ("d_um\n1e999\n", "not finite"), ("", "no sizes")):
             self.assert_fails(3, *self.sizes(text), says=(says,))
         self.assert_fails(2, *self.sizes("20\n10\n"), says=("size_unit",))
         self.assert_fails(2, *self.sizes("d_um,count\n20,1.5\n"), says=("whole",))

@@ -15,13 +15,15 @@ class Fit(Case):
                       "--fit-packing", "1deg:1:1", "--fit-packing", "90deg:2:2", "--fit-repeats", "2",
                       "--fit-replicate-max", "2"]
 
-    def test_reached(self):
+    def test_inside(self):
         run = self.folder / "run"
         done = clast(*self.scene, "--observed-size", "115um", "--observed-size-error", "40um", "--json", "-o", run)
         self.assertEqual(done.code, 0, done.err)
         out = done.json
-        self.assertTrue(out["reached"])
-        self.assertIn("is reached", out["words"])
+        self.assertEqual(out["verdict"], "inside")
+        self.assertIn("inside the observed interval", out["words"])
+        self.assertIn("um against 115 +- 40 um", out["words"])
+        self.assertEqual((out["degrees_of_freedom"], out["p_value"]), (0, None))
         self.assertEqual(set(out["best"]), {"cone_deg", "rays", "orientations", "replicate"})
         self.assertLess(abs(out["observables"]["size"]["pull"]), 2)
         self.assertEqual(set(out["spread"]["replicate"]), {"best", "mean", "deviation", "low", "high"})
@@ -32,11 +34,11 @@ class Fit(Case):
         self.assertEqual(header.split(",")[:4], ["cone_rad", "rays", "orientations", "replicate"])
         self.assertAlmostEqual(sum(float(r.split(",")[-1]) for r in rows), 1.0, places=12)
 
-    def test_not_reached(self):
+    def test_edge(self):
         done = clast(*self.scene, "--observed-density", "3000", "--observed-density-error", "10")
         self.assertEqual(done.code, 1, done.err)
-        self.assertIn("cannot be reached", done.out)
-        self.assertIn("tightest", done.out)
+        self.assertIn("at the edge of what was tried", done.out)
+        self.assertIn("tightest packing tried: add tighter ones to fit_packing", done.out)
 
     def test_refused(self):
         size = ["--observed-size", "115um"]

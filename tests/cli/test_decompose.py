@@ -54,6 +54,55 @@ class Decompose(Case):
         self.assertEqual(r["n_cell"], 1)
         self.assertAlmostEqual(r["events"], 0.5 * 0.004 * 50 * 49, places=12)
 
+    def test_stop_says_what_happened_on_stdout_in_json_and_in_the_summary(self):
+        # a tree of 127 cells of a cloud that all but one test reject said "the tests accept"
+        out = self.folder / "out"
+        r = self.decompose("b3_n500", "box:0,0,0,1,1,1", "-o", out)
+        self.assertEqual((r["reject"], r["n_cell"], r["stop"]), (True, 127, "rejected by the tests and split"))
+        self.assertEqual(json.loads((out / "summary.json").read_text())["stop"], r["stop"])
+        words = clast("decompose", DATA / "points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1").out
+        self.assertIn("stop: rejected by the tests and split\n", words)
+        self.assertNotIn("accept", words)
+        self.assertEqual(self.decompose("b3_n500", "box:0,0,0,1,1,1", "--test-only")["stop"],
+                         "rejected by the tests; the variant does not split")
+        for points, stop in (("u2_n50", "accepted by the tests"), ("f2_n500", "split; the tests then accept")):
+            self.assertEqual(self.decompose(points, "box:0,0,1,1")["stop"], stop)
+        write_points(self.folder / "few.csv", [[0.1, 0.2], [0.5, 0.6], [0.8, 0.1]])
+        few = clast("decompose", self.folder / "few.csv", "--domain", "box:0,0,1,1", "--json").json
+        self.assertEqual((few["tests"], few["stop"]), ([], "not tested: fewer than 5 points"))
+
+    def test_words_and_columns_say_what_they_are(self):
+        frame = clast("decompose", DATA / "points_f2_n500.csv", "--domain", "box:0,0,1,1", "--beta-dt", "0.002").out
+        self.assertRegex(frame, r"pass 1: 5 x 5 bins, threshold [\d.]+ of the mean density \(\d+ points a bin; best of \d+\), ")
+        self.assertRegex(frame, r"\d+ cells, events [\d.]+ \[[\d.]+, [\d.]+\] with beta dt 0.002 m\^2, \d+ cells at the cap")
+        self.assertIsNone(self.decompose("b3_n500", "box:0,0,0,1,1,1")["points_per_bin"])  # a tree has no bins
+        random.seed(3)
+        points = [[0.05 * random.random(), 0.05 * random.random(), random.random()] for _ in range(50)] + [[3, 3, 3]]
+        write_points(self.folder / "pipe.csv", points)
+        out = self.folder / "out"
+        r = clast("decompose", self.folder / "pipe.csv", "--domain", "cylinder:0.1,1", "--outside", "drop", "-o", out)
+        self.assertEqual(r.code, 0, r.err)
+        self.assertIn("50 points in 3 dimensions, 1 outside the domain left out", r.out)
+        # corners of a map's cells are coordinates of the unit cube, and a point outside has neither label nor pass
+        self.assertTrue((out / "cells.csv").read_text().startswith("u_low,u_high,v_low,v_high,w_low,w_high,volume,"))
+        self.assertEqual((out / "point_cells.csv").read_text().splitlines()[-1], "-1,,")
+
+    def test_crossfit_keeps_every_column_in_its_halves(self):
+        random.seed(5)
+        rows = [(random.random(), random.random()) for _ in range(800)]
+        hot = self.folder / "hot.csv"
+        hot.write_text("x,y,T,w\n" + "".join(f"{x!r},{y!r},{300 if x < 0.5 else 400},2\n" for x, y in rows))
+        options = ["--domain", "box:0,0,1,1", "--mesh", "tree", "--crossfit", "--no-extrapolate", "--tree-level", "1e-9",
+                   "--tree-root-level", "1e-12", "--weight-column", "w", "--json"]
+        count = [[0] * 4, [0] * 4]
+        for i, (x, y) in enumerate(rows):
+            count[i % 2][2 * (x >= 0.5) + (y >= 0.5)] += 2
+        plain = clast("decompose", hot, *options).json
+        self.assertAlmostEqual(plain["events_cross"], 2e-6 * 800 * 800, places=9)
+        split = clast("decompose", hot, "--variable-column", "T", *options).json
+        self.assertEqual(split["n_cell"], 4)
+        self.assertAlmostEqual(split["events_cross"], sum(8e-6 * a * b for a, b in zip(*count)), places=9)
+
     def test_frame_has_five_by_five_bins_and_one_pass_as_published(self):
         r = self.decompose("f2_n500", "box:0,0,1,1")
         self.assertTrue(r["reject"])
@@ -116,7 +165,7 @@ class Decompose(Case):
         out = self.folder / "out"
         r = clast("decompose", DATA / "points_s2_n500.csv", "--domain", "box:0,0,1,1", "-o", out, "--json")
         self.assertEqual(r.code, 0, r.err)
-        names = {"cells.csv", "point_cells.csv", "thresholds.csv", "summary.json", "cells.vtu", "points.vtp",
+        names = {"cells.csv", "point_cells.csv", "thresholds.csv", "summary.json", "manifest.json", "cells.vtu", "points.vtp",
                  "points.svg", "density.svg", "score.svg", "events.svg"}
         self.assertEqual({path.name for path in out.iterdir()}, names)
         self.assertEqual(json.loads((out / "summary.json").read_text()), r.json)
@@ -154,7 +203,7 @@ class Decompose(Case):
             self.assertLess(abs(row["scaled_regular"] / truth - 1), 0.03 + 4 * 2 / math.sqrt(row["n"]))
         self.assertLess(abs(rows[-1]["scaled_events"] / truth - 1), 0.1)
         self.assertTrue((out / "events_by_n.svg").read_text().startswith("<?xml"))
-        self.assert_fails(2, "decompose", self.folder / "blob.csv", "--domain", "box:0,0,1,1", "--sizes", "20", "-o", out,
+        self.assert_fails(2, "decompose", self.folder / "blob.csv", "--domain", "box:0,0,1,1", "--sizes", "20", "-o", self.folder / "none",
                           says=["below 5 points"])
 
     def test_inside_of_a_surface_is_a_domain(self):

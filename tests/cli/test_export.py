@@ -98,6 +98,29 @@ class Export(Case):
             self.assertEqual(checked["n_triangle"], report["n_triangle"], name)
             self.assertTrue(checked["closed"], name)
 
+    def test_every_file_and_stdout_name_the_unit_of_lengths(self):
+        """The state's grains are in mm; a surface read back in the unit that its file names has the same volume."""
+        volumes = []
+        for unit, factor in (("mm", 1.0), ("um", 1e3), ("m", 1e-3)):
+            for name in ("a.stl", "a.obj", "a.ply"):
+                path = self.folder / name
+                result = clast("export", STATE, "-o", path, "--unit", unit)
+                self.assertIn(f"lengths in {unit}", result.out)
+                self.assertIn(f"unit {unit}".encode(), path.read_bytes()[:200])
+                checked = clast("mesh", "check", path, "--json").json
+                volumes.append(checked["volume"] / factor**3)
+        for volume in volumes:
+            self.assertAlmostEqual(volume / volumes[0], 1.0, delta=1e-6)
+        self.assertEqual(self.export("b.stl")[1]["unit"], "mm")
+        for name, unit in (("c.3mf", "mm"), ("c.vtu", "mm"), ("c.dump", "mm"), ("c.csv", "mm"), ("c.json", "mm")):
+            result = clast("export", STATE, "-o", self.folder / name)
+            self.assertIn(f"lengths in {unit}", result.out, name)
+        root = xml.etree.ElementTree.parse(self.folder / "c.vtu").getroot()
+        field = root.find("UnstructuredGrid/FieldData/Array")
+        self.assertEqual(bytes(int(code) for code in field.text.split()), b"mm\0")
+        self.assert_fails(2, "export", STATE, "-o", self.folder / "d.csv", "--unit", "um", says=["its unit is mm"])
+        self.assert_fails(2, "export", STATE, "-o", self.folder / "d.stl", "--unit", "furlong", says=["furlong"])
+
     def test_tables_of_the_run_are_written(self):
         path = self.folder / "history.csv"
         self.assertEqual(clast("export", STATE, "--table", "history", "-o", path).code, 0)

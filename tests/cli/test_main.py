@@ -40,7 +40,7 @@ class Frame(Case):
 
     def test_every_command_has_a_help_page_with_its_options(self):
         for name in commands():
-            page = clast(*name.split(), "--help")
+            page = clast(*name.split(), "--help-all")
             self.assertEqual(page.code, 0, name)
             self.assertIn(f"usage: clast {name}", page.out)
             self.assertIn("exit codes:", page.out)

@@ -19,7 +19,7 @@ class MeshCheck(Case):
         self.assertAlmostEqual(result.json["volume"], 3903.69956, places=4)
 
     def test_open_surface_names_the_cure(self):
-        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--json")
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "off", "--json")
         self.assertEqual(result.code, 1)
         self.assertEqual(result.err, "")
         self.assertFalse(result.json["closed"])
@@ -30,7 +30,7 @@ class MeshCheck(Case):
         self.assertIn("clast mesh repair", fault["text"])
 
     def test_weld_closes_what_its_tolerance_allows(self):
-        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "1e-6", "--json")
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "within", "--json")
         self.assertEqual(result.code, 0)
         self.assertTrue(result.json["closed"])
         self.assertEqual(result.json["n_merged"], 8)
@@ -44,11 +44,11 @@ class MeshCheck(Case):
         # b, n of the data's README, counted after merging bit-equal vertices
         for name, n_open, n_over in [("draco/delim_test.ply", 4, 0), ("draco/non_manifold_wrap.obj", 8, 1),
                                      ("draco/test_nm.obj", 30, 0), ("trimesh/cubevt.obj", 0, 0)]:
-            found = clast("mesh", "check", folder / name, "--json").json
+            found = clast("mesh", "check", folder / name, "--weld", "within", "--weld-tolerance", 0, "--json").json
             self.assertEqual((found["n_open_edge"], found["n_nonmanifold_edge"]), (n_open, n_over), name)
 
     def test_words_hold_the_same_numbers(self):
-        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl")
+        result = clast("mesh", "check", DATA / "scarlet/stl/ellipse.stl", "--weld", "off")
         self.assertEqual(result.code, 1)
         for text in ["NOT a solid", "closed NO", "triangles 9996", "FAULT open_edges: 32 open edges in 8 loops"]:
             self.assertIn(text, result.out)

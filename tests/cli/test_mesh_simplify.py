@@ -29,11 +29,31 @@ class MeshSimplify(Case):
         self.assertTrue(out.exists())
 
     def test_open_surface_is_sent_to_repair(self):
-        self.assert_fails(3, "mesh", "simplify", DATA / "scarlet/stl/ellipse.stl", "-o", self.folder / "o.ply",
-                          says=["clast mesh repair"])
+        self.assert_fails(3, "mesh", "simplify", DATA / "broken-meshes/draco/test_nm.obj", "-o", self.folder / "o.ply",
+                          says=["30 open edges", "clast mesh repair"])
 
 
 class MeshHull(Case):
+    def test_the_volume_that_a_hull_adds_is_told_of_closed_surfaces_only(self):
+        """test_nm.obj has 30 open edges: its four sums of volume differ by 30 %."""
+        out = self.folder / "hull.ply"
+        result = clast("mesh", "hull", DATA / "broken-meshes/draco/test_nm.obj", "-o", out)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("not known: the input is not closed", result.out)
+        found = clast("mesh", "hull", DATA / "broken-meshes/draco/test_nm.obj", "-o", out, "--json").json
+        self.assertIsNone(found["volume"])
+        self.assertIsNone(found["added_volume"])
+        self.assertGreater(found["hull_volume"], 0.0)
+
+    def test_surfaces_without_a_known_unit_say_so(self):
+        scan = DATA / "scarlet/stl/27sk21_shape_fine.stl"
+        for command in (("hull", scan), ("simplify", scan, "--faces", 300), ("form", scan), ("repair", scan),
+                        ("convert", scan)):
+            self.assertIn("model units", clast("mesh", *command, "-o", self.folder / "o.ply").out, command)
+        self.assertIn("model units", clast("mesh", "check", scan).out)
+        for command in ("hull", "simplify", "form", "repair"):
+            self.assert_fails(2, "mesh", command, scan, "-o", self.folder / "o.3mf", says=["3MF is in mm"])
+
     def test_hull_of_the_scan(self):
         out = self.folder / "hull.ply"
         result = clast("mesh", "hull", DATA / "scarlet/stl/particle.stl", "-o", out, "--json")

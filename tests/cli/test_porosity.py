@@ -87,7 +87,7 @@ class Porosity(Case):
         self.assertEqual(summary, {k: v for k, v in found.json.items() if k != "profile"})
         manifest = json.loads((one / "manifest.json").read_text())
         self.assertEqual((manifest["command"], manifest["outcome"]), ("porosity", "done"))
-        self.assertEqual((manifest["config"]["layer"], manifest["config"]["bed"]), (0.1, "periodic:0,0,3,3"))
+        self.assertEqual((manifest["config"]["layer"], manifest["config"]["bed"]), ("0.1", "periodic:0,0,3,3"))
         self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path))])
         report = clast("report", one, "-o", self.folder / "report.html")
         self.assertEqual(report.code, 0, report.err)
@@ -95,7 +95,7 @@ class Porosity(Case):
         # a summary is replaced, not written over: who holds the old one keeps it
         old = self.folder / "old.json"
         os.link(one / "summary.json", old)
-        self.assertEqual(clast("porosity", path, *bed, "--cut", 0.4, "-o", one).code, 0)
+        self.assertEqual(clast("porosity", path, *bed, "--cut", 0.4, "--force", "-o", one).code, 0)
         self.assertEqual(json.loads(old.read_text()), summary)
         self.assertNotEqual(json.loads((one / "summary.json").read_text()), summary)
         self.assertEqual([p.name for p in one.iterdir() if p.suffix == ".part"], [])
@@ -109,7 +109,7 @@ class Porosity(Case):
         faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7),
                  (1, 7, 5)]
         box.write_text("OFF\n8 12 0\n" + "".join("%g %g %g\n" % c for c in corners) + "".join("3 %d %d %d\n" % f for f in faces))
-        found = clast("porosity", path, "--bed", f"mesh:{box},m", "--layer", 0.1, "-o", two)
+        found = clast("porosity", path, "--bed", f"mesh:{box},m", "--layer", 0.1, "--force", "-o", two)
         self.assertEqual(found.code, 0, found.err)
         manifest = json.loads((two / "manifest.json").read_text())
         self.assertEqual([(i["role"], i["path"]) for i in manifest["inputs"]], [("run", str(path)), ("bed", str(box))])
@@ -185,6 +185,43 @@ class Porosity(Case):
         empty = self.folder / "empty.csv"
         empty.write_text("x,y,z,radius\n")
         self.assert_fails(3, "porosity", empty, "--bed", "box:0,0,2,2", says=["empty.csv"])
+
+    def test_packings_of_other_programs(self):
+        """FCC as voro++ text in a box that repeats in all three directions; spheres as diameters, in mm."""
+        edge = 3 * 2 ** 0.5
+        bed = f"periodic:0,0,0,{edge!r},{edge!r},{edge!r}"
+        fcc = "data/packings/fcc-108.txt"
+        found = clast("porosity", fcc, "--bed", bed, "--gap", 1e-9, "--local", "--pores", 1000, "--json")
+        self.assertEqual(found.code, 0, found.err)
+        close = 1 - 3.141592653589793 / (3 * 2 ** 0.5)
+        self.assertAlmostEqual(found.json["bulk"], close, 12)
+        self.assertAlmostEqual(found.json["local_mean"], close, 12)
+        self.assertAlmostEqual(found.json["pore_porosity"], close, 1)
+        self.assertEqual((found.json["coordination"], found.json["n_overlap"], found.json["n_local"]), (12, 0, 108))
+        words = clast("porosity", fcc, "--bed", bed).out
+        self.assertIn("periodic in all three directions", words)
+        self.assertIn("overlaps            none", words)
+        self.assert_fails(2, "porosity", fcc, "--bed", bed, "--trim", 0.1, says=["no ends to trim"])
+        self.assert_fails(2, "porosity", fcc, "--bed", bed, "--floor", 1, says=["--floor"])
+        file = self.folder / "beads.csv"
+        file.write_text("id,x_mm,y_mm,z_mm,diameter_mm\n7,1,1,1,2\n9,2.9,1,1,2\n")
+        found = clast("porosity", file, "--bed", "box:0,0,4mm,2mm", "--layer", "0.1mm", "--json")
+        self.assertEqual((found.json["unit"], found.json["n_overlap"]), ("m", 1))
+        self.assertAlmostEqual(found.json["max_overlap_share"], 0.1, 9)
+        self.assertAlmostEqual(found.json["max_overlap"], 1e-4, 12)
+        self.assertIn("1 pair of grains, the deepest by 10 %", clast("porosity", file, "--bed", "box:0,0,4mm,2mm").out)
+        self.assert_fails(2, "porosity", self.lattice(2), "--columns", "x,y", "--bed", "box:0,0,2,2", says=["x, y and z"])
+
+    def test_the_jammed_packing_as_it_is(self):
+        path = shared("packings/rcp10000/packing.xyzd")
+        if path is None:
+            return
+        bed = "periodic:0,0,0,20.0823593086113,20.0823593086113,20.0823593086113"
+        found = clast("porosity", path, "--diameter", 1, "--bed", bed, "--gap", 1e-4, "--json")
+        self.assertAlmostEqual(found.json["bulk"], 0.353520998, 8)
+        self.assertAlmostEqual(found.json["coordination"], 5.9506, 12)
+        self.assertEqual(found.json["n_overlap"], 0)
+        self.assertAlmostEqual(clast("porosity", path, "--bed", bed, "--json").json["bulk"], 0.355088, 6)
 
     def test_random_close_packing_of_others(self):
         """10,000 spheres of a periodic cube: published porosity 0.353520964812133, diameter rescaled to contact."""

@@ -125,9 +125,9 @@ class Shape(Case):
         self.assertEqual(len(result.json["grains"]), 1)
         errors = result.err.splitlines()
         self.assertEqual(len(errors), 3)
-        self.assertIn("open.off: 4 of", errors[0])
+        self.assertIn("open.off is not a closed, outward surface: 4 open edges", errors[0])
         self.assertIn("--hull", errors[0])
-        self.assertIn("turned.off: volume is -36: the surface is inside out", errors[1])
+        self.assertIn("turned.off is not a closed, outward surface: 1 part inside out", errors[1])
         self.assertIn("thickness", errors[2])
         hull = clast("shape", opened, "--hull", "--json")
         self.assertEqual(hull.code, 0)
@@ -148,11 +148,25 @@ class Shape(Case):
         one = clast("shape", *files, "--json", "-j", "1").out
         self.assertEqual(one, clast("shape", *files, "--json", "-j", "4").out)
 
+    def test_spheres_are_one_clump(self):
+        clump = self.put("clump.csv", "x_mm,y_mm,z_mm,r_mm\n0,0,0,1\n0,0,1.5,1\n")
+        found = clast("shape", clump, "--json").json
+        grain = found["grains"][0]
+        self.assertEqual((found["unit"], grain["kind"], grain["zingg"]), ("m", "clump", "rod"))
+        self.assertAlmostEqual(grain["area"] * 1e6, 4 * 3.141592653589793 * 1.75, 9)
+        self.assertAlmostEqual(grain["feret_max"] * 1e3, 3.5, 12)
+        self.assertIsNone(grain["feret_min"])
+        self.assertIsNone(grain["by_definition"]["box"]["L"])
+        self.assertIsNone(clast("shape", clump, "--axes", "box", "--json").json["grains"][0]["zingg"])
+        out = clast("shape", clump).out
+        self.assertIn("Feret              0.0035, - m (greatest, least)", out)
+        self.assertNotIn("nan", out)
+
     def test_words_name_every_factor_with_its_formula(self):
         out = clast("shape", self.put("box.off", BOX)).out
         for text in ("Corey shape factor", "S/sqrt(L I)", "roundness", "L, I, S box        6, 3, 2", "Zingg class"):
             self.assertIn(text, out)
-        help_text = clast("shape", "--help").out
+        help_text = clast("shape", "--help-all").out
         for key in KEYS[7:20]:
             self.assertIn(key + " = ", help_text)
 

@@ -50,6 +50,7 @@ class Statistics(Case):
         self.assertEqual(len(files), 1)
 
     def test_folder_that_cannot_be(self):
+        (self.folder / "no").write_text("a file")
         self.assert_fails(4, "shape", STANDIN, "--statistics", self.folder / "no/such", says=["no/such"])
 
 

@@ -53,7 +53,7 @@ void support_aggregate_options(clast_aggregate_config *config, const char *optio
             again = again || seen[k] == field;
         }
         seen[n_seen++] = field;
-        CHECK_OK(clast_field_set(field, config, value + 1, again));
+        CHECK_OK(clast_field_set_si(field, config, value + 1, again));
         at = next;
     }
 }

@@ -63,15 +63,20 @@ const char *support_shared(const char *name)
 void support_refuse_each_allocation(clast_status (*make)(void *context), void *context)
 {
 #ifdef CLAST_ALLOC_INJECT
+    static const char earlier[] = "the message of an earlier call";
     const int64_t before = clx_alloc_live();
     clast_status status = CLAST_E_MEMORY;
     for (int64_t k = 1; status != CLAST_OK; ++k) {
+        (void)clx_fail(CLAST_OK, "%s", earlier);
         (void)clx_alloc_refuse(k);
         status = make(context);
         (void)clx_alloc_refuse(0);
         if (status != CLAST_OK && status != CLAST_E_MEMORY) {
             fail_msg("allocation %lld refused: got '%s' (%s)", (long long)k,
                      clast_status_text(status), clast_error_detail());
+        }
+        if (status != CLAST_OK && strcmp(clast_error_detail(), earlier) == 0) {
+            fail_msg("allocation %lld refused: no message of its own", (long long)k);
         }
         if (clx_alloc_live() != before) {
             fail_msg("allocation %lld refused: %lld blocks left", (long long)k,

@@ -37,6 +37,7 @@ static const fact facts[] = {
     {"scarlet/stl/ellipse.stl", 32, 0, 0, 1, 4188.1, NAN, 1e-5, false, 0.0},
     {"scarlet/stl/L_shaped.stl", 0, 0, 0, 8, 32.6777, NAN, 1e-5, true, 0.6330},
     {"scarlet/stl/Menger2.stl", 40, 0, 0, 1, 0.5487, NAN, 1e-6, false, 0.4513},
+    {"scarlet/stl/Menger3.stl", 168, 0, 0, 1, 0.406445, NAN, 1e-5, false, 0.5936},
     {"scarlet/stl/particle.stl", 4, 0, 0, 1, 1286.86, NAN, 1e-5, false, 0.3527},
     {"scarlet/stl/pyramid.stl", 0, 0, 0, 55, 221.084, NAN, 1e-5, true, 0.3709},
     {"scarlet/stl/sphere.stl", 76, 0, 0, 1, 523.513, NAN, 1e-5, false, 0.0},

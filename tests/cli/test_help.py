@@ -1,0 +1,146 @@
+"""CLI: the first page of each command's help is short and true; --help-all and the manual page have everything, once."""
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from clitest import CLAST, ROOT, Case, clast
+
+COMMANDS = re.findall(r"^  (\w+(?: \w+)?)  +\S", clast("--help").out, re.M)
+OF_EVERY_COMMAND = {"--output", "--threads", "--set", "--json", "--quiet", "--help", "--help-all"}
+# examples that take more than some seconds with sanitizers
+SLOW = {"clast aggregate examples/27sk21.yaml -o run/", "clast study examples/packing-study.yaml -o study/ -j 2",
+        "clast pack --curve U1 --shapes ellipsoid:1,0.7,0.5 --mass 0.1kg --width 60mm -o bed/", "clast bench P1 --repeats 1",
+        "clast bench --json", "clast shape data/standin63/*.ply --statistics forms/",
+        "clast mesh repair data/scarlet/stl/t_rex.stl -o closed.stl", "clast mesh hull data/scarlet/stl/t_rex.stl -o hull.ply",
+        "clast mesh synthesize --count 3 --flatness-deviation 0.1 -o grains/"}
+
+
+def completed(command):
+    """Options of a command as completion offers them: one word a row of its field table."""
+    text = clast("completion").out
+    words = re.search(rf'"{command}"\\? ?\*\) words="([^"]*)"', text)[1].split()
+    return [word for word in words if word not in OF_EVERY_COMMAND]
+
+
+def named(page):
+    """Options at the begin of a page's lines, as they are typed: --no-hull for --[no-]hull."""
+    names = [name.replace("[no-]", "no-") for name in re.findall(r"^  (--[][\w-]+)", page, re.M)]
+    return [name for name in names if name not in OF_EVERY_COMMAND]
+
+
+def examples(page):
+    return [line.strip() for line in re.search(r"^examples:\n((?:  .*\n)+)", page, re.M)[1].splitlines()]
+
+
+def is_ours(example):
+    """An example all of whose input files a clone has."""
+    words = example.split()
+    files = [word for before, word in zip(words, words[1:]) if before not in ("-o", "--statistics", ">")
+             and re.search(r"\.(stl|ply|csv|vtu|yaml|json)$|^[a-z0-9]+/$", word)]
+    return all(list(ROOT.glob(word)) for word in files) and "mesh:" not in example
+
+
+class Help(Case):
+    def test_commands_are_listed_in_one_line_each(self):
+        self.assertEqual(len(COMMANDS), 24)
+        for page in (clast("--help"), clast()):
+            lines = (page.out or page.err).splitlines()
+            self.assertLess(len(lines), 40)
+            self.assertLessEqual(max(map(len, lines)), 90)
+        for arguments, code in ((["mesh"], 2), (["mesh", "--help"], 0), (["mesh", "-h"], 0)):
+            page = clast(*arguments)
+            self.assertEqual(page.code, code)
+            self.assertEqual(re.findall(r"^  clast (mesh \w+)", page.out + page.err, re.M),
+                             [name for name in COMMANDS if name.startswith("mesh ")])
+
+    def test_first_page_is_short_and_says_where_more_is(self):
+        for command in COMMANDS:
+            with self.subTest(command):
+                page = clast(*command.split(), "--help")
+                self.assertEqual((page.code, page.err), (0, ""))
+                lines = page.out.splitlines()
+                self.assertLessEqual(len(lines), 25)
+                self.assertLessEqual(max(map(len, lines)), 90, max(lines, key=len))
+                self.assertTrue(lines[0].startswith(f"usage: clast {command}"))
+                self.assertEqual(lines[-1], f"more: clast {command} --help-all; man clast")
+                self.assertTrue(set(named(page.out)) <= set(completed(command)))
+                self.assertEqual(clast(*command.split(), "-h").out, page.out)
+
+    def test_examples_are_three_and_their_options_exist(self):
+        for command in COMMANDS:
+            with self.subTest(command):
+                found = examples(clast(*command.split(), "--help").out)
+                self.assertEqual(len(set(found)), 3)
+                known = set(completed(command)) | OF_EVERY_COMMAND
+                for example in found:
+                    self.assertIn(f"clast {command}", example)
+                    for option in re.findall(r" (--[\w-]+)", example):
+                        self.assertTrue(option in known or option.replace("--", "--no-", 1) in known
+                                        or option.replace("--no-", "--", 1) in known, example)
+
+    def test_all_pages_name_each_option_once_and_in_groups(self):
+        manual = clast("man").out.replace("\\-", "-")
+        for command in COMMANDS:
+            with self.subTest(command):
+                page = clast(*command.split(), "--help-all")
+                self.assertEqual((page.code, page.err), (0, ""))
+                self.assertEqual(named(page.out), completed(command))
+                section = manual[manual.index(f".SS clast {command} "):].split("\n.S")[0]
+                self.assertEqual([n.replace("[no-]", "no-") for n in re.findall(r"^\.B (--\S+)$", section, re.M)],
+                                 completed(command))
+                headings = re.findall(r"^([a-z][^\n]*):\n  --", page.out, re.M)
+                self.assertEqual(len(headings), len(set(headings)))
+                self.assertGreaterEqual(len(headings), 3 if len(completed(command)) > 20 else 0)
+        for command, heading in (("aggregate", "growth"), ("pack", "contacts"), ("decompose", "tree"), ("shape", "output")):
+            self.assertIn(f"\n{heading}:\n", clast(command, "--help-all").out)
+            self.assertIn(f"\n.I {heading}\n", manual)
+
+    def test_defaults_are_typed_as_people_do(self):
+        for command, words in (("aggregate", ["(default 1deg)", "as 270um"]), ("pack", ["(default 104mm)", "(default 2650kg/m^3)"]),
+                               ("render", ["(default -55deg)"])):
+            page = clast(command, "--help").out
+            for word in words:
+                self.assertIn(word, page)
+
+    def test_examples_on_bundled_data_run(self):
+        for name in ("data", "examples"):
+            (self.folder / name).symlink_to(ROOT / name)
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/clast").symlink_to(pathlib.Path(CLAST).resolve())
+        n = 0
+        for command in COMMANDS:
+            for example in examples(clast(*command.split(), "--help").out):
+                if example in SLOW or not is_ours(example) or command in ("man", "completion"):
+                    continue
+                done = subprocess.run(["bash", "-c", example], cwd=self.folder, capture_output=True, text=True, check=False,
+                                      timeout=300, env={**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"})
+                self.assertEqual(done.returncode, 0, f"{example}: {done.stderr}")
+                n += 1
+        self.assertGreater(n, 20)
+
+    def test_a_bare_length_or_angle_is_refused_with_its_spelling(self):
+        for command, option, says in (("aggregate", "--core-size=270", "core_size: 270 has no unit; write 270um"),
+                                      ("aggregate", "--cone=50", "cone: 50 has no unit; write 50deg"),
+                                      ("aggregate", "--set=stop_size=1000", "write 1000um"),
+                                      ("aggregate", "--size=20", "size: 20 has no unit"),
+                                      ("pack", "--layer=1", "layer: 1 has no unit; write 1mm"),
+                                      ("pack", "--width=0.1", "width: 0.1 has no unit; write 0.1m"),
+                                      ("pack", "--curve=uniform:3,5mm", "3 has no unit; write 3mm"),
+                                      ("pack", "--curve=4", "4 has no unit; write 4mm"),
+                                      ("grading", "--mass=-1", "mass"),
+                                      ("render", "--azimuth=30", "azimuth: 30 has no unit; write 30deg"),
+                                      ("agglomerate", "--monomer-radius=1e-6", "monomer_radius")):
+            inputs = {"render": ["x.stl"], "agglomerate": ["x.csv"], "grading": ["U1"]}.get(command, [])
+            self.assert_fails(2, command, *inputs, option, says=[says])
+        path = self.folder / "run.yaml"
+        path.write_text("core: sphere\ncoat: sphere\nsize: [20um, 30]\n")
+        self.assert_fails(2, "aggregate", path, says=["run.yaml:3: size: 30 has no unit; write 30mm"])
+        for option in ("--core-size=0", "--cone=0", "--neck=0"):  # zero needs no unit
+            r = clast("aggregate", option)
+            self.assertNotIn("unit", r.err)
+
+
+if __name__ == "__main__":
+    unittest.main()
