@@ -1,5 +1,6 @@
 """MPI: `clast-mpi` gives the same bytes on 1, 2 and 4 ranks as `clast`, and fails and stops on all ranks."""
 import csv
+import fcntl
 import os
 import pathlib
 import signal
@@ -38,6 +39,22 @@ def ranks(n, *arguments, seconds=120):
 def own_lines(err):
     """What clast said, without mpirun's own remarks."""
     return [line for line in err.splitlines() if line.startswith("clast")]
+
+
+
+def wait_until_free(run):
+    """Ranks outlive a killed mpirun by a moment, and hold the folder's lock until then."""
+    until = time.time() + 60
+    folder = os.open(run, os.O_RDONLY)
+    try:
+        while time.time() < until:
+            try:
+                fcntl.flock(folder, fcntl.LOCK_SH | fcntl.LOCK_NB)
+                return
+            except BlockingIOError:
+                time.sleep(0.05)
+    finally:
+        os.close(folder)
 
 
 class Ranks(Case):
@@ -105,7 +122,7 @@ class Ranks(Case):
             else:
                 process.send_signal(number)
             process.communicate(timeout=60)
-            time.sleep(0.5)  # ranks outlive a killed mpirun by a moment
+            wait_until_free(run)
             self.assertFalse((run / "summary.json").exists())
             code, _, err = ranks(n, "aggregate", "--resume", run, "-q")
             self.assertEqual(code, 0, err)
