@@ -53,7 +53,7 @@ paper-packing:
 	@tools/build.sh release clast_cli clast
 	@tools/paper_packing.py
 golden: dev
-	@CLAST_RENEW_GOLDEN=1 build/dev/tests/golden_test_golden
+	@CLAST_RENEW_GOLDEN=1 ctest --test-dir build/dev -R 'test_golden|test_transcripts' --output-on-failure --no-tests=error
 	@[ ! -e .git ] || git diff --stat tests/golden
 format:
 	@tools/setup.sh format

@@ -271,7 +271,7 @@ static clast_status keep_results(const cli_common *common, const config *c,
         status = clast_run_folder_input(folder, "points", common->argument[k]);
     }
     if (status == CLAST_OK) {
-        status = cli_results_open(folder, fields, c, c->agglomerate.decompose.seed, inputs);
+        status = cli_results_open(folder, fields, c, &c->agglomerate.decompose.seed, inputs);
     }
     if (status == CLAST_OK) {
         status = write_folder(r, chart_end[c->charts], clast_run_folder_path(folder));

@@ -318,7 +318,7 @@ static clast_status keep_results(const cli_common *common, const config *c, cons
     const char *folder = clast_run_folder_path(run);
     const bool is_mapped =
         j->domain->kind != CLAST_DOMAIN_BOX && j->domain->kind != CLAST_DOMAIN_MESH;
-    clast_status status = cli_results_open(run, fields, c, c->decompose.seed, inputs);
+    clast_status status = cli_results_open(run, fields, c, &c->decompose.seed, inputs);
     if (status == CLAST_OK && j->sizes->n_column > 0) {
         status = write_sizes(j->sizes, c, folder);
     }

@@ -242,7 +242,7 @@ static clast_status keep_results(const cli_common *common, const config *c, cons
                                 {NULL, NULL}};
     const char *path = clast_run_folder_path(folder);
     json_t *out = summary(j);
-    clast_status status = cli_results_open(folder, fields, c, c->fit.seed, inputs);
+    clast_status status = cli_results_open(folder, fields, c, &c->fit.seed, inputs);
     status = status == CLAST_OK ? write_folder(common, c, j, path) : status;
     status = status == CLAST_OK ? write_charts(path, j) : status;
     status = status == CLAST_OK ? cli_results_summary(folder, out) : status;

@@ -99,7 +99,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
         json_t *object = cli_check_json(common->argument[0], result);
         cli_json_number(object, "weld", weld->weld_distance);
         cli_json_count(object, "n_merged", weld->n_merged);
-        cli_json_text(object, "repair", cure);
+        cli_json_text(object, "repair", solid ? NULL : cure);
         return cli_print_json(object);
     }
     if (c->weld == CLAST_WELD_WITHIN) {

@@ -174,7 +174,7 @@ static const char details[] =
     "name\n"
     "where their program differs. --max-steps ends a run early, as it is then.\n\n"
     "grains.csv has a row a grain: shape, flatness S/I, elongation I/L, sieve_size_m, "
-    "density_kg/m3,\n"
+    "density_kg/m^3,\n"
     "centroid x_m, y_m, z_m (in a periodic domain the image about the origin) and the quaternion\n"
     "qw, qx, qy, qz that turns the shape into its place.\n\n"
     "With -o RUN: state.h5, series.csv, profile.csv, achieved.csv, grains.csv, summary.json, "

@@ -414,7 +414,7 @@ static clast_status open_results(const cli_common *common, const porosity_config
     }
     bed_file(config->bed, path);
     const cli_input inputs[] = {{"bed", path}, {NULL, NULL}};
-    return status == CLAST_OK ? cli_results_open(run, fields, config, 0, inputs) : status;
+    return status == CLAST_OK ? cli_results_open(run, fields, config, NULL, inputs) : status;
 }
 
 static clast_status print(const cli_common *common, const porosity_config *config,

@@ -316,7 +316,7 @@ static clast_status keep_results(const cli_common *common, const config *c, cons
                                 {"model", is_file ? c->model : NULL},
                                 {NULL, NULL}};
     json_t *summary = to_json(j);
-    clast_status status = cli_results_open(folder, fields, c, c->seed, inputs);
+    clast_status status = cli_results_open(folder, fields, c, &c->seed, inputs);
     status = status == CLAST_OK ? write_folder(j, clast_run_folder_path(folder)) : status;
     status = status == CLAST_OK ? cli_results_summary(folder, summary) : status;
     json_decref(summary);

@@ -176,7 +176,7 @@ static clast_status keep_statistics(const cli_common *common, const config *c,
         status = clast_run_folder_input(folder, "grains", common->argument[i]);
     }
     if (status == CLAST_OK) {
-        status = cli_results_open(folder, fields, c, c->seed, &(cli_input){NULL, NULL});
+        status = cli_results_open(folder, fields, c, &c->seed, &(cli_input){NULL, NULL});
     }
     if (status == CLAST_OK) {
         status = clast_grain_statistics_write(statistics, clast_run_folder_path(folder), "svg");

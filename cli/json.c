@@ -25,10 +25,14 @@ clast_status cli_write_summary(const json_t *object, const char *folder)
         return CLAST_E_MEMORY;
     }
     (void)snprintf(part, sizeof part, "%s.part", path);
-    if (n > 0 && n < (int)sizeof path &&
-        json_dump_file(object, part, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
-        rename(part, path) == 0) {
-        return CLAST_OK;
+    FILE *const file = n > 0 && n < (int)sizeof path ? fopen(part, "w") : NULL;
+    if (file != NULL) {
+        const bool is_written =
+            json_dumpf(object, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+            fputc('\n', file) != EOF;
+        if (fclose(file) == 0 && is_written && rename(part, path) == 0) {
+            return CLAST_OK;
+        }
     }
     (void)remove(part);
     return cli_fail(CLAST_E_DISK, "cannot write %s", path);
@@ -62,6 +66,6 @@ static json_t *plain_text(const char *value)
 
 void cli_json_text(json_t *object, const char *key, const char *value)
 {
-    json_t *text = json_string(value);
+    json_t *text = value != NULL ? json_string(value) : json_null();
     (void)json_object_set_new(object, key, text != NULL ? text : plain_text(value));
 }

@@ -16,5 +16,5 @@ void cli_json_number(json_t *object, const char *key, double value);
 void cli_json_count(json_t *object, const char *key, int64_t value);
 void cli_json_bool(json_t *object, const char *key, bool value);
 
-/// Bytes that are not UTF-8 (in names of files) become '?'.
+/// Bytes that are not UTF-8 (in names of files) become '?'; NULL becomes null.
 void cli_json_text(json_t *object, const char *key, const char *value);

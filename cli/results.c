@@ -19,13 +19,15 @@ clast_status cli_results_begin(const cli_common *common, const char *folder, boo
 }
 
 clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, const void *config,
-                              uint64_t seed, const cli_input *input)
+                              const uint64_t *seed, const cli_input *input)
 {
     if (run == NULL) {
         return CLAST_OK;
     }
     clast_manifest *manifest = clast_run_folder_manifest(run);
-    clast_manifest_seed(manifest, seed);
+    if (seed != NULL) {
+        clast_manifest_seed(manifest, *seed);
+    }
     clast_status status = clast_manifest_config(manifest, fields, config);
     for (; input->role != NULL && status == CLAST_OK; ++input) {
         if (input->path != NULL && input->path[0] != '\0') {

@@ -22,9 +22,9 @@ clast_status cli_results_begin(const cli_common *common, const char *folder, boo
                                clast_run_folder **run);
 
 /// Makes the folder, with the manifest of this configuration and these inputs (up to one without a
-/// role). Does nothing without a run, as the next.
+/// role); seed NULL: nothing was drawn. Does nothing without a run, as the next.
 clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, const void *config,
-                              uint64_t seed, const cli_input *input);
+                              const uint64_t *seed, const cli_input *input);
 
 /// Writes summary.json, the last of a run's files. Borrows it; NULL gives CLAST_E_MEMORY.
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary);

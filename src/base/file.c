@@ -394,3 +394,15 @@ done:
     clx_file_abandon(&file);
     return status;
 }
+
+clast_status clx_file_write_line(const char *path, const char *text)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    CLX_TRY(clx_file_print(&file, "%s\n", text));
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}

@@ -54,6 +54,9 @@ void clx_file_abandon(clx_file *file);
 /// One whole output at once: begin, write, commit.
 clast_status clx_file_write_all(const char *path, const void *bytes, size_t n);
 
+/// The same of a text, with a newline after it.
+clast_status clx_file_write_line(const char *path, const char *text);
+
 /// Whole file into a fresh block (clx_free it) of *n bytes and one 0 byte more, pipes too.
 ///
 /// @return CLAST_E_IO if missing, unreadable or a folder; CLAST_E_LIMIT beyond `limit` bytes

@@ -286,12 +286,19 @@ clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
     enum { N_NAME = sizeof name / sizeof name[0] };
     const clast_prediction *p = prediction;
     const clast_form_inputs *in = inputs;
-    const double value[N_NAME] = {
-        p->porosity,          p->standard_error,        p->model_error,
-        p->coefficient_error, p->sampling_error,        p->in_range ? 1.0 : 0.0,
-        (double)in->n_grain,  in->flatness_mean,        in->flatness_deviation,
-        in->elongation_mean,  in->elongation_deviation, in->equancy_mean,
-        in->equancy_deviation};
+    const double value[N_NAME] = {p->porosity,
+                                  p->standard_error,
+                                  p->model_error,
+                                  p->coefficient_error,
+                                  p->sampling_error > 0.0 ? p->sampling_error : (double)NAN,
+                                  p->in_range ? 1.0 : 0.0,
+                                  (double)in->n_grain,
+                                  in->flatness_mean,
+                                  in->flatness_deviation,
+                                  in->elongation_mean,
+                                  in->elongation_deviation,
+                                  in->equancy_mean,
+                                  in->equancy_deviation};
     clast_status status = CLAST_OK;
     clast_table t = {0};
     CLX_TRY(clast_table_init(&t, "prediction", 1));

@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void set(json_t *object, const char *key, double value)
 {
@@ -128,7 +127,7 @@ static clast_status write_results(const char *folder, const clast_aggregate_fit 
     CLX_TRY(clx_fit_chart_write(folder, fit, nodes));
     CLX_TRY(clast_aggregate_fit_json(fit, &text));
     CLX_TRY(clx_path_join(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+    CLX_TRY(clx_file_write_line(path, text));
 done:
     clast_text_free(text);
     return status;

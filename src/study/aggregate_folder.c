@@ -55,7 +55,7 @@ static clast_status write_summary(const char *folder, const clast_aggregate_repo
     char *text = NULL;
     CLX_TRY(clast_aggregate_report_json(report, false, &text));
     CLX_TRY(clx_path_join(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+    CLX_TRY(clx_file_write_line(path, text));
 done:
     clast_text_free(text);
     return status;

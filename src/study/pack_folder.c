@@ -14,7 +14,6 @@
 #include <clast/table_file.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 clast_status clx_pack_path(char path[CLX_PACK_PATH], const char *folder, const char *name)
@@ -143,14 +142,14 @@ static clast_status write_grains(const char *folder, const clast_pack *pack)
     CLX_TRY(clast_table_add_number(&table, "flatness", "-", NULL));
     CLX_TRY(clast_table_add_number(&table, "elongation", "-", NULL));
     CLX_TRY(clast_table_add_number(&table, "sieve_size_m", "m", NULL));
-    CLX_TRY(clast_table_add_number(&table, "density_kg/m3", "kg/m3", NULL));
+    CLX_TRY(clast_table_add_number(&table, "density_kg/m^3", "kg/m^3", NULL));
     for (size_t k = 0; k < sizeof pose / sizeof *pose; ++k) {
         CLX_TRY(clast_table_add_number(&table, pose[k][0], pose[k][1], NULL));
     }
     flatness = clast_table_numbers(&table, "flatness");
     elongation = clast_table_numbers(&table, "elongation");
     size = clast_table_numbers(&table, "sieve_size_m");
-    density = clast_table_numbers(&table, "density_kg/m3");
+    density = clast_table_numbers(&table, "density_kg/m^3");
     for (int32_t i = 0; i < a.n_grain; ++i) {
         const clast_shape *shape = &a.shape[a.shape_id[i]];
         const double *s = shape->semi_axes; // a >= b >= c
@@ -175,7 +174,7 @@ static clast_status write_summary(const char *folder, const clast_pack_result *r
     char *text = NULL;
     CLX_TRY(clast_pack_result_json(result, false, &text));
     CLX_TRY(clx_pack_path(path, folder, "summary.json"));
-    CLX_TRY(clx_file_write_all(path, text, strlen(text)));
+    CLX_TRY(clx_file_write_line(path, text));
 done:
     clast_text_free(text);
     return status;

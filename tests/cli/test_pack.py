@@ -321,7 +321,7 @@ class Pack(Case):
         self.assertEqual(made.code, 0, made.err)
         mass = {5000.0: 0.0, 2500.0: 0.0}
         for row in self.rows(run / "grains.csv"):
-            size, density = float(row["sieve_size_m"]), float(row["density_kg/m3"])
+            size, density = float(row["sieve_size_m"]), float(row["density_kg/m^3"])
             self.assertEqual(density, 5000 if size < 0.005 else 2500)
             mass[density] += density * math.pi / 6 * size**3
         self.assertAlmostEqual(sum(mass.values()) / made.json["mass"], 1, 9)
@@ -338,7 +338,7 @@ class Pack(Case):
         self.assertEqual(made.code, 0, made.err)
         kinds = {}
         for row in self.rows(run / "grains.csv"):
-            kind = (round(float(row["sieve_size_m"]), 9), float(row["density_kg/m3"]))
+            kind = (round(float(row["sieve_size_m"]), 9), float(row["density_kg/m^3"]))
             kinds[kind] = kinds.get(kind, 0) + 1
         self.assertEqual(set(kinds), {(0.005, 2650.0), (0.005, 5300.0), (0.006, 2650.0)})
         self.assertAlmostEqual(kinds[0.005, 2650.0] / kinds[0.005, 5300.0], 2, delta=0.8)
@@ -352,7 +352,7 @@ class Pack(Case):
         run = self.folder / "heavy"
         made = clast("pack", "examples/packing/heavy-minerals.yaml", "--height", "0.3m", "--max-steps", "1", "--json", "-o", run, cwd=ROOT)
         self.assertEqual(made.code, 0, made.err)
-        density = [float(row["density_kg/m3"]) for row in self.rows(run / "grains.csv")]
+        density = [float(row["density_kg/m^3"]) for row in self.rows(run / "grains.csv")]
         self.assertEqual(set(density), {2650.0, 4700.0})
         self.assertGreater(len(density), 400)
         self.assertAlmostEqual(density.count(4700.0) / len(density), 0.1, delta=3 * math.sqrt(0.09 / len(density)))
@@ -369,7 +369,7 @@ class Pack(Case):
         self.assertEqual(made.code, 0, made.err)
         self.assertTrue(made.json["converged"])
         core, coat = 4700 * 0.2**3, 1200 * 0.15**3
-        density = {float(row["density_kg/m3"]) for row in self.rows(whole / "grains.csv")}
+        density = {float(row["density_kg/m^3"]) for row in self.rows(whole / "grains.csv")}
         self.assertEqual(len(density), 1)
         self.assertIn(round(density.pop(), 6), [round((core + k * coat) / (0.2**3 + k * 0.15**3), 6) for k in range(1, 30)])
         run = self.folder / "cut"
