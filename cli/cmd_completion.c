@@ -14,7 +14,7 @@ static const clast_field fields[] = {{"shell", .offset = offsetof(config, shell)
 
 static void print_options(const cli_command *command)
 {
-    (void)printf("--output --threads --set --json --quiet --help --help-all");
+    (void)printf("--output --threads --max-memory --set --json --quiet --help --help-all");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
         const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
         (void)printf(is_on ? " --no-" : " --");

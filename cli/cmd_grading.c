@@ -27,7 +27,7 @@ static const clast_field grading_fields[] = {
      "grains per mass: each as large as its class mean (eq. 9), or so that masses come out exactly",
      "mean|exact"},
     {FIELD(sample), CLAST_FIELD_I32, 0, 0, 1e8, "-", "sizes to draw; -o FILE.csv keeps them", NULL},
-    {FIELD(chart), CLAST_FIELD_TEXT, 0, 0, 0, "-",
+    {FIELD(chart), CLAST_FIELD_TEXT, 0, 0, 0, CLAST_UNIT_OUTPUT,
      "draw mass and number passing, wanted and achieved, into this .svg, .pdf or .png", ""},
     {FIELD(compare), CLAST_FIELD_TEXT, 0, 0, 0, "-",
      "file of grain sizes to set beside the curve instead (column with its unit, diameter_m)", ""},

@@ -77,6 +77,8 @@ static clast_status run(const cli_common *common, void *values)
         ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go\n"
         ".TP\n.B \\-j, \\-\\-threads N\nthreads; 0 means one per core; results do not depend on "
         "it\n"
+        ".TP\n.B \\-\\-max\\-memory SIZE\nthe most that the command may take: 8GB, 50%% of the "
+        "machine's memory, 0 for no limit; 80%% by default\n"
         ".TP\n.B \\-\\-set KEY=VALUE\nthe same as \\-\\-KEY VALUE\n"
         ".TP\n.B \\-\\-json\none JSON object on standard output\n"
         ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"

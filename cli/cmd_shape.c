@@ -29,6 +29,11 @@ typedef struct {
 #name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, "-", .text = "",       \
                .help = __VA_ARGS__                                                                 \
     }
+#define OUTPUT(name, ...)                                                                          \
+    {                                                                                              \
+#name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, CLAST_UNIT_OUTPUT,            \
+               .text = "", .help = __VA_ARGS__                                                     \
+    }
 static const clast_field fields[] = {
     {"axes", .offset = offsetof(config, axes), CLAST_FIELD_CHOICE, CLAST_AXES_ELLIPSOID, 0, 0, "-",
      "definition of L, I and S behind D and the form factors",
@@ -68,9 +73,9 @@ static const clast_field fields[] = {
      "-", "volume: grains of fewer voxels are left out", NULL, .common = true},
     TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names",
          .common = true, .group = "tables"),
-    TEXT(surfaces, "write each grain's surface (or hull) as PLY into this folder", .common = true,
+    OUTPUT(surfaces, "write each grain's surface (or hull) as PLY into this folder", .common = true,
          .group = "output"),
-    TEXT(statistics,
+    OUTPUT(statistics,
          "write statistics of the set into this folder: tables, Zingg diagram, "
          "histograms, correlation, principal components",
          .common = true),

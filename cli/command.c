@@ -116,12 +116,16 @@ static bool common_option(parser *p, const char *name, const char *value, bool *
         p->help = true;
         p->help_all = p->help_all || name[4] == '-';
     } else if (strcmp(name, "output") == 0 || strcmp(name, "threads") == 0 ||
-               strcmp(name, "set") == 0) {
+               strcmp(name, "max-memory") == 0 || strcmp(name, "set") == 0) {
         *used_value = true;
         if (value == NULL) {
             *status = usage_error(p, "--%s needs a value", name);
+        } else if (value[0] == '\0') {
+            *status = usage_error(p, "--%s has an empty value; leave it out for its default", name);
         } else if (name[0] == 'o') {
             p->common.output = value;
+        } else if (name[0] == 'm') {
+            p->common.max_memory = value;
         } else {
             *status = name[0] == 's' ? set_pair(p, value) : set_threads(p, value);
         }
@@ -278,7 +282,8 @@ static clast_status check_arguments(const parser *p)
 static void complain(const parser *p, clast_status status)
 {
     if (status != CLAST_OK && status != CLAST_E_NO && p->common.comm->rank == 0) {
-        (void)fprintf(stderr, "clast %s: %s\n", p->command->name, reason(status));
+        (void)fprintf(stderr, "clast %s: %s%s\n", p->command->name, reason(status),
+                      status == CLAST_E_MEMORY ? "; see --max-memory" : "");
     }
 }
 
@@ -293,7 +298,11 @@ static clast_status perform(parser *p, int argc, char **argv)
     } else if (status == CLAST_OK && !p->help) {
         const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
         clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);
-        status = p->command->run(&p->common, p->config);
+        status = cli_memory_limit(p->common.max_memory);
+        if (status == CLAST_OK) {
+            status = cli_check_outputs(p->command, &p->common, p->config);
+        }
+        status = status == CLAST_OK ? p->command->run(&p->common, p->config) : status;
     }
     complain(p, status);
     return status;
@@ -322,6 +331,7 @@ int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const
         (void)fputs("clast: not enough memory\n", stderr);
         goto done;
     }
+    cli_signals_begin(command->name, comm);
     code = exit_code(perform(&p, argc - n_skip, argv + n_skip));
     if (command->fields != NULL) {
         clast_fields_free(command->fields, p.config);

@@ -6,6 +6,7 @@
 typedef struct cli_common {
     const char *output;     ///< -o PATH, or NULL
     int32_t threads;        ///< -j N; 0: one per core
+    const char *max_memory; ///< --max-memory SIZE, or NULL
     bool json;              ///< one JSON object on stdout
     bool quiet;             ///< no progress on stderr
     int32_t n_argument;     ///< positional arguments
@@ -76,6 +77,21 @@ double cli_clock(void);
 
 /// Seconds of processor time of the whole process, all threads added.
 double cli_clock_cpu(void);
+
+/// From now on SIGINT, SIGTERM and SIGHUP ask this command to end, and end it where it does not
+/// look.
+void cli_signals_begin(const char *command, const clast_comm *comm);
+
+/// Whether a signal has asked the command to end; a loop that looks here saves its state.
+bool cli_stop_asked(void);
+
+/// Limits the library's memory to `text` (8GB, 50%; 0: not at all), NULL: 80 % of the machine's.
+clast_status cli_memory_limit(const char *text);
+
+/// Refuses an output that is an input, part of a run, or another output (by the file, whatever its
+/// spelling), before anything is computed.
+clast_status cli_check_outputs(const cli_command *command, const cli_common *common,
+                               const void *config);
 
 /// 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP, 0 when none came.
 int cli_signal_code(void);

@@ -88,7 +88,9 @@ static const char *looks_like(const clast_field *f)
             return look[k][1];
         }
     }
-    return f->unit != NULL && strcmp(f->unit, "-") != 0 ? f->unit : "";
+    return f->unit != NULL && strcmp(f->unit, "-") != 0 && strcmp(f->unit, CLAST_UNIT_OUTPUT) != 0
+               ? f->unit
+               : "";
 }
 
 void cli_field_values(const clast_field *f, char words[CLI_WORDS_SIZE])
@@ -224,6 +226,8 @@ void cli_help_all(const cli_command *command)
         "\nof every command:\n"
         "  -o, --output PATH      where results go\n"
         "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
+        "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
+        "                         (default 80%%)\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
         "  --json                 one JSON object on stdout\n"
         "  -q, --quiet            no progress on stderr\n"

@@ -1,30 +1,14 @@
-// Progress on stderr, and the signals that ask for a checkpoint.
+// Progress on stderr.
 #include "command.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t caught;
-
-static void on_signal(int number)
-{
-    if (caught != 0) {
-        _exit(128 + number); // asked twice: the user does not want to wait
-    }
-    caught = number;
-}
-
-int cli_signal_code(void)
-{
-    return caught != 0 ? 128 + (int)caught : 0;
-}
-
 static bool stop(void *context)
 {
     (void)context;
-    return caught != 0;
+    return cli_stop_asked();
 }
 
 typedef struct {
@@ -79,13 +63,6 @@ static void note(void *context, const char *text)
 
 clast_monitor cli_monitor(const cli_common *common)
 {
-    const struct sigaction action = {.sa_handler = on_signal};
-    struct sigaction before;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // else: nohup
-        (void)sigaction(SIGHUP, &action, NULL);
-    }
     return (clast_monitor){.report = common->quiet ? NULL : report,
                            .stop = stop,
                            .note = common->quiet ? NULL : note,

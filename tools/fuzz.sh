@@ -16,4 +16,7 @@ one() {
     else echo "fuzz: $name FAILED"; tail -25 "build/fuzz/$name.log"; return 1; fi
 }
 export -f one
+if [ -x build/release/clast ]; then # the smoke share of `make fuzz-commands`
+    python3 tests/fuzz/fuzz_commands.py --runs 2000 --seconds "$FUZZ_SECONDS"
+fi
 find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' | sort | xargs -r -P "$(nproc)" -I{} bash -c 'one {}'

@@ -41,6 +41,7 @@
 #include <clast/kernel.h>
 #include <clast/local_porosity.h>
 #include <clast/manifest.h>
+#include <clast/memory.h>
 #include <clast/mesh.h>
 #include <clast/mesh_check.h>
 #include <clast/mesh_file.h>

@@ -28,6 +28,9 @@ typedef struct clast_f64_list {
     double *item; ///< [n] owned
 } clast_f64_list;
 
+/// Unit of a text that names a file or a folder to write.
+#define CLAST_UNIT_OUTPUT "output"
+
 /// One field; a table of them ends with {0}. The members stand in the order that tables give them
 /// in.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)

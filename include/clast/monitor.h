@@ -16,4 +16,8 @@ typedef struct clast_monitor {
     char *const *word; ///< [n_word] borrowed
 } clast_monitor;
 
+/// Removes the temporary files of all outputs under way, of every thread. For a signal handler that
+/// then ends the process (it calls nothing but unlink); outputs that were whole stay.
+CLAST_API void clast_outputs_abandon(void);
+
 CLAST_END

@@ -57,6 +57,10 @@ CLAST_API clast_status clast_run_folder_end(clast_run_folder *run, clast_status 
 /// line that says what it holds: "RUN: stopped at 49 %, go on with clast pack --resume RUN".
 CLAST_API clast_status clast_run_folder_check(const char *folder);
 
+/// Whether an existing file is part of a run: its folder, or one above it, holds the run that wrote
+/// it. A page (report.html) can be made again at any time and is not.
+CLAST_API bool clast_run_folder_owns(const char *path);
+
 /// The state file that a command's argument means: a run folder's state.h5, else the argument
 /// itself.
 ///

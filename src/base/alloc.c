@@ -7,15 +7,24 @@
 #endif
 #include "base/alloc.h"
 
+#include <clast/memory.h>
+
 #include "base/lines.h"
+#include "base/number.h"
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+#ifdef __APPLE__
+#include <malloc/malloc.h>
+#define malloc_usable_size malloc_size
+#else
+#include <malloc.h>
+#endif
 
 #ifdef CLAST_ALLOC_INJECT
-#include <stdatomic.h>
 static _Atomic int64_t n_live;
 static _Atomic int64_t countdown;
 static _Atomic int64_t n_taken;
@@ -51,9 +60,47 @@ static bool refused(void)
 #define COUNT_TAKEN() ((void)0)
 #endif
 
+static _Atomic int64_t n_byte; ///< of all blocks
+static _Atomic int64_t most;   ///< they may have; 0: any
+
+clast_status clast_memory_set_limit(int64_t bytes)
+{
+    clast_status status = CLAST_OK;
+    CLX_CHECK(bytes >= 0, CLAST_E_ARGUMENT, "clast_memory_set_limit: %lld bytes are less than none",
+              (long long)bytes);
+    atomic_store(&most, bytes);
+done:
+    return status;
+}
+
+int64_t clast_memory_limit(void)
+{
+    return atomic_load(&most);
+}
+
+int64_t clast_memory_taken(void)
+{
+    return atomic_load_explicit(&n_byte, memory_order_relaxed);
+}
+
+/// Notes that a block came (sign 1) or goes (-1).
+static void count_bytes(void *block, int sign)
+{
+    const int64_t n = block != NULL ? (int64_t)malloc_usable_size(block) : 0;
+    (void)atomic_fetch_add_explicit(&n_byte, sign * n, memory_order_relaxed);
+}
+
+/// Whether so many bytes more stay below the limit.
+static bool fits(size_t bytes)
+{
+    const int64_t limit = atomic_load_explicit(&most, memory_order_relaxed);
+    return limit == 0 || (int64_t)bytes <= limit - clast_memory_taken();
+}
+
 static bool bytes_of(int64_t n, size_t size, size_t *bytes)
 {
-    const size_t limit = (size_t)CLX_ALLOC_LIMIT_GIB << 30;
+    const uint64_t large = (uint64_t)CLX_ALLOC_LIMIT_GIB << 30;
+    const uint64_t limit = large < SIZE_MAX / 2 ? large : SIZE_MAX / 2;
     if (n < 0 || (size != 0 && (uint64_t)n > limit / size)) {
         return false;
     }
@@ -64,8 +111,31 @@ static bool bytes_of(int64_t n, size_t size, size_t *bytes)
     return true;
 }
 
+enum { SIZE_WORD = 24 };
+
+/// "4.2 GB"
+static const char *size_word(double bytes, char word[SIZE_WORD])
+{
+    static const char *const unit[] = {"B", "kB", "MB", "GB", "TB"};
+    int k = 0;
+    while (bytes >= 999.5 && k < 4) {
+        bytes *= 1e-3;
+        ++k;
+    }
+    (void)clx_number_print(word, SIZE_WORD, "%.3g %s", bytes, unit[k]);
+    return word;
+}
+
 static clast_status fail(int64_t n, size_t size)
 {
+    size_t bytes = 0;
+    char word[3][SIZE_WORD];
+    if (bytes_of(n, size, &bytes) && !fits(bytes)) {
+        return clx_fail(
+            CLAST_E_MEMORY, "%s of memory more are wanted, %s are taken, the limit is %s",
+            size_word((double)bytes, word[0]), size_word((double)clast_memory_taken(), word[1]),
+            size_word((double)clast_memory_limit(), word[2]));
+    }
     return clx_fail(CLAST_E_MEMORY, "no memory for %lld items of %zu bytes", (long long)n, size);
 }
 
@@ -128,6 +198,7 @@ static void *pool_take(clx_pool *pool, size_t bytes)
     void *at = s != NULL ? malloc(size) : NULL;
     if (at != NULL) {
         COUNT_TAKEN();
+        count_bytes(at, 1);
         *s = (slot){at, size, true};
         ++pool->n;
     }
@@ -174,6 +245,7 @@ void clx_pool_destroy(clx_pool *pool)
 {
     for (int64_t k = 0; pool != NULL && k < pool->n; ++k) {
         COUNT(pool->slot[k].is_used ? -1 : 0);
+        count_bytes(pool->slot[k].at, -1);
         free(pool->slot[k].at);
     }
     if (pool != NULL) {
@@ -189,7 +261,24 @@ static void *take(size_t bytes)
         return got != NULL ? memset(got, 0, bytes) : NULL;
     }
     COUNT_TAKEN();
-    return calloc(1, bytes);
+    void *got = calloc(1, bytes);
+    count_bytes(got, 1);
+    return got;
+}
+
+/// The size in bytes of n items, if it may be taken.
+static bool may_take(int64_t n, size_t size, size_t *bytes)
+{
+    return bytes_of(n, size, bytes) && fits(*bytes) && !refused();
+}
+
+/// realloc of a block of the system, counted.
+static void *move_block(void *old, size_t bytes)
+{
+    count_bytes(old, -1);
+    void *got = realloc(old, bytes);
+    count_bytes(got != NULL ? got : old, 1);
+    return got;
 }
 
 clast_status clx_alloc(void *block, int64_t n, size_t size)
@@ -197,7 +286,7 @@ clast_status clx_alloc(void *block, int64_t n, size_t size)
     void *got = NULL;
     size_t bytes = 0;
     memcpy(block, &got, sizeof got);
-    if (!bytes_of(n, size, &bytes) || refused()) {
+    if (!may_take(n, size, &bytes)) {
         return fail(n, size);
     }
     got = take(bytes);
@@ -214,10 +303,10 @@ clast_status clx_realloc(void *block, int64_t n, size_t size)
     void *old = NULL;
     size_t bytes = 0;
     memcpy(&old, block, sizeof old);
-    if (!bytes_of(n, size, &bytes) || refused()) {
+    if (!may_take(n, size, &bytes)) {
         return fail(n, size);
     }
-    void *got = current != NULL ? pool_grow(current, old, bytes) : realloc(old, bytes);
+    void *got = current != NULL ? pool_grow(current, old, bytes) : move_block(old, bytes);
     if (got == NULL) {
         return fail(n, size);
     }
@@ -270,6 +359,7 @@ static void *take_lines(size_t bytes)
     const size_t unit = bytes >= 2 * (size_t)LARGE_PAGE ? LARGE_PAGE : LINE;
     const size_t whole = (bytes + unit - 1) / unit * unit;
     void *got = aligned_alloc(unit, whole);
+    count_bytes(got, 1);
 #ifdef MADV_HUGEPAGE
     if (got != NULL && unit == LARGE_PAGE) {
         (void)madvise(got, whole, MADV_HUGEPAGE); // an advice: speed only
@@ -290,7 +380,7 @@ clast_status clx_grow_lines(void *block, int64_t *capacity, int64_t need, size_t
     }
     const int64_t next = grown(*capacity, need);
     memcpy(&old, block, sizeof old);
-    if (!bytes_of(next, size, &bytes) || refused()) {
+    if (!may_take(next, size, &bytes)) {
         return fail(next, size);
     }
     void *got = take_lines(bytes);
@@ -316,6 +406,7 @@ void clx_free(void *block)
         if (s != NULL) {
             s->is_used = false;
         } else {
+            count_bytes(block, -1);
             free(block);
         }
     }

@@ -2,12 +2,15 @@
 // of the folder [POSIX rename(2) is atomic within one file system]. And whole inputs with a limit.
 #include "base/file.h"
 
+#include <clast/monitor.h>
+
 #include "base/alloc.h"
 #include "base/number.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +18,6 @@
 #include <unistd.h>
 
 #ifdef CLAST_ALLOC_INJECT
-#include <stdatomic.h>
 static _Atomic int64_t countdown;
 static _Atomic int refusal;
 
@@ -51,6 +53,46 @@ static int sync_descriptor(int descriptor)
 #endif
 }
 
+/// Names of the temporary files there are, for a signal handler: no pointer that another thread may
+/// free while it looks. More than these at once are left to be swept by hand.
+enum { N_NOTED = 16 };
+static struct {
+    _Atomic int use; ///< 0: free, 1: being written or cleared, 2: a name
+    char name[PATH_MAX];
+} noted[N_NOTED];
+
+static void note_temporary(const char *name)
+{
+    const size_t n = strlen(name) + 1;
+    for (int k = 0; k < N_NOTED && n <= PATH_MAX; ++k) {
+        int unused = 0;
+        if (atomic_compare_exchange_strong(&noted[k].use, &unused, 1)) {
+            memcpy(noted[k].name, name, n);
+            atomic_store(&noted[k].use, 2);
+            return;
+        }
+    }
+}
+
+static void forget_temporary(const char *name)
+{
+    for (int k = 0; k < N_NOTED; ++k) {
+        if (atomic_load(&noted[k].use) == 2 && strcmp(noted[k].name, name) == 0) {
+            atomic_store(&noted[k].use, 0);
+            return;
+        }
+    }
+}
+
+void clast_outputs_abandon(void)
+{
+    for (int k = 0; k < N_NOTED; ++k) {
+        if (atomic_load(&noted[k].use) == 2) {
+            (void)unlink(noted[k].name);
+        }
+    }
+}
+
 /// Keeps the first failure and words it for the person at the terminal.
 static clast_status fail_file(clx_file *file, const char *doing)
 {
@@ -65,6 +107,9 @@ static clast_status fail_file(clx_file *file, const char *doing)
 
 static void forget(clx_file *file)
 {
+    if (file->temporary != NULL) {
+        forget_temporary(file->temporary);
+    }
     clx_free(file->path);
     clx_free(file->target);
     clx_free(file->temporary);
@@ -90,6 +135,31 @@ static size_t folder_length(const char *path)
     return slash != NULL ? (size_t)(slash - path) + 1 : 0;
 }
 
+/// The file that a chain of links names, though there is none yet.
+static clast_status follow_dangling(const char *path, char **target)
+{
+    enum { MOST = 40 }; // as the system follows
+    clast_status status = CLAST_OK;
+    char name[PATH_MAX];
+    char word[PATH_MAX];
+    CLX_CHECK((size_t)snprintf(name, sizeof name, "%s", path) < sizeof name, CLAST_E_DISK,
+              "cannot write %s: the path is too long", path);
+    for (int k = 0; k < MOST; ++k) {
+        const ssize_t n = readlink(name, word, sizeof word - 1);
+        if (n < 0) { // no link
+            return clx_alloc_text(target, name);
+        }
+        word[n] = '\0';
+        const size_t folder = word[0] == '/' ? 0 : folder_length(name);
+        CLX_CHECK(folder + (size_t)n < sizeof name, CLAST_E_DISK,
+                  "cannot write %s: the path is too long", path);
+        memcpy(name + folder, word, (size_t)n + 1);
+    }
+    status = clx_fail(CLAST_E_DISK, "cannot write %s: its links lead in a circle", path);
+done:
+    return status;
+}
+
 /// Follows a link, so that the file it names is replaced and not the link.
 static clast_status find_target(const char *path, char **target, bool *is_plain)
 {
@@ -101,7 +171,7 @@ static clast_status find_target(const char *path, char **target, bool *is_plain)
         return clx_fail(CLAST_E_DISK, "cannot write a file without a name");
     }
     if (stat(path, &info) != 0) {
-        return clx_alloc_text(target, path);
+        return follow_dangling(path, target);
     }
     CLX_CHECK(!S_ISDIR(info.st_mode), CLAST_E_DISK, "cannot write %s: it is a folder", path);
     *is_plain = S_ISREG(info.st_mode);
@@ -136,6 +206,10 @@ static clast_status open_temporary(clx_file *file)
                      ? clx_fail(CLAST_E_DISK, "cannot write %s: there is no folder %.*s",
                                 file->path, (int)folder, file->target)
                      : fail_file(file, "open");
+        clx_free(file->temporary); // there is no such file
+        file->temporary = NULL;
+    } else {
+        note_temporary(file->temporary);
     }
 done:
     return status;

@@ -68,6 +68,15 @@ static const unit units[] = {
     {"mJ/m^2", "J/m^2", 1e-3},
     {"N", "N", 1.0},
     {"N/m", "N/m", 1.0},
+    {"B", "B", 1.0},
+    {"kB", "B", 1e3},
+    {"MB", "B", 1e6},
+    {"GB", "B", 1e9},
+    {"TB", "B", 1e12},
+    {"KiB", "B", 0x1p10},
+    {"MiB", "B", 0x1p20},
+    {"GiB", "B", 0x1p30},
+    {"TiB", "B", 0x1p40},
     {"-", "-", 1.0},
     {"%", "-", 0.01},
 };
@@ -167,6 +176,8 @@ static clast_status refuse_bare(const char *si_unit, double value)
         likely = size < 1.0 ? "rad" : "deg";
     } else if (strcmp(si_unit, "m") == 0) {
         likely = size < 0.5 ? "m" : size < 100.0 ? "mm" : "um";
+    } else if (strcmp(si_unit, "B") == 0) {
+        likely = "GB";
     }
     if (likely == NULL || value == 0.0) {
         return CLAST_OK;

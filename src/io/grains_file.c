@@ -494,6 +494,9 @@ static void work(int64_t begin, int64_t end, int32_t worker, void *context)
         if (task[i].status != CLAST_OK) {
             task[i].status = clx_grains_fault(&task[i], task[i].status);
         }
+        if (task[i].status != CLAST_OK) {
+            (void)snprintf(task[i].why, sizeof task[i].why, "%s", clast_error_detail());
+        }
     }
 }
 
@@ -505,8 +508,7 @@ static clast_status join(clx_grains_task *task, int32_t n_task, clast_grains *gr
     int64_t n_fault = 0;
     int64_t n_note = 0;
     for (int32_t i = 0; i < n_task; ++i) {
-        CLX_CHECK(task[i].status == CLAST_OK, task[i].status, "no memory for the grains of %s",
-                  task[i].path);
+        CLX_CHECK(task[i].status == CLAST_OK, task[i].status, "%s: %s", task[i].path, task[i].why);
         n += task[i].grains.n;
         n_fault += task[i].grains.n_fault;
         n_note += task[i].grains.n_note;

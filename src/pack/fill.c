@@ -19,15 +19,20 @@ static double fill_high(const clast_pack *p)
 
 enum { LATTICE_LIMIT = 1 << 26 };
 
+/// What a point of the lattice is to the grains that follow.
+enum { FREE, BARRED, HELD }; // no grain fits there; one has its centre there
+
 /// Where the next grain of a fill may go.
 typedef struct {
     double low, high; ///< heights of the region
-    uint8_t *taken;   ///< [n_point] lattice points that no grain can have any more
+    uint8_t *taken;   ///< [n_point] of the lattice: FREE, BARRED or HELD
     int64_t first;    ///< all before it are taken
     double x, y, z;   ///< shelf: where the next sphere may begin
     double row, layer;
     int32_t n;
-    int32_t n_wide; ///< spheres wider than the spacing
+    int32_t *wide; ///< [n_wide] of `grain`, wider than the spacing
+    int64_t n_wide, wide_capacity;
+    double least;   ///< radius that no grain falls below
     int32_t n_old;  ///< the first of `grain`: of earlier fills, still reaching into the region
     double refused; ///< least radius that found no place: no greater one will
     clast_dem_grain *grain; ///< [n] of this fill
@@ -50,7 +55,7 @@ static void measure_lattice(const clast_pack *p, double step[3], double n[2])
 
 /// Refuses a lattice that is much finer than the grains: it takes time and memory and no grain
 /// more.
-static clast_status check_lattice(const clast_pack *p, const filling *f)
+static clast_status check_lattice(const clast_pack *p, filling *f)
 {
     clast_status status = CLAST_OK;
     double step[3];
@@ -59,6 +64,7 @@ static clast_status check_lattice(const clast_pack *p, const filling *f)
     double high = 0.0;
     measure_lattice(p, step, n);
     clast_grading_range(p->input.grading, &low, &high);
+    f->least = 0.4999 * low;
     const double narrowest = low * p->widest;
     CLX_CHECK(p->spacing >= 0.1 * narrowest, CLAST_E_CONFIG,
               "spacing %g m is less than a tenth of the smallest grain, %g m", p->spacing,
@@ -111,23 +117,60 @@ static bool is_inside(const clast_pack *p, const double x[3], double radius)
            (fabs(x[0]) + radius <= 0.5 * d->width && fabs(x[1]) + radius <= 0.5 * depth);
 }
 
-/// Whether a sphere is clear of all others in the region, periodic images too.
-static bool is_clear(const clast_pack *p, const filling *f, const double x[3], double radius)
+/// Whether a sphere is clear of grain i, of its periodic images too.
+static bool is_clear_of(const clast_pack *p, const filling *f, int32_t i, const double x[3],
+                        double radius)
 {
     const clast_dem_config *d = &p->config.dem;
     const double period[2] = {d->width, d->depth > 0.0 ? d->depth : d->width};
+    const double reach = radius + f->radius[i];
+    double r[3];
+    v3_sub(r, x, f->grain[i].position);
+    for (int k = 0; k < 2 && d->domain == CLAST_DEM_PERIODIC; ++k) {
+        r[k] -= period[k] * floor(r[k] / period[k] + 0.5);
+    }
+    return v3_norm2(r) >= reach * reach;
+}
+
+/// Whether a sphere is clear of all others in the region.
+static bool is_clear(const clast_pack *p, const filling *f, const double x[3], double radius)
+{
     for (int32_t i = f->n - 1; i >= 0; --i) {
-        const double reach = radius + f->radius[i];
-        double r[3];
-        v3_sub(r, x, f->grain[i].position);
-        for (int k = 0; k < 2 && d->domain == CLAST_DEM_PERIODIC; ++k) {
-            r[k] -= period[k] * floor(r[k] / period[k] + 0.5);
-        }
-        if (v3_norm2(r) < reach * reach) {
+        if (!is_clear_of(p, f, i, x, radius)) {
             return false;
         }
     }
     return true;
+}
+
+/// Whether a wide grain is so near that not even the smallest fits there. A grain's circumscribed
+/// sphere is no smaller than its sieve or volume-equivalent size.
+static bool is_barred(const clast_pack *p, const filling *f, const double x[3])
+{
+    for (int64_t i = 0; i < f->n_wide; ++i) {
+        if (!is_clear_of(p, f, f->wide[i], x, f->least)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether a grain stands on the lattice straight below point k, nearer than this radius: every
+/// second layer of either lattice has its points above each other.
+static bool stands_above(const clast_pack *p, const filling *f, int64_t k, double radius)
+{
+    double step[3];
+    double n[2];
+    measure_lattice(p, step, n);
+    const int64_t down = 2 * (int64_t)n[0] * (int64_t)n[1];
+    int64_t below = k - down;
+    for (double depth = 2.0 * step[2]; depth < radius && below >= 0; depth += 2.0 * step[2]) {
+        if (f->taken[below] == HELD) {
+            return true;
+        }
+        below -= down;
+    }
+    return false;
 }
 
 /// Whether every lattice point is taken; `first` moves up to the first that is not.
@@ -147,17 +190,20 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
     const double room = fmax(radius, 0.5 * p->spacing);
     const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0 || f->n_old > 0;
     for (int64_t k = f->first; lattice_point(p, f, k, x); ++k) {
-        if (f->taken[k] != 0) {
+        if (f->taken[k] != FREE) {
             continue;
         }
         if (!is_inside(p, x, room)) {
-            f->taken[k] = room > 0.5 * p->spacing ? 0 : 1; // too near a side for any grain
+            f->taken[k] = room > 0.5 * p->spacing ? FREE : BARRED; // too near a side for any grain
             continue;
         }
-        if (!may_overlap || is_clear(p, f, x, radius)) {
-            f->taken[k] = 1;
+        if (is_barred(p, f, x)) {
+            f->taken[k] = BARRED;
+            continue;
+        }
+        if (!may_overlap || (!stands_above(p, f, k, radius) && is_clear(p, f, x, radius))) {
+            f->taken[k] = HELD;
             (void)is_full(p, f);
-            f->n_wide += 2.0 * radius > p->spacing ? 1 : 0;
             return true;
         }
     }
@@ -165,7 +211,6 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
     v3_set(x, p->middle[0], p->middle[1], f->low + room);
     if (f->n == f->n_old && is_clear(p, f, x, radius) && is_inside(p, x, radius) &&
         x[2] + radius <= f->high) {
-        f->n_wide = 1;
         return true;
     }
     return false;
@@ -206,9 +251,13 @@ static bool place_on_shelf(const clast_pack *p, filling *f, double radius, doubl
     return false;
 }
 
-static clast_status keep(filling *f, const clast_dem_grain *g, double radius)
+static clast_status keep(const clast_pack *p, filling *f, const clast_dem_grain *g, double radius)
 {
     clast_status status = CLAST_OK;
+    if (2.0 * radius > p->spacing) {
+        CLX_TRY(clx_grow(&f->wide, &f->wide_capacity, f->n_wide + 1, sizeof *f->wide));
+        f->wide[f->n_wide++] = f->n;
+    }
     CLX_TRY(clx_grow(&f->grain, &f->capacity, f->n + 1, sizeof *f->grain));
     CLX_TRY(clx_grow(&f->radius, &f->radius_capacity, f->n + 1, sizeof *f->radius));
     f->radius[f->n] = radius;
@@ -227,7 +276,7 @@ static clast_status keep_old(const clast_pack *p, filling *f)
         clast_dem_read_grain(p->dem, i, &g);
         clast_dem_shape_measures(p->dem, g.shape, measures);
         if (g.position[2] + g.scale * measures[0] > f->low) {
-            CLX_TRY(keep(f, &g, g.scale * measures[0]));
+            CLX_TRY(keep(p, f, &g, g.scale * measures[0]));
         }
     }
     f->n_old = f->n;
@@ -256,7 +305,7 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
                                              ? place_on_shelf(p, f, radius, g.position)
                                              : place_on_lattice(p, f, radius, g.position));
     if (*is_placed) {
-        CLX_TRY(keep(f, &g, radius));
+        CLX_TRY(keep(p, f, &g, radius));
         ++p->n_made;
         p->mass += mass;
         return CLAST_OK;
@@ -337,6 +386,7 @@ clast_status clx_pack_fill(clast_pack *p)
 done:
     clx_free(f.grain);
     clx_free(f.radius);
+    clx_free(f.wide);
     clx_free(f.taken);
     return status;
 }

@@ -435,3 +435,37 @@ clast_status clast_run_folder_end(clast_run_folder *run, clast_status status)
     run->is_open = false;
     return status == CLAST_OK ? end_well(run) : end_badly(run, status);
 }
+
+/// Whether a study's folder has its own of that name.
+static bool study_owns(const char *name)
+{
+    static const char *const own[] = {"study.json", "plan.csv", "results.csv", "times.csv", "runs"};
+    for (size_t k = 0; k < sizeof own / sizeof *own; ++k) {
+        if (strcmp(name, own[k]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool clast_run_folder_owns(const char *path)
+{
+    enum { ABOVE = 3 }; // repeat-0001/frames/frame-000001.vtu
+    bool is_owned = false;
+    char *file = path != NULL ? realpath(path, NULL) : NULL;
+    char *slash = file != NULL ? strrchr(file, '/') : NULL;
+    for (int k = 0; k < ABOVE && slash != NULL && slash > file && !is_owned; ++k) {
+        clx_run_state state = {0};
+        *slash = '\0'; // the folder; below it, a name
+        char *name = slash + 1;
+        name[strcspn(name, "/")] = '\0';
+        if (strcmp(name, "report.html") != 0 && clx_run_state_read(file, &state) == CLAST_OK) {
+            is_owned = (state.is_run && clx_run_owns(&state, name)) ||
+                       (state.is_study && study_owns(name));
+        }
+        clx_run_state_free(&state);
+        slash = strrchr(file, '/');
+    }
+    free(file); // the system's
+    return is_owned;
+}

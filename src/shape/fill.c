@@ -53,8 +53,8 @@ const clast_field clast_fill_fields[] = {
          .group = "input, random numbers and output"),
     COUNT(U64, seed, 1, 0, 1.8e19, "seed of the random draws", .common = true),
     {FIELD(TEXT, name), 0, 0, 0, "-", "name of the sphere set; none: the input file's", ""},
-    {FIELD(TEXT, history), 0, 0, 0, "-", "write the errors after each sphere to this CSV", "",
-     .common = true},
+    {FIELD(TEXT, history), 0, 0, 0, CLAST_UNIT_OUTPUT,
+     "write the errors after each sphere to this CSV", "", .common = true},
     {0}};
 
 enum { DEFAULT_SPHERES = 300, BOUNDED_SPHERES = 100000 };

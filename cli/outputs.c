@@ -1,0 +1,149 @@
+// Outputs are no inputs: compared by the file itself, so that links and other spellings count.
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { MOST_OUTPUTS = 16 };
+
+/// What a command line writes.
+typedef struct {
+    const char *option[MOST_OUTPUTS], *path[MOST_OUTPUTS];
+    int32_t n;
+    bool first_is_folder; ///< -o names a run's folder, which has rules of its own
+} outputs;
+
+static bool is_output(const clast_field *f)
+{
+    return f->type == CLAST_FIELD_TEXT && f->unit != NULL &&
+           strcmp(f->unit, CLAST_UNIT_OUTPUT) == 0;
+}
+
+static const char *text_of(const clast_field *f, const void *config)
+{
+    const char *text = NULL;
+    memcpy((void *)&text, (const char *)config + f->offset, sizeof text);
+    return text != NULL ? text : "";
+}
+
+static void find_outputs(const cli_command *command, const cli_common *common, const void *config,
+                         outputs *o)
+{
+    if (common->output != NULL) {
+        o->option[o->n] = "-o";
+        o->path[o->n++] = common->output;
+        o->first_is_folder = command->writes_folder;
+    }
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
+        if (is_output(f) && text_of(f, config)[0] != '\0' && o->n < MOST_OUTPUTS) {
+            o->option[o->n] = f->name; // as messages of the fields name it
+            o->path[o->n++] = text_of(f, config);
+        }
+    }
+}
+
+static bool is_same(const char *a, const char *b)
+{
+    struct stat of_a;
+    struct stat of_b;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino && (S_ISREG(of_a.st_mode) || S_ISDIR(of_a.st_mode));
+}
+
+/// Whether a file that a run could write lies in this folder; a configuration (YAML) none does.
+static bool is_in(const char *file, const char *folder)
+{
+    char parent[4096];
+    struct stat info;
+    const char *slash = strrchr(file, '/');
+    const char *dot = strrchr(file, '.');
+    const int n = slash != NULL ? (int)(slash - file) + 1 : 0;
+    if (stat(file, &info) != 0 || !S_ISREG(info.st_mode) || n >= (int)sizeof parent ||
+        (dot != NULL && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0))) {
+        return false;
+    }
+    (void)snprintf(parent, sizeof parent, "%.*s", n, n > 0 ? file : ".");
+    return is_same(n > 0 ? parent : ".", folder);
+}
+
+/// Refuses the outputs that are this input or would hold it; "list:FILE" names one as FILE does.
+static clast_status check_input(const outputs *o, const char *input)
+{
+    const char *const colon = strchr(input, ':');
+    const char *const spelling[2] = {input, colon != NULL ? colon + 1 : NULL};
+    for (int32_t i = 0; i < o->n; ++i) {
+        for (int k = 0; k < 2 && spelling[k] != NULL; ++k) {
+            if (is_same(o->path[i], spelling[k])) {
+                return cli_fail(CLAST_E_USAGE,
+                                "%s %s is the input %s; an output takes no input's place, give it "
+                                "another name",
+                                o->option[i], o->path[i], spelling[k]);
+            }
+            if (is_in(spelling[k], o->path[i])) {
+                return cli_fail(
+                    CLAST_E_USAGE,
+                    "%s %s is the folder of the input %s, whose place a file of the run "
+                    "could take; give a folder of its own",
+                    o->option[i], o->path[i], spelling[k]);
+            }
+        }
+    }
+    return CLAST_OK;
+}
+
+static clast_status check_field(const outputs *o, const clast_field *f, const void *config)
+{
+    clast_status status = CLAST_OK;
+    if (f->type == CLAST_FIELD_TEXT && !is_output(f)) {
+        return check_input(o, text_of(f, config));
+    }
+    if (f->type == CLAST_FIELD_TEXT_LIST) {
+        clast_text_list list;
+        memcpy(&list, (const char *)config + f->offset, sizeof list);
+        for (int32_t i = 0; i < list.n && status == CLAST_OK; ++i) {
+            status = check_input(o, list.item[i]);
+        }
+    }
+    return status;
+}
+
+/// Each output against the runs on this disk and the outputs before it.
+static clast_status check_each(const outputs *o)
+{
+    for (int32_t i = 0; i < o->n; ++i) {
+        if (!(i == 0 && o->first_is_folder) && clast_run_folder_owns(o->path[i])) {
+            return cli_fail(CLAST_E_USAGE,
+                            "%s %s is part of a run; give another name, or export what you need",
+                            o->option[i], o->path[i]);
+        }
+        for (int32_t j = 0; j < i; ++j) {
+            if (strcmp(o->path[i], o->path[j]) == 0 || is_same(o->path[i], o->path[j])) {
+                return cli_fail(CLAST_E_USAGE, "%s and %s name the same file, %s", o->option[j],
+                                o->option[i], o->path[i]);
+            }
+        }
+    }
+    return CLAST_OK;
+}
+
+clast_status cli_check_outputs(const cli_command *command, const cli_common *common,
+                               const void *config)
+{
+    outputs o = {0};
+    find_outputs(command, common, config, &o);
+    clast_status status = o.n > 0 ? check_each(&o) : CLAST_OK;
+    // every word: YAML configurations are no arguments any more
+    for (int32_t i = 1; i < common->n_word && o.n > 0 && status == CLAST_OK; ++i) {
+        const bool is_value = i > 1 && common->word[i - 1][0] == '-';
+        status = is_value ? CLAST_OK : check_input(&o, common->word[i]);
+    }
+    for (int32_t i = 0; i < common->n_argument && o.n > 0 && status == CLAST_OK; ++i) {
+        status = check_input(&o, common->argument[i]);
+    }
+    for (const clast_field *f = command->fields;
+         f != NULL && f->name != NULL && o.n > 0 && status == CLAST_OK; ++f) {
+        status = check_field(&o, f, config);
+    }
+    return status;
+}

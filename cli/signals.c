@@ -1,0 +1,88 @@
+// Signals that ask a command to end.
+//
+// A loop with a state to save looks at cli_stop_asked() and returns CLAST_E_STOPPED. Where no loop
+// looks (a reader, a statistic, a last file), nothing is lost by ending at once: the process
+// removes its temporary files and is gone. A loop that does look has twice the time between its
+// last two looks, and 0.4 s at least.
+#include "command.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+enum { GRACE_US = 400000 };
+
+static volatile sig_atomic_t caught;
+static _Atomic int64_t last_look;   ///< us since some moment, 0: no loop has looked
+static _Atomic int64_t look_period; ///< us between the last two looks
+static bool is_alone;               ///< no other rank waits for what this one does
+static char last_words[160];
+
+static _Noreturn void leave(int number)
+{
+    clast_outputs_abandon();
+    const ssize_t n = write(STDERR_FILENO, last_words, strlen(last_words));
+    (void)n; // nobody is left to be told
+    _exit(128 + number);
+}
+
+static void on_alarm(int number)
+{
+    (void)number;
+    leave(caught);
+}
+
+static void on_signal(int number)
+{
+    if (caught == number || atomic_load(&last_look) == 0) {
+        leave(number); // asked twice, or nothing to save
+    }
+    caught = number;
+    const int64_t two = 2 * atomic_load(&look_period);
+    const int64_t wait = two > GRACE_US ? two : GRACE_US;
+    const struct itimerval timer = {
+        .it_value = {.tv_sec = (time_t)(wait / 1000000), .tv_usec = (suseconds_t)(wait % 1000000)}};
+    if (is_alone) {
+        (void)setitimer(ITIMER_REAL, &timer, NULL);
+    }
+}
+
+bool cli_stop_asked(void)
+{
+    const int64_t now = (int64_t)(1e6 * cli_clock()) + 1;
+    const int64_t last = atomic_exchange(&last_look, now);
+    if (last != 0) {
+        atomic_store(&look_period, now - last);
+    }
+    if (caught != 0) {
+        const struct itimerval never = {0};
+        (void)setitimer(ITIMER_REAL, &never, NULL);
+    }
+    return caught != 0;
+}
+
+int cli_signal_code(void)
+{
+    return caught != 0 ? 128 + (int)caught : 0;
+}
+
+void cli_signals_begin(const char *command, const clast_comm *comm)
+{
+    const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+    const struct sigaction alarm = {.sa_handler = on_alarm, .sa_flags = SA_RESTART};
+    static const int number[] = {SIGINT, SIGTERM, SIGHUP};
+    is_alone = comm->n_rank == 1;
+    (void)snprintf(last_words, sizeof last_words,
+                   "clast %s: ended by a signal; the files that it had finished are whole\n",
+                   command);
+    for (size_t k = 0; k < sizeof number / sizeof number[0]; ++k) {
+        struct sigaction before;
+        if (sigaction(number[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // nohup
+            (void)sigaction(number[k], &action, NULL);
+        }
+    }
+    (void)sigaction(SIGALRM, &alarm, NULL);
+}

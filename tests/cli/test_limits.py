@@ -1,0 +1,89 @@
+"""CLI: memory and time are bounded, and a signal ends every command at once."""
+import gzip
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from clitest import CLAST, ROOT, Case, clast
+
+
+class Memory(Case):
+    def bomb(self):
+        """A megabyte that declares a billion voxels."""
+        path = self.folder / "bomb.nrrd"
+        with open(path, "wb") as file:
+            file.write(b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1000 1000 1000\nencoding: gzip\n\n")
+            with gzip.GzipFile(fileobj=file, mode="wb", compresslevel=1) as packed:
+                for _ in range(1000):
+                    packed.write(bytes(1000000))
+        return path
+
+    def test_a_declared_size_is_refused_before_it_is_taken(self):
+        began = time.monotonic()
+        path = self.bomb()
+        made = time.monotonic()
+        self.assert_fails(4, "shape", path, "--max-memory", "1GB",
+                          says=["bomb.nrrd", "4 GB of memory more are wanted", "the limit is 1 GB", "--max-memory"])
+        self.assertLess(time.monotonic() - made, 5 + (made - began))
+
+    def test_every_size_is_understood_or_refused(self):
+        grain = ROOT / "data/standin63/grain00.ply"
+        for size in ("8GB", "512 MiB", "50%", "0"):
+            self.assertEqual(clast("shape", grain, "--max-memory", size).code, 0, size)
+        for size, says in (("8", "8 has no unit"), ("x", "not a number"), ("-1GB", "-1GB"), ("", "empty value"), ("8m", "known here: B, kB")):
+            self.assert_fails(2, "shape", grain, "--max-memory", size, says=["max-memory", says])
+
+    def test_a_small_limit_is_one_line(self):
+        grain = ROOT / "data/standin63/grain00.ply"
+        self.assert_fails(4, "mesh", "check", grain, "--max-memory", "20kB", says=["kB of memory more are wanted", "the limit is 20 kB", "--max-memory"])
+
+
+class Signals(Case):
+    def end(self, number, after, *words):
+        """Code, stderr and seconds to the end of a command that gets a signal `after` seconds."""
+        with subprocess.Popen([CLAST, *map(str, words)], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as process:
+            time.sleep(after)
+            self.assertIsNone(process.poll(), "ended by itself")
+            began = time.monotonic()
+            process.send_signal(number)
+            error = process.communicate()[1]
+            return process.returncode, error, time.monotonic() - began
+
+    def many_points(self):
+        path = self.folder / "points.csv"
+        with open(path, "w", encoding="ascii") as file:
+            file.write("x,y,z\n")
+            for i in range(400000):
+                file.write(f"{i * 0.618034 % 1:.9f},{i * 0.754878 % 1:.9f},{i * 0.569840 % 1:.9f}\n")
+        return path
+
+    def test_a_reader_and_a_statistic_end_at_once(self):
+        path = self.many_points()
+        for number, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)):
+            ended, error, seconds = self.end(number, 0.4, "decompose", path, "--domain", "box:0,0,0,1,1,1")
+            self.assertEqual(ended, code, error)
+            self.assertIn("clast decompose: ended by a signal", error)
+            self.assertLess(seconds, 2.0)  # 0.5 s of a machine that does nothing else
+
+    def test_what_was_there_before_stays(self):
+        path = self.many_points()
+        old = self.folder / "cells"
+        self.assertEqual(clast("decompose", ROOT / "data/d2sd/points_u3_n50.csv", "--domain", "box:0,0,0,1,1,1", "-o", old).code, 1)
+        before = {p.name: p.read_bytes() for p in old.iterdir()}
+        self.end(signal.SIGTERM, 0.4, "decompose", path, "--domain", "box:0,0,0,1,1,1", "-o", old, "--force")
+        self.assertEqual({p.name: p.read_bytes() for p in old.iterdir()}, before)
+        left = [p.name for p in pathlib.Path(self.folder).rglob(".clast-*")]
+        self.assertEqual(left, [])
+
+    def test_a_loop_with_a_state_saves_it(self):
+        ended, error, _ = self.end(signal.SIGTERM, 2.0, "pack", "--curve", "2 mm", "--mass", "50g", "--width", "40mm",
+                                   "--height", "0.2m", "-o", "bed", "-j", "1")
+        self.assertEqual(ended, 143, error)
+        self.assertIn("go on with clast pack --resume bed", error)
+
+
+if __name__ == "__main__":
+    unittest.main()
