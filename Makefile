@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist bare install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist bare install clean
 all: dev
 
 # The group of tools/setup.sh that a target's tools are in.
@@ -27,6 +27,10 @@ fuzz-commands:
 	@tests/fuzz/fuzz_commands.py --runs $(or $(RUNS),80000)
 	@tools/build.sh dev clast_cli
 	@tests/fuzz/fuzz_commands.py --clast build/dev/clast --limit 60 --memory 4e9 --first 1000000 --runs $(or $(RUNS),20000)
+faults:
+	@tools/setup.sh dev
+	@tools/build.sh release clast_cli
+	@tests/fuzz/fault_commands.py --kills 1000
 afl:
 	@tools/setup.sh afl
 	@tools/afl.sh

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     char *bed;
@@ -361,35 +360,6 @@ static clast_status write_findings(const clast_run_folder *run, const clast_asse
     return status;
 }
 
-/// Whether results would go where a run keeps its own summary, manifest and profile.
-static clast_status check_output(const cli_common *common)
-{
-    struct stat out;
-    if (common->output == NULL || stat(common->output, &out) != 0) {
-        return CLAST_OK;
-    }
-    for (int32_t i = 0; i < common->n_argument; ++i) {
-        const char *input = common->argument[i];
-        const char *slash = strrchr(input, '/');
-        struct stat in;
-        char folder[4096];
-        if (stat(input, &in) == 0 && !S_ISDIR(in.st_mode)) { // the folder of state.h5
-            (void)snprintf(folder, sizeof folder, "%.*s", slash != NULL ? (int)(slash - input) : 1,
-                           slash != NULL ? input : ".");
-            if (!ends_with(input, ".h5") || stat(folder, &in) != 0) {
-                continue;
-            }
-        }
-        if (in.st_ino == out.st_ino && in.st_dev == out.st_dev) {
-            return cli_fail(CLAST_E_USAGE,
-                            "-o %s is the run's own folder, whose summary.json and manifest.json "
-                            "would be lost; name another, such as %s/porosity",
-                            common->output, common->output);
-        }
-    }
-    return CLAST_OK;
-}
-
 /// File of --bed mesh:FILE,UNIT, or "".
 static void bed_file(const char *bed, char path[4096])
 {
@@ -639,9 +609,7 @@ static clast_status run(const cli_common *common, void *context)
 {
     porosity_config *c = context;
     clast_run_folder *folder = NULL;
-    clast_status status = check_output(common);
-    status =
-        status == CLAST_OK ? cli_results_begin(common, common->output, &c->force, &folder) : status;
+    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
     if (status == CLAST_OK) {
         status = (common->n_argument > 1 ? run_several : run_one)(common, c, folder);
     }

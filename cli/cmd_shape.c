@@ -31,7 +31,7 @@ typedef struct {
     }
 #define OUTPUT(name, ...)                                                                          \
     {                                                                                              \
-#name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, CLAST_UNIT_OUTPUT,            \
+#name, .offset = offsetof(config, name), CLAST_FIELD_TEXT, 0, 0, 0, CLAST_UNIT_OUTPUT,     \
                .text = "", .help = __VA_ARGS__                                                     \
     }
 static const clast_field fields[] = {
@@ -74,11 +74,11 @@ static const clast_field fields[] = {
     TEXT(columns, "table: columns of flatness,elongation or of L,I,S; none: by their names",
          .common = true, .group = "tables"),
     OUTPUT(surfaces, "write each grain's surface (or hull) as PLY into this folder", .common = true,
-         .group = "output"),
+           .group = "output"),
     OUTPUT(statistics,
-         "write statistics of the set into this folder: tables, Zingg diagram, "
-         "histograms, correlation, principal components",
-         .common = true),
+           "write statistics of the set into this folder: tables, Zingg diagram, "
+           "histograms, correlation, principal components",
+           .common = true),
     {"resamples", .offset = offsetof(config, resamples), CLAST_FIELD_I32, 2000, 0, 1e6, "-",
      "statistics: bootstrap resamples for the intervals", NULL},
     {"seed", .offset = offsetof(config, seed), CLAST_FIELD_U64, 1, 0, 1.8e19, "-",

@@ -18,5 +18,6 @@ one() {
 export -f one
 if [ -x build/release/clast ]; then # the smoke share of `make fuzz-commands`
     python3 tests/fuzz/fuzz_commands.py --runs 2000 --seconds "$FUZZ_SECONDS"
+    [ "$(uname)" != Linux ] || python3 tests/fuzz/fault_commands.py --each 2 --kills 20 # of `make faults`
 fi
 find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' | sort | xargs -r -P "$(nproc)" -I{} bash -c 'one {}'

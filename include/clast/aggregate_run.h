@@ -10,6 +10,7 @@ typedef struct clast_aggregate_report {
     int32_t n;
     clast_aggregate_result *result; ///< [n]
     double confidence;              ///< of intervals over repeats
+    char *folder;                   ///< where the run lies now; NULL: nowhere
 } clast_aggregate_report;
 
 CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);

@@ -383,11 +383,20 @@ done:
     return status;
 }
 
-static clast_status end_well(clast_run_folder *run)
+/// The manifest of a run that went well.
+static clast_status seal(clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(note_outputs(run));
     CLX_TRY(write_manifest(run, "done"));
+done:
+    return status;
+}
+
+/// After that: the run takes its place.
+static clast_status settle(clast_run_folder *run)
+{
+    clast_status status = CLAST_OK;
     unlock(run);
     if (run->is_beside) {
         CLX_TRY(clx_run_replace(run->path, run->folder));
@@ -433,7 +442,8 @@ clast_status clast_run_folder_end(clast_run_folder *run, clast_status status)
         return status;
     }
     run->is_open = false;
-    return status == CLAST_OK ? end_well(run) : end_badly(run, status);
+    status = status == CLAST_OK ? seal(run) : status;
+    return status == CLAST_OK ? settle(run) : end_badly(run, status);
 }
 
 /// Whether a study's folder has its own of that name.

@@ -10,6 +10,7 @@
 void clast_aggregate_report_free(clast_aggregate_report *report)
 {
     clx_free(report->result);
+    clx_free(report->folder);
     *report = (clast_aggregate_report){0};
 }
 

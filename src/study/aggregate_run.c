@@ -4,6 +4,7 @@
 // of repeats and writes all else, so that the files do not tell how many ranks there were.
 #include <clast/aggregate_run.h>
 
+#include "base/alloc.h"
 #include "base/queue.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
@@ -247,6 +248,9 @@ static clast_status finish(run *r, clast_status status)
         status = clx_folder_write_results(r->folder, &results);
     }
     status = clast_run_folder_end(r->own, status);
+    if (status == CLAST_OK && r->has_folder) { // a resumed run may have taken another's place
+        status = clx_alloc_text(&r->report.folder, clast_run_folder_path(r->own));
+    }
     return status == CLAST_OK ? check_stop(r) : status;
 }
 

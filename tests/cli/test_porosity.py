@@ -165,8 +165,8 @@ class Porosity(Case):
         self.assertEqual(made.code, 0, made.err)
         before = {p.name: p.read_bytes() for p in run.iterdir()}
         for words in ((run,), (run / "state.h5",), (run, run)):
-            self.assert_fails(2, "porosity", *words, "-o", run, says=("the run's own folder", "name another"))
-        self.assert_fails(2, "porosity", "state.h5", "-o", ".", says=("the run's own folder",), cwd=run)
+            self.assert_fails(2, "porosity", *words, "-o", run, says=(f"-o {run} is the", "input"))
+        self.assert_fails(2, "porosity", "state.h5", "-o", ".", says=("folder of the input",), cwd=run)
         self.assertEqual(before, {p.name: p.read_bytes() for p in run.iterdir()})
         inside = clast("porosity", run, "--cut", "0.95", "-o", run / "porosity")
         self.assertEqual(inside.code, 0, inside.err)

@@ -117,7 +117,7 @@ class RunFolder(Case):
         (self.folder / "a/b.new").rmdir()
         fitted = self.folder / "fitted"
         self.assertEqual(clast("fit", self.beds, "-o", fitted).code, 0)
-        self.assert_fails(2, *words, "--model", fitted / "model.json", "--force", "-o", fitted, says=("model.json", "would be replaced"))
+        self.assert_fails(2, *words, "--model", fitted / "model.json", "--force", "-o", fitted, says=("model.json", "folder of the input"))
         if os.geteuid() != 0:
             os.chmod(self.folder / "a", 0o555)
             self.addCleanup(os.chmod, self.folder / "a", 0o755)
