@@ -31,8 +31,8 @@ static const clast_field fields[] = {
 static clast_status report_table(const cli_common *common, const clast_table *table)
 {
     if (!common->json) {
-        (void)printf("%s: table %s, %lld rows of %d columns\n", common->output, table->name,
-                     (long long)table->n_row, table->n_column);
+        (void)printf("%s: table %s, %lld rows of %d columns\n", cli_name(common->output),
+                     table->name, (long long)table->n_row, table->n_column);
         return CLAST_OK;
     }
     json_t *object = json_object();
@@ -66,7 +66,7 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
                                     const clast_export_report *report)
 {
     if (!common->json) {
-        (void)printf("%s: %s of %d grains", common->output,
+        (void)printf("%s: %s of %d grains", cli_name(common->output),
                      clast_export_format_name(report->format), assembly->n_grain);
         if (report->n_triangle > 0) {
             (void)printf(", %lld triangles", (long long)report->n_triangle);

@@ -62,7 +62,7 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
 
 static void print_words(const char *file, const clast_fill_report *r)
 {
-    (void)printf("%s: %d spheres", file, r->n_sphere);
+    (void)printf("%s: %d spheres", cli_name(file), r->n_sphere);
     if (r->n_placed > r->n_sphere) {
         (void)printf(" (the outer ones of %d)", r->n_placed);
     }

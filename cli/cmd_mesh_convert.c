@@ -167,12 +167,13 @@ static clast_status print_json(const job *j)
 static clast_status print_text(const job *j)
 {
     const clast_mesh_read_report *r = &j->report;
-    (void)printf("%s: %s%s, %d vertices, %d triangles", j->input, r->is_binary ? "binary " : "",
-                 clast_mesh_format_name(r->format), j->mesh.n_vert, j->mesh.n_tri);
+    (void)printf("%s: %s%s, %d vertices, %d triangles", cli_name(j->input),
+                 r->is_binary ? "binary " : "", clast_mesh_format_name(r->format), j->mesh.n_vert,
+                 j->mesh.n_tri);
     if (r->n_polygon > 0) {
         (void)printf(" (from %lld faces, %d of them concave)", (long long)r->n_facet, r->n_concave);
     }
-    (void)printf("\n%s: %s", j->output, clast_mesh_format_name(j->out_format));
+    (void)printf("\n%s: %s", cli_name(j->output), clast_mesh_format_name(j->out_format));
     if (j->out_unit != NULL) {
         (void)printf(" in %s", j->out_format == CLAST_MESH_3MF ? "mm" : j->out_unit);
     }
@@ -184,7 +185,7 @@ static clast_status print_text(const job *j)
     }
     (void)putchar('\n');
     for (int32_t i = 0; i < r->n_warning; ++i) {
-        (void)fprintf(stderr, "clast mesh convert: %s: %s\n", j->input, r->warning[i]);
+        (void)fprintf(stderr, "clast mesh convert: %s: %s\n", cli_name(j->input), r->warning[i]);
     }
     return CLAST_OK;
 }

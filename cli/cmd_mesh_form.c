@@ -133,8 +133,8 @@ static void axes_words(const char *when, const double lis[3])
 
 static void report_words(const cli_common *common, const form_report *r)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n", common->argument[0],
-                 r->n_before, common->output, r->n_after);
+    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n",
+                 cli_name(common->argument[0]), r->n_before, cli_name(common->output), r->n_after);
     axes_words("before", r->before);
     axes_words("after", r->after);
     (void)printf("  volume  %.8g -> %.8g\n", r->volume_hull, r->volume_after);

@@ -93,7 +93,7 @@ static clast_status tell(const cli_common *common, const clast_mesh_repair_repor
         }
         return cli_print_json(object);
     }
-    (void)printf("%s (model units):\n", common->argument[0]);
+    (void)printf("%s (model units):\n", cli_name(common->argument[0]));
     print_changes(report);
     cli_check_words(common->output, check);
     return CLAST_OK;

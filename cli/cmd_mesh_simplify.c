@@ -44,8 +44,9 @@ static json_t *simplify_json(const cli_common *common, const clast_mesh_simplify
 
 static void simplify_words(const cli_common *common, const clast_mesh_simplify_report *r)
 {
-    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n", common->argument[0],
-                 r->n_triangle_before, common->output, r->n_triangle_after);
+    (void)printf("%s: %d triangles -> %s: %d triangles; model units\n",
+                 cli_name(common->argument[0]), r->n_triangle_before, cli_name(common->output),
+                 r->n_triangle_after);
     (void)printf("  volume %.12g -> %.12g (relative change %.2g; rounding of %.2g taken back)\n",
                  r->volume_before, r->volume_after, r->volume_after / r->volume_before - 1.0,
                  r->volume_drift);
@@ -118,7 +119,8 @@ static void hull_words(const cli_common *common, const clast_mesh *mesh, const c
 {
     const double hull_volume = clast_mesh_volume(hull);
     (void)printf("%s: %d vertices -> %s: hull of %d vertices, %d triangles; model units\n",
-                 common->argument[0], mesh->n_vert, common->output, hull->n_vert, hull->n_tri);
+                 cli_name(common->argument[0]), mesh->n_vert, cli_name(common->output),
+                 hull->n_vert, hull->n_tri);
     (void)printf("  hull volume %.10g, area %.10g\n", hull_volume, clast_mesh_area(hull));
     if (isnan(volume)) {
         (void)printf("  what it adds is not known: the input is %s\n",

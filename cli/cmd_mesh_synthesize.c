@@ -146,7 +146,7 @@ static json_t *table_json(const cli_common *common, const clast_table *table)
 
 static void table_words(const cli_common *common, const clast_table *table)
 {
-    (void)printf("%s: %lld grain%s\n", common->output, (long long)table->n_row,
+    (void)printf("%s: %lld grain%s\n", cli_name(common->output), (long long)table->n_row,
                  table->n_row > 1 ? "s" : "");
     for (int k = 0; k < N_COLUMN; ++k) {
         double mean = 0.0;

@@ -20,11 +20,11 @@ static clast_status resume(const cli_common *common, const clast_pack_config *co
 static void print_hull(const clast_pack_hull *hull)
 {
     if (isfinite(hull->volume_added)) {
-        (void)printf("%-26s its hull adds %.3f %% of volume\n", hull->shape,
+        (void)printf("%-26s its hull adds %.3f %% of volume\n", cli_name(hull->shape),
                      100.0 * fmax(hull->volume_added, 0.0));
     } else {
         (void)printf("%-26s hull of a surface without a volume (open or inside out)\n",
-                     hull->shape);
+                     cli_name(hull->shape));
     }
 }
 

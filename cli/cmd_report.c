@@ -39,7 +39,7 @@ static clast_status run(const cli_common *common, void *context)
         return cli_print_json(o);
     }
     if (status == CLAST_OK) {
-        (void)printf("%s: %d run%s\n", path, common->n_argument,
+        (void)printf("%s: %d run%s\n", cli_name(path), common->n_argument,
                      common->n_argument == 1 ? "" : "s");
     }
     return status;

@@ -237,10 +237,10 @@ static clast_status tell_faults(const cli_common *common, const clast_grains *gr
 {
     clast_status worst = CLAST_OK;
     for (int64_t i = 0; i < grains->n_note && !common->quiet; ++i) {
-        (void)fprintf(stderr, "clast %s: %s\n", common->command, grains->note[i].text);
+        (void)fprintf(stderr, "clast %s: %s\n", common->command, cli_name(grains->note[i].text));
     }
     for (int64_t i = 0; i + 1 < grains->n_fault; ++i) {
-        (void)fprintf(stderr, "clast %s: %s\n", common->command, grains->fault[i].text);
+        (void)fprintf(stderr, "clast %s: %s\n", common->command, cli_name(grains->fault[i].text));
     }
     if (grains->n_fault > 0) { // the frame prints the last line
         const clast_grain_fault *last = &grains->fault[grains->n_fault - 1];

@@ -83,6 +83,13 @@ static clast_status check(const clast_study_config *config, const cli_command **
 
 static clast_status print(const cli_common *common, const clast_study_report *report)
 {
+    if (report->n_failed > 0) {
+        (void)fprintf(stderr,
+                      "clast study: %lld of %lld runs failed; the first says why in "
+                      "%s/runs/%06lld.part/messages.txt; the same call tries them again\n",
+                      (long long)report->n_failed, (long long)report->n_run,
+                      cli_name(common->output), (long long)report->first_failed);
+    }
     if (common->json) {
         json_t *object = json_object();
         cli_json_text(object, "folder", common->output);
@@ -100,12 +107,6 @@ static clast_status print(const cli_common *common, const clast_study_report *re
     }
     (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", common->output,
                  common->output);
-    if (report->n_failed > 0) {
-        (void)printf(
-            "%lld failed; the first says why in %s/runs/%06lld.part/messages.txt; the same "
-            "call tries them again\n",
-            (long long)report->n_failed, common->output, (long long)report->first_failed);
-    }
     return CLAST_OK;
 }
 

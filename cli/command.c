@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct {
     const cli_command *command;
@@ -23,9 +24,30 @@ clast_status cli_fail(clast_status status, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    (void)vsnprintf(refusal, sizeof refusal, format, args);
+    char text[sizeof refusal];
+    (void)vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    (void)clast_text_printable(text, sizeof refusal, refusal);
     return status;
+}
+
+const char *cli_name(const char *text)
+{
+    static char shown[8][1024];
+    static unsigned next;
+    char *out = shown[next++ % 8];
+    return clast_text_printable(text, sizeof shown[0], out);
+}
+
+int cli_flush(int code)
+{
+    // A failed write in between leaves nothing to flush, only the mark.
+    const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;
+    if (is_lost && code == 0) {
+        (void)fputs("clast: cannot write to standard output\n", stderr);
+        return 4;
+    }
+    return code;
 }
 
 __attribute__((format(printf, 2, 3))) static clast_status usage_error(const parser *p,
@@ -278,11 +300,33 @@ static clast_status check_arguments(const parser *p)
     return CLAST_OK;
 }
 
+/// The input that a message about one does not name: "point 2 has ..." of the only argument; ""
+/// when it names one.
+static const char *unnamed_input(const parser *p, clast_status status)
+{
+    struct stat info;
+    if (clast_status_exit_code(status) != 3 || p->common.n_argument != 1 ||
+        stat(p->common.argument[0], &info) != 0) {
+        return "";
+    }
+    for (int i = 1; i < p->common.n_word; ++i) {
+        const char *colon = strchr(p->common.word[i], ':');
+        const char *file =
+            colon != NULL && stat(p->common.word[i], &info) != 0 ? colon + 1 : p->common.word[i];
+        if (stat(file, &info) == 0 && strstr(reason(status), cli_name(file)) != NULL) {
+            return "";
+        }
+    }
+    return p->common.argument[0];
+}
+
 /// The one line of what went wrong, from rank 0.
 static void complain(const parser *p, clast_status status)
 {
     if (status != CLAST_OK && status != CLAST_E_NO && p->common.comm->rank == 0) {
-        (void)fprintf(stderr, "clast %s: %s%s\n", p->command->name, reason(status),
+        const char *input = unnamed_input(p, status);
+        (void)fprintf(stderr, "clast %s: %s%s%s%s\n", p->command->name, cli_name(input),
+                      input[0] != '\0' ? ": " : "", reason(status),
                       status == CLAST_E_MEMORY ? "; see --max-memory" : "");
     }
 }
@@ -340,11 +384,5 @@ done:
     free((void *)p.touched);
     free(p.config);
     free(p.common.argument);
-    // A failed write in between leaves nothing to flush, only the mark.
-    const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;
-    if (is_lost && code == 0) {
-        (void)fputs("clast: cannot write to standard output\n", stderr);
-        code = 4;
-    }
-    return code;
+    return cli_flush(code);
 }

@@ -48,6 +48,13 @@ clast_status cli_agree(const cli_common *common, clast_status status);
 clast_status cli_fail(clast_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/// A file's name, or any text from outside, as a terminal may show it; lives until the 8th call
+/// after this one.
+const char *cli_name(const char *text);
+
+/// Flushes stdout: `code`, or 4 and one line when something of it was lost.
+int cli_flush(int code);
+
 /// Writes the first page of a command: examples and the options that most runs need.
 void cli_help(const cli_command *command);
 

@@ -44,7 +44,7 @@ static int words_matched(const cli_command *command, int argc, char **argv)
 
 static int unknown(char **argv)
 {
-    (void)fprintf(stderr, "clast: unknown command '%s'", argv[1]);
+    (void)fprintf(stderr, "clast: unknown command '%s'", cli_name(argv[1]));
     const size_t n = strlen(argv[1]);
     const char *separator = "; did you mean: ";
     for (const cli_command *const *c = commands; *c != NULL; ++c) {
@@ -107,5 +107,5 @@ int cli_main(int argc, char **argv, const clast_comm *comm)
             return cli_run(*c, 1 + words, argc, argv, comm);
         }
     }
-    return comm->rank == 0 ? answer(argc, argv) : 0;
+    return comm->rank == 0 ? cli_flush(answer(argc, argv)) : 0;
 }

@@ -53,15 +53,11 @@ void cli_json_bool(json_t *object, const char *key, bool value)
     (void)json_object_set_new(object, key, json_boolean(value));
 }
 
-/// JSON is UTF-8; a file's name may be any bytes, and those that are no ASCII then become '?'.
+/// JSON is UTF-8; a file's name may be any bytes, and those that are not then become \xNN.
 static json_t *plain_text(const char *value)
 {
     char plain[4096];
-    (void)snprintf(plain, sizeof plain, "%s", value);
-    for (char *c = plain; *c != '\0'; ++c) {
-        *c = (unsigned char)*c < 0x80 ? *c : '?';
-    }
-    return json_string(plain);
+    return json_string(clast_text_printable(value, sizeof plain, plain));
 }
 
 void cli_json_text(json_t *object, const char *key, const char *value)

@@ -85,7 +85,7 @@ static const char *yes(bool is)
 
 void cli_check_words(const char *file, const clast_mesh_check_result *r)
 {
-    (void)printf("%s: %s\n", file,
+    (void)printf("%s: %s\n", cli_name(file),
                  clast_mesh_check_passed(r) ? "a solid: closed, oriented and manifold"
                                             : "NOT a solid that can be measured");
     (void)printf("  vertices %d, triangles %d, edges %d, parts %d, Euler number %lld, genus %d\n",
@@ -133,7 +133,7 @@ static void note_weld(const cli_common *common, const clast_mesh_repair_report *
         (void)fprintf(stderr,
                       "clast %s: note: %s: %d vert%s of open edges merged with others within %.3g "
                       "(model units)\n",
-                      common->command, common->argument[0], weld->n_merged,
+                      common->command, cli_name(common->argument[0]), weld->n_merged,
                       weld->n_merged == 1 ? "ex" : "ices", weld->weld_distance);
     }
 }
@@ -166,7 +166,7 @@ clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh)
     clast_mesh_read_report report = {0};
     const clast_status status = clast_mesh_read(common->argument[0], mesh, &report);
     for (int32_t i = 0; i < report.n_warning && status == CLAST_OK && !common->quiet; ++i) {
-        (void)fprintf(stderr, "clast %s: %s: %s\n", common->command, common->argument[0],
+        (void)fprintf(stderr, "clast %s: %s: %s\n", common->command, cli_name(common->argument[0]),
                       report.warning[i]);
     }
     return status;

@@ -58,7 +58,7 @@ static void report(void *context, const char *phase, int64_t done, int64_t total
 static void note(void *context, const char *text)
 {
     (void)context;
-    (void)fprintf(stderr, "%s\n", text);
+    (void)fprintf(stderr, "%s\n", cli_name(text));
 }
 
 clast_monitor cli_monitor(const cli_common *common)

@@ -236,7 +236,7 @@ static void grain_words(const cli_shape_result *shape, const clast_grain_record 
     double value[CLAST_N_FORM_FACTOR];
     char text[32];
     const double *lis = r->grain.axes[shape->axes].lis;
-    (void)printf("%s (%s)%s\n", r->name, clast_grains_kind_name(r->kind),
+    (void)printf("%s (%s)%s\n", cli_name(r->name), clast_grains_kind_name(r->kind),
                  shape->in_metres ? "" : ", lengths in the file's unit");
     if (r->has_surface) {
         surface_words(shape, r);

@@ -36,6 +36,51 @@ const char *clast_version(void)
     return CLAST_VERSION_TEXT;
 }
 
+/// Bytes of the UTF-8 character that begins here, 0 where none does [RFC 3629].
+static size_t utf8_length(const unsigned char *c)
+{
+    const size_t n = c[0] < 0x80                   ? 1
+                     : c[0] >= 0xc2 && c[0] < 0xe0 ? 2
+                     : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
+                     : c[0] >= 0xf0 && c[0] < 0xf5 ? 4
+                                                   : 0;
+    for (size_t k = 1; k < n; ++k) {
+        if ((c[k] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool is_wrong = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xed && c[1] > 0x9f) ||
+                          (c[0] == 0xf0 && c[1] < 0x90) || (c[0] == 0xf4 && c[1] > 0x8f);
+    return is_wrong ? 0 : n;
+}
+
+const char *clast_text_printable(const char *text, size_t size, char *out)
+{
+    size_t used = 0;
+    const unsigned char *c = (const unsigned char *)text;
+    while (*c != '\0' && size > 0) {
+        const size_t n = utf8_length(c);
+        // C0, DEL and C1, which terminals obey
+        const bool is_control = *c < 0x20 || *c == 0x7f || (n == 2 && c[0] == 0xc2 && c[1] < 0xa0);
+        const bool is_shown = n > 0 && !is_control;
+        if (used + (is_shown ? n : 4) >= size) {
+            break;
+        }
+        if (is_shown) {
+            memcpy(out + used, c, n);
+            used += n;
+            c += n;
+        } else {
+            (void)snprintf(out + used, 5, "\\x%02x", *c++);
+            used += 4;
+        }
+    }
+    if (size > 0) {
+        out[used] = '\0';
+    }
+    return out;
+}
+
 clast_status clx_fail(clast_status status, const char *format, ...)
 {
     char text[CLX_DETAIL_SIZE];
@@ -43,7 +88,7 @@ clast_status clx_fail(clast_status status, const char *format, ...)
     va_start(args, format);
     (void)clx_number_print_list(text, sizeof text, format, args);
     va_end(args);
-    memcpy(detail, text, sizeof detail);
+    (void)clast_text_printable(text, sizeof detail, detail);
     return status;
 }
 
@@ -56,7 +101,7 @@ void clx_fail_prefix(const char *format, ...)
     va_end(args);
     if (n >= 0 && n < CLX_DETAIL_SIZE - 1) {
         (void)snprintf(text + n, sizeof text - (size_t)n, ": %s", detail);
-        memcpy(detail, text, sizeof detail);
+        (void)clast_text_printable(text, sizeof detail, detail);
     }
 }
 

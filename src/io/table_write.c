@@ -8,23 +8,43 @@
 #include <math.h>
 #include <string.h>
 
+/// Control characters, but for the ends of lines and tabs that quotes keep, and bytes that are not
+/// UTF-8 are written as \xNN: a table is looked at in terminals.
+static void put_byte(clx_file *file, const char **c)
+{
+    char shown[8];
+    char one[5] = "";
+    const size_t most = strnlen(*c, 4);
+    memcpy(one, *c, most);
+    for (size_t n = 1; n <= most; ++n) { // the shortest piece that is a character
+        const char after = one[n];
+        one[n] = '\0';
+        (void)clast_text_printable(one, sizeof shown, shown);
+        one[n] = after;
+        if (shown[0] != '\\' || one[0] == '\\') {
+            (void)clx_file_write(file, *c, n);
+            *c += n;
+            return;
+        }
+    }
+    one[1] = '\0';
+    (void)clast_text_printable(one, sizeof shown, shown);
+    const bool is_kept = strchr("\r\n\t", one[0]) != NULL;
+    (void)clx_file_write(file, is_kept ? one : shown, is_kept ? 1 : strlen(shown));
+    ++*c;
+}
+
 static void put_cell(clx_file *file, const char *text)
 {
     const size_t n = strlen(text);
     const bool quote = n == 0 || text[0] == '#' || text[0] == ' ' || text[n - 1] == ' ' ||
                        text[0] == '\t' || text[n - 1] == '\t' || strpbrk(text, ",\"\r\n") != NULL;
-    if (!quote) {
-        (void)clx_file_write(file, text, n);
-        return;
+    (void)clx_file_write(file, "\"", quote ? 1 : 0);
+    for (const char *c = text; *c != '\0';) {
+        (void)clx_file_write(file, "\"", *c == '"' ? 1 : 0); // a quote is doubled
+        put_byte(file, &c);
     }
-    (void)clx_file_write(file, "\"", 1);
-    for (const char *c = text; *c != '\0'; ++c) {
-        (void)clx_file_write(file, c, 1);
-        if (*c == '"') {
-            (void)clx_file_write(file, "\"", 1);
-        }
-    }
-    (void)clx_file_write(file, "\"", 1);
+    (void)clx_file_write(file, "\"", quote ? 1 : 0);
 }
 
 /// A number; what does not exist (NaN) is an empty cell, quoted where it is the whole line, which

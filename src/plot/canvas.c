@@ -146,12 +146,14 @@ void clx_canvas_text(clx_canvas *canvas, double x, double y, const double anchor
 {
     cairo_text_extents_t box;
     cairo_font_extents_t font;
+    char shown[512]; // cairo draws nothing more after bytes that are not UTF-8
+    (void)clast_text_printable(text, sizeof shown, shown);
     cairo_set_font_size(canvas->cr, size);
-    cairo_text_extents(canvas->cr, text, &box);
+    cairo_text_extents(canvas->cr, shown, &box);
     cairo_font_extents(canvas->cr, &font);
     const double digit = 0.78 * font.ascent;
     cairo_move_to(canvas->cr, x - anchor[0] * box.x_advance, y + anchor[1] * digit);
-    cairo_show_text(canvas->cr, text);
+    cairo_show_text(canvas->cr, shown);
     cairo_new_path(canvas->cr);
 }
 

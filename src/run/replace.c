@@ -211,7 +211,11 @@ clast_status clx_run_replace(const char *made, const char *old)
         return CLAST_OK;
     }
     CLX_TRY(clx_path_join(mark, old, MARK));
-    CLX_TRY(clx_file_write_all(mark, "", 0));
+    status = clx_file_write_all(mark, "", 0);
+    if (status != CLAST_OK) { // perhaps only the sync of its folder
+        (void)unlink(mark);
+        goto done;
+    }
     if (exchange(made, old) != 0) {
         const int error = errno;
         (void)unlink(mark);

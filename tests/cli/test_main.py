@@ -61,10 +61,11 @@ class Frame(Case):
         self.assertIn("--shell", done.stdout)
 
     def test_full_disk_on_stdout_is_an_error(self):
-        with open("/dev/full", "w", encoding="ascii") as full:
-            done = subprocess.run([CLAST, "man"], stdout=full, stderr=subprocess.PIPE, check=False)
-        self.assertEqual(done.returncode, 4)
-        self.assertTrue(re.search(rb"cannot write", done.stderr))
+        for words in (["man"], ["--version"], ["--help"], ["mesh", "--help"], ["pack", "--help"], ["pack", "--help-all"], ["completion"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([CLAST, *words], stdout=full, stderr=subprocess.PIPE, check=False)
+            self.assertEqual(done.returncode, 4, words)
+            self.assertTrue(re.search(rb"cannot write", done.stderr))
 
 
 if __name__ == "__main__":

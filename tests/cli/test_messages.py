@@ -1,0 +1,77 @@
+"""CLI: what is refused names its file, and no name from outside reaches a terminal, a table or a page as it is."""
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+from clitest import CLAST, ROOT, Case, clast
+
+WILD = b"w\xff\x1b[31m\n\xc2\x9bx"  # not UTF-8, a colour, a new line, a C1 control
+CUBE = ("--domain", "box:0,0,0,1,1,1")
+
+
+class Messages(Case):
+    def wild(self, *words):
+        """Code, stdout and stderr (bytes) of a command whose words may be bytes."""
+        done = subprocess.run([CLAST, *words], cwd=self.folder, capture_output=True, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def assert_shown(self, text):
+        """UTF-8 without controls, but for the ends of lines."""
+        shown = text.decode("utf-8")
+        self.assertIsNone(re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", shown), shown)
+
+    def test_a_refusal_names_the_file(self):
+        bad = {"nan.csv": "x,y,z\n0.1,0.2,0.3\n0.4,nan,0.5\n", "outside.csv": "x,y,z\n0.1,0.2,0.3\n0.4,9,0.5\n", "one.csv": "x,y\n1\n",
+               "empty.csv": "", "words.csv": "x,y,z\na,b,c\n"}
+        for name, text in bad.items():
+            (self.folder / name).write_text(text)
+            for command in (("decompose",), ("agglomerate", "--constant", "1")):
+                self.assert_fails(3, command[0], name, *CUBE, *command[1:], says=[name], cwd=self.folder)
+        for name, text in (("bad.stl", "solid x\n facet"), ("bad.obj", "v 1 2\n"), ("bad.ply", "ply\nformat"), ("bad.off", "OFF\n1")):
+            (self.folder / name).write_text(text)
+            for command in (("mesh", "check"), ("shape",), ("fill",), ("render",)):
+                more = ("-o", "p.png") if command[0] == "render" else ()
+                self.assert_fails(3, *command, name, *more, says=[name], cwd=self.folder)
+        (self.folder / "bad.yaml").write_text("curve: [[1\n")
+        for command in ("pack", "aggregate", "study"):
+            result = clast(command, "bad.yaml", "-o", "x", cwd=self.folder)
+            self.assertIn(result.code, (2, 3))
+            self.assertIn("bad.yaml", result.err)
+
+    def test_names_are_shown_harmless(self):
+        grain = WILD + b".ply"
+        shutil.copy(ROOT / "data/standin63/grain00.ply", os.fsencode(self.folder) + b"/" + grain)
+        for words in (("mesh", "check", grain), ("shape", grain), ("shape", grain, "--json"), ("mesh", "convert", grain, "-o", WILD + b".obj"),
+                      ("mesh", "hull", grain, "-o", WILD + b".stl"), ("fill", grain, "--spheres", "2"), ("shape", b"no" + grain),
+                      ("render", grain, "--width", "64", "--height", "64", "-o", WILD + b".png"), ("nocommand" + "\x1b",),
+                      ("shape", grain, "-o", "s.csv"), ("shape", b"--" + WILD), ("decompose", b"no" + grain, *CUBE)):
+            _, out, error = self.wild(*words)
+            self.assert_shown(out)
+            self.assert_shown(error)
+        table = (self.folder / "s.csv").read_bytes()
+        self.assertIn(rb"w\xff\x1b[31m", table)
+        self.assert_shown(table)
+
+    def test_a_run_in_a_wild_folder_is_reported(self):
+        code, out, error = self.wild("pack", "--curve", "6 mm", "--mass", "3g", "--width", "40mm", "--height", "0.1m", "--max-steps", "100",
+                                     "-q", "-o", WILD)
+        self.assertEqual(code, 0, error)
+        for words in (("report", WILD), ("report", WILD, "-o", "page.html"), ("render", WILD, "--width", "64", "--height", "64", "-o", "p.png"),
+                      ("export", WILD, "-o", "x.csv")):
+            code, out, error = self.wild(*words)
+            self.assertEqual(code, 0, error)
+            self.assert_shown(out)
+        (self.folder / "page.html").read_bytes().decode("utf-8")
+
+    def test_a_failed_run_of_a_study_is_told(self):
+        done = clast("study", "--run", "pack", "--config", ROOT / "examples/u1.yaml", "--seeds", "2", "--fix", "curve=nonsense", "-q", "-o",
+                     self.folder / "many")
+        self.assertEqual(done.code, 1)
+        self.assertIn("2 of 2 runs failed", done.err)
+        self.assertIn("messages.txt", done.err)
+
+
+if __name__ == "__main__":
+    unittest.main()
