@@ -103,7 +103,7 @@ static clast_status print(const cli_common *common, const clast_study_report *re
     (void)printf("%lld runs: %lld done now, %lld before", (long long)report->n_run,
                  (long long)report->n_done, (long long)report->n_before);
     if (report->n_other > 0) {
-        (void)printf(", %lld left to other shards", (long long)report->n_other);
+        (void)printf(", %lld left to others", (long long)report->n_other);
     }
     (void)printf("\nresults: %s/results.csv, times: %s/times.csv\n", common->output,
                  common->output);

@@ -9,9 +9,13 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 enum { GRACE_US = 400000 };
 
@@ -69,6 +73,22 @@ int cli_signal_code(void)
     return caught != 0 ? 128 + (int)caught : 0;
 }
 
+/// A run of a study ends with it, as by SIGTERM, however the study ended.
+static void end_with_study(void)
+{
+#ifdef __linux__
+    const char *study = getenv("CLAST_STUDY_PROCESS"); // NOLINT(concurrency-mt-unsafe)
+    char parent[32];
+    (void)snprintf(parent, sizeof parent, "%ld", (long)getppid());
+    if (study != NULL && strcmp(study, parent) == 0) {
+        (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
+        if (strtol(study, NULL, 10) != (long)getppid()) { // gone before the call
+            leave(SIGTERM);
+        }
+    }
+#endif
+}
+
 void cli_signals_begin(const char *command, const clast_comm *comm)
 {
     const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
@@ -85,4 +105,5 @@ void cli_signals_begin(const char *command, const clast_comm *comm)
         }
     }
     (void)sigaction(SIGALRM, &alarm, NULL);
+    end_with_study();
 }

@@ -9,6 +9,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -73,6 +74,9 @@ clast_status cli_workers_start(void *context, const clast_study_item *item)
     argument[item->n_argument + 1] = NULL;
     (void)snprintf(out, sizeof out, "%s/result.json", item->folder);
     (void)snprintf(err, sizeof err, "%s/messages.txt", item->folder);
+    char parent[32]; // cli_signals_begin of the run looks for it
+    (void)snprintf(parent, sizeof parent, "%ld", (long)getpid());
+    (void)setenv("CLAST_STUDY_PROCESS", parent, 1); // NOLINT(concurrency-mt-unsafe): one thread
     const int error =
         spawn(workers->program, argument, out, err, &workers->busy[workers->n].process);
     if (error != 0) {

@@ -62,7 +62,7 @@ typedef struct clast_study_report {
     int64_t n_before;     ///< that were whole already when this call began
     int64_t n_done;       ///< of this call that ended with 0
     int64_t n_failed;     ///< of this call that ended otherwise
-    int64_t n_other;      ///< left to other shards and not there yet
+    int64_t n_other;      ///< left to other shards, or done by another study beside this one
     int64_t first_failed; ///< number of the first run that failed, or 0
 } clast_study_report;
 
@@ -73,8 +73,9 @@ typedef struct clast_study_report {
 /// The same call again goes on: whole runs stay, runs that were cut off resume from their
 /// checkpoint where the command can, and start anew where not. A run that fails is noted and the
 /// study goes on; it is tried again by the next call.
-/// Ranks take runs from rank 0 one by one, each clast_parallel_threads() at a time, and write them
-/// into the same folder, which must lie on a disk that all of them see.
+/// A second call beside the first joins in: each run is done by one of them (a lock,
+/// runs/NNNNNN.lock). Ranks take runs from rank 0 one by one, each clast_parallel_threads() at a
+/// time, and write them into the same folder, which must lie on a disk that all of them see.
 ///
 /// @param comm    NULL for one rank    @param monitor  may be NULL; rank 0's hears of all runs
 /// @param report  the same on all ranks

@@ -2,6 +2,7 @@
 #include <clast/spheres_file.h>
 
 #include "base/alloc.h"
+#include "base/lock.h"
 #include "base/path.h"
 #include "base/status.h"
 #include "io/spheres_table.h"
@@ -9,6 +10,9 @@
 #include <clast/table_file.h>
 #include <string.h>
 #include <unistd.h>
+
+/// Seconds that a writer waits for another one of the same file.
+static const double PATIENCE = 10.0;
 
 static bool is_state(const char *path)
 {
@@ -94,8 +98,12 @@ static clast_status write_state(const char *path, const char *name, const clast_
 {
     clast_status status = CLAST_OK;
     clast_state state = {0};
+    clx_lock lock = {0};
+    bool is_busy = false;
+    CLX_TRY(clx_lock_take(path, PATIENCE, &lock, &is_busy)); // from reading to writing
     if (access(path, F_OK) != 0) {
-        return clast_state_write_spheres(path, name, spheres, unit);
+        status = clast_state_write_spheres(path, name, spheres, unit);
+        goto done;
     }
     CLX_TRY(clast_state_read(path, &state));
     CLX_CHECK(strcmp(state.unit, unit) == 0, CLAST_E_USAGE,
@@ -104,6 +112,7 @@ static clast_status write_state(const char *path, const char *name, const clast_
     CLX_TRY(put_set(&state, name, spheres));
     CLX_TRY(clast_state_write(&state, path));
 done:
+    clx_lock_release(&lock);
     clast_state_free(&state);
     return status;
 }

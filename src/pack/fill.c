@@ -163,12 +163,10 @@ static bool stands_above(const clast_pack *p, const filling *f, int64_t k, doubl
     double n[2];
     measure_lattice(p, step, n);
     const int64_t down = 2 * (int64_t)n[0] * (int64_t)n[1];
-    int64_t below = k - down;
-    for (double depth = 2.0 * step[2]; depth < radius && below >= 0; depth += 2.0 * step[2]) {
-        if (f->taken[below] == HELD) {
+    for (int64_t i = 1; 2.0 * (double)i * step[2] < radius && k >= i * down; ++i) {
+        if (f->taken[k - i * down] == HELD) {
             return true;
         }
-        below -= down;
     }
     return false;
 }

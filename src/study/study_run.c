@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/lock.h"
 #include "base/path.h"
 #include "base/queue.h"
 #include "io/checkpoint.h"
@@ -14,6 +15,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// A run that this process does, and no other study beside it.
+typedef struct {
+    int64_t row;
+    clx_lock lock;
+} taken_row;
 
 /// A study under way on one rank.
 typedef struct {
@@ -27,10 +34,12 @@ typedef struct {
     int64_t n_mine;         ///< of these that are open
     int32_t n_busy;         ///< of this rank
     clx_queue queue;        ///< item i is row shard + i n_shard
+    taken_row *taken;       ///< [n_busy] that this rank has begun
+    int64_t capacity;
 } scheduler;
 
-/// Code of a run that was asked to stop and has no answer.
-enum { CUT_OFF = -1 };
+/// Codes of a run that was asked to stop and has no answer, and of one that another study does.
+enum { CUT_OFF = -1, ELSEWHERE = -2 };
 
 static clast_status parse_shard(const char *text, int64_t *shard, int64_t *n_shard)
 {
@@ -58,11 +67,57 @@ static bool has_checkpoint(const char *run_folder)
     return clx_path_join(out, run_folder, "out") == CLAST_OK && clx_checkpoint_exists(out);
 }
 
+static int64_t item_of(const scheduler *s, int64_t row)
+{
+    return (row - s->shard) / s->n_shard;
+}
+
+/// Takes a row's lock; false when another study does it now, or has done it meanwhile.
+static clast_status take_row(scheduler *s, int64_t row, bool *is_mine)
+{
+    clast_status status = CLAST_OK;
+    char folder[CLX_STUDY_PATH];
+    char runs[CLX_PATH_LIMIT];
+    taken_row taken = {.row = row};
+    bool is_busy = false;
+    CLX_TRY(clx_path_join(runs, s->folder, "runs"));
+    CLX_TRY(clx_folder_make(runs));
+    CLX_TRY(clx_study_run_folder(s->folder, row, "", folder));
+    CLX_TRY(clx_grow(&s->taken, &s->capacity, s->n_busy + 1LL, sizeof *s->taken));
+    status = clx_lock_take(folder, 0.0, &taken.lock, &is_busy);
+    *is_mine = status == CLAST_OK && !clx_study_is_done(s->folder, row);
+    if (*is_mine) {
+        s->taken[s->n_busy++] = taken;
+    } else {
+        clx_lock_release(&taken.lock);
+    }
+    status = is_busy ? CLAST_OK : status;
+done:
+    return status;
+}
+
+static void give_row_back(scheduler *s, int64_t row)
+{
+    for (int32_t i = 0; i < s->n_busy; ++i) {
+        if (s->taken[i].row == row) {
+            clx_lock_release(&s->taken[i].lock);
+            s->taken[i] = s->taken[--s->n_busy];
+            return;
+        }
+    }
+}
+
 static clast_status start(scheduler *s, int64_t row)
 {
     clast_status status = CLAST_OK;
     char folder[CLX_STUDY_PATH];
     clast_text_list words = {0};
+    bool is_mine = false;
+    CLX_TRY(take_row(s, row, &is_mine));
+    if (!is_mine) {
+        clx_queue_end(&s->queue, item_of(s, row), ELSEWHERE);
+        return CLAST_OK;
+    }
     CLX_TRY(clx_study_run_folder(s->folder, row, ".part", folder));
     const bool resume = s->worker->has_folder && s->worker->has_resume && has_checkpoint(folder);
     if (!resume) {
@@ -73,8 +128,10 @@ static clast_status start(scheduler *s, int64_t row)
     CLX_TRY(clx_study_words(&shared, row, folder, resume, &words));
     const clast_study_item item = {row, folder, words.n, words.item};
     CLX_TRY(s->worker->start(s->worker->context, &item));
-    ++s->n_busy;
 done:
+    if (status != CLAST_OK) {
+        give_row_back(s, row);
+    }
     clx_study_words_free(&words);
     return status;
 }
@@ -91,7 +148,6 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
     char part[CLX_STUDY_PATH];
     char whole[CLX_STUDY_PATH];
     int64_t code = CUT_OFF;
-    --s->n_busy;
     if (stopping && !clx_study_is_answer(exit_code)) {
         goto done;
     }
@@ -104,7 +160,8 @@ static clast_status finish(scheduler *s, int64_t row, int exit_code, bool stoppi
     }
     code = exit_code;
 done:
-    clx_queue_end(&s->queue, (row - s->shard) / s->n_shard, code);
+    give_row_back(s, row);
+    clx_queue_end(&s->queue, item_of(s, row), code);
     return status;
 }
 
@@ -128,7 +185,8 @@ static void count_end(void *context, int64_t item, int64_t code)
     const scheduler *s = context;
     clast_study_report *report = s->report;
     const int64_t number = row_of(s, item) + 1;
-    if (code == CUT_OFF) {
+    if (code == CUT_OFF || code == ELSEWHERE) {
+        report->n_other += code == ELSEWHERE;
         return;
     }
     if (clx_study_is_answer((int)code)) {
@@ -270,6 +328,7 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
     CLX_CHECK(made.n_failed == 0, CLAST_E_NO, "%lld of %lld runs failed, the first is run %lld",
               (long long)made.n_failed, (long long)made.n_run, (long long)made.first_failed);
 done:
+    clx_free(s.taken);
     clast_table_free(&plan);
     return status;
 }

@@ -1,9 +1,10 @@
 """clast fill: what its help says."""
 import csv
 import math
+import subprocess
 import unittest
 
-from clitest import ROOT, Case, clast, shared
+from clitest import CLAST, ROOT, Case, clast, shared
 
 CUBE = """OFF
 8 12 0
@@ -145,6 +146,18 @@ class Fill(Case):
             self.assertEqual(result.json["n_sphere"], 100)
             self.assertLessEqual(result.json["max_protrusion"], 1e-6)
             self.assertGreater(result.json["filled_fraction"], filled - 0.06)
+
+    def test_four_writers_of_one_file_lose_nothing(self):
+        path = self.folder / "sets.h5"
+        grain = ROOT / "data/standin63/grain00.ply"
+        writers = [subprocess.Popen([CLAST, "fill", grain, "--spheres", "3", "--name", f"set{k}", "-q", "-o", path],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for k in range(4)]
+        for one in writers:
+            error = one.communicate()[1]
+            self.assertEqual(one.returncode, 0, error)
+        for k in range(4):
+            self.assertIn(f"set{k}".encode(), path.read_bytes())
+        self.assertEqual([p.name for p in self.folder.iterdir() if "lock" in p.name or ".clast" in p.name], [])
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 """CLI: clast study runs, resumes and tabulates."""
 import csv
+import json
 import signal
 import statistics
 import subprocess
+import sys
 import time
 import unittest
 
@@ -36,6 +38,45 @@ class Study(Case):
         again = clast("study", plan, "-o", self.folder / "other", "-j", 1)
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual((self.folder / "other/results.csv").read_bytes(), first)
+
+    def long_plan(self):
+        return self.plan("run: pack\nconfig: examples/u1.yaml\nfix: [mass=60g, max_steps=1500]\nseeds: 6\n")
+
+    def start(self, plan, *words):
+        return subprocess.Popen([CLAST, "study", plan, "-o", self.folder / "out", *words], cwd=ROOT, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def test_two_studies_share_one_folder(self):
+        plan = self.long_plan()
+        both = [self.start(plan, "-j", "1", "-q", "--json") for _ in range(2)]
+        ends = [(one.communicate(), one.returncode) for one in both]
+        for (_, error), code in ends:
+            self.assertEqual((code, error), (0, ""))
+        done = [json.loads(out)["n_done"] for (out, _), _ in ends]
+        self.assertEqual(sum(done), 6)  # none twice
+        self.assertEqual(len(self.rows()), 6)
+        self.assertEqual([row["exit_code"] for row in self.rows()], ["0"] * 6)
+        self.assertEqual([p.name for p in (self.folder / "out").rglob("*.lock")], [])
+
+    def test_a_killed_study_leaves_no_run_behind(self):
+        if not sys.platform.startswith("linux"):
+            self.skipTest("SKIPPED LOUDLY: only Linux tells a process that its parent has gone")
+        with self.start(self.long_plan(), "-j", "2", "-q") as study:
+            runs = self.folder / "out/runs"
+            while len(list(runs.glob("*.part/out/manifest.json"))) < 2:
+                time.sleep(0.02)
+            study.kill()
+            study.communicate()
+        ends = time.monotonic() + 20
+
+        def left():
+            return subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, text=True, check=False).stdout.split()
+
+        while left() and time.monotonic() < ends:
+            time.sleep(0.05)
+        self.assertEqual(left(), [])
+        again = clast("study", self.folder / "study.yaml", "-o", self.folder / "out", "-q", cwd=ROOT)
+        self.assertEqual(again.code, 0, again.err)
 
     def test_wanted_and_achieved_values_of_one_name_stand_side_by_side(self):
         plan = self.plan("run: pack\nfix: [form_law=true, curve=6 mm, mass=1e-6, max_steps=1, height=0.3m, width=0.1m]\n"
@@ -99,7 +140,7 @@ class Study(Case):
         plan = self.plan("run: fill\nargument: [absent.stl]\nvary: [spheres = 5 | 9]\n")
         done = clast("study", plan, "-o", self.folder / "out")
         self.assertEqual(done.code, 1)
-        self.assertIn("2 failed", done.out)
+        self.assertIn("2 of 2 runs failed", done.err)
         self.assertIn("absent.stl", (self.folder / "out/runs/000001.part/messages.txt").read_text())
         self.assertEqual(self.rows()[0]["exit_code"], "3")
 

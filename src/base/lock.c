@@ -1,0 +1,118 @@
+// Locks between processes: a file beside what is changed, held by flock.
+#ifdef __linux__
+// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): glibc's, for flock
+#define _DEFAULT_SOURCE 1
+#endif
+#include "base/lock.h"
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/// Whether the descriptor is still that of the file by this name: its last holder removes it.
+static bool is_named(int descriptor, const char *path)
+{
+    struct stat held;
+    struct stat named;
+    return fstat(descriptor, &held) == 0 && stat(path, &named) == 0 &&
+           held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+}
+
+/// One attempt: 1 taken, 0 another has it, -1 the disk refuses (errno).
+static int try_take(const char *path, int *descriptor)
+{
+    const int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) {
+        return -1;
+    }
+    const bool is_held = flock(file, LOCK_EX | LOCK_NB) == 0;
+    const int error = is_held ? EWOULDBLOCK : errno; // held, but by a name that is gone: once more
+    if (is_held && is_named(file, path)) {
+        *descriptor = file;
+        return 1;
+    }
+    (void)close(file);
+    errno = error;
+    return error == EWOULDBLOCK || error == EINTR ? 0 : -1;
+}
+
+/// Writes who holds the lock into it; only for messages, so that failing is fine.
+static void sign(int descriptor)
+{
+    char host[256] = "";
+    char since[32] = "";
+    char text[400];
+    struct tm parts;
+    const time_t now = time(NULL);
+    (void)gethostname(host, sizeof host - 1);
+    if (gmtime_r(&now, &parts) != NULL) {
+        (void)strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    }
+    const int n =
+        snprintf(text, sizeof text, "process %ld on %s since %s", (long)getpid(), host, since);
+    const ssize_t written = ftruncate(descriptor, 0) == 0 ? write(descriptor, text, (size_t)n) : 0;
+    (void)written;
+}
+
+static clast_status complain(const char *path, const char *lock)
+{
+    char who[400] = "another process";
+    const int file = open(lock, O_RDONLY | O_CLOEXEC);
+    const ssize_t n = file >= 0 ? read(file, who, sizeof who - 1) : 0;
+    if (n > 0) {
+        who[n] = '\0';
+    }
+    if (file >= 0) {
+        (void)close(file);
+    }
+    return clx_fail(CLAST_E_DISK, "%s is being written by %s; try again when that has ended", path,
+                    who);
+}
+
+clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy)
+{
+    clast_status status = CLAST_OK;
+    const struct timespec pause = {0, 20000000};
+    const double begun = clx_clock();
+    char *name = NULL;
+    int descriptor = -1;
+    const int64_t size = (int64_t)strlen(path) + 8;
+    *is_busy = false;
+    CLX_TRY(clx_alloc(&name, size, 1));
+    (void)snprintf(name, (size_t)size, "%s.lock", path);
+    int taken = try_take(name, &descriptor);
+    while (taken == 0 && clx_clock() - begun < patience) {
+        (void)nanosleep(&pause, NULL);
+        taken = try_take(name, &descriptor);
+    }
+    *is_busy = taken == 0;
+    CLX_CHECK(taken >= 0, CLAST_E_DISK, "cannot write %s: %s", name, clx_errno_text());
+    if (taken == 0) {
+        status = complain(path, name);
+        goto done;
+    }
+    sign(descriptor);
+    *lock = (clx_lock){name, descriptor};
+    name = NULL;
+done:
+    clx_free(name);
+    return status;
+}
+
+void clx_lock_release(clx_lock *lock)
+{
+    if (lock->path != NULL) {
+        (void)unlink(lock->path); // while it is held: whoever waits sees that its name is gone
+        (void)close(lock->descriptor);
+        clx_free(lock->path);
+    }
+    *lock = (clx_lock){0};
+}

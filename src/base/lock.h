@@ -1,0 +1,20 @@
+#pragma once
+// One process at a time changes a file or folder that several may want to change.
+//
+// The lock is a file beside it, PATH.lock, held by flock(2): the kernel (of an NFS server, too)
+// lets it go with its process, so that none is ever stale. Who holds it is written inside.
+#include "base/status.h"
+
+/// {0} holds nothing.
+typedef struct clx_lock {
+    char *path;
+    int descriptor; ///< valid while path is not NULL
+} clx_lock;
+
+/// Takes the lock of PATH, waiting for up to `patience` seconds while another process has it.
+///
+/// @return CLAST_E_DISK when it cannot be taken; who has it is in the message, and *is_busy is true
+clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy);
+
+/// Lets go; does nothing for {0}.
+void clx_lock_release(clx_lock *lock);
