@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -13,13 +14,16 @@ static double group_memory(double bytes)
     static const char *const path[] = {"/sys/fs/cgroup/memory.max",
                                        "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
     for (int k = 0; k < 2; ++k) {
-        double most = 0.0;
+        char text[64] = "";
         FILE *const file = fopen(path[k], "r");
-        if (file != NULL && fscanf(file, "%lf", &most) == 1 && most > 0.0 && most < bytes) {
-            bytes = most;
+        if (file == NULL) {
+            continue;
         }
-        if (file != NULL) {
-            (void)fclose(file);
+        const double most =
+            fgets(text, sizeof text, file) != NULL ? strtod(text, NULL) : 0.0; // "max": 0
+        (void)fclose(file);
+        if (most > 0.0 && most < bytes) {
+            bytes = most;
         }
     }
     return bytes;
