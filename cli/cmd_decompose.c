@@ -122,6 +122,9 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_number(out, "events", r->events);
     cli_json_number(out, "events_low", r->events_low);
     cli_json_number(out, "events_high", r->events_high);
+    cli_json_bool(out, "resolved", r->resolved);
+    cli_json_number(out, "points_needed", r->points_needed);
+    cli_json_number(out, "cells_bias", r->cells_bias);
     cli_json_number(out, "events_cross", r->events_cross);
     cli_json_count(out, "n_capped", r->n_capped);
     cli_json_number(out, "points_per_bin",
@@ -130,6 +133,25 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
     cli_json_number(out, "wall_s", wall);
     return out;
+}
+
+/// Whether the number may be trusted; what would do where it may not.
+static void print_resolved(const clast_decomposition *r)
+{
+    if (r->resolved) {
+        return;
+    }
+    (void)printf("not resolved: the points do not show their own structure, the lower bound alone "
+                 "holds (97.5 %%)");
+    if (isfinite(r->cells_bias)) {
+        (void)printf("; pairs in these cells are off by %+.2g %%, --mesh tree resolves them",
+                     100.0 * r->cells_bias);
+    } else if (isfinite(r->points_needed)) {
+        (void)printf("; about %.2g points would do", r->points_needed);
+    } else {
+        (void)printf("; how many points would do cannot be told");
+    }
+    (void)printf("\n");
 }
 
 static void print_words(const clast_decomposition *r, const config *c)
@@ -165,11 +187,16 @@ static void print_words(const clast_decomposition *r, const config *c)
                      "score %.4g, ideal %.4g\n",
                      p->lambda, p->lambda_count, p->n_lambda, p->score, p->ideal);
     }
-    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cells at "
+    char high[32] = "-";
+    if (r->resolved) {
+        (void)snprintf(high, sizeof high, "%.6g", r->events_high);
+    }
+    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %s] with beta dt %.6g m^%d, %d cells at "
                  "the cap\n",
-                 clast_decompose_stop_text(r->stop), r->cells.n, r->events, r->events_low,
-                 r->events_high, c->decompose.beta_dt, r->dimension, r->n_capped);
-    if (r->smoothing_bias != 0.0) {
+                 clast_decompose_stop_text(r->stop), r->cells.n, r->events, r->events_low, high,
+                 c->decompose.beta_dt, r->dimension, r->n_capped);
+    print_resolved(r);
+    if (r->smoothing_bias != 0.0 && r->resolved) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);
