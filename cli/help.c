@@ -100,8 +100,9 @@ void cli_field_values(const clast_field *f, char words[CLI_WORDS_SIZE])
     default_text(f, value, sizeof value);
     const bool is_none = value[0] == '\0' || strcmp(value, "0") == 0;
     const char *look = is_none ? looks_like(f) : "";
-    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
-                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? ", as " : "", look,
+    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
+                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? " (as " : "", look,
+                   look[0] != '\0' ? ")" : "",
                    f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST
                        ? " (may be repeated)"
                        : "",
