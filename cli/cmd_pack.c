@@ -196,7 +196,6 @@ const cli_command cli_pack = {
     .details = details,
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),
-    .takes_config = true,
     .writes_folder = true,
     .run = run,
 };

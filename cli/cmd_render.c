@@ -197,6 +197,5 @@ const cli_command cli_render = {
     .config_size = sizeof(clast_render_config),
     .n_min = 1,
     .n_max = 64,
-    .takes_config = false,
     .run = run,
 };

@@ -174,7 +174,6 @@ const cli_command cli_study = {
     .details = details,
     .fields = clast_study_fields,
     .config_size = sizeof(clast_study_config),
-    .takes_config = true,
     .writes_folder = true,
     .shares_ranks = true,
     .run = run,

@@ -26,9 +26,6 @@ typedef struct cli_command {
     const clast_field *fields; ///< own options; NULL for none
     size_t config_size;        ///< bytes of the configuration struct
     int32_t n_min, n_max;      ///< positional arguments allowed
-    /// First positional argument may be a YAML configuration (name ends in .yaml or .yml), read
-    /// before the options.
-    bool takes_config;
     bool writes_folder; ///< -o names a run folder
     bool shares_ranks;  ///< several ranks may run it together
     clast_status (*run)(const cli_common *common, void *config);
