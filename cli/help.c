@@ -255,7 +255,7 @@ void cli_help_all(const cli_command *command)
     if (command->fields != NULL) {
         print_config_words(command);
     }
-    (void)printf(
-        "\nexit codes: 0 done, 1 a checknswered no, 2 usage, 3 bad input, 4 not enough memory or\n"
-        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
+    (void)printf("\nexit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough "
+                 "memory or\n"
+                 "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
 }
