@@ -127,6 +127,9 @@ class Help(Case):
                                       ("aggregate", "--size=20", "size: 20 has no unit"),
                                       ("pack", "--layer=1", "layer: 1 has no unit; write 1mm"),
                                       ("pack", "--width=0.1", "width: 0.1 has no unit; write 0.1m"),
+                                      # the nearest spelling of a width of 104mm was 100um
+                                      ("pack", "--width=100", "width: 100 has no unit; write 100mm"),
+                                      ("pack", "--height=1", "height: 1 has no unit; write 1m"),
                                       ("pack", "--curve=uniform:3,5mm", "3 has no unit; write 3mm"),
                                       ("pack", "--curve=4", "4 has no unit; write 4mm"),
                                       ("grading", "--mass=-1", "mass"),
