@@ -29,8 +29,10 @@ typedef struct cli_command {
     /// First positional argument may be a YAML configuration (name ends in .yaml or .yml), read
     /// before the options.
     bool takes_config;
-    bool writes_folder; ///< -o names a run folder
-    bool shares_ranks;  ///< several ranks may run it together
+    bool writes_folder;  ///< -o names a run folder
+    bool shares_ranks;   ///< several ranks may run it together
+    bool writes_no_file; ///< all it has goes to stdout: -o is refused
+    bool writes_no_data; ///< what it prints is no data: --json is refused
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 

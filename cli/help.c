@@ -204,10 +204,10 @@ void cli_help(const cli_command *command)
             print_short(f);
         }
     }
-    (void)printf(
-        "  -o PATH: where results go; -j N: threads; --json: one object on stdout; -q: quiet\n"
-        "more: clast %s --help-all; man clast\n",
-        command->name);
+    (void)printf("  %s-j N: threads;%s -q: quiet\n"
+                 "more: clast %s --help-all; man clast\n",
+                 command->writes_no_file ? "" : "-o PATH: where results go; ",
+                 command->writes_no_data ? "" : " --json: one object on stdout;", command->name);
 }
 
 void cli_help_all(const cli_command *command)
@@ -224,19 +224,22 @@ void cli_help_all(const cli_command *command)
         print_field(f);
     }
     (void)printf(
-        "\nof every command:\n"
-        "  -o, --output PATH      where results go\n"
+        "\nof every command:\n%s"
         "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
         "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
         "                         (default 80%%)\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
-        "  --json                 one JSON object on stdout\n"
+        "%s"
         "  -q, --quiet            no progress on stderr\n"
         "  -h, --help             the first page; --help-all: this one\n"
-        "Every option is a key of the YAML file, too, with '_' for '-'. A switch is turned off by\n"
+        "%sA switch is turned off by\n"
         "--no-NAME or --NAME=false, on by --NAME or --NAME=true. A length or an angle needs its "
         "unit\n"
         "(270um, 50deg; 0 needs none); other bare numbers are SI.\n\n"
         "exit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough memory or\n"
-        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
+        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n",
+        command->writes_no_file ? "" : "  -o, --output PATH      where results go\n",
+        command->writes_no_data ? "" : "  --json                 one JSON object on stdout\n",
+        command->takes_config ? "Every option is a key of the YAML file, too, with '_' for '-'. "
+                              : "");
 }
