@@ -54,6 +54,12 @@ clast_status cli_fail(clast_status status, const char *format, ...)
 /// after this one.
 const char *cli_name(const char *text);
 
+/// "s", or "" of one: "1 cell", "2 cells".
+static inline const char *cli_plural(int64_t n)
+{
+    return n == 1 ? "" : "s";
+}
+
 /// Flushes stdout: `code`, or 4 and one line when something of it was lost.
 int cli_flush(int code);
 
