@@ -134,7 +134,8 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
 
 static void print_words(const clast_decomposition *r, const config *c)
 {
-    (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
+    (void)printf("%lld point%s in %d dimension%s", (long long)r->n, cli_plural(r->n), r->dimension,
+                 cli_plural(r->dimension));
     if (r->n_outside > 0) {
         (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
     }
@@ -161,14 +162,16 @@ static void print_words(const clast_decomposition *r, const config *c)
         for (int32_t j = 1; j < r->dimension; ++j) {
             (void)printf(" x %d", p->nb[j]);
         }
-        (void)printf(" bins, threshold %.4g of the mean density (%d points a bin; best of %d), "
+        (void)printf(" bins, threshold %.4g of the mean density (%d point%s a bin; best of %d), "
                      "score %.4g, ideal %.4g\n",
-                     p->lambda, p->lambda_count, p->n_lambda, p->score, p->ideal);
+                     p->lambda, p->lambda_count, cli_plural(p->lambda_count), p->n_lambda, p->score,
+                     p->ideal);
     }
-    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cells at "
-                 "the cap\n",
-                 clast_decompose_stop_text(r->stop), r->cells.n, r->events, r->events_low,
-                 r->events_high, c->decompose.beta_dt, r->dimension, r->n_capped);
+    (void)printf("stop: %s\n%d cell%s, events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cell%s "
+                 "at the cap\n",
+                 clast_decompose_stop_text(r->stop), r->cells.n, cli_plural(r->cells.n), r->events,
+                 r->events_low, r->events_high, c->decompose.beta_dt, r->dimension, r->n_capped,
+                 cli_plural(r->n_capped));
     if (r->smoothing_bias != 0.0) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
