@@ -26,8 +26,8 @@ typedef struct cli_command {
     const clast_field *fields; ///< own options; NULL for none
     size_t config_size;        ///< bytes of the configuration struct
     int32_t n_min, n_max;      ///< positional arguments allowed
-    bool writes_folder; ///< -o names a run folder
-    bool shares_ranks;  ///< several ranks may run it together
+    bool writes_folder;        ///< -o names a run folder
+    bool shares_ranks;         ///< several ranks may run it together
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 

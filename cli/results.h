@@ -26,5 +26,6 @@ clast_status cli_results_begin(const cli_common *common, const char *folder, boo
 clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, const void *config,
                               const uint64_t *seed, const cli_input *input);
 
-/// Writes summary.json, the last of a run's files. Borrows it; NULL gives CLAST_E_MEMORY.
+/// Writes summary.json, the last of a run's files, without its wall_s. Borrows it; NULL gives
+/// CLAST_E_MEMORY.
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary);
