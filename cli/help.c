@@ -101,8 +101,9 @@ void cli_field_values(const clast_field *f, char words[CLI_WORDS_SIZE])
     default_text(f, value, sizeof value);
     const bool is_none = value[0] == '\0' || strcmp(value, "0") == 0;
     const char *look = is_none ? looks_like(f) : "";
-    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
-                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? ", as " : "", look,
+    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
+                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? " (as " : "", look,
+                   look[0] != '\0' ? ")" : "",
                    f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST
                        ? " (may be repeated)"
                        : "",
@@ -254,7 +255,7 @@ void cli_help_all(const cli_command *command)
     if (command->fields != NULL) {
         print_config_words(command);
     }
-    (void)printf(
-        "\nexit codes: 0 done, 1 a checknswered no, 2 usage, 3 bad input, 4 not enough memory or\n"
-        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
+    (void)printf("\nexit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough "
+                 "memory or\n"
+                 "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
 }

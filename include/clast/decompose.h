@@ -135,7 +135,8 @@ typedef enum {
     CLAST_STOP_SPLIT,    ///< the vote rejects; tree cells are uniform or too small to be tested
     CLAST_STOP_TREE,     ///< the vote accepts; the tree's own test or the variable split the cloud
     CLAST_STOP_WHOLE,    ///< the vote rejects at level, the tree does not at tree_root_level
-    CLAST_STOP_DEPTH     ///< a tree cell is uneven at the limit of 20 halvings
+    CLAST_STOP_DEPTH,    ///< a tree cell is uneven at the limit of 20 halvings
+    CLAST_STOP_SPARED    ///< a workspace's policy spares the tests: the tree alone decided
 } clast_decompose_stop;
 
 /// A stop in words, "rejected by the tests and split".

@@ -5,6 +5,7 @@
 #include "cloud/cells.h"
 #include "cloud/contract.h"
 #include "cloud/cut_cells.h"
+#include "cloud/decompose_steps.h"
 #include "cloud/events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
@@ -98,6 +99,8 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
         return "rejected by the tests, not by the tree at tree_root_level: not split";
     case CLAST_STOP_DEPTH:
         return "at the limit: cells of 20 halvings are still uneven";
+    case CLAST_STOP_SPARED:
+        return "not tested: the workspace's policy spares the tests; the tree alone decides";
     }
     return "";
 }
@@ -454,45 +457,89 @@ static clast_status check_config(const clast_decompose_config *config)
     return clast_fields_check(clast_decompose_fields, &named);
 }
 
+bool clx_decompose_takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+{
+    return takes_tree(config, cloud);
+}
+
+clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
+                                 const clast_decompose_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(check_config(config));
+    CLX_TRY(clx_domain_check(domain));
+    CLX_TRY(clx_cloud_check(cloud));
+    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
+              "cells uniform in a variable are cells of the tree: --mesh tree");
+done:
+    return status;
+}
+
+clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_config *config,
+                                clast_uniformity *found)
+{
+    clast_status status = CLAST_OK;
+    clast_uniformity_config vote;
+    double side[3];
+    clast_domain_sides(sample->domain, side);
+    CLX_TRY(clx_passes_vote(config, &vote));
+    CLX_TRY(clast_uniformity_test(sample->u, sample->n_test, sample->domain->dimension, side, &vote,
+                                  found));
+done:
+    return status;
+}
+
+clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sample,
+                                 const clast_decompose_config *config, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    int32_t **of_point = &result->cells.of_point;
+    result->dimension = cloud->dimension;
+    result->n = sample->n_real;
+    result->n_test = sample->n_test;
+    result->n_outside = cloud->n - sample->n_real;
+    CLX_TRY(clx_alloc(of_point, cloud->n, sizeof **of_point));
+    memset(*of_point, 0xff, (size_t)cloud->n * sizeof **of_point);
+    CLX_TRY(make_cells(cloud, sample, config, result));
+    if (sample->domain->kind == CLAST_DOMAIN_MESH) {
+        CLX_TRY(clx_cells_cut(sample, &result->cells));
+    }
+done:
+    return status;
+}
+
+clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
+                                  const clast_decompose_config *config, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    result->beta_dt = config->beta_dt;
+    result->volume = clast_domain_volume(sample->domain);
+    result->seed = config->seed;
+    result->has_drawn =
+        result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
+    CLX_TRY(clx_events_count(cloud, config, sample, result));
+    to_domain(sample->domain, &result->cells);
+    result->events_cross = (double)NAN;
+    if (config->crossfit) {
+        CLX_TRY(crossfit(cloud, config, sample->domain, &result->events_cross));
+    }
+done:
+    return status;
+}
+
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clast_decomposition made = {0};
     clx_sample m = {0};
-    clast_uniformity_config vote;
-    double side[3];
     CLX_NEED(config);
     CLX_NEED(result);
-    CLX_TRY(check_config(config));
-    CLX_TRY(clx_domain_check(domain));
-    CLX_TRY(clx_cloud_check(cloud));
-    made.dimension = cloud->dimension;
-    made.beta_dt = config->beta_dt;
-    made.volume = clast_domain_volume(domain);
-    made.seed = config->seed;
-    made.has_drawn = cloud->weight != NULL || domain->kind == CLAST_DOMAIN_MESH;
-    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
-              "cells uniform in a variable are cells of the tree: --mesh tree");
+    CLX_TRY(clx_decompose_check(domain, cloud, config));
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
-    made.n = m.n_real;
-    made.n_test = m.n_test;
-    made.n_outside = cloud->n - m.n_real;
-    clast_domain_sides(domain, side);
-    CLX_TRY(clx_passes_vote(config, &vote));
-    CLX_TRY(clast_uniformity_test(m.u, m.n_test, cloud->dimension, side, &vote, &made.before));
-    CLX_TRY(clx_alloc(&made.cells.of_point, cloud->n, sizeof *made.cells.of_point));
-    memset(made.cells.of_point, 0xff, (size_t)cloud->n * sizeof *made.cells.of_point);
-    CLX_TRY(make_cells(cloud, &m, config, &made));
-    if (domain->kind == CLAST_DOMAIN_MESH) {
-        CLX_TRY(clx_cells_cut(&m, &made.cells));
-    }
-    CLX_TRY(clx_events_count(cloud, config, &m, &made));
-    to_domain(domain, &made.cells);
-    made.events_cross = (double)NAN;
-    if (config->crossfit) {
-        CLX_TRY(crossfit(cloud, config, domain, &made.events_cross));
-    }
+    CLX_TRY(clx_decompose_test(&m, config, &made.before));
+    CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
+    CLX_TRY(clx_decompose_events(cloud, &m, config, &made));
     *result = made;
     made = (clast_decomposition){0};
 done:

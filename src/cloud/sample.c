@@ -171,8 +171,8 @@ done:
     return status;
 }
 
-clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clast_domain *domain, clx_sample *sample)
+clast_status clx_sample_map(const clast_cloud *cloud, const clast_decompose_config *config,
+                            const clast_domain *domain, clx_sample *sample)
 {
     clast_status status = CLAST_OK;
     clx_sample made = {.domain = domain};
@@ -180,12 +180,29 @@ clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_con
               "domain '%s' has %d dimensions, the points have %d",
               config->domain != NULL ? config->domain : "", domain->dimension, cloud->dimension);
     CLX_TRY(map_points(cloud, config, &made));
+    *sample = made;
+    made = (clx_sample){0};
+done:
+    clx_sample_free(&made);
+    return status;
+}
+
+clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose_config *config,
+                                 clx_sample *sample)
+{
     if (cloud->weight != NULL) {
-        thin(cloud, config->seed, &made);
+        thin(cloud, config->seed, sample);
     }
-    if (domain->kind == CLAST_DOMAIN_MESH) {
-        CLX_TRY(extend(config->seed, &made));
-    }
+    return sample->domain->kind == CLAST_DOMAIN_MESH ? extend(config->seed, sample) : CLAST_OK;
+}
+
+clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
+                             const clast_domain *domain, clx_sample *sample)
+{
+    clast_status status = CLAST_OK;
+    clx_sample made = {0};
+    CLX_TRY(clx_sample_map(cloud, config, domain, &made));
+    CLX_TRY(clx_sample_complete(cloud, config, &made));
     *sample = made;
     made = (clx_sample){0};
 done:
