@@ -38,7 +38,6 @@ static void print_command(const cli_command *command)
     print_text(command->name);
     (void)putchar(' ');
     print_text(command->arguments);
-    print_text(command->fields != NULL ? " [CONFIG.yaml]" : "");
     (void)printf("\n");
     print_text(command->summary);
     (void)printf("\n");
@@ -86,7 +85,8 @@ static clast_status run(const cli_common *common, void *values)
         ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"
         ".TP\n.B \\-h, \\-\\-help\nthe first page of a command; \\-\\-help\\-all: every option of "
         "it\n"
-        ".PP\nEvery option of a command is a key of its CONFIG.yaml with '_' for '\\-', and what "
+        ".PP\nEvery option of a command is a key of a YAML file among its arguments, with '_' for "
+        "'\\-', and what "
         "stands "
         "before the options is one too: points for POINTS, file for FILE. The command line wins.\n"
         ".PP\nA length or an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers "

@@ -58,5 +58,14 @@ void cli_table_without_unit(clast_table *table)
 
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary)
 {
-    return run == NULL ? CLAST_OK : cli_write_summary(summary, clast_run_folder_path(run));
+    if (run == NULL) {
+        return CLAST_OK;
+    }
+    json_t *kept = summary != NULL ? json_copy((json_t *)(uintptr_t)summary) : NULL;
+    if (kept != NULL) {
+        (void)json_object_del(kept, "wall_s"); // equal runs write equal files; the manifest has it
+    }
+    const clast_status status = cli_write_summary(kept, clast_run_folder_path(run));
+    json_decref(kept);
+    return status;
 }

@@ -31,5 +31,6 @@ clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, 
 /// that does not tell it: cell_m3 -> cell.
 void cli_table_without_unit(clast_table *table);
 
-/// Writes summary.json, the last of a run's files. Borrows it; NULL gives CLAST_E_MEMORY.
+/// Writes summary.json, the last of a run's files, without its wall_s. Borrows it; NULL gives
+/// CLAST_E_MEMORY.
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary);

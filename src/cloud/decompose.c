@@ -17,8 +17,9 @@
 #define FIELD(type, name) #name, .offset = offsetof(clast_decompose_config, name), type
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
-     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", "",
-     .common = true, .group = "domain"},
+     "known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), "
+     "half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm]",
+     "", .common = true, .group = "domain"},
     {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
      "points outside the domain: refuse the file, or leave them out", "error|drop", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
@@ -50,8 +51,9 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
-    {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
-     "collision kernel times time step [m^d]", NULL, .common = true},
+    {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "-",
+     "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL, .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
@@ -304,6 +306,11 @@ done:
     return status;
 }
 
+bool clast_cells_are_labelled(const clast_cells *cells)
+{
+    return cells->of_bin != NULL;
+}
+
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
     double u[3] = {0};
@@ -386,8 +393,8 @@ static clast_status cross_events(const clast_cloud *half, const clast_decompose_
     }
     for (int32_t c = 0; c < a.cells.n; ++c) {
         const double both = a.cells.weight[c] + weight[c];
-        sum += fmin(2.0 * config->beta_dt * a.cells.weight[c] * weight[c] / a.cells.volume[c],
-                    0.5 * both);
+        const double pairs = 2.0 * a.cells.weight[c] * weight[c] / a.cells.volume[c];
+        sum += config->beta_dt > 0.0 ? fmin(config->beta_dt * pairs, 0.5 * both) : pairs;
     }
     *events = sum / (1.0 + a.smoothing_bias);
 done:
@@ -437,6 +444,7 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                                : CLAST_STOP_ACCEPTED;
         return one_cell(m, &result->cells);
     }
+    result->has_drawn = result->has_drawn || (!is_tree && config->ghost_samples > 0);
     return is_tree ? tree_cells(cloud, m, config, result) : bin_cells(m, config, result);
 }
 
@@ -504,6 +512,11 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
                                   const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
+    result->beta_dt = config->beta_dt;
+    result->volume = clast_domain_volume(sample->domain);
+    result->seed = config->seed;
+    result->has_drawn =
+        result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
