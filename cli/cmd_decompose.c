@@ -259,7 +259,8 @@ static void print_events(const clast_decomposition *r)
 static void print_words(const cli_decompose_job *j, const config *c, const found *f)
 {
     const clast_decomposition *r = j->result;
-    (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
+    (void)printf("%lld point%s in %d dimension%s", (long long)r->n, cli_plural(r->n), r->dimension,
+                 cli_plural(r->dimension));
     if (r->n_outside > 0) {
         (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
     }

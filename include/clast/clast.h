@@ -74,6 +74,7 @@
 #include <clast/shape.h>
 #include <clast/sizes.h>
 #include <clast/sizes_file.h>
+#include <clast/spectrum.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <clast/statistics.h>
