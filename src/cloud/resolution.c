@@ -20,8 +20,8 @@ static const double bound_pairs = 50.0; ///< a lower bound needs so many
 /// What one rung says.
 typedef struct {
     double value, systematic, error; ///< error: both kinds
-    bool resolved;
-    int32_t finer; ///< a rung whose pairs show more than that; 0: none
+    bool resolved;                   ///< as far as this rung tells
+    int32_t finer;                   ///< a rung whose pairs show more than that; 0: none
 } reading;
 
 /// Variance of sum a_r q_r.
@@ -94,7 +94,7 @@ static reading read_rung(const clx_ladder *l, int32_t r)
         }
     }
     made.resolved = made.finer == 0 && l->n_pair[r] >= least_pairs &&
-                    l->first + r >= LEAST_HALVINGS && made.systematic <= most_error * made.value &&
+                    made.systematic <= most_error * made.value &&
                     made.systematic <= most_share * sqrt(variance);
     return made;
 }
@@ -143,27 +143,26 @@ static double factor_needed(const clx_ladder *l, int32_t r)
 clx_resolution clx_resolution_of(const clx_ladder *l)
 {
     clx_resolution made = {.high = INFINITY, .n_factor = INFINITY};
-    double least = INFINITY;
+    double least = INFINITY; // error of the value so far
     int32_t last = 2;
+    bool is_deep = false;
     for (int32_t r = 2; r < l->n && (r == 2 || l->n_pair[r] >= least_pairs); ++r) {
         const reading at = read_rung(l, r);
         last = r;
-        if (!made.resolved) {
-            made.value = at.value;
-            made.halvings = l->first + r;
-        }
+        is_deep = is_deep || (at.resolved && l->first + r >= LEAST_HALVINGS);
         if (at.resolved && at.error < least) {
             least = at.error;
-            made.resolved = true;
-            made.value = at.value;
-            made.halvings = l->first + r;
-            made.low = at.value * exp(-CLX_NORMAL_975 * at.error / at.value);
-            made.high = at.value * exp(CLX_NORMAL_975 * at.error / at.value);
-            made.n_factor = 1.0;
+            made = (clx_resolution){.value = at.value,
+                                    .low = at.value * exp(-CLX_NORMAL_975 * at.error / at.value),
+                                    .high = at.value * exp(CLX_NORMAL_975 * at.error / at.value),
+                                    .n_factor = 1.0,
+                                    .halvings = l->first + r};
         }
     }
+    made.resolved = is_deep;
     if (!made.resolved) {
         made.low = lower_bound(l);
+        made.high = INFINITY;
         made.n_factor = l->n > 2 ? factor_needed(l, last) : (double)INFINITY;
     }
     return made;

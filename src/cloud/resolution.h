@@ -6,7 +6,7 @@
 #define CLX_MOST_BIAS  0.02 ///< of what is called resolved
 
 typedef struct clx_resolution {
-    double value;     ///< sum over pairs per volume: n (n - 1) times the integral
+    double value;     ///< sum over pairs per volume: n (n - 1) times the integral; where resolved
     double low, high; ///< 95 %; not resolved: low alone holds, at 97.5 %, and high is INFINITY
     bool resolved;
     double n_factor;  ///< so many times the points would resolve it: 1 where it is resolved,
