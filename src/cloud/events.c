@@ -229,6 +229,17 @@ static double count_all(const count *n)
     return sum;
 }
 
+/// Whether the one cell that the tests left agrees with what the pairs show: it is then the better
+/// value, for a uniform cloud's number of pairs is known without error.
+static bool is_one_cell(const count *n, const clx_resolution *shown, double all)
+{
+    const double error = log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value;
+    const double between = error * error - n->variance; // finer cells add what is independent
+    const double off = shown->value - all;
+    return n->cells->n == 1 && !n->capped[0] && between < 1e-4 * all * all &&
+           off * off <= 4.0 * fmax(0.0, between);
+}
+
 /// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are
 /// a tree; of other cells it tells how far they are off. [docs/theory/decompose.md section 8]
 static void certify(count *n, const clx_resolution *shown, double plain, clast_decomposition *r)
@@ -238,6 +249,11 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
     r->resolved = shown->resolved;
     r->points_needed = shown->n_factor * (double)r->n;
     r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
+    if (shown->resolved && is_one_cell(n, shown, all)) {
+        r->cells_bias = 0.0;
+        n->is_certified = true;
+        return;
+    }
     if (n->is_plain) {
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
     } else if (shown->resolved) {
