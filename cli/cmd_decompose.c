@@ -95,9 +95,6 @@ static json_t *json_labels(const clast_decomposition *r)
                                         "cluster_4", "cluster_5", "under",     "void"};
     int64_t n[8] = {0};
     json_t *labels = json_object();
-    if (!clast_decomposition_has_labels(r)) {
-        return labels;
-    }
     for (int32_t c = 0; c < r->cells.n; ++c) {
         ++n[r->cells.label[c] % 8];
     }
@@ -212,7 +209,6 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
     }
     static const char *const name[7] = {"volume", "count",  "density", "label",
                                         "pass",   "events", "weight"};
-    const bool has_labels = clast_decomposition_has_labels(r);
     for (int k = 0; k < 7 && status == CLAST_OK; ++k) {
         double *column = NULL;
         status = clast_table_add_number(table, name[k], "-", &column);
@@ -220,8 +216,8 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
             const double value[7] = {cells->volume[c],
                                      (double)cells->count[c],
                                      (double)cells->count[c] / cells->volume[c],
-                                     has_labels ? (double)cells->label[c] : (double)NAN,
-                                     has_labels ? (double)cells->pass[c] : (double)NAN,
+                                     (double)cells->label[c],
+                                     (double)cells->pass[c],
                                      cells->events[c],
                                      cells->weight[c]};
             column[c] = value[k];
@@ -235,17 +231,16 @@ static clast_status label_table(const clast_decomposition *r, int64_t n_point, c
 {
     static const char *const name[3] = {"cell", "label", "pass"};
     const clast_cells *cells = &r->cells;
-    const bool has_labels = clast_decomposition_has_labels(r);
     clast_status status = clast_table_init(table, "points", n_point);
     for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
         double *column = NULL;
         status = clast_table_add_number(table, name[k], "-", &column);
         for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
             const int32_t c = cells->of_point[i];
-            column[i] = k == 0                 ? c
-                        : c < 0 || !has_labels ? (double)NAN // outside of the domain
-                        : k == 1               ? cells->label[c]
-                                               : cells->pass[c];
+            column[i] = k == 0   ? c
+                        : c < 0  ? (double)NAN // outside of the domain
+                        : k == 1 ? cells->label[c]
+                                 : cells->pass[c];
         }
     }
     return status;

@@ -203,9 +203,6 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
 /// Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,
                                      const double *x);
-
-/// Whether the cells have labels and passes: those of a tree, which no threshold made, have none.
-CLAST_API bool clast_decomposition_has_labels(const clast_decomposition *result);
 CLAST_API void clast_decomposition_free(clast_decomposition *result);
 
 CLAST_END

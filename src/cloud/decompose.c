@@ -118,11 +118,6 @@ static void free_cells(clast_cells *cells)
     *cells = (clast_cells){0};
 }
 
-bool clast_decomposition_has_labels(const clast_decomposition *result)
-{
-    return result->n_pass > 0 || result->cells.n <= 1;
-}
-
 void clast_decomposition_free(clast_decomposition *result)
 {
     free_cells(&result->cells);

@@ -159,7 +159,7 @@ done:
 }
 
 static clast_status put_cell_data(clx_file *file, clx_vtk_array *array, const boxes *b,
-                                  const clast_cells *cells, bool has_labels)
+                                  const clast_cells *cells)
 {
     static const char *const name[7] = {"cell",  "count", "volume", "density",
                                         "label", "pass",  "events"};
@@ -172,8 +172,8 @@ static clast_status put_cell_data(clx_file *file, clx_vtk_array *array, const bo
                                      (double)cells->count[c],
                                      cells->volume[c],
                                      (double)cells->count[c] / cells->volume[c],
-                                     has_labels ? (double)cells->label[c] : -1.0,
-                                     has_labels ? (double)cells->pass[c] : -1.0,
+                                     (double)cells->label[c],
+                                     (double)cells->pass[c],
                                      cells->events[c]};
             CLX_TRY(clx_vtk_add(array, &value[k], sizeof value[k]));
         }
@@ -204,8 +204,7 @@ clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *
                          b.n * n_corner, b.n);
     CLX_TRY(put_corners(&file, &array, &b, domain));
     CLX_TRY(put_cells(&file, &array, b.n, n_corner, type[domain->dimension]));
-    CLX_TRY(
-        put_cell_data(&file, &array, &b, &result->cells, clast_decomposition_has_labels(result)));
+    CLX_TRY(put_cell_data(&file, &array, &b, &result->cells));
     (void)clx_file_print(&file, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:
@@ -239,19 +238,19 @@ done:
     return status;
 }
 
-/// Number of the cell, its label or its pass for each point; -1: there is none.
+/// Number of the cell, its label or its pass for each point.
 static clast_status put_marks(clx_file *file, clx_vtk_array *array, int64_t n,
-                              const clast_cells *cells, bool has_labels)
+                              const clast_cells *cells)
 {
     static const char *const name[3] = {"cell", "label", "pass"};
     clast_status status = CLAST_OK;
     for (int k = 0; k < 3; ++k) {
         for (int64_t i = 0; i < n; ++i) {
             const int32_t c = cells->of_point[i];
-            const int32_t value = k == 0                 ? c
-                                  : c < 0 || !has_labels ? -1
-                                  : k == 1               ? cells->label[c]
-                                                         : cells->pass[c];
+            const int32_t value = k == 0   ? c
+                                  : c < 0  ? 0
+                                  : k == 1 ? cells->label[c]
+                                           : cells->pass[c];
             CLX_TRY(clx_vtk_add(array, &value, sizeof value));
         }
         CLX_TRY(clx_vtk_end(array, file, "Int32", name[k], 1));
@@ -298,8 +297,7 @@ clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
                          cloud->n, cloud->n);
     CLX_TRY(put_positions(&file, &array, cloud));
     (void)clx_file_print(&file, "<PointData>\n");
-    CLX_TRY(
-        put_marks(&file, &array, cloud->n, &result->cells, clast_decomposition_has_labels(result)));
+    CLX_TRY(put_marks(&file, &array, cloud->n, &result->cells));
     CLX_TRY(put_properties(&file, &array, cloud));
     (void)clx_file_print(&file, "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));

@@ -34,8 +34,8 @@ static int group_of(uint8_t label)
 }
 
 /// Points of one group of labels as a series; x and y hold n_most numbers each.
-static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells, bool has_labels,
-                              int group, double *x, double *y)
+static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells, int group,
+                              double *x, double *y)
 {
     static const char *const legend[N_GROUP] = {"ambient", "cluster", "under", "void"};
     static const int32_t colour[N_GROUP] = {0, 1, 4, 2};
@@ -49,7 +49,7 @@ static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells
         }
     }
     return (clast_series){.kind = CLAST_SERIES_POINTS,
-                          .label = has_labels ? legend[group] : "points",
+                          .label = legend[group],
                           .x = x,
                           .y = y,
                           .n = n,
@@ -94,8 +94,7 @@ static clast_status draw_points(const clast_cloud *cloud, const clast_decomposit
     }
     for (int group = 0; group < N_GROUP; ++group) {
         double *x = buffer + 2 * group * n_most;
-        series[n_series] =
-            points_of(cloud, &r->cells, clast_decomposition_has_labels(r), group, x, x + n_most);
+        series[n_series] = points_of(cloud, &r->cells, group, x, x + n_most);
         n_series += series[n_series].n > 0 ? 1 : 0;
     }
     const clast_chart chart = {.x = {.label = "x (m)"},

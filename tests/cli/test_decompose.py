@@ -1,6 +1,5 @@
 """CLI: decompose tests, splits and counts as its help says."""
 import base64
-import csv
 import json
 import math
 import random
@@ -182,26 +181,6 @@ class Decompose(Case):
             float(row.split(",")[5]) for row in (out / "cells.csv").read_text().split()[1:]))
         self.assertEqual(set(vtk_array(vtu, "types")), {9})
 
-    def test_cells_that_no_threshold_made_have_no_label(self):
-        # every cell of a tree was "ambient", the blob in the middle too
-        out = self.folder / "tree"
-        r = clast("decompose", DATA / "points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1", "--mesh", "tree", "-o", out, "--json")
-        self.assertGreater(r.json["n_cell"], 1)
-        self.assertEqual(r.json["labels"], {})
-        cells = list(csv.DictReader((out / "cells.csv").read_text().splitlines()))
-        points = list(csv.DictReader((out / "point_cells.csv").read_text().splitlines()))
-        self.assertEqual({(row["label"], row["pass"]) for row in cells + points}, {("", "")})
-        for name in ("label", "pass"):
-            self.assertEqual(set(vtk_array((out / "points.vtp").read_text(), name)), {-1})
-            self.assertEqual(set(vtk_array((out / "cells.vtu").read_text(), name)), {-1})
-        self.assertEqual(clast("report", out).code, 0)
-        page = (out / "report.html").read_text()
-        self.assertFalse("ambient" in page[:page.index("<h3>Origin")])  # the configuration's meanings follow
-        boxes = clast("decompose", DATA / "points_b3_n500.csv", "--domain", "box:0,0,0,1,1,1", "--mesh", "boxes", "--json").json
-        self.assertEqual(sum(boxes["labels"].values()), boxes["n_cell"])
-        whole = clast("decompose", DATA / "points_u3_n50.csv", "--domain", "box:0,0,0,1,1,1", "--json").json
-        self.assertEqual(whole["labels"]["ambient"], 1)
-
     def test_events_of_parts_scale_to_the_whole(self):
         random.seed(8)
         points = []
@@ -215,7 +194,7 @@ class Decompose(Case):
                   "-o", out, "--json")
         self.assertEqual(r.code, 0, r.err)
         lines = [line.split(",") for line in (out / "events_by_n.csv").read_text().split()]
-        rows = [dict(zip(lines[0], (float(cell or "nan") for cell in line))) for line in lines[1:]]
+        rows = [dict(zip(lines[0], map(float, line))) for line in lines[1:]]
         self.assertEqual([row["n"] for row in rows], [500, 1000, 2000, 4000])
         self.assertAlmostEqual(rows[-1]["events"], r.json["events"], delta=0.05 * r.json["events"])
         truth = 0.5e-6 * 4000 ** 2 / (4 * math.pi * 0.01)  # integral of the density's square
@@ -243,7 +222,7 @@ class Decompose(Case):
                       mesh, "-o", out, "--json")
             self.assertEqual(r.code, 0, r.err)
             lines = [line.split(",") for line in (out / "cells.csv").read_text().split()]
-            rows = [dict(zip(lines[0], (float(cell or "nan") for cell in line))) for line in lines[1:]]
+            rows = [dict(zip(lines[0], map(float, line))) for line in lines[1:]]
             self.assertGreater(len(rows), 1)
             self.assertAlmostEqual(sum(row["volume"] for row in rows), 1 / 6, delta=1e-12 / 6)
             self.assertEqual(sum(row["count"] for row in rows), 600)
