@@ -164,8 +164,8 @@ static void json_settings(json_t *out, const cli_decompose_job *j)
     const clast_decomposition *r = j->result;
     cli_json_text(out, "domain", j->name);
     cli_json_text(out, "length_unit", "m");
-    cli_json_number(out, "volume", r->volume);
-    json_unit(out, "volume_unit", "", r->dimension);
+    cli_json_number(out, "domain_volume", r->volume);
+    json_unit(out, "domain_volume_unit", "", r->dimension);
     cli_json_number(out, "beta_dt", r->beta_dt > 0.0 ? r->beta_dt : (double)NAN);
     (void)json_object_set_new(out, "seed",
                               j->has_drawn ? json_integer((json_int_t)r->seed) : json_null());

@@ -159,7 +159,7 @@ class TrueWords(Case):
         out = self.folder / "out"
         r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "-o", out)
         summary = json.loads((out / "summary.json").read_text())
-        wanted = {"domain": "box:0,0,1,1", "volume": 1.0, "volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
+        wanted = {"domain": "box:0,0,1,1", "domain_volume": 1.0, "domain_volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
         for key, value in wanted.items():
             self.assertEqual(r[key], value, key)
             self.assertEqual(summary[key], value, key)
