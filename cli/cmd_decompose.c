@@ -225,19 +225,20 @@ static void print_passes(const clast_decomposition *r)
         for (int32_t j = 1; j < r->dimension; ++j) {
             (void)printf(" x %d", p->nb[j]);
         }
-        (void)printf(" bins, threshold %.4g of the mean density (%d points a bin; best of %d), "
+        (void)printf(" bins, threshold %.4g of the mean density (%d point%s a bin; best of %d), "
                      "score %.4g, ideal %.4g\n",
-                     p->lambda, p->lambda_count, p->n_lambda, p->score, p->ideal);
+                     p->lambda, p->lambda_count, cli_plural(p->lambda_count), p->n_lambda, p->score,
+                     p->ideal);
     }
 }
 
 static void print_events(const clast_decomposition *r)
 {
-    (void)printf("%d cells, ", r->cells.n);
+    (void)printf("%d cell%s, ", r->cells.n, cli_plural(r->cells.n));
     if (r->beta_dt > 0.0) {
-        (void)printf("events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cells at the cap\n",
+        (void)printf("events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cell%s at the cap\n",
                      r->events, r->events_low, r->events_high, r->beta_dt, r->dimension,
-                     r->n_capped);
+                     r->n_capped, cli_plural(r->n_capped));
     } else {
         (void)printf("pair integral %.6g [%.6g, %.6g] 1/m^%d, events per beta dt (none is given: "
                      "--beta-dt)\n",
@@ -258,7 +259,8 @@ static void print_events(const clast_decomposition *r)
 static void print_words(const cli_decompose_job *j, const config *c, const found *f)
 {
     const clast_decomposition *r = j->result;
-    (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
+    (void)printf("%lld point%s in %d dimension%s", (long long)r->n, cli_plural(r->n), r->dimension,
+                 cli_plural(r->dimension));
     if (r->n_outside > 0) {
         (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
     }

@@ -74,7 +74,8 @@ static clast_status run(const cli_common *common, void *values)
         print_command(cli_command_at(i));
     }
     (void)printf(
-        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go\n"
+        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go (of commands that "
+        "write files)\n"
         ".TP\n.B \\-j, \\-\\-threads N\nthreads; 0 means one per core; results do not depend on "
         "it\n"
         ".TP\n.B \\-\\-max\\-memory SIZE\nthe most that the command may take: 8GB, 50%% of the "
@@ -101,5 +102,7 @@ const cli_command cli_man = {
     .summary = "print the manual page: clast man | man -l -",
     .example = {"clast man | man -l -", "clast man > clast.1", "clast man | grep -- cone"},
     .config_size = 1,
+    .writes_no_file = true,
+    .writes_no_data = true,
     .run = run,
 };

@@ -405,7 +405,7 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)json_object_set_new(object, "profile", profile_json(f));
         return cli_print_json(object);
     }
-    (void)printf("%d grains, %s\n", assembly->n_grain,
+    (void)printf("%d grain%s, %s\n", assembly->n_grain, cli_plural(assembly->n_grain),
                  config->method == CLAST_POROSITY_EXACT ? "true shapes"
                                                         : "spheres of equal volume");
     (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,

@@ -364,6 +364,19 @@ static void complain(const parser *p, clast_status status)
 }
 
 /// Parses and runs.
+/// An option that would be read and left.
+static clast_status check_common(const parser *p)
+{
+    if (p->command->writes_no_file && p->common.output != NULL) {
+        return cli_fail(CLAST_E_USAGE,
+                        "it writes no file: leave out -o (what it has is on stdout)");
+    }
+    if (p->command->writes_no_data && p->common.json) {
+        return cli_fail(CLAST_E_USAGE, "what it prints is no data: leave out --json");
+    }
+    return CLAST_OK;
+}
+
 static clast_status perform(parser *p, int argc, char **argv)
 {
     clast_status status = parse(p, argc, argv);
@@ -374,7 +387,8 @@ static clast_status perform(parser *p, int argc, char **argv)
     } else if (status == CLAST_OK && !p->help) {
         const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
         clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);
-        status = cli_memory_limit(p->common.max_memory);
+        status = check_common(p);
+        status = status == CLAST_OK ? cli_memory_limit(p->common.max_memory) : status;
         if (status == CLAST_OK) {
             status = cli_check_outputs(p->command, &p->common, p->config);
         }

@@ -205,10 +205,10 @@ void cli_help(const cli_command *command)
             print_short(f);
         }
     }
-    (void)printf(
-        "  -o PATH: where results go; -j N: threads; --json: one object on stdout; -q: quiet\n"
-        "more: clast %s --help-all; man clast\n",
-        command->name);
+    (void)printf("  %s-j N: threads;%s -q: quiet\n"
+                 "more: clast %s --help-all; man clast\n",
+                 command->writes_no_file ? "" : "-o PATH: where results go; ",
+                 command->writes_no_data ? "" : " --json: one object on stdout;", command->name);
 }
 
 /// What a YAML file may say, and how values are written.
@@ -243,15 +243,16 @@ void cli_help_all(const cli_command *command)
         print_field(f);
     }
     (void)printf(
-        "\nof every command:\n"
-        "  -o, --output PATH      where results go\n"
+        "\nof every command:\n%s"
         "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
         "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
         "                         (default 80%%)\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
-        "  --json                 one JSON object on stdout\n"
+        "%s"
         "  -q, --quiet            no progress on stderr\n"
-        "  -h, --help             the first page; --help-all: this one\n");
+        "  -h, --help             the first page; --help-all: this one\n",
+        command->writes_no_file ? "" : "  -o, --output PATH      where results go\n",
+        command->writes_no_data ? "" : "  --json                 one JSON object on stdout\n");
     if (command->fields != NULL) {
         print_config_words(command);
     }

@@ -154,7 +154,7 @@ static void contribute_sides(work *w, int64_t x, unsigned upper, const basis *al
     clx_pair_coefficients(u[last], 0, below);
     clx_pair_coefficients(u[last], 1, c[last]);
     for (int k = 0; k < CLAST_N_DISCREPANCY; ++k) {
-        double reduced[MAX_BASIS / 3];
+        double reduced[MAX_BASIS / 3] = {0};
         int32_t left = w->n_basis / 3;
         for (int32_t m = 0; m < left; ++m) { // the last axis is the slowest index
             reduced[m] = product3(below[k], lower.value + m, left) +

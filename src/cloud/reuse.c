@@ -230,11 +230,14 @@ static int32_t cell_at(const refill *r, const double *u)
     const uint64_t at = clx_morton_of(u, d);
     const uint64_t box = at >> (d * (CLX_MORTON_LEVELS - kept->levels));
     const int32_t c = last_until(cells->key, kept->first[box], kept->first[box + 1] + 1, at);
-    bool inside = true;
-    for (int32_t j = 0; j < d; ++j) { // a void of a mesh domain: its cell was left out
+    if (r->sample->domain->kind != CLAST_DOMAIN_MESH) {
+        return c;
+    }
+    bool inside = true; // not so in a void of a mesh domain, whose cell was left out
+    for (int32_t j = 0; j < d; ++j) {
         inside = inside && u[j] >= kept->low[c][j] && u[j] <= kept->high[c][j];
     }
-    return inside || r->sample->domain->kind != CLAST_DOMAIN_MESH ? c : -1;
+    return inside ? c : -1;
 }
 
 static void locate(int64_t begin, int64_t end, int32_t worker, void *context)

@@ -68,7 +68,9 @@ static void close_gaps(const clast_cloud *cloud, clx_sample *s)
     const int32_t d = cloud->dimension;
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (s->number[i] >= 0) {
-            memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
+            if (s->n < i) {
+                memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
+            }
             s->number[s->n++] = i;
         }
     }

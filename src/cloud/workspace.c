@@ -14,7 +14,7 @@ const clast_field clast_workspace_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, tests), CLAST_TESTS_EACH, 0, 0, "-",
      "when the uniformity tests are made; between them the last vote stands",
      "each|every|moved|never", .group = "loop"},
-    {FIELD(CLAST_FIELD_I32, tests_every), 10, 1, 1e9, "-", "every: calls from test to test", NULL},
+    {FIELD(CLAST_FIELD_I32, tests_every), 50, 1, 1e9, "-", "every: calls from test to test", NULL},
     {FIELD(CLAST_FIELD_F64, tests_moved), 0.5, 0.0, 1e300, "-",
      "moved: standard errors that a mean or covariance moves before the tests are made again",
      NULL},

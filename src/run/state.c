@@ -135,6 +135,9 @@ clast_status clast_run_folder_check(const char *folder)
               folder);
     clx_run_state_line(folder, &state, line);
     CLX_CHECK(state.is_whole || state.is_study, CLAST_E_IO, "%s", line);
+    CLX_CHECK(!state.is_study || has_file(folder, "results.csv"), CLAST_E_IO,
+              "%s: a study that has not ended; the same clast study command goes on with it",
+              folder);
 done:
     clx_run_state_free(&state);
     return status;
