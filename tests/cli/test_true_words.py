@@ -180,6 +180,12 @@ class TrueWords(Case):
         self.assertEqual(json.loads((self.folder / "drawn/manifest.json").read_text())["seed"], 7)
         self.assertIn("seed 7", table(self.folder / "drawn/cells.csv")[0][0])
 
+    def test_agglomerate_names_its_domain_and_seed_too(self):
+        r = clast("agglomerate", B3, "--domain", "box:0,0,0,1m,1m,100cm", "--constant", "1e-3", "--n-step", "1", "--seed", "5", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual([r.json[key] for key in ("domain", "domain_volume", "domain_volume_unit", "length_unit", "seed")],
+                         [CUBE, 1.0, "m^3", "m", 5])
+
     def test_equal_runs_write_equal_summaries(self):
         for command, options in (("decompose", ["--domain", CUBE]),
                                  ("agglomerate", ["--domain", CUBE, "--constant", "1e-3", "--n-step", "1"])):
