@@ -58,6 +58,7 @@ __attribute__((constructor)) static void join_fields(void)
 
 /// What the command finds beside the decomposition.
 typedef struct {
+    const char *typed;            ///< the domain as it was
     char domain[CLI_DOMAIN_NAME]; ///< as typed for a mesh, else in m
     int64_t n_repeated;
     cli_evenness evenness;
@@ -131,14 +132,6 @@ static json_t *json_labels(const clast_decomposition *r)
     return labels;
 }
 
-/// "m^3", "1/m^2".
-static void json_unit(json_t *object, const char *key, const char *over, int32_t dimension)
-{
-    char unit[16];
-    (void)snprintf(unit, sizeof unit, "%sm^%d", over, dimension);
-    cli_json_text(object, key, unit);
-}
-
 /// Events with beta dt, else the pair integral; the other is null.
 static void json_events(json_t *out, const clast_decomposition *r)
 {
@@ -151,7 +144,9 @@ static void json_events(json_t *out, const clast_decomposition *r)
         cli_json_number(out, key[given][k], value[k]);
         cli_json_number(out, key[1 - given][k], (double)NAN);
     }
-    json_unit(out, "pair_integral_unit", "1/", r->dimension);
+    char unit[16];
+    (void)snprintf(unit, sizeof unit, "1/m^%d", r->dimension);
+    cli_json_text(out, "pair_integral_unit", unit);
     cli_json_number(out, "n_capped", (double)NAN);
     if (given == 0) {
         cli_json_count(out, "n_capped", r->n_capped);
@@ -159,13 +154,10 @@ static void json_events(json_t *out, const clast_decomposition *r)
 }
 
 /// What the numbers depend on.
-static void json_settings(json_t *out, const cli_decompose_job *j)
+static void json_settings(json_t *out, const cli_decompose_job *j, const char *text)
 {
     const clast_decomposition *r = j->result;
-    cli_json_text(out, "domain", j->name);
-    cli_json_text(out, "length_unit", "m");
-    cli_json_number(out, "volume", r->volume);
-    json_unit(out, "volume_unit", "", r->dimension);
+    cli_domain_json(out, text, j->domain);
     cli_json_number(out, "beta_dt", r->beta_dt > 0.0 ? r->beta_dt : (double)NAN);
     (void)json_object_set_new(out, "seed",
                               j->has_drawn ? json_integer((json_int_t)r->seed) : json_null());
@@ -194,7 +186,7 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
-    json_settings(out, j);
+    json_settings(out, j, f->typed);
     return out;
 }
 
@@ -382,7 +374,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_domain domain = {0};
     clast_table sizes = {0};
     clast_run_folder *folder = NULL;
-    found f = {.begun = cli_clock()};
+    found f = {.typed = c->decompose.domain, .begun = cli_clock()};
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
