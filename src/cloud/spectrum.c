@@ -191,12 +191,15 @@ static double deviation(double sum, double sum2, int32_t n)
     return n > 1 ? sqrt(fmax(0.0, sum2 / n - mean * mean) * n / (n - 1.0)) : 0.0;
 }
 
-/// Adds a column; `offset` and `stride` say where its sums lie.
+/// Adds a column of means, or with `sum2` of the runs' standard deviations where there are several.
 static clast_status add_column(clast_table *table, const char *name, const char *unit,
                                const double *sum, const double *sum2, int32_t stride, int32_t n_run)
 {
     clast_status status = CLAST_OK;
     double *column = NULL;
+    if (sum2 != NULL && n_run < 2) {
+        return CLAST_OK;
+    }
     CLX_TRY(clast_table_add_number(table, name, unit, &column));
     for (int64_t row = 0; row < table->n_row; ++row) {
         const double value = sum[row * stride];
@@ -305,30 +308,39 @@ done:
     return status;
 }
 
+/// Width of section i, half of the way to both neighbours.
+static double width_of(const clx_sectional *g, int32_t i)
+{
+    const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
+    return 0.5 * (above + (i > 0 ? g->x[i] - g->x[i - 1] : above));
+}
+
 static clast_status make_spectrum(const clast_spectrum_config *config, const clx_sectional *g,
                                   const clx_spectrum_sums *sums, clast_table *table)
 {
-    static const char *const name[6] = {"time_s", "size", "n", "n_sd", "density", "mass_fraction"};
-    static const char *const unit[6] = {"s", "-", "1/m^3", "1/m^3", "1/m^3", "-"};
+    enum { N_COLUMN = 6 };
+    static const char *const name[N_COLUMN] = {"time_s",  "size",          "n",
+                                               "density", "mass_fraction", "n_sd"};
+    static const char *const unit[N_COLUMN] = {"s", "-", "1/m^3", "1/m^3", "-", "1/m^3"};
     clast_status status = CLAST_OK;
     double *column = NULL;
+    const int n_column = sums->n_run > 1 ? N_COLUMN : N_COLUMN - 1;
     CLX_TRY(clast_table_init(table, "spectrum", (int64_t)sums->n_row * g->n));
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < n_column; ++k) {
         CLX_TRY(clast_table_add_number(table, name[k], unit[k], &column));
     }
     for (int64_t at = 0; at < table->n_row; ++at) {
         const int64_t row = at / g->n;
         const int32_t i = (int32_t)(at % g->n);
-        const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
-        const double below = i > 0 ? g->x[i] - g->x[i - 1] : above;
         const double n = sums->number[at] / sums->n_run;
-        const double value[6] = {config->duration / config->n_step * (double)row,
-                                 g->x[i],
-                                 n,
-                                 deviation(sums->number[at], sums->number2[at], sums->n_run),
-                                 n / (0.5 * (above + below)),
-                                 n * g->x[i] * sums->n_run / sums->moment[1]};
-        for (int k = 0; k < 6; ++k) {
+        const double value[N_COLUMN] = {
+            config->duration / config->n_step * (double)row,
+            g->x[i],
+            n,
+            n / width_of(g, i),
+            n * g->x[i] * sums->n_run / sums->moment[1],
+            deviation(sums->number[at], sums->number2[at], sums->n_run)};
+        for (int k = 0; k < n_column; ++k) {
             table->column[k].number[at] = value[k];
         }
     }
