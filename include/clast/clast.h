@@ -53,6 +53,7 @@
 #include <clast/pack_file.h>
 #include <clast/pack_run.h>
 #include <clast/packing_file.h>
+#include <clast/pairs.h>
 #include <clast/parallel.h>
 #include <clast/points_file.h>
 #include <clast/pores.h>

@@ -5,6 +5,7 @@
 #include "cloud/cells.h"
 #include "cloud/contract.h"
 #include "cloud/cut_cells.h"
+#include "cloud/decompose_steps.h"
 #include "cloud/events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
@@ -16,8 +17,9 @@
 #define FIELD(type, name) #name, .offset = offsetof(clast_decompose_config, name), type
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
-     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", "",
-     .common = true, .group = "domain"},
+     "known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), "
+     "half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm]",
+     "", .common = true, .group = "domain"},
     {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
      "points outside the domain: refuse the file, or leave them out", "error|drop", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
@@ -49,8 +51,9 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
-    {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
-     "collision kernel times time step [m^d]", NULL, .common = true},
+    {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "-",
+     "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL, .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
@@ -96,6 +99,8 @@ const char *clast_decompose_stop_text(clast_decompose_stop stop)
         return "rejected by the tests, not by the tree at tree_root_level: not split";
     case CLAST_STOP_DEPTH:
         return "at the limit: cells of 20 halvings are still uneven";
+    case CLAST_STOP_SPARED:
+        return "not tested: the workspace's policy spares the tests; the tree alone decides";
     }
     return "";
 }
@@ -301,6 +306,11 @@ done:
     return status;
 }
 
+bool clast_cells_are_labelled(const clast_cells *cells)
+{
+    return cells->of_bin != NULL;
+}
+
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
     double u[3] = {0};
@@ -383,8 +393,8 @@ static clast_status cross_events(const clast_cloud *half, const clast_decompose_
     }
     for (int32_t c = 0; c < a.cells.n; ++c) {
         const double both = a.cells.weight[c] + weight[c];
-        sum += fmin(2.0 * config->beta_dt * a.cells.weight[c] * weight[c] / a.cells.volume[c],
-                    0.5 * both);
+        const double pairs = 2.0 * a.cells.weight[c] * weight[c] / a.cells.volume[c];
+        sum += config->beta_dt > 0.0 ? fmin(config->beta_dt * pairs, 0.5 * both) : pairs;
     }
     *events = sum / (1.0 + a.smoothing_bias);
 done:
@@ -434,6 +444,7 @@ static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                                : CLAST_STOP_ACCEPTED;
         return one_cell(m, &result->cells);
     }
+    result->has_drawn = result->has_drawn || (!is_tree && config->ghost_samples > 0);
     return is_tree ? tree_cells(cloud, m, config, result) : bin_cells(m, config, result);
 }
 
@@ -446,41 +457,89 @@ static clast_status check_config(const clast_decompose_config *config)
     return clast_fields_check(clast_decompose_fields, &named);
 }
 
+bool clx_decompose_takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+{
+    return takes_tree(config, cloud);
+}
+
+clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
+                                 const clast_decompose_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(check_config(config));
+    CLX_TRY(clx_domain_check(domain));
+    CLX_TRY(clx_cloud_check(cloud));
+    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
+              "cells uniform in a variable are cells of the tree: --mesh tree");
+done:
+    return status;
+}
+
+clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_config *config,
+                                clast_uniformity *found)
+{
+    clast_status status = CLAST_OK;
+    clast_uniformity_config vote;
+    double side[3];
+    clast_domain_sides(sample->domain, side);
+    CLX_TRY(clx_passes_vote(config, &vote));
+    CLX_TRY(clast_uniformity_test(sample->u, sample->n_test, sample->domain->dimension, side, &vote,
+                                  found));
+done:
+    return status;
+}
+
+clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sample,
+                                 const clast_decompose_config *config, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    int32_t **of_point = &result->cells.of_point;
+    result->dimension = cloud->dimension;
+    result->n = sample->n_real;
+    result->n_test = sample->n_test;
+    result->n_outside = cloud->n - sample->n_real;
+    CLX_TRY(clx_alloc(of_point, cloud->n, sizeof **of_point));
+    memset(*of_point, 0xff, (size_t)cloud->n * sizeof **of_point);
+    CLX_TRY(make_cells(cloud, sample, config, result));
+    if (sample->domain->kind == CLAST_DOMAIN_MESH) {
+        CLX_TRY(clx_cells_cut(sample, &result->cells));
+    }
+done:
+    return status;
+}
+
+clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
+                                  const clast_decompose_config *config, clast_decomposition *result)
+{
+    clast_status status = CLAST_OK;
+    result->beta_dt = config->beta_dt;
+    result->volume = clast_domain_volume(sample->domain);
+    result->seed = config->seed;
+    result->has_drawn =
+        result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
+    CLX_TRY(clx_events_count(cloud, config, sample, result));
+    to_domain(sample->domain, &result->cells);
+    result->events_cross = (double)NAN;
+    if (config->crossfit) {
+        CLX_TRY(crossfit(cloud, config, sample->domain, &result->events_cross));
+    }
+done:
+    return status;
+}
+
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     clast_decomposition made = {0};
     clx_sample m = {0};
-    clast_uniformity_config vote;
-    double side[3];
     CLX_NEED(config);
     CLX_NEED(result);
-    CLX_TRY(check_config(config));
-    CLX_TRY(clx_domain_check(domain));
-    CLX_TRY(clx_cloud_check(cloud));
-    made.dimension = cloud->dimension;
-    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
-              "cells uniform in a variable are cells of the tree: --mesh tree");
+    CLX_TRY(clx_decompose_check(domain, cloud, config));
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
-    made.n = m.n_real;
-    made.n_test = m.n_test;
-    made.n_outside = cloud->n - m.n_real;
-    clast_domain_sides(domain, side);
-    CLX_TRY(clx_passes_vote(config, &vote));
-    CLX_TRY(clast_uniformity_test(m.u, m.n_test, cloud->dimension, side, &vote, &made.before));
-    CLX_TRY(clx_alloc(&made.cells.of_point, cloud->n, sizeof *made.cells.of_point));
-    memset(made.cells.of_point, 0xff, (size_t)cloud->n * sizeof *made.cells.of_point);
-    CLX_TRY(make_cells(cloud, &m, config, &made));
-    if (domain->kind == CLAST_DOMAIN_MESH) {
-        CLX_TRY(clx_cells_cut(&m, &made.cells));
-    }
-    CLX_TRY(clx_events_count(cloud, config, &m, &made));
-    to_domain(domain, &made.cells);
-    made.events_cross = (double)NAN;
-    if (config->crossfit) {
-        CLX_TRY(crossfit(cloud, config, domain, &made.events_cross));
-    }
+    CLX_TRY(clx_decompose_test(&m, config, &made.before));
+    CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
+    CLX_TRY(clx_decompose_events(cloud, &m, config, &made));
     *result = made;
     made = (clast_decomposition){0};
 done:

@@ -21,6 +21,7 @@ typedef struct {
     const clx_sample *sample;
     clast_cells *cells;
     double scale; ///< volume of the domain over the sum of the cells' volumes
+    double rate;  ///< beta dt; 1 where it is not known, and nothing is capped
     bool is_printed;
     bool is_plain;   ///< nothing is extrapolated
     part *cell;      ///< [cells->n]
@@ -149,6 +150,12 @@ static void add_pairs(count *n, const part *p, int n_part)
     }
 }
 
+/// Most events of a cell: every particle in one.
+static double cap_of(const count *n, int32_t c)
+{
+    return n->config->beta_dt > 0.0 ? 0.5 * n->cells->weight[c] : (double)INFINITY;
+}
+
 /// Each cell's events by its own count, uncapped; returns the sum of w_i w_j / V over i != j where
 /// no cap binds.
 static double count_plain(const count *n)
@@ -158,8 +165,8 @@ static double count_plain(const count *n)
         const double *w = n->cell[c].power;
         const double pairs = fmax(0.0, w[0] * w[0] - w[1]) / n->cell[c].volume;
         const double wanted =
-            n->config->beta_dt * (n->is_printed ? w[0] * w[0] / n->cell[c].volume : 0.5 * pairs);
-        n->capped[c] = wanted > 0.5 * w[0];
+            n->rate * (n->is_printed ? w[0] * w[0] / n->cell[c].volume : 0.5 * pairs);
+        n->capped[c] = wanted > cap_of(n, c);
         n->cells->events[c] = wanted;
         sum += n->capped[c] ? 0.0 : pairs;
     }
@@ -200,7 +207,7 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
     // pairs can only be hidden: below 1 it is noise, and of a handful of points it may be negative
     const double factor = !n->is_plain && plain > 0.0 ? fmax(0.5, n->pairs / plain) : 1.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
-        const double cap = 0.5 * n->cells->weight[c];
+        const double cap = cap_of(n, c);
         const double shared = factor * n->cells->events[c];
         r->n_capped += n->capped[c] || shared > cap ? 1 : 0;
         n->cells->events[c] = n->capped[c] ? cap : fmin(cap, shared);
@@ -213,16 +220,18 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
 /// extrapolation is an assumption: a third of what it adds counts as a standard error.
 static void set_interval(const count *n, clast_decomposition *r)
 {
-    const double rate = n->is_printed ? n->config->beta_dt : 0.5 * n->config->beta_dt;
+    const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
     const double added = r->events * r->smoothing_bias;
     double variance = rate * rate * fmax(0.0, n->variance) + added * added / 9.0;
+    double cap = 0.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
+        cap += cap_of(n, c);
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
     const double reach =
         r->events > 0.0 ? 1.959963984540054 * sqrt(variance) / r->events : 0.0; // 97.5 %
     r->events_low = r->events * exp(-reach);
-    r->events_high = r->events * exp(reach);
+    r->events_high = fmin(cap, r->events * exp(reach));
 }
 
 static clast_status alloc_parts(count *n)
@@ -251,6 +260,7 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
                .sample = sample,
                .cells = &result->cells,
                .scale = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain),
+               .rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0,
                .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
     CLX_TRY(alloc_parts(&n));
@@ -260,7 +270,8 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     count_pairs(&n);
     share_out(&n, plain, result);
     set_interval(&n, result);
-    result->bias_estimate = result->n > 0 ? (double)result->cells.n / (double)result->n : 0.0;
+    result->bias_estimate =
+        n.is_printed && result->n > 0 ? (double)result->cells.n / (double)result->n : (double)NAN;
 done:
     clx_free(n.cell);
     clx_free(n.half);

@@ -68,7 +68,9 @@ static void close_gaps(const clast_cloud *cloud, clx_sample *s)
     const int32_t d = cloud->dimension;
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (s->number[i] >= 0) {
-            memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
+            if (s->n < i) {
+                memmove(s->u + s->n * d, s->u + i * d, (size_t)d * sizeof *s->u);
+            }
             s->number[s->n++] = i;
         }
     }
@@ -171,8 +173,8 @@ done:
     return status;
 }
 
-clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
-                             const clast_domain *domain, clx_sample *sample)
+clast_status clx_sample_map(const clast_cloud *cloud, const clast_decompose_config *config,
+                            const clast_domain *domain, clx_sample *sample)
 {
     clast_status status = CLAST_OK;
     clx_sample made = {.domain = domain};
@@ -180,12 +182,29 @@ clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_con
               "domain '%s' has %d dimensions, the points have %d",
               config->domain != NULL ? config->domain : "", domain->dimension, cloud->dimension);
     CLX_TRY(map_points(cloud, config, &made));
+    *sample = made;
+    made = (clx_sample){0};
+done:
+    clx_sample_free(&made);
+    return status;
+}
+
+clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose_config *config,
+                                 clx_sample *sample)
+{
     if (cloud->weight != NULL) {
-        thin(cloud, config->seed, &made);
+        thin(cloud, config->seed, sample);
     }
-    if (domain->kind == CLAST_DOMAIN_MESH) {
-        CLX_TRY(extend(config->seed, &made));
-    }
+    return sample->domain->kind == CLAST_DOMAIN_MESH ? extend(config->seed, sample) : CLAST_OK;
+}
+
+clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
+                             const clast_domain *domain, clx_sample *sample)
+{
+    clast_status status = CLAST_OK;
+    clx_sample made = {0};
+    CLX_TRY(clx_sample_map(cloud, config, domain, &made));
+    CLX_TRY(clx_sample_complete(cloud, config, &made));
     *sample = made;
     made = (clx_sample){0};
 done:

@@ -21,4 +21,11 @@ typedef struct clx_sample {
 /// outside with CLAST_OUTSIDE_ERROR
 clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,
                              const clast_domain *domain, clx_sample *sample);
+
+/// clx_sample_make in two steps: every point of the cloud that lies in the domain, tested all; then
+/// thinned out for weights, and filled up by ghosts.
+clast_status clx_sample_map(const clast_cloud *cloud, const clast_decompose_config *config,
+                            const clast_domain *domain, clx_sample *sample);
+clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose_config *config,
+                                 clx_sample *sample);
 void clx_sample_free(clx_sample *sample);

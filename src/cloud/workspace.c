@@ -1,17 +1,47 @@
-// Decompositions on the caller's arrays with memory that is kept.
+// Decompositions on the caller's arrays with memory, tests and cells that are kept.
 #include <clast/workspace.h>
 
 #include "base/alloc.h"
 #include "cloud/contract.h"
-#include "cloud/passes.h"
-#include "cloud/uniformity.h"
+#include "cloud/decompose_steps.h"
+#include "cloud/reuse.h"
+#include "math/special.h"
 #include <math.h>
 #include <string.h>
 
+#define FIELD(type, name) #name, .offset = offsetof(clast_workspace_policy, name), type
+const clast_field clast_workspace_fields[] = {
+    {FIELD(CLAST_FIELD_CHOICE, tests), CLAST_TESTS_EACH, 0, 0, "-",
+     "when the uniformity tests are made; between them the last vote stands",
+     "each|every|moved|never", .group = "loop"},
+    {FIELD(CLAST_FIELD_I32, tests_every), 50, 1, 1e9, "-", "every: calls from test to test", NULL},
+    {FIELD(CLAST_FIELD_F64, tests_moved), 0.5, 0.0, 1e300, "-",
+     "moved: standard errors that a mean or covariance moves before the tests are made again",
+     NULL},
+    {FIELD(CLAST_FIELD_CHOICE, cells), CLAST_CUT_EACH, 0, 0, "-",
+     "when points are cut into cells anew; between, the cells' points and events are counted anew",
+     "each|every|changed"},
+    {FIELD(CLAST_FIELD_I32, cells_every), 10, 1, 1e9, "-", "every: calls from cut to cut", NULL},
+    {FIELD(CLAST_FIELD_F64, cells_level), 0.05, 1e-12, 1.0, "-",
+     "changed: level of the chi-square test of the counts since the cut", NULL},
+    {0}};
+#undef FIELD
+
 struct clast_workspace {
     clx_pool *pool;
-    clast_decomposition last; ///< in the pool
+    clast_decomposition last; ///< in the pool, as all below
     int64_t n_point;          ///< of the last call; -1: there is none
+    clast_workspace_policy policy;
+    clast_workspace_calls calls;
+    uint64_t setup;          ///< of the last call, clx_setup_of
+    bool has_tests;          ///< `tests` and their moments stand
+    bool has_cells;          ///< those of last, with what follows, may be filled again
+    clast_uniformity tests;  ///< the last ones
+    clx_moments tested;      ///< at the last tests
+    clx_blocks counted;      ///< at the last cut
+    int64_t n_cut;           ///< points at the last cut
+    clast_uniformity cut_by; ///< vote at the last cut
+    clx_kept_cells kept;
 };
 
 clast_status clast_workspace_create(clast_workspace **workspace)
@@ -22,6 +52,8 @@ clast_status clast_workspace_create(clast_workspace **workspace)
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     CLX_TRY(clx_pool_create(&made->pool));
     made->n_point = -1;
+    made->calls = (clast_workspace_calls){
+        .since_test = -1, .since_cut = -1, .moved = (double)NAN, .p_change = (double)NAN};
     *workspace = made;
     made = NULL;
 done:
@@ -95,23 +127,279 @@ done:
     return status;
 }
 
-static clast_status decompose(clast_workspace *workspace, const clast_points *points,
-                              const clast_decompose_config *config,
-                              const clast_decomposition **result)
+/// One call: the caller's points and what of the call before still stands.
+typedef struct {
+    clast_workspace *workspace;
+    const clast_decompose_config *config;
+    clast_cloud cloud;
+    clx_sample sample; ///< points alone, until it is complete
+    bool is_complete;  ///< thinned out for weights, filled up by ghosts
+    bool is_test, is_cut;
+    clx_moments moments;
+    clx_blocks blocks;
+    double moved, p_change; ///< NAN: not measured
+    clast_decomposition made;
+} call;
+
+/// How many standard errors of a normal law the vote is from turning, at the level of the tests and
+/// at that of a tree's root; 38 at the most, where p ends.
+static double vote_margin(const clast_uniformity *tests, const clast_decompose_config *config)
+{
+    double z[CLAST_N_TEST] = {0};
+    for (int32_t k = 0; k < tests->n_test; ++k) { // descending
+        const double own = -clx_normal_quantile(fmax(tests->vote[k].p, 1e-300));
+        int32_t at = k;
+        for (; at > 0 && z[at - 1] < own; --at) {
+            z[at] = z[at - 1];
+        }
+        z[at] = own;
+    }
+    if (tests->n_test < config->votes) {
+        return 0.0;
+    }
+    const double last = z[config->votes - 1]; // whose vote decides
+    return fmin(fabs(last + clx_normal_quantile(config->level)),
+                fabs(last + clx_normal_quantile(config->tree_root_level)));
+}
+
+static bool is_test_due(call *c)
+{
+    const clast_workspace *w = c->workspace;
+    const clast_workspace_policy *p = &w->policy;
+    if (p->tests == CLAST_TESTS_MOVED) {
+        clx_moments_of(&c->cloud, &c->sample, &c->moments);
+    }
+    if (p->tests == CLAST_TESTS_NEVER || p->tests == CLAST_TESTS_EACH || !w->has_tests) {
+        return p->tests != CLAST_TESTS_NEVER;
+    }
+    if (p->tests == CLAST_TESTS_EVERY) {
+        return w->calls.since_test + 1 >= p->tests_every;
+    }
+    c->moved = clx_moments_drift(&w->tested, &c->moments, c->cloud.dimension);
+    return !(c->moved < p->tests_moved * fmax(1.0, vote_margin(&w->tests, c->config)));
+}
+
+static bool has_same_vote(const clast_uniformity *a, const clast_uniformity *b,
+                          const clast_decompose_config *config)
+{
+    int32_t change = 0; // tests that reject at the level that splits a tree's root
+    for (int32_t k = 0; k < a->n_test; ++k) {
+        change += a->vote[k].p < config->tree_root_level ? 1 : 0;
+    }
+    for (int32_t k = 0; k < b->n_test; ++k) {
+        change -= b->vote[k].p < config->tree_root_level ? 1 : 0;
+    }
+    return a->reject == b->reject && change == 0;
+}
+
+/// Whether the policy cuts at this call, before the vote is looked at.
+static clast_status find_cut_due(call *c)
 {
     clast_status status = CLAST_OK;
-    clast_cloud cloud = {0};
-    clx_pool *const before = clx_pool_enter(workspace->pool);
+    const clast_workspace *w = c->workspace;
+    const clast_workspace_policy *p = &w->policy;
+    const int64_t n = c->sample.n;
+    c->is_cut = !w->has_cells || p->cells == CLAST_CUT_EACH ||
+                (p->cells == CLAST_CUT_EVERY && w->calls.since_cut + 1 >= p->cells_every) ||
+                3 * n < 2 * w->n_cut || 2 * n > 3 * w->n_cut;
+    if (p->cells == CLAST_CUT_CHANGED) {
+        const int32_t levels =
+            c->is_cut ? clx_blocks_levels(n, c->cloud.dimension) : w->counted.levels;
+        CLX_TRY(clx_blocks_count(&c->cloud, &c->sample, levels, &c->blocks));
+        if (!c->is_cut) {
+            c->p_change = clx_blocks_change(&w->counted, &c->blocks);
+            c->is_cut = c->p_change < p->cells_level;
+        }
+        if (c->is_cut && levels != clx_blocks_levels(n, c->cloud.dimension)) {
+            CLX_TRY(clx_blocks_count(&c->cloud, &c->sample,
+                                     clx_blocks_levels(n, c->cloud.dimension), &c->blocks));
+        }
+    }
+done:
+    return status;
+}
+
+static clast_status complete(call *c)
+{
+    const bool is_complete = c->is_complete;
+    c->is_complete = true;
+    return is_complete ? CLAST_OK : clx_sample_complete(&c->cloud, c->config, &c->sample);
+}
+
+static clast_status test(call *c)
+{
+    clast_status status = CLAST_OK;
+    c->made.before = (clast_uniformity){.score = (double)NAN, .ideal = (double)NAN};
+    if (c->is_test) {
+        CLX_TRY(complete(c));
+        CLX_TRY(clx_decompose_test(&c->sample, c->config, &c->made.before));
+    } else if (c->workspace->has_tests) {
+        c->made.before = c->workspace->tests;
+    }
+    c->is_cut = c->is_cut || !has_same_vote(&c->made.before, &c->workspace->cut_by, c->config);
+done:
+    return status;
+}
+
+/// The cells of the last cut with the points of this call; cut anew where they do not hold them.
+static clast_status refill(call *c)
+{
+    clast_status status = CLAST_OK;
+    clast_workspace *w = c->workspace;
+    bool has_all = true;
+    const clast_uniformity before = c->made.before;
+    c->made = w->last;
+    w->last = (clast_decomposition){0};
+    c->made.before = before;
+    c->made.n = c->sample.n_real;
+    c->made.n_test = c->is_test ? c->sample.n_test : c->made.n_test;
+    c->made.n_outside = c->cloud.n - c->sample.n_real;
+    c->made.events = c->made.events_low = c->made.events_high = 0.0;
+    c->made.n_capped = 0;
+    CLX_TRY(clx_kept_cells_refill(&w->kept, &c->sample, c->cloud.n, &c->made.cells, &has_all));
+    if (!has_all) {
+        clast_decomposition_free(&c->made);
+        c->made.before = before;
+        c->is_cut = true;
+    }
+done:
+    return status;
+}
+
+static clast_status cut(call *c)
+{
+    clast_status status = CLAST_OK;
+    clast_workspace *w = c->workspace;
+    CLX_TRY(complete(c));
+    CLX_TRY(clx_decompose_cells(&c->cloud, &c->sample, c->config, &c->made));
+    if (w->policy.tests == CLAST_TESTS_NEVER && c->made.cells.key != NULL &&
+        c->made.stop != CLAST_STOP_DEPTH) {
+        c->made.stop = CLAST_STOP_SPARED;
+    }
+    if (w->policy.cells != CLAST_CUT_EACH) {
+        CLX_TRY(clx_kept_cells_take(&c->made.cells, c->cloud.dimension, &w->kept));
+    }
+done:
+    return status;
+}
+
+/// Hands all over to the workspace.
+static void keep(call *c, uint64_t setup)
+{
+    clast_workspace *w = c->workspace;
+    w->last = c->made;
+    c->made = (clast_decomposition){0};
+    w->n_point = c->cloud.n;
+    w->setup = setup;
+    w->has_tests = w->has_tests || c->is_test;
+    w->has_cells = w->policy.cells != CLAST_CUT_EACH;
+    if (c->is_test) {
+        w->tested = c->moments;
+        w->tests = w->last.before;
+    }
+    if (c->is_cut) {
+        w->n_cut = c->sample.n_real;
+        w->cut_by = w->last.before;
+        clx_blocks_free(&w->counted);
+        w->counted = c->blocks;
+        c->blocks = (clx_blocks){0};
+    }
+    ++w->calls.n_call;
+    w->calls.n_test += c->is_test ? 1 : 0;
+    w->calls.n_cut += c->is_cut ? 1 : 0;
+    w->calls.since_test = c->is_test ? 0 : w->calls.since_test < 0 ? -1 : w->calls.since_test + 1;
+    w->calls.since_cut = c->is_cut ? 0 : w->calls.since_cut + 1;
+    w->calls.moved = c->moved;
+    w->calls.p_change = c->p_change;
+}
+
+static void forget(clast_workspace *w)
+{
+    w->has_tests = w->has_cells = false;
+    w->cut_by = (clast_uniformity){0};
+}
+
+static clast_status run_call(call *c, const clast_domain *domain)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_sample_map(&c->cloud, c->config, domain, &c->sample));
+    c->is_test = is_test_due(c);
+    CLX_TRY(find_cut_due(c));
+    if (c->is_cut) {
+        clast_decomposition_free(&c->workspace->last); // its blocks are this call's
+    }
+    CLX_TRY(test(c));
+    if (!c->is_cut) {
+        CLX_TRY(refill(c));
+    }
+    if (c->is_cut) {
+        clast_decomposition_free(&c->workspace->last);
+        CLX_TRY(cut(c));
+    }
+    CLX_TRY(clx_decompose_events(&c->cloud, &c->sample, c->config, &c->made));
+done:
+    return status;
+}
+
+/// Whether the policy can be kept with this configuration.
+static clast_status check_policy(const clast_workspace_policy *policy, int32_t dimension,
+                                 const clast_decompose_config *config)
+{
+    clast_status status = CLAST_OK;
+    const clast_cloud cloud = {.dimension = dimension};
+    const bool spares = policy->tests != CLAST_TESTS_EACH || policy->cells != CLAST_CUT_EACH;
+    CLX_CHECK(!config->crossfit || !spares, CLAST_E_CONFIG,
+              "crossfit cuts both halves at each call: it goes with the policy tests = each and "
+              "cells = each alone");
+    CLX_CHECK(policy->tests != CLAST_TESTS_NEVER || config->variant >= CLAST_VARIANT_FAST ||
+                  clx_decompose_takes_tree(config, &cloud),
+              CLAST_E_CONFIG,
+              "tests = never: these cells are cut where the tests reject; take mesh = tree, or "
+              "variant = fast");
+done:
+    return status;
+}
+
+clast_status clast_workspace_decompose_in(clast_workspace *workspace, const clast_domain *domain,
+                                          const clast_points *points,
+                                          const clast_decompose_config *config,
+                                          const clast_decomposition **result)
+{
+    clast_status status = CLAST_OK;
+    call c = {
+        .workspace = workspace, .config = config, .moved = (double)NAN, .p_change = (double)NAN};
+    clx_pool *before = NULL;
+    bool is_in = false;
+    CLX_NEED(workspace);
+    CLX_NEED(config);
+    CLX_NEED(result);
+    CLX_TRY(check_points(points));
+    CLX_TRY(clx_decompose_check(domain, &(clast_cloud){.dimension = points->dimension}, config));
+    CLX_TRY(check_policy(&workspace->policy, points->dimension, config));
+    before = clx_pool_enter(workspace->pool);
+    is_in = true;
     *result = NULL;
     workspace->n_point = -1;
-    clast_decomposition_free(&workspace->last);
-    CLX_TRY(gather(points, &cloud));
-    CLX_TRY(clast_decompose(&cloud, config, &workspace->last));
-    workspace->n_point = points->n;
+    const uint64_t setup = clx_setup_of(domain, config);
+    if (setup != workspace->setup) {
+        forget(workspace);
+    }
+    CLX_TRY(gather(points, &c.cloud));
+    CLX_TRY(run_call(&c, domain));
+    keep(&c, setup);
     *result = &workspace->last;
 done:
-    clast_cloud_free(&cloud);
-    (void)clx_pool_enter(before);
+    if (is_in) {
+        if (status != CLAST_OK) {
+            forget(workspace);
+            clast_decomposition_free(&workspace->last);
+        }
+        clast_decomposition_free(&c.made);
+        clx_blocks_free(&c.blocks);
+        clx_sample_free(&c.sample);
+        clast_cloud_free(&c.cloud);
+        (void)clx_pool_enter(before);
+    }
     return status;
 }
 
@@ -120,12 +408,46 @@ clast_status clast_workspace_decompose(clast_workspace *workspace, const clast_p
                                        const clast_decomposition **result)
 {
     clast_status status = CLAST_OK;
+    clast_domain domain = {0};
     CLX_NEED(workspace);
     CLX_NEED(config);
     CLX_NEED(result);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config));
     CLX_TRY(check_points(points));
-    CLX_TRY(decompose(workspace, points, config, result));
+    CLX_TRY(clast_domain_parse(config->domain, &domain));
+    CLX_TRY(clast_workspace_decompose_in(workspace, &domain, points, config, result));
+done:
+    return status;
+}
+
+clast_status clast_workspace_set_policy(clast_workspace *workspace,
+                                        const clast_workspace_policy *policy)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
+    CLX_NEED(policy);
+    CLX_TRY(clast_fields_check(clast_workspace_fields, policy));
+    workspace->policy = *policy;
+    forget(workspace);
+done:
+    return status;
+}
+
+clast_status clast_workspace_forget(clast_workspace *workspace)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
+    forget(workspace);
+done:
+    return status;
+}
+
+clast_status clast_workspace_count(const clast_workspace *workspace, clast_workspace_calls *calls)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(workspace);
+    CLX_NEED(calls);
+    *calls = workspace->calls;
 done:
     return status;
 }
@@ -135,14 +457,19 @@ clast_status clast_workspace_test(clast_workspace *workspace, const clast_points
 {
     clast_status status = CLAST_OK;
     const clast_decomposition *made = NULL;
+    CLX_NEED(workspace);
     CLX_NEED(config);
     CLX_NEED(result);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config)); // before two are set
+    const clast_workspace_policy policy = workspace->policy;
     clast_decompose_config alone = *config;
     alone.variant = CLAST_VARIANT_TEST;
     alone.crossfit = false;
-    CLX_TRY(clast_workspace_decompose(workspace, points, &alone, &made));
-    *result = workspace->last.before;
+    workspace->policy = (clast_workspace_policy){0};
+    status = clast_workspace_decompose(workspace, points, &alone, &made);
+    workspace->policy = policy;
+    CLX_TRY(status);
+    *result = made->before;
 done:
     return status;
 }
