@@ -1,5 +1,6 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
+#include "decompose_pairs.h"
 #include "decompose_sizes.h"
 #include "json.h"
 #include "points.h"
@@ -128,6 +129,10 @@ static json_t *summary_of(const clast_decomposition *r, double wall)
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
+    if (r->pairs.n > 0) {
+        cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+        (void)json_object_set_new(out, "pairs", cli_decompose_pairs_json(r));
+    }
     cli_json_number(out, "wall_s", wall);
     return out;
 }
@@ -173,6 +178,9 @@ static void print_words(const clast_decomposition *r, const config *c)
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);
+    }
+    if (r->pairs.n > 0) {
+        cli_decompose_pairs_print(r);
     }
     if (isfinite(r->events_cross)) {
         (void)printf("events by cross-fitting %.6g\n", r->events_cross);
@@ -322,6 +330,9 @@ static clast_status keep_results(const cli_common *common, const config *c, cons
     if (status == CLAST_OK && j->sizes->n_column > 0) {
         status = write_sizes(j->sizes, c, folder);
     }
+    if (status == CLAST_OK && j->result->pairs.n > 0) {
+        status = cli_decompose_pairs_write(j->result, folder, chart_end[c->charts]);
+    }
     status = status == CLAST_OK ? write_tables(j->result, is_mapped, j->cloud->n, folder) : status;
     status =
         status == CLAST_OK ? write_pictures(j->result, j->cloud, j->domain, c, folder) : status;
@@ -415,7 +426,7 @@ const cli_command cli_decompose = {
         "point_cells.csv, summary.json, manifest.json, cells.vtu and points.vtp for ParaView; "
         "charts points and "
         "events;\nwith passes thresholds.csv and charts density and score; with "
-        "--sizes K events_by_n.csv and its chart.",
+        "--sizes K events_by_n.csv and its chart; with --pairs pairs.csv and the chart pairs.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

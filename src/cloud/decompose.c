@@ -6,6 +6,7 @@
 #include "cloud/contract.h"
 #include "cloud/cut_cells.h"
 #include "cloud/events.h"
+#include "cloud/pair_events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"
@@ -66,6 +67,17 @@ const clast_field clast_decompose_fields[] = {
      "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
      "cells",
      NULL},
+    {FIELD(CLAST_FIELD_BOOL, pairs), 0, 0, 0, "-",
+     "count pairs by distance: g(r), and events by pairs beside those by cells", NULL,
+     .common = true, .group = "pairs"},
+    {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "-",
+     "greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three "
+     "mean spacings in 3-D",
+     NULL},
+    {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_CELLS, 0, 0, "-",
+     "what events are counted by; auto: of cells and pairs the one that resolves the cloud and is "
+     "more certain",
+     "cells|pairs|auto"},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
      .group = "random numbers"},
     {0}};
@@ -122,6 +134,7 @@ void clast_decomposition_free(clast_decomposition *result)
 {
     free_cells(&result->cells);
     clast_table_free(&result->search);
+    clast_pairs_free(&result->pairs);
     *result = (clast_decomposition){0};
 }
 
@@ -476,6 +489,7 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
         CLX_TRY(clx_cells_cut(&m, &made.cells));
     }
     CLX_TRY(clx_events_count(cloud, config, &m, &made));
+    CLX_TRY(clx_pair_events(domain, cloud, config, &made));
     to_domain(domain, &made.cells);
     made.events_cross = (double)NAN;
     if (config->crossfit) {
