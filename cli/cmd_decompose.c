@@ -1,6 +1,7 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
 #include "decompose_files.h"
+#include "decompose_pairs.h"
 #include "decompose_sizes.h"
 #include "evenness.h"
 #include "json.h"
@@ -186,6 +187,10 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
+    if (r->pairs.n > 0) {
+        cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+        (void)json_object_set_new(out, "pairs", cli_decompose_pairs_json(r));
+    }
     json_settings(out, j, f->typed);
     return out;
 }
@@ -240,6 +245,9 @@ static void print_events(const clast_decomposition *r)
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);
+    }
+    if (r->pairs.n > 0) {
+        cli_decompose_pairs_print(r);
     }
     if (isfinite(r->events_cross) && r->beta_dt > 0.0) {
         (void)printf("events by cross-fitting %.6g\n", r->events_cross);
@@ -306,6 +314,9 @@ static clast_status keep_results(const cli_common *common, const config *c,
         status = write_sizes(j, folder);
     }
     status = status == CLAST_OK ? cli_decompose_files(j, folder) : status;
+    if (status == CLAST_OK && j->result->pairs.n > 0) {
+        status = cli_decompose_pairs_write(j->result, folder, j->chart_end);
+    }
     status = status == CLAST_OK ? cli_results_summary(run, summary) : status;
     return clast_run_folder_end(run, status);
 }
@@ -437,7 +448,8 @@ const cli_command cli_decompose = {
         "bins label and pass), point_cells.csv, summary.json, manifest.json,\ncells.vtu and "
         "points.vtp for ParaView; charts points and events (pair_integral); with passes "
         "thresholds.csv and charts\ndensity and score; with --sizes K events_by_n.csv and its "
-        "chart. Tables begin with a line # of domain, volume, beta_dt, seed.",
+        "chart; with --pairs pairs.csv and the chart pairs. Tables begin with a line # of domain, "
+        "volume, beta_dt, seed.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,
