@@ -183,6 +183,9 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
     cli_json_count(out, "n_cell", r->cells.n);
     (void)json_object_set_new(out, "labels", json_labels(r));
     json_events(out, r);
+    cli_json_bool(out, "resolved", r->resolved);
+    cli_json_number(out, "points_needed", r->points_needed);
+    cli_json_number(out, "cells_bias", r->cells_bias);
     cli_json_number(out, "points_per_bin",
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
@@ -193,6 +196,25 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
     }
     json_settings(out, j, f->typed);
     return out;
+}
+
+/// Whether the number may be trusted; what would do where it may not.
+static void print_resolved(const clast_decomposition *r)
+{
+    if (r->resolved) {
+        return;
+    }
+    (void)printf("not resolved: the points do not show their own structure, the lower bound alone "
+                 "holds (97.5 %%)");
+    if (isfinite(r->cells_bias)) {
+        (void)printf("; pairs in these cells are off by %+.2g %%, --mesh tree resolves them",
+                     100.0 * r->cells_bias);
+    } else if (isfinite(r->points_needed)) {
+        (void)printf("; about %.2g points would do", r->points_needed);
+    } else {
+        (void)printf("; how many points would do cannot be told");
+    }
+    (void)printf("\n");
 }
 
 static void print_tests(const clast_uniformity *u, const clast_domain *domain, const found *f)
@@ -231,17 +253,22 @@ static void print_passes(const clast_decomposition *r)
 
 static void print_events(const clast_decomposition *r)
 {
+    char high[32] = "-";
+    if (r->resolved) {
+        (void)snprintf(high, sizeof high, "%.6g", r->events_high);
+    }
     (void)printf("%d cell%s, ", r->cells.n, cli_plural(r->cells.n));
     if (r->beta_dt > 0.0) {
-        (void)printf("events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cell%s at the cap\n",
-                     r->events, r->events_low, r->events_high, r->beta_dt, r->dimension,
-                     r->n_capped, cli_plural(r->n_capped));
+        (void)printf("events %.6g [%.6g, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
+                     r->events, r->events_low, high, r->beta_dt, r->dimension, r->n_capped,
+                     cli_plural(r->n_capped));
     } else {
-        (void)printf("pair integral %.6g [%.6g, %.6g] 1/m^%d, events per beta dt (none is given: "
+        (void)printf("pair integral %.6g [%.6g, %s] 1/m^%d, events per beta dt (none is given: "
                      "--beta-dt)\n",
-                     r->events, r->events_low, r->events_high, r->dimension);
+                     r->events, r->events_low, high, r->dimension);
     }
-    if (r->smoothing_bias != 0.0) {
+    print_resolved(r);
+    if (r->smoothing_bias != 0.0 && r->resolved) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);

@@ -24,7 +24,7 @@ typedef enum {
     CLAST_CELLS_BINS,
     CLAST_CELLS_LABELS,
     CLAST_CELLS_TREE,
-    CLAST_CELLS_AUTO ///< tree for the full variant in 3-D, boxes else and with paper
+    CLAST_CELLS_AUTO ///< tree for the full variant, boxes for the others and with paper
 } clast_cell_kind;
 
 typedef enum {
@@ -182,13 +182,20 @@ typedef struct clast_decomposition {
     clast_decompose_stop stop;
     clast_cells cells;
     double events, events_low,
-        events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap
+        events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap; not
+                           ///< resolved: events_low alone holds, and events_high is INFINITY
+    bool resolved;         ///< the points show all of their own structure that counts: the bias of
+                           ///< events is at most 2 %
+    double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
+                           ///< where that cannot be told
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
+    double cells_bias;     ///< relative bias of the pairs counted in these cells against those that
+                           ///< all sizes of cells show together; NAN where not resolved
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1); NAN of n (n - 1)
     double
         smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
