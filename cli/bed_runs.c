@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "json.h"
+#include "results.h"
 
 #include <clast/porosity_chart.h>
 #include <clast/realisations.h>
@@ -137,6 +138,7 @@ json_t *cli_bed_runs_json(const cli_bed_runs *runs)
         (void)json_array_append(each, runs->found[i]);
     }
     cli_json_count(object, "n_run", runs->n);
+    cli_json_text(object, "unit", runs->unit);
     (void)json_object_set_new(object, "runs", each);
     for (int k = 0; k < q.n; ++k) {
         const bool is_inner = q.of[k].group[0] != '\0';
@@ -173,7 +175,8 @@ clast_status cli_bed_runs_print(const cli_bed_runs *runs)
                      json_number_value(json_object_get(runs->found[i], "bulk")));
     }
     (void)printf("%-21s %12s %12s   95 %% interval of the mean of %d runs (lengths in %s)\n", "",
-                 "mean", "deviation", runs->n, runs->unit);
+                 "mean", "deviation", runs->n,
+                 strcmp(runs->unit, "model") == 0 ? "model units" : runs->unit);
     for (int k = 0; k < q.n; ++k) {
         const clast_mean *m = &q.of[k].mean;
         if (isfinite(m->mean)) {
@@ -192,6 +195,23 @@ static clast_status write_table(const clast_run_folder *run, const char *name,
     return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
 }
 
+/// SI unit of a number of clast porosity; "-" for lengths in the unit of a file that does not tell
+/// it.
+static const char *unit_of(const cli_bed_runs *runs, const quantity *q)
+{
+    static const char *const length[] = {"z_low", "z_high", "top", "max_overlap", "pore_mean"};
+    const bool is_metre = strcmp(runs->unit, "m") == 0;
+    if (strcmp(q->group, "stress") == 0) {
+        return strcmp(q->key, "stress_ratio") == 0 ? "-" : "Pa";
+    }
+    for (size_t k = 0; k < sizeof length / sizeof *length; ++k) {
+        if (strcmp(q->key, length[k]) == 0) {
+            return is_metre ? "m" : "-";
+        }
+    }
+    return is_metre && strcmp(q->key, "solid") == 0 ? "m^3" : "-";
+}
+
 static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder *run)
 {
     static const char *const name[] = {"mean", "deviation", "low", "high"};
@@ -199,6 +219,7 @@ static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder
     clast_table table = {0};
     clast_status status = clast_table_init(&table, "means", q.n);
     status = status == CLAST_OK ? clast_table_add_text(&table, "quantity") : status;
+    status = status == CLAST_OK ? clast_table_add_text(&table, "unit") : status;
     for (int c = 0; c < 4 && status == CLAST_OK; ++c) {
         status = clast_table_add_number(&table, name[c], "-", NULL);
     }
@@ -206,8 +227,10 @@ static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder
         const clast_mean *m = &q.of[k].mean;
         const double value[4] = {m->mean, m->deviation, m->low, m->high};
         status = clast_table_set_text(&table, 0, k, q.of[k].key);
+        status = status == CLAST_OK ? clast_table_set_text(&table, 1, k, unit_of(runs, &q.of[k]))
+                                    : status;
         for (int c = 0; c < 4; ++c) {
-            table.column[c + 1].number[k] = value[c];
+            table.column[c + 2].number[k] = value[c];
         }
     }
     status = status == CLAST_OK ? write_table(run, "means.csv", &table) : status;
@@ -222,9 +245,12 @@ static clast_status write_band(const cli_bed_runs *runs, const clast_table *prof
     char path[CLAST_RUN_PATH];
     clast_table band = {0};
     clast_status status = clast_porosity_mean_profile(runs->n, profile, &band);
-    status = status == CLAST_OK ? write_table(run, csv, &band) : status;
     status = status == CLAST_OK ? clast_run_folder_file(run, svg, path) : status;
     status = status == CLAST_OK ? clast_porosity_band_chart_write(&band, runs->unit, path) : status;
+    if (strcmp(runs->unit, "m") != 0) {
+        cli_table_without_unit(&band);
+    }
+    status = status == CLAST_OK ? write_table(run, csv, &band) : status;
     clast_table_free(&band);
     return status;
 }

@@ -197,9 +197,10 @@ static void print_words(const config *c, const clast_agglomeration *r)
     const double *cells = clast_table_numbers(h, "n_cell");
     const double *fixed = clast_table_numbers(h, "fixed_events");
     const double *exact = clast_table_numbers(h, "exact_n_particle");
-    (void)printf("kernel %s, mean of %d runs\n\n%12s %12s %12s %12s %8s%s%s\n",
-                 c->agglomerate.kernel, c->agglomerate.repeats, "time_s", "n_particle", "M2",
-                 "events", "n_cell", exact != NULL ? "      exact n" : "",
+    (void)printf("kernel %s, %s%d run%s\n\n%12s %12s %12s %12s %8s%s%s\n", c->agglomerate.kernel,
+                 c->agglomerate.repeats > 1 ? "mean of " : "", c->agglomerate.repeats,
+                 cli_plural(c->agglomerate.repeats), "time_s", "n_particle", "M2", "events",
+                 "n_cell", exact != NULL ? "      exact n" : "",
                  fixed != NULL ? " fixed events" : "");
     for (int64_t i = 0; i < h->n_row; ++i) {
         (void)printf("%12.6g %12.8g %12.6g %12.8g %8.6g", time[i], n[i], m2[i], events[i],

@@ -104,7 +104,6 @@ const cli_command cli_aggregate = {
     .details = details,
     .fields = clast_aggregate_fields,
     .config_size = sizeof(clast_aggregate_config),
-    .takes_config = true,
     .writes_folder = true,
     .shares_ranks = true,
     .run = run,

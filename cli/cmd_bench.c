@@ -127,6 +127,22 @@ static clast_status run_scene(const config *c, const cli_scene *scene, bool json
     return CLAST_OK;
 }
 
+static clast_status list_json(void)
+{
+    json_t *list = json_array();
+    json_t *out = json_object();
+    for (int32_t i = 0; i < N_SCENE; ++i) {
+        json_t *o = json_object();
+        cli_json_text(o, "name", scenes[i].name);
+        cli_json_text(o, "unit", scenes[i].unit);
+        cli_json_text(o, "summary", scenes[i].summary);
+        cli_json_bool(o, "when_named", scenes[i].is_slow);
+        (void)json_array_append_new(list, o);
+    }
+    (void)json_object_set_new(out, "scenes", list);
+    return cli_print_json(out);
+}
+
 static void print_list(void)
 {
     for (int32_t i = 0; i < N_SCENE; ++i) {
@@ -161,6 +177,10 @@ static clast_status run(const cli_common *common, void *context)
                               common->argument[i]);
             goto done;
         }
+    }
+    if (c->list && common->json) {
+        status = list_json();
+        goto done;
     }
     if (c->list) {
         print_list();
@@ -200,5 +220,6 @@ const cli_command cli_bench = {
     .config_size = sizeof(config),
     .n_min = 0,
     .n_max = 100,
+    .writes_no_file = true,
     .run = run,
 };

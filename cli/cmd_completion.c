@@ -14,7 +14,9 @@ static const clast_field fields[] = {{"shell", .offset = offsetof(config, shell)
 
 static void print_options(const cli_command *command)
 {
-    (void)printf("--output --threads --max-memory --set --json --quiet --help --help-all");
+    (void)printf("%s--threads --max-memory --set%s --quiet --help --help-all",
+                 command->writes_no_file ? "" : "--output ",
+                 command->writes_no_data ? "" : " --json");
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
         const bool is_on = f->type == CLAST_FIELD_BOOL && f->value != 0.0;
         (void)printf(is_on ? " --no-" : " --");
@@ -94,5 +96,7 @@ const cli_command cli_completion = {
                 "clast completion > ~/.local/share/bash-completion/completions/clast"},
     .fields = fields,
     .config_size = sizeof(config),
+    .writes_no_file = true,
+    .writes_no_data = true,
     .run = run,
 };

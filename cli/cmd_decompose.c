@@ -1,6 +1,8 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
+#include "decompose_files.h"
 #include "decompose_sizes.h"
+#include "evenness.h"
 #include "json.h"
 #include "points.h"
 #include "results.h"
@@ -29,7 +31,8 @@ static clast_field fields[MAX_FIELD];
 
 static const clast_field own[N_OWN] = {
     {"test_only", .offset = offsetof(config, test_only), CLAST_FIELD_BOOL, 0, 0, 0, "-",
-     "run the uniformity tests alone", NULL, .common = true, .group = "what is made"},
+     "run the uniformity tests alone, exit code 1 when not uniform", NULL, .common = true,
+     .group = "what is made"},
     {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "format of charts", "svg|png|pdf"},
     {"sizes", .offset = offsetof(config, sizes.n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
@@ -53,7 +56,23 @@ __attribute__((constructor)) static void join_fields(void)
     }
 }
 
-static json_t *json_tests(const clast_uniformity *u)
+/// What the command finds beside the decomposition.
+typedef struct {
+    char domain[CLI_DOMAIN_NAME]; ///< as typed for a mesh, else in m
+    int64_t n_repeated;
+    cli_evenness evenness;
+    double begun;
+} found;
+
+/// Axes of the unit cube that a mapped domain is tested in have names of their own.
+static const char *axis_name(const clast_domain *domain, int32_t axis)
+{
+    static const char *const name[2][3] = {{"x", "y", "z"}, {"u", "v", "w"}};
+    const bool is_boxed = domain->kind == CLAST_DOMAIN_BOX || domain->kind == CLAST_DOMAIN_MESH;
+    return name[is_boxed ? 0 : 1][axis];
+}
+
+static json_t *json_tests(const clast_uniformity *u, const clast_domain *domain)
 {
     json_t *list = json_array();
     for (int32_t k = 0; k < u->n_test; ++k) {
@@ -62,6 +81,11 @@ static json_t *json_tests(const clast_uniformity *u)
         cli_json_number(test, "statistic", u->vote[k].statistic);
         cli_json_number(test, "p", u->vote[k].p);
         cli_json_bool(test, "reject", u->vote[k].reject);
+        (void)json_object_set_new(test, "axes",
+                                  u->vote[k].axis[0] < 0
+                                      ? json_null()
+                                      : json_pack("[s,s]", axis_name(domain, u->vote[k].axis[0]),
+                                                  axis_name(domain, u->vote[k].axis[1])));
         (void)json_array_append_new(list, test);
     }
     return list;
@@ -94,6 +118,9 @@ static json_t *json_labels(const clast_decomposition *r)
     static const char *const name[8] = {"ambient",   "cluster_1", "cluster_2", "cluster_3",
                                         "cluster_4", "cluster_5", "under",     "void"};
     int64_t n[8] = {0};
+    if (!clast_cells_are_labelled(&r->cells)) {
+        return json_null();
+    }
     json_t *labels = json_object();
     for (int32_t c = 0; c < r->cells.n; ++c) {
         ++n[r->cells.label[c] % 8];
@@ -104,79 +131,181 @@ static json_t *json_labels(const clast_decomposition *r)
     return labels;
 }
 
-static json_t *summary_of(const clast_decomposition *r, double wall)
+/// "m^3", "1/m^2".
+static void json_unit(json_t *object, const char *key, const char *over, int32_t dimension)
 {
+    char unit[16];
+    (void)snprintf(unit, sizeof unit, "%sm^%d", over, dimension);
+    cli_json_text(object, key, unit);
+}
+
+/// Events with beta dt, else the pair integral; the other is null.
+static void json_events(json_t *out, const clast_decomposition *r)
+{
+    static const char *const key[2][4] = {
+        {"events", "events_low", "events_high", "events_cross"},
+        {"pair_integral", "pair_integral_low", "pair_integral_high", "pair_integral_cross"}};
+    const double value[4] = {r->events, r->events_low, r->events_high, r->events_cross};
+    const int given = r->beta_dt > 0.0 ? 0 : 1;
+    for (int k = 0; k < 4; ++k) {
+        cli_json_number(out, key[given][k], value[k]);
+        cli_json_number(out, key[1 - given][k], (double)NAN);
+    }
+    json_unit(out, "pair_integral_unit", "1/", r->dimension);
+    cli_json_number(out, "n_capped", (double)NAN);
+    if (given == 0) {
+        cli_json_count(out, "n_capped", r->n_capped);
+    }
+}
+
+/// What the numbers depend on.
+static void json_settings(json_t *out, const cli_decompose_job *j)
+{
+    const clast_decomposition *r = j->result;
+    cli_json_text(out, "domain", j->name);
+    cli_json_text(out, "length_unit", "m");
+    cli_json_number(out, "volume", r->volume);
+    json_unit(out, "volume_unit", "", r->dimension);
+    cli_json_number(out, "beta_dt", r->beta_dt > 0.0 ? r->beta_dt : (double)NAN);
+    (void)json_object_set_new(out, "seed",
+                              j->has_drawn ? json_integer((json_int_t)r->seed) : json_null());
+}
+
+static json_t *summary_of(const cli_decompose_job *j, const found *f)
+{
+    const clast_decomposition *r = j->result;
     json_t *out = json_object();
     cli_json_count(out, "n", r->n);
     cli_json_count(out, "n_outside", r->n_outside);
+    cli_json_count(out, "n_repeated", f->n_repeated);
     cli_json_count(out, "n_test", r->n_test);
     cli_json_count(out, "dimension", r->dimension);
-    (void)json_object_set_new(out, "tests", json_tests(&r->before));
+    (void)json_object_set_new(out, "tests", json_tests(&r->before, j->domain));
     cli_json_bool(out, "reject", r->before.reject);
+    cli_evenness_json(out, &f->evenness);
     cli_json_number(out, "score", r->before.score);
     cli_json_number(out, "ideal_score", r->before.ideal);
     (void)json_object_set_new(out, "passes", json_passes(r));
     cli_json_text(out, "stop", clast_decompose_stop_text(r->stop));
     cli_json_count(out, "n_cell", r->cells.n);
     (void)json_object_set_new(out, "labels", json_labels(r));
-    cli_json_number(out, "events", r->events);
-    cli_json_number(out, "events_low", r->events_low);
-    cli_json_number(out, "events_high", r->events_high);
-    cli_json_number(out, "events_cross", r->events_cross);
-    cli_json_count(out, "n_capped", r->n_capped);
+    json_events(out, r);
+    cli_json_bool(out, "resolved", r->resolved);
+    cli_json_number(out, "points_needed", r->points_needed);
+    cli_json_number(out, "cells_bias", r->cells_bias);
     cli_json_number(out, "points_per_bin",
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
-    cli_json_number(out, "wall_s", wall);
+    json_settings(out, j);
     return out;
 }
 
-static void print_words(const clast_decomposition *r, const config *c)
+/// Whether the number may be trusted; what would do where it may not.
+static void print_resolved(const clast_decomposition *r)
 {
-    (void)printf("%lld points in %d dimensions", (long long)r->n, r->dimension);
-    if (r->n_outside > 0) {
-        (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
-    }
-    if (r->n_test != r->n) {
-        (void)printf(", %lld tested", (long long)r->n_test);
-    }
-    (void)printf("\n\n%-16s %12s %12s\n", "test", "statistic", "p");
-    for (int32_t k = 0; k < r->before.n_test; ++k) {
-        const clast_vote *v = &r->before.vote[k];
-        (void)printf("%-16s %12.6g %12.4g%s\n", v->name, v->statistic, v->p,
-                     v->reject ? "  rejects" : "");
-    }
-    (void)printf("score %.6g, expected for uniform points %.6g: %s\n", r->before.score,
-                 r->before.ideal,
-                 r->before.n_test == 0 ? "too few points to test"
-                 : r->before.reject    ? "not uniform"
-                                       : "uniform");
-    if (c->test_only) {
+    if (r->resolved) {
         return;
     }
+    (void)printf("not resolved: the points do not show their own structure, the lower bound alone "
+                 "holds (97.5 %%)");
+    if (isfinite(r->cells_bias)) {
+        (void)printf("; pairs in these cells are off by %+.2g %%, --mesh tree resolves them",
+                     100.0 * r->cells_bias);
+    } else if (isfinite(r->points_needed)) {
+        (void)printf("; about %.2g points would do", r->points_needed);
+    } else {
+        (void)printf("; how many points would do cannot be told");
+    }
+    (void)printf("\n");
+}
+
+static void print_tests(const clast_uniformity *u, const clast_domain *domain, const found *f)
+{
+    (void)printf("\n\n%-16s %12s %12s\n", "test", "statistic", "p");
+    for (int32_t k = 0; k < u->n_test; ++k) {
+        const clast_vote *v = &u->vote[k];
+        char name[32];
+        (void)snprintf(name, sizeof name, "%s", v->name);
+        if (v->axis[0] >= 0) {
+            (void)snprintf(name, sizeof name, "%s %s,%s", v->name, axis_name(domain, v->axis[0]),
+                           axis_name(domain, v->axis[1]));
+        }
+        (void)printf("%-16s %12.6g %12.4g%s\n", name, v->statistic, v->p,
+                     v->reject ? "  rejects" : "");
+    }
+    cli_evenness_print(&f->evenness);
+    (void)printf("score %.6g, expected for uniform points %.6g: %s\n", u->score, u->ideal,
+                 cli_evenness_text(&f->evenness));
+}
+
+static void print_passes(const clast_decomposition *r)
+{
     for (int32_t k = 0; k < r->n_pass; ++k) {
         const clast_pass *p = &r->pass[k];
         (void)printf("pass %d: %d", k + 1, p->nb[0]);
         for (int32_t j = 1; j < r->dimension; ++j) {
             (void)printf(" x %d", p->nb[j]);
         }
-        (void)printf(" bins, threshold %.4g of the mean density (%d points a bin; best of %d), "
+        (void)printf(" bins, threshold %.4g of the mean density (%d point%s a bin; best of %d), "
                      "score %.4g, ideal %.4g\n",
-                     p->lambda, p->lambda_count, p->n_lambda, p->score, p->ideal);
+                     p->lambda, p->lambda_count, cli_plural(p->lambda_count), p->n_lambda, p->score,
+                     p->ideal);
     }
-    (void)printf("stop: %s\n%d cells, events %.6g [%.6g, %.6g] with beta dt %.6g m^%d, %d cells at "
-                 "the cap\n",
-                 clast_decompose_stop_text(r->stop), r->cells.n, r->events, r->events_low,
-                 r->events_high, c->decompose.beta_dt, r->dimension, r->n_capped);
-    if (r->smoothing_bias != 0.0) {
+}
+
+static void print_events(const clast_decomposition *r)
+{
+    char high[32] = "-";
+    if (r->resolved) {
+        (void)snprintf(high, sizeof high, "%.6g", r->events_high);
+    }
+    (void)printf("%d cell%s, ", r->cells.n, cli_plural(r->cells.n));
+    if (r->beta_dt > 0.0) {
+        (void)printf("events %.6g [%.6g, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
+                     r->events, r->events_low, high, r->beta_dt, r->dimension, r->n_capped,
+                     cli_plural(r->n_capped));
+    } else {
+        (void)printf("pair integral %.6g [%.6g, %s] 1/m^%d, events per beta dt (none is given: "
+                     "--beta-dt)\n",
+                     r->events, r->events_low, high, r->dimension);
+    }
+    print_resolved(r);
+    if (r->smoothing_bias != 0.0 && r->resolved) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);
     }
-    if (isfinite(r->events_cross)) {
+    if (isfinite(r->events_cross) && r->beta_dt > 0.0) {
         (void)printf("events by cross-fitting %.6g\n", r->events_cross);
+    } else if (isfinite(r->events_cross)) {
+        (void)printf("pair integral by cross-fitting %.6g 1/m^%d\n", r->events_cross, r->dimension);
     }
+}
+
+static void print_words(const cli_decompose_job *j, const config *c, const found *f)
+{
+    const clast_decomposition *r = j->result;
+    (void)printf("%lld point%s in %d dimension%s", (long long)r->n, cli_plural(r->n), r->dimension,
+                 cli_plural(r->dimension));
+    if (r->n_outside > 0) {
+        (void)printf(", %lld outside the domain left out", (long long)r->n_outside);
+    }
+    if (r->n_test != r->n) {
+        (void)printf(", %lld tested", (long long)r->n_test);
+    }
+    if (f->n_repeated > 0) {
+        (void)printf(", %lld repeat the place of an earlier one (each such pair counts as two "
+                     "particles that meet)",
+                     (long long)f->n_repeated);
+    }
+    print_tests(&r->before, j->domain, f);
+    if (c->test_only) {
+        return;
+    }
+    print_passes(r);
+    (void)printf("stop: %s\n", clast_decompose_stop_text(r->stop));
+    print_events(r);
     if (r->n_pass > 0 && r->points_per_bin < 10.0) {
         (void)printf("warning: %.2g points a bin (under 10): joining bins by their counts keeps "
                      "their noise; compare "
@@ -185,152 +314,39 @@ static void print_words(const clast_decomposition *r, const config *c)
     }
 }
 
-/// Corners of a mapped domain's cells are coordinates of the unit cube, which have no unit.
-static clast_status cell_table(const clast_decomposition *r, bool is_mapped, clast_table *table)
-{
-    static const char *const name_of[2][2][3] = {
-        {{"x_low_m", "y_low_m", "z_low_m"}, {"x_high_m", "y_high_m", "z_high_m"}},
-        {{"u_low", "v_low", "w_low"}, {"u_high", "v_high", "w_high"}}};
-    const char *const *low = name_of[is_mapped ? 1 : 0][0];
-    const char *const *high = name_of[is_mapped ? 1 : 0][1];
-    const clast_cells *cells = &r->cells;
-    clast_status status = clast_table_init(table, "cells", cells->n);
-    for (int32_t j = 0; j < 2 * r->dimension && status == CLAST_OK; ++j) {
-        double *column = NULL;
-        const int32_t axis = j / 2;
-        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis],
-                                        is_mapped ? "-" : "m", &column);
-        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
-            column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
-        }
-    }
-    static const char *const name[7] = {"volume", "count",  "density", "label",
-                                        "pass",   "events", "weight"};
-    for (int k = 0; k < 7 && status == CLAST_OK; ++k) {
-        double *column = NULL;
-        status = clast_table_add_number(table, name[k], "-", &column);
-        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
-            const double value[7] = {cells->volume[c],
-                                     (double)cells->count[c],
-                                     (double)cells->count[c] / cells->volume[c],
-                                     (double)cells->label[c],
-                                     (double)cells->pass[c],
-                                     cells->events[c],
-                                     cells->weight[c]};
-            column[c] = value[k];
-        }
-    }
-    return status;
-}
-
-/// A row a point: cell, label, pass.
-static clast_status label_table(const clast_decomposition *r, int64_t n_point, clast_table *table)
-{
-    static const char *const name[3] = {"cell", "label", "pass"};
-    const clast_cells *cells = &r->cells;
-    clast_status status = clast_table_init(table, "points", n_point);
-    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
-        double *column = NULL;
-        status = clast_table_add_number(table, name[k], "-", &column);
-        for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
-            const int32_t c = cells->of_point[i];
-            column[i] = k == 0   ? c
-                        : c < 0  ? (double)NAN // outside of the domain
-                        : k == 1 ? cells->label[c]
-                                 : cells->pass[c];
-        }
-    }
-    return status;
-}
-
-static clast_status write_tables(const clast_decomposition *r, bool is_mapped, int64_t n_point,
-                                 const char *folder)
-{
-    char path[4096];
-    clast_table cells = {0};
-    clast_table points = {0};
-    clast_status status = cell_table(r, is_mapped, &cells);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
-        status = clast_table_write_csv(&cells, path);
-    }
-    if (status == CLAST_OK) {
-        status = label_table(r, n_point, &points);
-    }
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
-        status = clast_table_write_csv(&points, path);
-    }
-    if (status == CLAST_OK && r->search.n_row > 0) {
-        (void)snprintf(path, sizeof path, "%s/thresholds.csv", folder);
-        status = clast_table_write_csv(&r->search, path);
-    }
-    clast_table_free(&cells);
-    clast_table_free(&points);
-    return status;
-}
-
-static clast_status write_pictures(const clast_decomposition *r, const clast_cloud *cloud,
-                                   const clast_domain *domain, const config *c, const char *folder)
-{
-    char path[4096];
-    (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
-    clast_status status = clast_cells_write_vtu(path, r, domain);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
-        status = clast_points_write_vtp(path, cloud, r);
-    }
-    for (int k = 0; k < CLAST_N_DECOMPOSE_CHART && status == CLAST_OK; ++k) {
-        if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
-            (void)snprintf(path, sizeof path, "%s/%s.%s", folder,
-                           clast_decompose_chart_name((clast_decompose_chart)k),
-                           chart_end[c->charts]);
-            status = clast_decompose_chart_write((clast_decompose_chart)k, cloud, r, path);
-        }
-    }
-    return status;
-}
-
 /// events_by_n.csv and its chart.
-static clast_status write_sizes(const clast_table *sizes, const config *c, const char *folder)
+static clast_status write_sizes(const cli_decompose_job *j, const char *folder)
 {
     char path[4096];
+    char note[CLI_DECOMPOSE_NOTE];
+    cli_decompose_note(j, note);
     (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
-    const clast_status status = clast_table_write_csv(sizes, path);
-    (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, chart_end[c->charts]);
-    return status == CLAST_OK ? cli_decompose_sizes_chart(sizes, path) : status;
+    const clast_status status = clast_table_write_csv_note(j->sizes, note, path);
+    (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, j->chart_end);
+    return status == CLAST_OK ? cli_decompose_sizes_chart(j->sizes, j->result->dimension, path)
+                              : status;
 }
 
-/// What a decomposition is of and found.
-typedef struct {
-    const clast_domain *domain;
-    const clast_cloud *cloud;
-    const clast_decomposition *result;
-    const clast_table *sizes; ///< without columns unless asked for
-} job;
-
-static clast_status keep_results(const cli_common *common, const config *c, const job *j,
-                                 const json_t *summary, clast_run_folder *run)
+static clast_status keep_results(const cli_common *common, const config *c,
+                                 const cli_decompose_job *j, const json_t *summary,
+                                 clast_run_folder *run)
 {
     const cli_input inputs[] = {{"points", common->argument[0]},
                                 {"domain", cli_domain_file(c->decompose.domain)},
                                 {NULL, NULL}};
     const char *folder = clast_run_folder_path(run);
-    const bool is_mapped =
-        j->domain->kind != CLAST_DOMAIN_BOX && j->domain->kind != CLAST_DOMAIN_MESH;
-    clast_status status = cli_results_open(run, fields, c, &c->decompose.seed, inputs);
+    clast_status status =
+        cli_results_open(run, fields, c, j->has_drawn ? &c->decompose.seed : NULL, inputs);
     if (status == CLAST_OK && j->sizes->n_column > 0) {
-        status = write_sizes(j->sizes, c, folder);
+        status = write_sizes(j, folder);
     }
-    status = status == CLAST_OK ? write_tables(j->result, is_mapped, j->cloud->n, folder) : status;
-    status =
-        status == CLAST_OK ? write_pictures(j->result, j->cloud, j->domain, c, folder) : status;
+    status = status == CLAST_OK ? cli_decompose_files(j, folder) : status;
     status = status == CLAST_OK ? cli_results_summary(run, summary) : status;
     return clast_run_folder_end(run, status);
 }
 
 static clast_status read_input(const cli_common *common, const config *c, clast_domain *domain,
-                               clast_cloud *cloud)
+                               clast_cloud *cloud, found *f)
 {
     clast_table table = {0};
     clast_status status = cli_domain_read(c->decompose.domain, &c->points, domain);
@@ -341,7 +357,48 @@ static clast_status read_input(const cli_common *common, const config *c, clast_
         status = clast_cloud_from_table(&table, &c->points.columns, cloud);
     }
     clast_table_free(&table);
+    if (status == CLAST_OK) {
+        cli_domain_name(c->decompose.domain, domain, f->domain);
+        status = clast_cloud_repeated(cloud, &f->n_repeated);
+    }
     return status;
+}
+
+/// Decomposes; a cloud none of whose points is left is bad input.
+static clast_status decompose(const config *c, const clast_domain *domain, const clast_cloud *cloud,
+                              clast_decomposition *result, found *f)
+{
+    clast_status status = clast_decompose_in(domain, cloud, &c->decompose, result);
+    if (status == CLAST_OK && result->n == 0) {
+        clast_decomposition_free(result);
+        return cli_fail(CLAST_E_FORMAT,
+                        "none of the %lld points lies in the domain %s; are both in the same unit?",
+                        (long long)cloud->n, c->decompose.domain);
+    }
+    return status == CLAST_OK ? cli_decompose_evenness(domain, cloud, result, &f->evenness)
+                              : status;
+}
+
+/// A folder's files, then stdout; CLAST_E_NO when --test-only finds no uniform cloud.
+static clast_status tell(const cli_common *common, const config *c, const cli_decompose_job *j,
+                         const found *f, clast_run_folder *folder)
+{
+    clast_status status = CLAST_OK;
+    json_t *summary = summary_of(j, f);
+    if (folder != NULL) {
+        status = keep_results(common, c, j, summary, folder);
+    }
+    if (status == CLAST_OK && common->json) {
+        cli_json_number(summary, "wall_s", cli_clock() - f->begun);
+        status = cli_print_json(summary);
+    } else {
+        json_decref(summary);
+        if (status == CLAST_OK) {
+            print_words(j, c, f);
+        }
+    }
+    const bool is_no = c->test_only && f->evenness.is_tested && f->evenness.kind != CLI_UNIFORM;
+    return status == CLAST_OK && is_no ? CLAST_E_NO : status;
 }
 
 static clast_status run(const cli_common *common, void *values)
@@ -352,7 +409,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_domain domain = {0};
     clast_table sizes = {0};
     clast_run_folder *folder = NULL;
-    const double begun = cli_clock();
+    found f = {.begun = cli_clock()};
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
@@ -360,27 +417,22 @@ static clast_status run(const cli_common *common, void *values)
         return cli_fail(CLAST_E_USAGE, "--sizes writes a table and a chart: name a folder with -o");
     }
     clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
-    status = status == CLAST_OK ? read_input(common, c, &domain, &cloud) : status;
+    status = status == CLAST_OK ? read_input(common, c, &domain, &cloud, &f) : status;
     if (status == CLAST_OK) {
-        status = clast_decompose_in(&domain, &cloud, &c->decompose, &result);
+        status = decompose(c, &domain, &cloud, &result, &f);
     }
     if (status == CLAST_OK && c->sizes.n_size > 0) {
         status = cli_decompose_sizes(&domain, &cloud, &c->decompose, &c->sizes, &sizes);
     }
     if (status == CLAST_OK) {
-        json_t *summary = summary_of(&result, cli_clock() - begun);
-        if (folder != NULL) {
-            const job j = {&domain, &cloud, &result, &sizes};
-            status = keep_results(common, c, &j, summary, folder);
-        }
-        if (status == CLAST_OK && common->json) {
-            status = cli_print_json(summary);
-        } else {
-            json_decref(summary);
-            if (status == CLAST_OK) {
-                print_words(&result, c);
-            }
-        }
+        const cli_decompose_job j = {.domain = &domain,
+                                     .cloud = &cloud,
+                                     .result = &result,
+                                     .sizes = &sizes,
+                                     .name = f.domain,
+                                     .chart_end = chart_end[c->charts],
+                                     .has_drawn = result.has_drawn || c->sizes.n_size > 0};
+        status = tell(common, c, &j, &f, folder);
     }
     clast_run_folder_destroy(folder);
     clast_table_free(&sizes);
@@ -396,26 +448,31 @@ const cli_command cli_decompose = {
     .summary = "test a cloud for uniformity, cut it into uniform cells, count events",
     .example = {"clast decompose data/d2sd/points_b3_n500.csv --domain box:0,0,0,1,1,1",
                 "clast decompose data/d2sd/points_s2_n500.csv --domain box:0,0,1,1 -o cells/",
-                "clast decompose drops.vtu --domain mesh:pipe.stl --domain-unit mm"},
+                "clast decompose drops.ply --unit mm --domain cylinder:0,0,0,1,0,0,5mm,2cm"},
     .details =
-        "Reads delimited text, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. Method: "
-        "Martinez Rodriguez et al., Appl. Math. Modelling 90 "
-        "(2021) 582-614.\n"
+        "Reads delimited text, PLY, XYZ, legacy VTK, VTP, VTU, LAMMPS dumps and HDF5 arrays. "
+        "Method: "
+        "Martinez Rodriguez et\nal., Appl. Math. Modelling 90 (2021) 582-614.\n"
         "tests: symmetric, centred and star discrepancy A_n standardised by its exact "
         "variance (two-sided p),\n"
-        "       Henze-Zirkler on probit scores, Pearson with Bonferroni; rejected when "
-        "--votes of them reject.\n"
-        "events: sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events paper "
-        "takes n^2 / V as printed.\n"
+        "       Henze-Zirkler on probit scores, Pearson with Bonferroni (r and p of the pair of "
+        "axes "
+        "that it names); rejected\n       when --votes of them reject, and then less even than "
+        "uniform. spacing: mean distance to the nearest neighbour\n       over that of uniform "
+        "points; > 1 with p < 1e-4 (a lattice): more even than uniform.\n"
+        "events: with --beta-dt, sum over cells of min(beta dt n (n - 1) / (2 V), n / 2); --events "
+        "paper takes n^2 / V as printed.\n"
+        "        Without, the pair integral: sum over cells of n (n - 1) / (2 V), events per beta "
+        "dt, in 1/m^d (2-D: 1/m^2).\n"
         "        Tree cells hide pairs by being taken as uniform: the sums over cells of two "
         "sizes are extrapolated to none,\n        smoothing_bias is what that took off "
         "(--no-extrapolate: nothing). The interval is 95 %, for Poisson points.\n"
         "-o FOLDER writes cells.csv (box in m, of a mapped domain in coordinates u, v, w of the "
-        "unit cube; volume and density in m^d;\ncount, label, pass, events, weight), "
-        "point_cells.csv, summary.json, manifest.json, cells.vtu and points.vtp for ParaView; "
-        "charts points and "
-        "events;\nwith passes thresholds.csv and charts density and score; with "
-        "--sizes K events_by_n.csv and its chart.",
+        "unit cube; volume in m^d, density in\n1/m^d, count, events or pair_integral, weight; of "
+        "bins label and pass), point_cells.csv, summary.json, manifest.json,\ncells.vtu and "
+        "points.vtp for ParaView; charts points and events (pair_integral); with passes "
+        "thresholds.csv and charts\ndensity and score; with --sizes K events_by_n.csv and its "
+        "chart. Tables begin with a line # of domain, volume, beta_dt, seed.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -66,8 +66,9 @@ static clast_status report_assembly(const cli_common *common, const clast_assemb
                                     const clast_export_report *report)
 {
     if (!common->json) {
-        (void)printf("%s: %s of %d grains", cli_name(common->output),
-                     clast_export_format_name(report->format), assembly->n_grain);
+        (void)printf("%s: %s of %d grain%s", cli_name(common->output),
+                     clast_export_format_name(report->format), assembly->n_grain,
+                     cli_plural(assembly->n_grain));
         if (report->n_triangle > 0) {
             (void)printf(", %lld triangles", (long long)report->n_triangle);
         }

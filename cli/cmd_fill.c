@@ -62,7 +62,7 @@ static json_t *report_json(const char *file, const char *name, const clast_mesh_
 
 static void print_words(const char *file, const clast_fill_report *r)
 {
-    (void)printf("%s: %d spheres", cli_name(file), r->n_sphere);
+    (void)printf("%s: %d sphere%s", cli_name(file), r->n_sphere, cli_plural(r->n_sphere));
     if (r->n_placed > r->n_sphere) {
         (void)printf(" (the outer ones of %d)", r->n_placed);
     }
@@ -72,8 +72,8 @@ static void print_words(const char *file, const clast_fill_report *r)
     (void)printf("  volume error     %.4g\n", r->volume_error);
     (void)printf("  centroid error   %.4g of the equal-volume diameter\n", r->centroid_error);
     (void)printf("  inertia error    %.4g at equal mass\n", r->inertia_error);
-    (void)printf("  protrusion       %.3g of the radius at most, %d spheres poke out\n",
-                 r->max_protrusion, r->n_protruding);
+    (void)printf("  protrusion       %.3g of the radius at most, %d sphere%s out\n",
+                 r->max_protrusion, r->n_protruding, r->n_protruding == 1 ? " pokes" : "s poke");
     (void)printf("  overlap          %.3g of the smaller radius at most\n", r->max_overlap);
     (void)printf("  surface          %.4g from the spheres on average, %.4g at most\n",
                  r->deviation_mean, r->deviation_max);

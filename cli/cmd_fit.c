@@ -132,6 +132,8 @@ static json_t *summary(const job *j)
     cli_json_number(out, "r2", m->r2);
     cli_json_number(out, "cv_mean_error", m->cv_mean_error);
     cli_json_number(out, "cv_median_error", m->cv_median_error);
+    cli_json_number(out, "r2_held_out", j->fit.r2_held_out);
+    cli_json_number(out, "p_value", j->fit.p_value);
     cli_json_number(out, "residual_deviation", m->deviation);
     cli_json_number(out, "condition", j->fit.condition);
     (void)json_object_set_new(out, "terms", json_rows(&j->fit.terms));
@@ -140,7 +142,30 @@ static json_t *summary(const job *j)
     return out;
 }
 
-static void print_words(const job *j)
+/// What held-out beds and permutations say of the model.
+static void print_validity(const clast_porosity_fit_config *c, const clast_porosity_fit *fit)
+{
+    const bool is_selected = c->use[0] == '\0';
+    const bool is_nested = c->validation == CLAST_VALIDATION_NESTED;
+    (void)printf("held-out absolute error%s: mean %.4g, median %.4g",
+                 !is_selected ? ""
+                 : is_nested  ? ", features selected without the held-out beds"
+                              : ", as published (held-out beds had their say in the selection: "
+                                "too small)",
+                 fit->model.cv_mean_error, fit->model.cv_median_error);
+    (void)(is_nested ? printf("; R2 %.4f\n", fit->r2_held_out) : printf("\n"));
+    if (fit->r2_held_out <= 0.0) {
+        (void)printf("the model predicts held-out beds no better than the mean of the others\n");
+    }
+    if (c->n_permutation > 0) {
+        (void)printf("p %.3g: of %d permutations of the porosities, this share is fitted as well "
+                     "by %s\n",
+                     fit->p_value, c->n_permutation,
+                     is_selected ? "a selection of its own" : "these features");
+    }
+}
+
+static void print_words(const config *chosen, const job *j)
 {
     const clast_porosity_model *m = &j->fit.model;
     const clast_table *rank = &j->fit.ranking;
@@ -163,9 +188,9 @@ static void print_words(const job *j)
         (void)printf("%-44s %12.6g %12.3g", terms->column[0].text[k], c[k], e[k]);
         (void)(k > 0 ? printf(" %8.3g\n", vif[k]) : printf("\n"));
     }
-    (void)printf("\nR2 %.4f, residual deviation %.3g, condition %.3g\n"
-                 "held-out absolute error: mean %.4g, median %.4g\n",
-                 m->r2, m->deviation, j->fit.condition, m->cv_mean_error, m->cv_median_error);
+    (void)printf("\nR2 %.4f, residual deviation %.3g, condition %.3g\n", m->r2, m->deviation,
+                 j->fit.condition);
+    print_validity(&chosen->fit, &j->fit);
 }
 
 static clast_status write_model(const cli_common *common, const config *c, const job *j,
@@ -272,7 +297,7 @@ static clast_status run(const cli_common *common, void *values)
     if (status == CLAST_OK && common->json) {
         status = cli_print_json(summary(&j));
     } else if (status == CLAST_OK) {
-        print_words(&j);
+        print_words(c, &j);
     }
     clast_run_folder_destroy(folder);
     free_job(&j);
@@ -295,6 +320,8 @@ const cli_command cli_fit = {
         "1. Features are ranked by their correlation with the porosity; the first is taken.\n"
         "2. Features with |r| > 0.8 to a taken one are removed.\n"
         "3. Of the others the one with the least held-out error (10 folds) joins, until --n-term.\n"
+        "The reported errors are of beds without which features were selected anew "
+        "(--validation).\n"
         "Method: Rettinger et al., Granular Matter 24 (2022) 118, sec. 6.3 and 7.2.\n"
         "-o FOLDER writes model.json (for clast predict --model), ranking.csv, trials.csv, "
         "terms.csv,\n"

@@ -74,7 +74,8 @@ static clast_status run(const cli_common *common, void *values)
         print_command(cli_command_at(i));
     }
     (void)printf(
-        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go\n"
+        ".SH COMMON OPTIONS\n.TP\n.B \\-o, \\-\\-output PATH\nwhere results go (of commands that "
+        "write files)\n"
         ".TP\n.B \\-j, \\-\\-threads N\nthreads; 0 means one per core; results do not depend on "
         "it\n"
         ".TP\n.B \\-\\-max\\-memory SIZE\nthe most that the command may take: 8GB, 50%% of the "
@@ -84,6 +85,10 @@ static clast_status run(const cli_common *common, void *values)
         ".TP\n.B \\-q, \\-\\-quiet\nno progress on standard error\n"
         ".TP\n.B \\-h, \\-\\-help\nthe first page of a command; \\-\\-help\\-all: every option of "
         "it\n"
+        ".PP\nEvery option of a command is a key of a YAML file among its arguments, with '_' for "
+        "'\\-', and what "
+        "stands "
+        "before the options is one too: points for POINTS, file for FILE. The command line wins.\n"
         ".PP\nA length or an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers "
         "are SI.\n"
         ".SH EXIT STATUS\n0 done; 1 a check answered no; 2 usage; 3 bad input; 4 not enough memory "
@@ -97,5 +102,7 @@ const cli_command cli_man = {
     .summary = "print the manual page: clast man | man -l -",
     .example = {"clast man | man -l -", "clast man > clast.1", "clast man | grep -- cone"},
     .config_size = 1,
+    .writes_no_file = true,
+    .writes_no_data = true,
     .run = run,
 };

@@ -151,5 +151,6 @@ const cli_command cli_mesh_check = {
     .config_size = sizeof(config),
     .n_min = 1,
     .n_max = 1,
+    .writes_no_file = true,
     .run = run,
 };

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "json.h"
 #include "mesh_words.h"
+#include "results.h"
 
 #include <clast/form.h>
 #include <clast/mesh_file.h>
@@ -10,14 +11,14 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
 
 typedef struct {
     clast_synthesize_config synthesize; // first: the two tables share offsets
     int32_t count;
+    bool force;
 } synthesize_config;
 
-enum { MAX_FIELD = 32, COUNT_MAX = 1000000, PATH_SIZE = 4096 };
+enum { MAX_FIELD = 32, COUNT_MAX = 1000000 };
 
 /// The library's fields and the command's own, in one table.
 static clast_field fields[MAX_FIELD];
@@ -33,11 +34,13 @@ static const clast_field own = {"count",
                                 NULL,
                                 .group = "number",
                                 .common = true};
+static const clast_field own_force = CLI_FORCE(synthesize_config);
 
 __attribute__((constructor)) static void join_fields(void)
 {
     int n = 0;
     fields[n++] = own;
+    fields[n++] = own_force;
     for (const clast_field *f = clast_synthesize_fields; f->name != NULL && n + 1 < MAX_FIELD;
          ++f) {
         fields[n++] = *f;
@@ -78,22 +81,24 @@ static clast_status save_row(clast_table *table, int32_t i, const char *file,
     return clast_table_set_text(table, 0, i, file);
 }
 
-/// Makes grain i and writes it; the file's name into the table.
-static clast_status make_one(const cli_common *common, const synthesize_config *c, int32_t i,
-                             clast_table *table)
+/// Makes grain i and writes it, into the folder where there is one; the file's name into the table.
+static clast_status make_one(const cli_common *common, const synthesize_config *c,
+                             const clast_run_folder *folder, int32_t i, clast_table *table)
 {
     clast_mesh mesh = {0};
     clast_synthesize_report report;
     char file[64];
-    char path[PATH_SIZE];
+    char path[CLAST_RUN_PATH];
     (void)snprintf(file, sizeof file, "grain%0*d.ply", c->count > 10000 ? 6 : 4, i);
-    (void)snprintf(path, sizeof path, "%s/%s", common->output, file);
     clast_status status = clast_synthesize_grain(&c->synthesize, (uint64_t)i, &mesh, &report);
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(c->count > 1 ? path : common->output, &mesh, NULL);
+    if (status == CLAST_OK && folder != NULL) {
+        status = clast_run_folder_file(folder, file, path);
     }
     if (status == CLAST_OK) {
-        status = save_row(table, i, c->count > 1 ? file : common->output, &report);
+        status = clast_mesh_write(folder != NULL ? path : common->output, &mesh, NULL);
+    }
+    if (status == CLAST_OK) {
+        status = save_row(table, i, folder != NULL ? file : common->output, &report);
     }
     clast_mesh_free(&mesh);
     return status;
@@ -137,6 +142,7 @@ static json_t *table_json(const cli_common *common, const clast_table *table)
         cli_json_number(deviation_set, table->column[k + 1].name, deviation);
     }
     cli_json_text(o, "output", common->output);
+    cli_json_text(o, "unit", "model");
     cli_json_count(o, "n_grain", table->n_row);
     (void)json_object_set_new(o, "grains", list);
     (void)json_object_set_new(o, "mean", mean_set);
@@ -160,46 +166,70 @@ static void table_words(const cli_common *common, const clast_table *table)
     }
 }
 
-static clast_status check_output(const cli_common *common, const synthesize_config *c)
+/// Takes the file, or the folder of several grains.
+static clast_status begin_output(const cli_common *common, synthesize_config *c,
+                                 clast_run_folder **folder)
 {
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE,
                         "-o OUT is needed: a surface file, or a folder with --count");
     }
-    if (c->count > 1 && mkdir(common->output, 0777) != 0) {
-        struct stat found;
-        if (stat(common->output, &found) != 0 || !S_ISDIR(found.st_mode)) {
-            return cli_fail(CLAST_E_DISK, "%s: cannot be made a folder for %d grains",
-                            common->output, c->count);
+    const bool is_set = c->count > 1;
+    const clast_status status = is_set ? CLAST_OK : cli_mesh_output(common);
+    return status == CLAST_OK
+               ? cli_results_begin(common, is_set ? common->output : NULL, &c->force, folder)
+               : status;
+}
+
+/// All grains of the table, one after the other.
+static clast_status make_all(const cli_common *common, const synthesize_config *c,
+                             const clast_run_folder *folder, clast_table *table)
+{
+    const clast_monitor monitor = cli_monitor(common);
+    clast_status status = CLAST_OK;
+    for (int32_t i = 0; i < c->count && status == CLAST_OK; ++i) {
+        status = make_one(common, c, folder, i, table);
+        if (status == CLAST_OK && monitor.stop != NULL && monitor.stop(monitor.context)) {
+            status = cli_fail(CLAST_E_STOPPED, "stopped after %d of %d grains", i + 1, c->count);
         }
     }
-    return c->count == 1 ? cli_mesh_output(common) : CLAST_OK;
+    return status;
+}
+
+/// Table and summary of the folder.
+static clast_status describe(const cli_common *common, const clast_run_folder *folder,
+                             const clast_table *table)
+{
+    char path[CLAST_RUN_PATH];
+    clast_status status = clast_run_folder_file(folder, "grains.csv", path);
+    status = status == CLAST_OK ? clast_table_write_csv(table, path) : status;
+    if (status == CLAST_OK) {
+        json_t *summary = table_json(common, table);
+        (void)json_object_del(summary, "output");
+        (void)json_object_del(summary, "grains"); // grains.csv
+        status = cli_results_summary(folder, summary);
+        json_decref(summary);
+    }
+    return status;
 }
 
 static clast_status run(const cli_common *common, void *config_bytes)
 {
-    const synthesize_config *config = config_bytes;
-    const clast_monitor monitor = cli_monitor(common);
+    synthesize_config *config = config_bytes;
+    clast_run_folder *folder = NULL;
     clast_table table = {0};
-    char path[PATH_SIZE];
-    clast_status status = check_output(common, config);
+    clast_status status = begin_output(common, config, &folder);
     if (status == CLAST_OK) {
-        status = begin_table(config->count, &table);
+        status = cli_results_open(folder, fields, config, &config->synthesize.seed,
+                                  &(cli_input){NULL, NULL});
     }
-    for (int32_t i = 0; i < config->count && status == CLAST_OK; ++i) {
-        status = make_one(common, config, i, &table);
-        if (status == CLAST_OK && monitor.stop != NULL && monitor.stop(monitor.context)) {
-            status =
-                cli_fail(CLAST_E_STOPPED,
-                         "stopped after %d of %d grains; those written stay, grains.csv is not "
-                         "there",
-                         i + 1, config->count);
-        }
+    status = status == CLAST_OK ? begin_table(config->count, &table) : status;
+    status = status == CLAST_OK ? make_all(common, config, folder, &table) : status;
+    if (status == CLAST_OK && folder != NULL) {
+        status = describe(common, folder, &table);
     }
-    if (status == CLAST_OK && config->count > 1) {
-        (void)snprintf(path, sizeof path, "%s/grains.csv", common->output);
-        status = clast_table_write_csv(&table, path);
-    }
+    status = clast_run_folder_end(folder, status);
+    clast_run_folder_destroy(folder);
     if (status == CLAST_OK && common->json) {
         status = cli_print_json(table_json(common, &table));
     } else if (status == CLAST_OK) {
@@ -225,7 +255,8 @@ const cli_command cli_mesh_synthesize = {
         "amplitude until the finished grain measures\n--rough within --tolerance (definitions as "
         "in "
         "clast shape; exit code 5 with the range in reach when\nit cannot be met). Grain i depends "
-        "on the seed and i alone. docs/theory/synthetic.md.",
+        "on the seed and i alone. The folder of several has manifest.json and summary.json, too. "
+        "docs/theory/synthetic.md.",
     .fields = fields,
     .config_size = sizeof(synthesize_config),
     .n_min = 0,

@@ -116,7 +116,8 @@ static void print_text(const clast_pack_result *r)
                  (long long)r->dem.step, r->dem.time);
     print_motion(r);
     if (r->n_outside > 0) {
-        (void)printf("%-26s %d grains have left the container\n", "outside", r->n_outside);
+        (void)printf("%-26s %d grain%s left the container\n", "outside", r->n_outside,
+                     r->n_outside == 1 ? " has" : "s have");
     }
     if (isfinite(r->porosity)) {
         (void)printf("%-26s %.4f between z = %.4g and %.4g mm\n", "bulk porosity", r->porosity,
@@ -196,7 +197,6 @@ const cli_command cli_pack = {
     .details = details,
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),
-    .takes_config = true,
     .writes_folder = true,
     .run = run,
 };

@@ -260,8 +260,8 @@ static int64_t local_moments(const clast_table *local, double *mean, double *dev
 static json_t *profile_json(const findings *f)
 {
     json_t *rows = json_array();
-    const double *low = clast_table_numbers(&f->profile, "z_low_m");
-    const double *high = clast_table_numbers(&f->profile, "z_high_m");
+    const double *low = f->profile.column[0].number; // z_low, z_high, with _m where that is known
+    const double *high = f->profile.column[1].number;
     const double *porosity = clast_table_numbers(&f->profile, "porosity");
     for (int64_t k = 0; k < f->profile.n_row; ++k) {
         json_t *row = json_object();
@@ -316,28 +316,36 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     return object;
 }
 
-/// Tables and charts.
-static clast_status write_findings(const clast_run_folder *run, const clast_assembly *assembly,
-                                   const findings *f)
+static clast_status write_tables(const clast_run_folder *run, const clast_assembly *assembly,
+                                 findings *f)
 {
     char path[CLAST_RUN_PATH];
     clast_status status = CLAST_OK;
     const struct {
         const char *name;
-        const clast_table *table;
+        clast_table *table;
     } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
                  {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
                  {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes},
                  {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
     for (size_t k = 0; k < sizeof files / sizeof files[0] && status == CLAST_OK; ++k) {
         if (files[k].table->n_column > 0) {
+            if (strcmp(assembly->unit, "m") != 0) {
+                cli_table_without_unit(files[k].table);
+            }
             status = clast_run_folder_file(run, files[k].name, path);
             status = status == CLAST_OK ? clast_table_write_csv(files[k].table, path) : status;
         }
     }
-    if (status == CLAST_OK) {
-        status = clast_run_folder_file(run, "profile.svg", path);
-    }
+    return status;
+}
+
+/// Charts, then the tables that they are drawn from.
+static clast_status write_findings(const clast_run_folder *run, const clast_assembly *assembly,
+                                   findings *f)
+{
+    char path[CLAST_RUN_PATH];
+    clast_status status = clast_run_folder_file(run, "profile.svg", path);
     if (status == CLAST_OK) {
         status = clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path);
     }
@@ -357,7 +365,7 @@ static clast_status write_findings(const clast_run_folder *run, const clast_asse
         status = status == CLAST_OK ? clast_pore_chart_write(&f->pores.sizes, assembly->unit, path)
                                     : status;
     }
-    return status;
+    return status == CLAST_OK ? write_tables(run, assembly, f) : status;
 }
 
 /// File of --bed mesh:FILE,UNIT, or "".
@@ -397,7 +405,7 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)json_object_set_new(object, "profile", profile_json(f));
         return cli_print_json(object);
     }
-    (void)printf("%d grains, %s\n", assembly->n_grain,
+    (void)printf("%d grain%s, %s\n", assembly->n_grain, cli_plural(assembly->n_grain),
                  config->method == CLAST_POROSITY_EXACT ? "true shapes"
                                                         : "spheres of equal volume");
     (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,
@@ -460,15 +468,24 @@ static clast_status print(const cli_common *common, const porosity_config *confi
 }
 
 /// A length as typed: with its unit for a run in metres, bare in the unit of any other.
-static clast_status read_length(const char *name, const char *text, const char *unit, double *value)
+static clast_status parse_length(const char *name, const char *text, const char *unit,
+                                 double *value)
 {
     const bool is_metre = strcmp(unit, "m") == 0;
-    const double low = strcmp(name, "floor") == 0 ? -1e9 : 0.0;
-    clast_status status =
+    const clast_status status =
         is_metre ? clast_unit_parse_asked(text, "m", value) : clast_unit_parse(text, "-", value);
+    return status == CLAST_OK
+               ? CLAST_OK
+               : cli_fail(status, "%s: %s%s", name, clast_error_detail(),
+                          is_metre ? "" : "; the run has no unit, so a bare number in its own");
+}
+
+static clast_status read_length(const char *name, const char *text, const char *unit, double *value)
+{
+    const double low = strcmp(name, "floor") == 0 ? -1e9 : 0.0;
+    const clast_status status = parse_length(name, text, unit, value);
     if (status != CLAST_OK) {
-        return cli_fail(status, "%s: %s%s", name, clast_error_detail(),
-                        is_metre ? "" : "; the run has no unit, so a bare number in its own");
+        return status;
     }
     return *value >= low && *value <= 1e9
                ? CLAST_OK
@@ -492,6 +509,25 @@ static clast_status read_lengths(const porosity_config *config, const char *unit
     return status;
 }
 
+/// The lengths of --bed, in the unit in which read_length takes the others; what is no number is
+/// left to clast_bed_load.
+static clast_status check_bed_lengths(const char *bed, const char *unit)
+{
+    const char *at = strncmp(bed, "mesh:", 5) == 0 ? NULL : strchr(bed, ':');
+    clast_status status = CLAST_OK;
+    while (at != NULL && status == CLAST_OK) {
+        char one[64];
+        double value = 0.0;
+        const size_t n = strcspn(++at, ",");
+        (void)snprintf(one, sizeof one, "%.*s", (int)n, at);
+        if (clast_unit_parse(one, "m", &value) == CLAST_OK) {
+            status = parse_length("bed", one, unit, &value);
+        }
+        at = at[n] == ',' ? at + n : NULL;
+    }
+    return status;
+}
+
 /// Reads a run and measures it.
 static clast_status measure_run(const char *input, const porosity_config *config, subject *s,
                                 findings *found)
@@ -503,7 +539,8 @@ static clast_status measure_run(const char *input, const porosity_config *config
     }
     if (status == CLAST_OK && config->bed[0] != '\0') {
         clast_mesh_free(&s->surface);
-        status = clast_bed_load(config->bed, &s->bed, &s->surface);
+        status = check_bed_lengths(config->bed, s->assembly.unit);
+        status = status == CLAST_OK ? clast_bed_load(config->bed, &s->bed, &s->surface) : status;
         const bool has_floor =
             s->bed.kind == CLAST_BED_MESH || s->bed.kind == CLAST_BED_PERIODIC_3D;
         if (status == CLAST_OK && has_floor && typed.floor != 0.0) {

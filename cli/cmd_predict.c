@@ -192,6 +192,10 @@ static json_t *to_json(const job *j)
         cli_json_number(out, "standard_error", p->standard_error);
         cli_json_bool(out, "in_range", p->in_range);
         (void)json_object_set_new(out, "out_of_range", json_outside(j));
+        if (isfinite(p->leverage)) { // else not known
+            cli_json_number(out, "leverage", p->leverage);
+            cli_json_number(out, "leverage_limit", j->model.leverage_limit);
+        }
         cli_json_number(error, "model", p->model_error);
         cli_json_number(error, "coefficients", p->coefficient_error);
         if (p->sampling_error > 0.0) { // else not known
@@ -253,6 +257,11 @@ static void print_one(const job *j)
         const clast_model_range *r = &j->model.range[p->outside[k]];
         (void)printf("outside    %s lies outside the model's range %.4g to %.4g\n", r->feature,
                      r->low, r->high);
+    }
+    if (p->leverage > j->model.leverage_limit * (1.0 + 1e-9)) {
+        (void)printf("outside    these values together lie farther out than any of the model's "
+                     "%lld beds (leverage %.3g, theirs up to %.3g)\n",
+                     (long long)j->model.n_bed, p->leverage, j->model.leverage_limit);
     }
 }
 

@@ -140,9 +140,9 @@ static clast_status report(const cli_common *common, const clast_assembly *assem
 {
     const int64_t n_triangle = count_triangles(assembly);
     if (!common->json) {
-        (void)printf("%s: %d x %d pixels, %d grains, %lld triangles, %.2f s\n",
+        (void)printf("%s: %d x %d pixels, %d grain%s, %lld triangles, %.2f s\n",
                      cli_name(common->output), image->width, image->height, assembly->n_grain,
-                     (long long)n_triangle, wall);
+                     cli_plural(assembly->n_grain), (long long)n_triangle, wall);
         return CLAST_OK;
     }
     json_t *o = json_object();
@@ -197,6 +197,5 @@ const cli_command cli_render = {
     .config_size = sizeof(clast_render_config),
     .n_min = 1,
     .n_max = 64,
-    .takes_config = false,
     .run = run,
 };

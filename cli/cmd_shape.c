@@ -171,12 +171,13 @@ static clast_status write_csv(const cli_common *common, const cli_shape_result *
 }
 
 /// The folder of the statistics: manifest, tables, charts, summary.
-static clast_status keep_statistics(const cli_common *common, const config *c,
+static clast_status keep_statistics(const cli_common *common, const config *c, bool in_metres,
                                     const clast_grain_statistics *statistics,
                                     clast_run_folder *folder)
 {
     clast_status status = CLAST_OK;
     json_t *summary = cli_statistics_json(statistics);
+    cli_json_text(summary, "unit", in_metres ? "m" : "model");
     for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
         status = clast_run_folder_input(folder, "grains", common->argument[i]);
     }
@@ -205,7 +206,7 @@ static clast_status add_statistics(const cli_common *common, const config *c,
             status = cli_shape_statistics(common->command, &table, &bootstrap, statistics);
         }
         if (status == CLAST_OK) {
-            status = keep_statistics(common, c, statistics, folder);
+            status = keep_statistics(common, c, shape->in_metres, statistics, folder);
         }
     }
     clast_table_free(&table);

@@ -100,8 +100,8 @@ static clast_status print(const cli_common *common, const clast_study_report *re
         cli_json_count(object, "n_other", report->n_other);
         return cli_print_json(object);
     }
-    (void)printf("%lld runs: %lld done now, %lld before", (long long)report->n_run,
-                 (long long)report->n_done, (long long)report->n_before);
+    (void)printf("%lld run%s: %lld done now, %lld before", (long long)report->n_run,
+                 cli_plural(report->n_run), (long long)report->n_done, (long long)report->n_before);
     if (report->n_other > 0) {
         (void)printf(", %lld left to others", (long long)report->n_other);
     }
@@ -174,7 +174,6 @@ const cli_command cli_study = {
     .details = details,
     .fields = clast_study_fields,
     .config_size = sizeof(clast_study_config),
-    .takes_config = true,
     .writes_folder = true,
     .shares_ranks = true,
     .run = run,

@@ -1,6 +1,7 @@
 // Command line of one subcommand: options from the field table, common options, help.
 #include "command.h"
 
+#include "configs.h"
 #include <clast/config.h>
 
 #include <stdarg.h>
@@ -11,6 +12,7 @@
 
 typedef struct {
     const cli_command *command;
+    cli_configs configs;
     cli_common common;
     void *config;
     const clast_field **touched; ///< list fields that the command line has set already
@@ -227,24 +229,53 @@ static bool looks_like_number(const char *text)
     return text[0] == '-' && ((text[1] >= '0' && text[1] <= '9') || text[1] == '.');
 }
 
-static bool is_yaml(const char *path)
+/// Whether the option `word` takes the next word as its value.
+static bool uses_next(const parser *p, const char *word)
 {
-    const char *dot = strrchr(path, '.');
-    return dot != NULL && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+    static const char *const common[] = {"output", "threads", "max-memory", "set"};
+    const char *name = word + 2;
+    if (word[1] != '-') {
+        return (word[1] == 'o' || word[1] == 'j') && word[2] == '\0';
+    }
+    for (size_t k = 0; k < sizeof common / sizeof common[0]; ++k) {
+        if (strcmp(name, common[k]) == 0) {
+            return true;
+        }
+    }
+    return strchr(name, '=') == NULL && p->command->fields != NULL &&
+           clast_fields_find(p->command->fields, name) != NULL && takes_value(p, name);
+}
+
+static bool is_option(const char *word)
+{
+    return word[0] == '-' && word[1] != '\0' && !looks_like_number(word);
 }
 
 /// Reads every YAML file among the arguments before any option, so that options win.
 static clast_status read_configs(parser *p, int argc, char **argv)
 {
-    for (int i = 0; i < argc && p->command->takes_config; ++i) {
-        if (argv[i][0] != '-' && is_yaml(argv[i]) && (i == 0 || argv[i - 1][0] != '-')) {
-            const clast_status status = clast_config_read(argv[i], p->command->fields, p->config);
-            if (status != CLAST_OK) {
-                return status;
-            }
+    clast_status status = CLAST_OK;
+    bool options = true;
+    for (int i = 0; i < argc && p->configs.fields != NULL && status == CLAST_OK; ++i) {
+        if (options && strcmp(argv[i], "--") == 0) {
+            options = false;
+        } else if (options && is_option(argv[i])) {
+            i += uses_next(p, argv[i]) ? 1 : 0;
+        } else if (cli_is_config(argv[i])) {
+            status = clast_config_read(argv[i], p->configs.fields, p->config);
         }
     }
-    return CLAST_OK;
+    return status;
+}
+
+/// Positional arguments of the configurations, where the command line has none.
+static void take_arguments(parser *p)
+{
+    const clast_text_list named = cli_configs_arguments(&p->configs, p->config);
+    if (p->common.n_argument == 0 && named.n > 0) {
+        p->common.n_argument = named.n;
+        p->common.argument = named.item;
+    }
 }
 
 static clast_status parse(parser *p, int argc, char **argv)
@@ -257,12 +288,13 @@ static clast_status parse(parser *p, int argc, char **argv)
             options = false;
         } else if (options && strncmp(text, "--", 2) == 0) {
             status = long_option(p, argc, argv, &i);
-        } else if (options && text[0] == '-' && text[1] != '\0' && !looks_like_number(text)) {
+        } else if (options && is_option(text)) {
             status = short_option(p, argc, argv, &i);
-        } else if (!(p->command->takes_config && is_yaml(text))) {
+        } else if (p->configs.fields == NULL || !cli_is_config(text)) {
             p->common.argument[p->common.n_argument++] = argv[i];
         }
     }
+    take_arguments(p);
     return status;
 }
 
@@ -332,6 +364,19 @@ static void complain(const parser *p, clast_status status)
 }
 
 /// Parses and runs.
+/// An option that would be read and left.
+static clast_status check_common(const parser *p)
+{
+    if (p->command->writes_no_file && p->common.output != NULL) {
+        return cli_fail(CLAST_E_USAGE,
+                        "it writes no file: leave out -o (what it has is on stdout)");
+    }
+    if (p->command->writes_no_data && p->common.json) {
+        return cli_fail(CLAST_E_USAGE, "what it prints is no data: leave out --json");
+    }
+    return CLAST_OK;
+}
+
 static clast_status perform(parser *p, int argc, char **argv)
 {
     clast_status status = parse(p, argc, argv);
@@ -342,7 +387,8 @@ static clast_status perform(parser *p, int argc, char **argv)
     } else if (status == CLAST_OK && !p->help) {
         const bool is_shared = p->common.comm->n_rank > 1; // a rank is a core, unless -j says more
         clast_parallel_set_threads(is_shared && p->common.threads == 0 ? 1 : p->common.threads);
-        status = cli_memory_limit(p->common.max_memory);
+        status = check_common(p);
+        status = status == CLAST_OK ? cli_memory_limit(p->common.max_memory) : status;
         if (status == CLAST_OK) {
             status = cli_check_outputs(p->command, &p->common, p->config);
         }
@@ -364,25 +410,29 @@ int cli_run(const cli_command *command, int n_skip, int argc, char **argv, const
                 .common = {.command = command->name, .n_word = argc, .word = argv, .comm = comm}};
     int code = 4;
     int32_t n_field = 1;
+    char **argument = calloc((size_t)argc + 1, sizeof *argument);
     for (const clast_field *f = command->fields; f != NULL && f->name != NULL; ++f) {
         ++n_field;
     }
-    p.common.argument = calloc((size_t)argc + 1, sizeof *p.common.argument);
-    p.config = calloc(1, command->config_size + 1);
+    const bool is_made = cli_configs_init(command, &p.configs);
+    p.common.argument = argument;
+    p.config = calloc(1, p.configs.size);
     p.touched = calloc((size_t)n_field, sizeof *p.touched);
-    if (p.common.argument == NULL || p.config == NULL || p.touched == NULL ||
-        (command->fields != NULL && clast_fields_default(command->fields, p.config) != CLAST_OK)) {
+    if (!is_made || argument == NULL || p.config == NULL || p.touched == NULL ||
+        (p.configs.fields != NULL &&
+         clast_fields_default(p.configs.fields, p.config) != CLAST_OK)) {
         (void)fputs("clast: not enough memory\n", stderr);
         goto done;
     }
     cli_signals_begin(command->name, comm);
     code = exit_code(perform(&p, argc - n_skip, argv + n_skip));
-    if (command->fields != NULL) {
-        clast_fields_free(command->fields, p.config);
+    if (p.configs.fields != NULL) {
+        clast_fields_free(p.configs.fields, p.config);
     }
 done:
     free((void *)p.touched);
     free(p.config);
-    free(p.common.argument);
+    free(argument);
+    cli_configs_free(&p.configs);
     return cli_flush(code);
 }

@@ -26,11 +26,10 @@ typedef struct cli_command {
     const clast_field *fields; ///< own options; NULL for none
     size_t config_size;        ///< bytes of the configuration struct
     int32_t n_min, n_max;      ///< positional arguments allowed
-    /// First positional argument may be a YAML configuration (name ends in .yaml or .yml), read
-    /// before the options.
-    bool takes_config;
-    bool writes_folder; ///< -o names a run folder
-    bool shares_ranks;  ///< several ranks may run it together
+    bool writes_folder;        ///< -o names a run folder
+    bool shares_ranks;         ///< several ranks may run it together
+    bool writes_no_file;       ///< all it has goes to stdout: -o is refused
+    bool writes_no_data;       ///< what it prints is no data: --json is refused
     clast_status (*run)(const cli_common *common, void *config);
 } cli_command;
 
@@ -51,6 +50,12 @@ clast_status cli_fail(clast_status status, const char *format, ...)
 /// A file's name, or any text from outside, as a terminal may show it; lives until the 8th call
 /// after this one.
 const char *cli_name(const char *text);
+
+/// "s", or "" of one: "1 cell", "2 cells".
+static inline const char *cli_plural(int64_t n)
+{
+    return n == 1 ? "" : "s";
+}
 
 /// Flushes stdout: `code`, or 4 and one line when something of it was lost.
 int cli_flush(int code);

@@ -10,9 +10,13 @@
 
 enum { LEAST = 5, N_COLUMN = 10 };
 
-static const char *const name[N_COLUMN] = {
-    "n",          "events",      "events_low",     "events_high",   "n_cell", "scaled_events",
-    "scaled_low", "scaled_high", "regular_events", "scaled_regular"};
+/// With beta dt, and without it.
+static const char *const name[2][N_COLUMN] = {
+    {"n", "events", "events_low", "events_high", "n_cell", "scaled_events", "scaled_low",
+     "scaled_high", "regular_events", "scaled_regular"},
+    {"n", "pair_integral", "pair_integral_low", "pair_integral_high", "n_cell",
+     "scaled_pair_integral", "scaled_low", "scaled_high", "regular_pair_integral",
+     "scaled_regular"}};
 
 /// Mixes a number thoroughly. [Steele2014, splitmix64]
 static uint64_t mix(uint64_t x)
@@ -83,10 +87,11 @@ static clast_status regular_events(const clast_domain *domain, const clast_cloud
             ++count[cell];
         }
     }
-    const double rate = beta_dt * (double)n_cell / clast_domain_volume(domain);
+    const double density = (double)n_cell / clast_domain_volume(domain);
     for (int64_t c = 0; c < n_cell; ++c) {
         const double n = (double)count[c];
-        sum += fmin(0.5 * rate * n * fmax(0.0, n - 1.0), 0.5 * n);
+        const double pairs = 0.5 * density * n * fmax(0.0, n - 1.0);
+        sum += beta_dt > 0.0 ? fmin(beta_dt * pairs, 0.5 * n) : pairs;
     }
     free(count);
     *events = sum;
@@ -106,9 +111,10 @@ static clast_status one_size(const clast_domain *domain, const clast_cloud *all,
     }
     if (status == CLAST_OK) {
         const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
+        const double high = r.resolved ? r.events_high : (double)NAN;
         const double made[8] = {
-            (double)n,         r.events,         r.events_low,         r.events_high,
-            (double)r.cells.n, r.events * scale, r.events_low * scale, r.events_high * scale};
+            (double)n,         r.events,         r.events_low,         high,
+            (double)r.cells.n, r.events * scale, r.events_low * scale, high * scale};
         memcpy(row, made, sizeof made);
         row[9] = row[8] * scale;
     }
@@ -149,7 +155,7 @@ clast_status cli_decompose_sizes(const clast_domain *domain, const clast_cloud *
     }
     const int n_column = sizes->regular > 0 ? N_COLUMN : N_COLUMN - 2;
     for (int k = 0; k < n_column && status == CLAST_OK; ++k) {
-        status = clast_table_add_number(table, name[k], "-", NULL);
+        status = clast_table_add_number(table, name[config->beta_dt > 0.0 ? 0 : 1][k], "-", NULL);
     }
     for (int32_t i = 0; i < sizes->n_size && status == CLAST_OK; ++i) {
         double row[N_COLUMN] = {0};
@@ -162,14 +168,21 @@ clast_status cli_decompose_sizes(const clast_domain *domain, const clast_cloud *
     return status;
 }
 
-clast_status cli_decompose_sizes_chart(const clast_table *table, const char *path)
+clast_status cli_decompose_sizes_chart(const clast_table *table, int32_t dimension,
+                                       const char *path)
 {
+    const double *events = clast_table_numbers(table, "scaled_events");
+    char label[64] = "events times (N / n)^2 (-)";
+    if (events == NULL) {
+        events = clast_table_numbers(table, "scaled_pair_integral");
+        (void)snprintf(label, sizeof label, "pair integral times (N / n)^2 (1/m^%d)", dimension);
+    }
     const double *n = clast_table_numbers(table, "n");
     const double *regular = clast_table_numbers(table, "scaled_regular");
     const clast_series series[2] = {{.kind = CLAST_SERIES_POINTS,
                                      .label = "cells of clast, 95 % interval",
                                      .x = n,
-                                     .y = clast_table_numbers(table, "scaled_events"),
+                                     .y = events,
                                      .low = clast_table_numbers(table, "scaled_low"),
                                      .high = clast_table_numbers(table, "scaled_high"),
                                      .n = table->n_row},
@@ -181,7 +194,7 @@ clast_status cli_decompose_sizes_chart(const clast_table *table, const char *pat
                                      .colour = 1,
                                      .dashed = true}};
     const clast_chart chart = {.x = {.label = "points used, n (-)", .log = true},
-                               .y = {.label = "events times (N / n)^2 (-)"},
+                               .y = {.label = label},
                                .series = series,
                                .n_series = regular != NULL ? 2 : 1};
     return clast_chart_write(&chart, path);

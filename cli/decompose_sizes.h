@@ -9,9 +9,11 @@ typedef struct cli_sizes {
 
 /// A row a part, smallest first: n, events, events_low, events_high, n_cell, and the events scaled
 /// by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events and scaled_regular.
+/// Without beta dt they are pair_integral, ... [1/m^d].
 clast_status cli_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
                                  const clast_decompose_config *config, const cli_sizes *sizes,
                                  clast_table *table);
 
 /// Chart of scaled events over n.
-clast_status cli_decompose_sizes_chart(const clast_table *table, const char *path);
+clast_status cli_decompose_sizes_chart(const clast_table *table, int32_t dimension,
+                                       const char *path);

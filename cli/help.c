@@ -1,6 +1,7 @@
 // Help pages, from the same field tables that parse the options. The first page has 25 lines of 90
 // columns at most (tests/cli/test_help.py).
 #include "command.h"
+#include "configs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -100,8 +101,9 @@ void cli_field_values(const clast_field *f, char words[CLI_WORDS_SIZE])
     default_text(f, value, sizeof value);
     const bool is_none = value[0] == '\0' || strcmp(value, "0") == 0;
     const char *look = is_none ? looks_like(f) : "";
-    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
-                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? ", as " : "", look,
+    (void)snprintf(words, CLI_WORDS_SIZE, "%s%s%s%s%s%s%s%s%s%s", choices[0] != '\0' ? " {" : "",
+                   choices, choices[0] != '\0' ? "}" : "", look[0] != '\0' ? " (as " : "", look,
+                   look[0] != '\0' ? ")" : "",
                    f->type == CLAST_FIELD_TEXT_LIST || f->type == CLAST_FIELD_F64_LIST
                        ? " (may be repeated)"
                        : "",
@@ -183,7 +185,7 @@ static void print_usage(const cli_command *command)
 {
     (void)printf("usage: clast %s%s%s%s [options]\n%s\n", command->name,
                  command->arguments[0] != '\0' ? " " : "", command->arguments,
-                 command->takes_config ? " [CONFIG.yaml]" : "", command->summary);
+                 command->fields != NULL ? " [CONFIG.yaml]" : "", command->summary);
     (void)printf("\nexamples:\n");
     for (int k = 0; k < 3 && command->example[k] != NULL; ++k) {
         (void)printf("  %s\n", command->example[k]);
@@ -203,10 +205,28 @@ void cli_help(const cli_command *command)
             print_short(f);
         }
     }
+    (void)printf("  %s-j N: threads;%s -q: quiet\n"
+                 "more: clast %s --help-all; man clast\n",
+                 command->writes_no_file ? "" : "-o PATH: where results go; ",
+                 command->writes_no_data ? "" : " --json: one object on stdout;", command->name);
+}
+
+/// What a YAML file may say, and how values are written.
+static void print_config_words(const cli_command *command)
+{
+    char key[CLI_NAME_SIZE];
+    cli_configs_key(command, key);
     (void)printf(
-        "  -o PATH: where results go; -j N: threads; --json: one object on stdout; -q: quiet\n"
-        "more: clast %s --help-all; man clast\n",
-        command->name);
+        "Every option above is a key of CONFIG.yaml with '_' for '-'; the command line wins. ");
+    if (key[0] != '\0' && clast_fields_find(command->fields, key) == NULL) {
+        const int n = (int)strlen(key);
+        const char *name = command->arguments + (command->arguments[0] == '[' ? 1 : 0);
+        (void)printf("%.*s is its key %s.", n, name, key);
+    }
+    (void)printf(
+        "\nA switch is turned off by --no-NAME or --NAME=false, on by --NAME or --NAME=true. A "
+        "length or\n"
+        "an angle needs its unit (270um, 50deg; 0 needs none); other bare numbers are SI.\n");
 }
 
 void cli_help_all(const cli_command *command)
@@ -223,19 +243,20 @@ void cli_help_all(const cli_command *command)
         print_field(f);
     }
     (void)printf(
-        "\nof every command:\n"
-        "  -o, --output PATH      where results go\n"
+        "\nof every command:\n%s"
         "  -j, --threads N        threads; 0: one per core; results do not depend on it\n"
         "  --max-memory SIZE      most that it may take: 8GB, 50%% of the machine's, 0: no limit\n"
         "                         (default 80%%)\n"
         "  --set KEY=VALUE        the same as --KEY VALUE\n"
-        "  --json                 one JSON object on stdout\n"
+        "%s"
         "  -q, --quiet            no progress on stderr\n"
-        "  -h, --help             the first page; --help-all: this one\n"
-        "Every option is a key of the YAML file, too, with '_' for '-'. A switch is turned off by\n"
-        "--no-NAME or --NAME=false, on by --NAME or --NAME=true. A length or an angle needs its "
-        "unit\n"
-        "(270um, 50deg; 0 needs none); other bare numbers are SI.\n\n"
-        "exit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough memory or\n"
-        "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
+        "  -h, --help             the first page; --help-all: this one\n",
+        command->writes_no_file ? "" : "  -o, --output PATH      where results go\n",
+        command->writes_no_data ? "" : "  --json                 one JSON object on stdout\n");
+    if (command->fields != NULL) {
+        print_config_words(command);
+    }
+    (void)printf("\nexit codes: 0 done, 1 a check answered no, 2 usage, 3 bad input, 4 not enough "
+                 "memory or\n"
+                 "            disk, 5 did not converge, 130/143 stopped with a checkpoint\n");
 }

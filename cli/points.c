@@ -3,6 +3,7 @@
 
 #include "command.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define TEXT(name, ...)                                                                            \
@@ -12,8 +13,12 @@
     }
 static const clast_field rows[] = {
     {"columns", .offset = offsetof(clast_cloud_columns, columns), CLAST_FIELD_TEXT_LIST, 0, 0, 0,
-     "-", "columns of the coordinates, as many as dimensions", "x,y,z", .common = true,
-     .group = "columns of the file"},
+     "-",
+     "columns of the coordinates, as many as dimensions; without a header they are column_1, "
+     "column_2, ...",
+     "x,y,z", .common = true, .group = "columns of the file"},
+    TEXT(unit, "unit of coordinates and --domain (mm, um); none: that of columns as x_mm, else m",
+         .common = true),
     TEXT(radius_column, "column of radii [m]"),
     TEXT(diameter_column, "column of diameters [m], instead of radii"),
     TEXT(mass_column, "column of masses [kg]"),
@@ -27,7 +32,7 @@ static const clast_field rows[] = {
     {"frame", .offset = offsetof(cli_points, frame), CLAST_FIELD_I64, 0, -1e12, 1e12, "-",
      "snapshot of a LAMMPS dump, from 0; -1: the last", NULL},
     {"domain_unit", .offset = offsetof(cli_points, domain_unit), CLAST_FIELD_TEXT, 0, 0, 0, "-",
-     "unit of the coordinates in the file of --domain mesh:FILE; none: as the points", ""},
+     "unit of bare numbers in --domain and of mesh:FILE; none: --unit", ""},
 };
 #undef TEXT
 
@@ -43,7 +48,12 @@ int cli_point_fields(clast_field *fields, int n, size_t offset)
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
 {
     const clast_points_options options = {points->dataset, points->frame};
-    return clast_points_read(path, &options, table);
+    clast_status status = clast_points_read(path, &options, table);
+    if (status == CLAST_OK && table->n_row == 0) {
+        clast_table_free(table);
+        status = cli_fail(CLAST_E_FORMAT, "%s holds no points", path);
+    }
+    return status;
 }
 
 clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain)
@@ -53,7 +63,17 @@ clast_status cli_domain_read(const char *text, const cli_points *points, clast_d
             CLAST_E_USAGE,
             "give the domain, --domain box:0,0,0,1,1,1; it is never guessed from the points");
     }
-    return clast_domain_read(text, points->domain_unit, domain);
+    const bool is_own = points->domain_unit[0] != '\0';
+    return clast_domain_read(text, is_own ? points->domain_unit : points->columns.unit, domain);
+}
+
+void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME])
+{
+    if (cli_domain_file(text) != NULL) {
+        (void)snprintf(name, CLI_DOMAIN_NAME, "%s", text);
+    } else {
+        clast_domain_format(domain, name);
+    }
 }
 
 const char *cli_domain_file(const char *text)

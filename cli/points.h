@@ -22,3 +22,8 @@ clast_status cli_domain_read(const char *text, const cli_points *points, clast_d
 
 /// File of a domain mesh:FILE, or NULL.
 const char *cli_domain_file(const char *text);
+
+enum { CLI_DOMAIN_NAME = 512 };
+
+/// The domain in m; one of a file as it was typed.
+void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME]);

@@ -3,6 +3,8 @@
 
 #include "json.h"
 
+#include <string.h>
+
 clast_status cli_results_begin(const cli_common *common, const char *folder, bool *force,
                                clast_run_folder **run)
 {
@@ -37,7 +39,33 @@ clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, 
     return status == CLAST_OK ? clast_run_folder_open(run) : status;
 }
 
+void cli_table_without_unit(clast_table *table)
+{
+    static const char *const endings[] = {"_1/m", "_m3", "_m2", "_m"};
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        clast_column *column = &table->column[c];
+        const size_t n = strlen(column->name);
+        for (size_t k = 0; k < sizeof endings / sizeof *endings; ++k) {
+            const size_t m = strlen(endings[k]);
+            if (n > m && strcmp(column->name + n - m, endings[k]) == 0) {
+                column->name[n - m] = '\0';
+                column->unit[0] = '\0';
+                break;
+            }
+        }
+    }
+}
+
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary)
 {
-    return run == NULL ? CLAST_OK : cli_write_summary(summary, clast_run_folder_path(run));
+    if (run == NULL) {
+        return CLAST_OK;
+    }
+    json_t *kept = summary != NULL ? json_copy((json_t *)(uintptr_t)summary) : NULL;
+    if (kept != NULL) {
+        (void)json_object_del(kept, "wall_s"); // equal runs write equal files; the manifest has it
+    }
+    const clast_status status = cli_write_summary(kept, clast_run_folder_path(run));
+    json_decref(kept);
+    return status;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The results' folder of a command that has no run of its own in the library.
 #include "command.h"
+#include <clast/table.h>
 #include <jansson.h>
 
 /// An input file and its part in the command ("table"); path NULL or "": there is none.
@@ -26,5 +27,10 @@ clast_status cli_results_begin(const cli_common *common, const char *folder, boo
 clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, const void *config,
                               const uint64_t *seed, const cli_input *input);
 
-/// Writes summary.json, the last of a run's files. Borrows it; NULL gives CLAST_E_MEMORY.
+/// Takes the metres off the names of a table's columns, where lengths are in the unit of a file
+/// that does not tell it: cell_m3 -> cell.
+void cli_table_without_unit(clast_table *table);
+
+/// Writes summary.json, the last of a run's files, without its wall_s. Borrows it; NULL gives
+/// CLAST_E_MEMORY.
 clast_status cli_results_summary(const clast_run_folder *run, const json_t *summary);

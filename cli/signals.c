@@ -3,26 +3,32 @@
 // A loop with a state to save looks at cli_stop_asked() and returns CLAST_E_STOPPED. Where no loop
 // looks (a reader, a statistic, a last file), nothing is lost by ending at once: the process
 // removes its temporary files and is gone. A loop that does look has twice the time between its
-// last two looks, and 0.4 s at least.
+// last two looks, and 0.4 s at least, of a processor: on a busy machine, or while a disk is slow,
+// that takes longer, 5 s at most.
 #include "command.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
 
-enum { GRACE_US = 400000 };
+enum { GRACE_US = 400000, PATIENCE_US = 5000000, TICK_US = 50000 };
 
 static volatile sig_atomic_t caught;
 static _Atomic int64_t last_look;   ///< us since some moment, 0: no loop has looked
 static _Atomic int64_t look_period; ///< us between the last two looks
 static bool is_alone;               ///< no other rank waits for what this one does
+static clockid_t processor;         ///< time that the looking thread has had of a processor
+static _Atomic int64_t asked[2];    ///< us of that clock and of the wall's when a signal came
+static _Atomic int64_t grace;       ///< us
 static char last_words[160];
 
 static _Noreturn void leave(int number)
@@ -33,10 +39,22 @@ static _Noreturn void leave(int number)
     _exit(128 + number);
 }
 
+static int64_t now_us(clockid_t clock)
+{
+    struct timespec t = {0};
+    (void)clock_gettime(clock, &t);
+    return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
+}
+
+/// Ends a process whose loop does not look although it had the time.
 static void on_alarm(int number)
 {
     (void)number;
-    leave(caught);
+    const int64_t most = atomic_load(&grace);
+    if (now_us(processor) - atomic_load(&asked[0]) >= most ||
+        now_us(CLOCK_MONOTONIC) - atomic_load(&asked[1]) >= most + PATIENCE_US) {
+        leave(caught);
+    }
 }
 
 static void on_signal(int number)
@@ -48,7 +66,11 @@ static void on_signal(int number)
     const int64_t two = 2 * atomic_load(&look_period);
     const int64_t wait = two > GRACE_US ? two : GRACE_US;
     const struct itimerval timer = {
-        .it_value = {.tv_sec = (time_t)(wait / 1000000), .tv_usec = (suseconds_t)(wait % 1000000)}};
+        .it_value = {.tv_sec = (time_t)(wait / 1000000), .tv_usec = (suseconds_t)(wait % 1000000)},
+        .it_interval = {.tv_usec = TICK_US}};
+    atomic_store(&grace, wait);
+    atomic_store(&asked[0], now_us(processor));
+    atomic_store(&asked[1], now_us(CLOCK_MONOTONIC));
     if (is_alone) {
         (void)setitimer(ITIMER_REAL, &timer, NULL);
     }
@@ -57,6 +79,9 @@ static void on_signal(int number)
 bool cli_stop_asked(void)
 {
     const int64_t now = (int64_t)(1e6 * cli_clock()) + 1;
+    if (atomic_load(&last_look) == 0 && pthread_getcpuclockid(pthread_self(), &processor) != 0) {
+        processor = CLOCK_MONOTONIC;
+    }
     const int64_t last = atomic_exchange(&last_look, now);
     if (last != 0) {
         atomic_store(&look_period, now - last);

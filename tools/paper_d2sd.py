@@ -215,7 +215,7 @@ def pipe_row(folder, n, c, domain):
     r = json.loads(done.stdout)
     first = r["passes"][0]
     with open(out / "cells.csv", newline="") as f:
-        cells = list(csv.DictReader(f))
+        cells = list(csv.DictReader(line for line in f if not line.startswith("#")))
     n_bin = math.prod(first["bins"])
     cluster = sum(1 <= float(c["label"]) <= 5 for c in cells)
     void = sum(float(c["label"]) == 7 for c in cells)

@@ -407,7 +407,7 @@ def known(command):
                 x, y, z = spheres[int(cell["grain"])]
                 inside += [cell] if max(abs(x), abs(y)) < 3 and low < z < high else []
             rows.append((name + f": {len(inside)} radical Voronoi cells", f"{1 - counted:.3f} (cut at the sides)",
-                         f"{1 - len(inside) * math.pi / 6 / sum(float(r['cell_m3']) for r in inside):.4f}"))
+                         f"{1 - len(inside) * math.pi / 6 / sum(float(r['cell']) for r in inside):.4f}"))
     return table(("packing", "published or counted", "ours"), rows)
 
 

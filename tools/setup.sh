@@ -5,6 +5,7 @@ set -eu
 group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core)
+sundials=("${build[@]}" libsundials-dev)
 mpi=("${build[@]}" libopenmpi-dev openmpi-bin)
 dev=("${build[@]}" libcmocka-dev python3)
 clang=("${dev[@]}" clang-14 libclang-rt-14-dev libomp-14-dev)
@@ -15,8 +16,8 @@ hooks=("${format[@]}" codespell python3)
 docs=(doxygen python3 python3-sphinx python3-myst-parser python3-breathe)
 dist=(git)
 bare=(git mmdebstrap debian-archive-keyring)
-test=("${mpi[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
-groups="build mpi dev clang afl paper format hooks docs dist bare test"
+test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
+groups="build sundials mpi dev clang afl paper format hooks docs dist bare test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

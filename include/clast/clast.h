@@ -53,6 +53,7 @@
 #include <clast/pack_file.h>
 #include <clast/pack_run.h>
 #include <clast/packing_file.h>
+#include <clast/pairs.h>
 #include <clast/parallel.h>
 #include <clast/points_file.h>
 #include <clast/pores.h>
@@ -73,6 +74,7 @@
 #include <clast/shape.h>
 #include <clast/sizes.h>
 #include <clast/sizes_file.h>
+#include <clast/spectrum.h>
 #include <clast/spheres_file.h>
 #include <clast/state.h>
 #include <clast/statistics.h>

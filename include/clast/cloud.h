@@ -25,20 +25,26 @@ typedef struct clast_cloud_columns {
     clast_text_list columns;          ///< coordinates; an item may be a list itself, "x,y,z"
     clast_text_list velocity_columns; ///< as many as coordinates
     char *radius_column, *diameter_column, *mass_column, *weight_column, *variable_column;
+    char *unit; ///< of coordinates whose columns name none ("mm"); NULL or "": metres
 } clast_cloud_columns;
 
 /// Numbers of the named column; *column is NULL for an empty name.
 ///
-/// @return CLAST_E_FORMAT when the table has no such column of numbers
+/// @return CLAST_E_FORMAT when the table has no such column of numbers: the columns it has, or the
+/// first row without a number, with a guess
 CLAST_API clast_status clast_cloud_column(const clast_table *table, const char *name,
                                           double **column);
 
-/// A table's rows as a cloud. Of the default coordinates "x,y,z" missing trailing ones end the
-/// list.
+/// A table's rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)") is
+/// converted. Of the default coordinates "x,y,z" missing trailing ones end the list.
 ///
-/// @return CLAST_E_FORMAT names the missing column; CLAST_E_CONFIG for radii and diameters at once
+/// @return CLAST_E_FORMAT names the missing column; CLAST_E_CONFIG for radii and diameters at once,
+/// and for a unit beside columns that name another
 CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
                                               const clast_cloud_columns *columns,
                                               clast_cloud *cloud);
+
+/// Points that have the very coordinates of an earlier one; O(n).
+CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated);
 
 CLAST_END

@@ -23,7 +23,7 @@ typedef enum {
     CLAST_CELLS_BINS,
     CLAST_CELLS_LABELS,
     CLAST_CELLS_TREE,
-    CLAST_CELLS_AUTO ///< tree for the full variant in 3-D, boxes else and with paper
+    CLAST_CELLS_AUTO ///< tree for the full variant, boxes for the others and with paper
 } clast_cell_kind;
 
 typedef enum {
@@ -58,7 +58,8 @@ typedef struct clast_decompose_config {
     int32_t max_pass;
     int32_t lower;  ///< clast_lower
     bool strict;    ///< bins at a threshold are ambient: > lambda and < lower, as the prose has it
-    double beta_dt; ///< kernel times time step [m^d]
+    double beta_dt; ///< kernel times time step [m^d]; 0: not known, events are then the pair
+                    ///< integral: events per beta dt [1/m^d], without a cap
     double tree_level;         ///< of the chi-square test of a tree cell
     double tree_root_level;    ///< of the test of the whole cloud: one cell, or a tree
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
@@ -74,9 +75,11 @@ enum { CLAST_N_TEST = 5, CLAST_MAX_PASS = 64 };
 
 /// One of the five tests.
 typedef struct clast_vote {
-    const char *name; ///< "symmetric", "centred", "star", "henze_zirkler", "pearson"
-    double statistic, p;
+    const char *name;    ///< "symmetric", "centred", "star", "henze_zirkler", "pearson"
+    double statistic, p; ///< pearson: r of the pair of axes with the least p, and that p, corrected
+                         ///< for the number of pairs
     bool reject;
+    int32_t axis[2]; ///< that pair; {-1, -1} for the other tests
 } clast_vote;
 
 /// All five, with the vote. n < 5: nothing is tested and nothing rejects.
@@ -148,9 +151,11 @@ typedef struct clast_cells {
     double (*high)[3];     ///< [n][3]
     double *volume;        ///< [n] m^d
     int64_t *count;        ///< [n] real points
-    uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient)
+    uint8_t *label, *pass; ///< [n] 0..7 and 1.. (0: ambient); 0 without meaning where nothing is
+                           ///< labelled: clast_cells_are_labelled
     double *weight;        ///< [n] sum of the points' weights: count without weights
-    double *events;        ///< [n] after the cap; with extrapolate all by one factor
+    double *events;        ///< [n] after the cap; with extrapolate all by one factor [1/m^d without
+                           ///< beta_dt]
     int32_t *of_point;     ///< [n_point] cell of each point, -1 for points left out
     bool is_box;           ///< cells are boxes low .. high, not unions of bins
     int32_t nb[3];         ///< bins an axis
@@ -173,17 +178,28 @@ typedef struct clast_decomposition {
     clast_decompose_stop stop;
     clast_cells cells;
     double events, events_low,
-        events_high;       ///< with the 95 % interval of Poisson points
+        events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap; not
+                           ///< resolved: events_low alone holds, and events_high is INFINITY
+    bool resolved;         ///< the points show all of their own structure that counts: the bias of
+                           ///< events is at most 2 %
+    double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
+                           ///< where that cannot be told
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
-    double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1)
+    double cells_bias;     ///< relative bias of the pairs counted in these cells against those that
+                           ///< all sizes of cells show together; NAN where not resolved
+    double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1); NAN of n (n - 1)
     double
         smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
                         ///< off events and all cells' events. 0 where nothing is extrapolated
+    double beta_dt;     ///< as asked for; 0: events are the pair integral [1/m^d]
+    double volume;      ///< of the domain [m^d]
+    uint64_t seed;      ///< of what was drawn
+    bool has_drawn;     ///< ghosts, or the part of weighted points that is tested
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.
@@ -200,6 +216,9 @@ CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
 CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                           const clast_decompose_config *config,
                                           clast_decomposition *result);
+
+/// Whether label and pass mean something: of bins, not of a tree or a single cell.
+CLAST_API bool clast_cells_are_labelled(const clast_cells *cells);
 
 /// Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.
 CLAST_API int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain,

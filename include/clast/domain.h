@@ -9,7 +9,7 @@ CLAST_BEGIN
 
 typedef enum {
     CLAST_DOMAIN_BOX,
-    CLAST_DOMAIN_CYLINDER,  ///< axis z: (rho^2/R^2, (theta + pi)/(2 pi), z/L)
+    CLAST_DOMAIN_CYLINDER,  ///< its own axis z: (rho^2/R^2, (theta + pi)/(2 pi), z/L)
     CLAST_DOMAIN_HALF_PIPE, ///< y >= 0: (rho^2/R^2, theta/pi, z/L)
     CLAST_DOMAIN_SPHERE,    ///< (r^3/R^3, (1 + cos polar)/2, (azimuth + pi)/(2 pi))
     CLAST_DOMAIN_MAP,       ///< the caller's map: clast_domain_of_map
@@ -36,16 +36,28 @@ typedef struct clast_domain {
     int32_t dimension;      ///< 1..3 for a box, else 3
     double low[3], high[3]; ///< box, and bounding box of a mesh
     double radius, length;  ///< R and L [m]; centre of the base (sphere: centre) at the origin
+    bool is_placed;         ///< or at `centre`, with the unit vectors `axes` as its own x, y, z
+    double centre[3], axes[3][3];
     clast_domain_map_functions user;
     clast_domain_surface *surface; ///< of a mesh, owned; copies of the struct borrow it
 } clast_domain;
 
-/// Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L", "half-pipe:R,L" or
-/// "sphere:R".
+/// Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L" (base centre at the origin,
+/// along z), "cylinder:X,Y,Z,NX,NY,NZ,R,L" (base centre, direction of the axis, of any length),
+/// "half-pipe:R,L", "sphere:R" or "sphere:X,Y,Z,R". Lengths are in m, or carry a unit ("1mm").
 ///
 /// @return CLAST_E_CONFIG with what was found; every size must be > 0 and finite. "mesh:FILE" is
 /// read by clast_domain_read
 CLAST_API clast_status clast_domain_parse(const char *text, clast_domain *domain);
+
+/// The same where a bare length is in units of `factor` m.
+CLAST_API clast_status clast_domain_parse_in(const char *text, double factor, clast_domain *domain);
+
+enum { CLAST_DOMAIN_TEXT = 256 };
+
+/// The domain as clast_domain_parse reads it, in m; "map" for a caller's map, "mesh:" and the
+/// bounding box of a surface.
+CLAST_API void clast_domain_format(const clast_domain *domain, char text[CLAST_DOMAIN_TEXT]);
 
 /// A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the
 /// volume of the map's small cells is constant (1e-3).

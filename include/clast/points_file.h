@@ -11,9 +11,12 @@ typedef struct clast_points_options {
     int64_t frame;       ///< LAMMPS dump: snapshot, from 0; negative: from the end, -1 the last
 } clast_points_options;
 
-/// Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), a
-/// LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file's first bytes show.
+/// Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib),
+/// PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS
+/// dump, or an HDF5 array: whatever the file's first bytes show.
 ///
+/// Delimited text without a header has the columns column_1, column_2, ... Columns of a PLY are the
+/// numbers of its vertices; those of an XYZ file name, x, y, z, column_5, ... of its first frame.
 /// Coordinates of VTK files become columns x, y, z; a point array of two or three numbers becomes
 /// name_x, name_y, name_z, one of k numbers name_0 .. name_(k-1). A dump's columns keep their
 /// names; scaled coordinates xs, ys, zs become x, y, z too. Columns of an HDF5 array [n][k] are x,

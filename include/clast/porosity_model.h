@@ -88,6 +88,7 @@ typedef struct clast_porosity_model {
     int64_t n_bed;    ///< beds it was fitted to
     double r2;        ///< NaN: not known
     double cv_mean_error, cv_median_error; ///< absolute errors in cross-validation; NaN: not known
+    double leverage_limit; ///< greatest leverage of a bed that it was fitted to; NaN: not known
 } clast_porosity_model;
 
 CLAST_API void clast_porosity_model_free(clast_porosity_model *model);
@@ -98,9 +99,10 @@ enum { CLAST_N_PUBLISHED_MODEL = 5 };
 /// form_mixture_U1, _U7 (eqs 23, 24) of Rettinger et al. 2022.
 ///
 /// Deviation: sqrt(pi/2) times the printed mean absolute error of cross-validation (Tables 9 and
-/// 10), which is exact for normal residuals. Ranges: of a mixture the nominal means and deviations
-/// of the 52 set-ups of sec. 7.1; of a single form mean +- 2 deviations of the 63 grains (Fig. 2),
-/// cut at 1, since the paper prints no limits.
+/// 10), which is exact for normal residuals. Ranges: of a mixture those of Table 2, for which the
+/// authors hold it applicable, cut at the set-ups of sec. 7.1; of a single form mean +- 2
+/// deviations of the 63 grains (Fig. 2), cut at 1, and L/S as far as 63 grains of these laws go
+/// (median of their least and greatest), since the paper prints no limits.
 CLAST_API clast_status clast_porosity_model_published(int32_t number, clast_porosity_model *model);
 
 /// Number of the published model of this name, or -1.
@@ -114,6 +116,7 @@ typedef struct clast_prediction {
     double coefficient_error; ///< of the coefficients: their covariance, or their printed digits
     double sampling_error;    ///< of the features, from a limited number of grains; 0: not known
     bool in_range;
+    double leverage; ///< x' (X'X)^-1 x of the terms' values; NaN where the model holds no limit
     int32_t n_outside;
     int32_t outside[16]; ///< ranges (numbers into model->range) that are left, first 16
 } clast_prediction;
@@ -126,8 +129,10 @@ CLAST_API clast_status clast_porosity_model_values(const clast_porosity_model *m
                                                    const clast_form_inputs *inputs, double *value,
                                                    double *range_value);
 
-/// Porosity for given values of terms and ranged features. Outside its ranges the model still
-/// answers, with in_range false; a porosity outside (0, 1) is CLAST_E_LIMIT.
+/// Porosity for given values of terms and ranged features. Outside its ranges, or where the values
+/// together lie farther out than those of any bed that it was fitted to (by their leverage
+/// [Cook1977]), the model still answers, with in_range false; a porosity outside (0, 1) is
+/// CLAST_E_LIMIT.
 CLAST_API clast_status clast_porosity_model_apply(const clast_porosity_model *model,
                                                   const double *value, const double *range_value,
                                                   clast_prediction *prediction);

@@ -56,6 +56,10 @@ CLAST_API clast_status clast_table_parse_csv(const char *name, const void *bytes
 /// @return CLAST_E_DISK
 CLAST_API clast_status clast_table_write_csv(const clast_table *table, const char *path);
 
+/// The same below a line "# NOTE", which clast_table_read_csv passes over; the note is one line.
+CLAST_API clast_status clast_table_write_csv_note(const clast_table *table, const char *note,
+                                                  const char *path);
+
 /// Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON
 /// does not have, become null. The file appears whole or not at all.
 CLAST_API clast_status clast_table_write_json(const clast_table *table, const char *path);

@@ -120,7 +120,8 @@ CLAST_API clast_status clast_workspace_cells(const clast_workspace *workspace, i
                                              int64_t stride);
 
 /// Expected events of the cell of each point, shared evenly among its points, into
-/// events[i * stride]: what a solver that keeps its own cells adds up. 0 for points left out.
+/// events[i * stride]: what a solver that keeps its own cells adds up. Without beta_dt its share of
+/// the pair integral [1/m^d]. 0 for points left out.
 ///
 /// @return CLAST_E_USAGE before the first decomposition
 CLAST_API clast_status clast_workspace_events(const clast_workspace *workspace, double *events,

@@ -3,6 +3,11 @@
 #include "base/status.h"
 #include <clast/field.h>
 
+/// As clast_unit_parse_asked; the spelling it names is the one nearest to a typical value [SI], 0:
+/// none is known.
+clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double typical,
+                                  double *value);
+
 /// Whether the value at `slot` is one that the field can have: finite and in its range, a choice of
 /// its list, a text.
 ///

@@ -1,6 +1,7 @@
 // Units of measure: texts such as "675 um" become SI numbers.
 #include <clast/field.h>
 
+#include "base/field.h"
 #include "base/number.h"
 #include "base/status.h"
 #include <ctype.h>
@@ -165,14 +166,34 @@ clast_status clast_unit_parse(const char *text, const char *si_unit, double *val
     return status;
 }
 
+/// The unit of length in which the number comes nearest to a typical length [m].
+static const char *nearest_length(double size, double typical)
+{
+    static const struct {
+        const char *name;
+        double metre;
+    } scale[] = {{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
+    size_t best = 0;
+    for (size_t k = 1; k < sizeof scale / sizeof *scale; ++k) {
+        best = fabs(log(size * scale[k].metre / typical)) <
+                       fabs(log(size * scale[best].metre / typical))
+                   ? k
+                   : best;
+    }
+    return scale[best].name;
+}
+
 /// Refuses a bare number of a dimension for which people use several units, and says how to write
-/// it: 270 is micrometres rather than metres, 0.3 is metres.
-static clast_status refuse_bare(const char *si_unit, double value)
+/// it: near its typical value where that is known, else 270 is micrometres rather than metres, 0.3
+/// is metres.
+static clast_status refuse_bare(const char *si_unit, double value, double typical)
 {
     char known[KNOWN_SIZE];
     const char *likely = NULL;
     const double size = fabs(value);
-    if (strcmp(si_unit, "rad") == 0) {
+    if (strcmp(si_unit, "m") == 0 && size > 0.0 && typical > 0.0) {
+        likely = nearest_length(size, typical);
+    } else if (strcmp(si_unit, "rad") == 0) {
         likely = size < 1.0 ? "rad" : "deg";
     } else if (strcmp(si_unit, "m") == 0) {
         likely = size < 0.5 ? "m" : size < 100.0 ? "mm" : "um";
@@ -189,6 +210,12 @@ static clast_status refuse_bare(const char *si_unit, double value)
 
 clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
 {
+    return clx_unit_parse_asked(text, si_unit, 0.0, value);
+}
+
+clast_status clx_unit_parse_asked(const char *text, const char *si_unit, double typical,
+                                  double *value)
+{
     double parsed = 0.0;
     size_t n = strlen(text);
     while (n > 0 && isspace((unsigned char)text[n - 1])) {
@@ -198,7 +225,7 @@ clast_status clast_unit_parse_asked(const char *text, const char *si_unit, doubl
     const bool is_bare = n > 0 && (isdigit((unsigned char)text[n - 1]) || text[n - 1] == '.');
     clast_status status = clast_unit_parse(text, si_unit, &parsed);
     if (status == CLAST_OK && is_bare) {
-        status = refuse_bare(si_unit, parsed);
+        status = refuse_bare(si_unit, parsed, typical);
     }
     if (status == CLAST_OK) {
         *value = parsed;

@@ -2,6 +2,9 @@
 #include <clast/cloud.h>
 
 #include "base/alloc.h"
+#include "cloud/columns.h"
+#include "cloud/contract.h"
+#include "math/sort.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -51,11 +54,11 @@ clast_status clast_cloud_column(const clast_table *table, const char *name, doub
     double *found = NULL;
     if (name != NULL && name[0] != '\0') {
         found = clast_table_numbers(table, name);
-        CLX_CHECK(found != NULL, CLAST_E_FORMAT, "%s has no column of numbers named '%s'",
-                  table->name, name);
+        if (found == NULL) {
+            return clx_cloud_no_column(table, name);
+        }
     }
     *column = found;
-done:
     return status;
 }
 
@@ -83,6 +86,32 @@ done:
     return status;
 }
 
+/// Factor to SI of a column of this dimension: by its own unit, else by the one asked for.
+static clast_status factor_of(const clast_table *table, const double *column, const char *si_unit,
+                              const char *asked, double *factor)
+{
+    clast_status status = CLAST_OK;
+    const bool is_asked = asked != NULL && asked[0] != '\0';
+    *factor = 1.0;
+    if (is_asked) {
+        CLX_TRY(clast_unit_factor(asked, si_unit, factor));
+    }
+    for (int32_t k = 0; k < table->n_column; ++k) {
+        double own = 1.0;
+        const clast_column *c = &table->column[k];
+        if (c->number != column || strcmp(c->unit, "-") == 0 ||
+            clast_unit_factor(c->unit, si_unit, &own) != CLAST_OK) {
+            continue; // "x_t" is no time
+        }
+        CLX_CHECK(!is_asked || own == *factor, CLAST_E_CONFIG,
+                  "%s: column '%s' is in %s by its name, the unit asked for is %s", table->name,
+                  c->name, c->unit, asked);
+        *factor = own;
+    }
+done:
+    return status;
+}
+
 static clast_status take_columns(const clast_table *table, double *column[3], int32_t d,
                                  double **taken)
 {
@@ -97,16 +126,35 @@ done:
     return status;
 }
 
-static clast_status take_property(const clast_table *table, const char *name, double factor,
-                                  double **taken)
+/// Columns in SI; `asked` is the unit of those that name none.
+static clast_status take_lengths(const clast_table *table, double *column[3], int32_t d,
+                                 const char *asked, double **taken)
+{
+    clast_status status = CLAST_OK;
+    double factor[3] = {1.0, 1.0, 1.0};
+    for (int32_t j = 0; j < d; ++j) {
+        CLX_TRY(factor_of(table, column[j], "m", asked, &factor[j]));
+    }
+    CLX_TRY(take_columns(table, column, d, taken));
+    for (int64_t i = 0; i < table->n_row * d; ++i) {
+        (*taken)[i] *= factor[i % d];
+    }
+done:
+    return status;
+}
+
+static clast_status take_property(const clast_table *table, const char *name, const char *si_unit,
+                                  double share, double **taken)
 {
     clast_status status = CLAST_OK;
     double *column[3] = {NULL};
+    double factor = 1.0;
     CLX_TRY(clast_cloud_column(table, name, &column[0]));
     if (column[0] != NULL) {
+        CLX_TRY(factor_of(table, column[0], si_unit, NULL, &factor));
         CLX_TRY(take_columns(table, column, 1, taken));
         for (int64_t i = 0; i < table->n_row; ++i) {
-            (*taken)[i] *= factor;
+            (*taken)[i] *= share * factor;
         }
     }
 done:
@@ -128,7 +176,7 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     CLX_TRY(find_columns(table, &columns->columns, column, &made.dimension));
     CLX_CHECK(made.dimension >= 1, CLAST_E_FORMAT, "%s: no coordinate column is named",
               table->name);
-    CLX_TRY(take_columns(table, column, made.dimension, &made.x));
+    CLX_TRY(take_lengths(table, column, made.dimension, columns->unit, &made.x));
     CLX_TRY(find_columns(table, &columns->velocity_columns, column, &n_velocity));
     CLX_CHECK(n_velocity == 0 || n_velocity == made.dimension, CLAST_E_FORMAT,
               "%s: %d velocity columns for %d coordinates", table->name, n_velocity,
@@ -138,16 +186,71 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     }
     CLX_CHECK(!is_named(columns->radius_column) || !is_named(columns->diameter_column),
               CLAST_E_CONFIG, "give a radius column or a diameter column, not both");
-    CLX_TRY(take_property(table, columns->radius_column, 1.0, &made.radius));
+    CLX_TRY(take_property(table, columns->radius_column, "m", 1.0, &made.radius));
     if (made.radius == NULL) {
-        CLX_TRY(take_property(table, columns->diameter_column, 0.5, &made.radius));
+        CLX_TRY(take_property(table, columns->diameter_column, "m", 0.5, &made.radius));
     }
-    CLX_TRY(take_property(table, columns->mass_column, 1.0, &made.mass));
-    CLX_TRY(take_property(table, columns->weight_column, 1.0, &made.weight));
-    CLX_TRY(take_property(table, columns->variable_column, 1.0, &made.variable));
+    CLX_TRY(take_property(table, columns->mass_column, "kg", 1.0, &made.mass));
+    CLX_TRY(take_property(table, columns->weight_column, "-", 1.0, &made.weight));
+    CLX_TRY(take_property(table, columns->variable_column, "-", 1.0, &made.variable));
     *cloud = made;
     made = (clast_cloud){0};
 done:
     clast_cloud_free(&made);
+    return status;
+}
+
+/// Mixes a number thoroughly. [Steele2014, splitmix64]
+static uint64_t mix(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
+static uint64_t hash_of(const double *x, int32_t d)
+{
+    uint64_t hash = 0;
+    for (int32_t j = 0; j < d; ++j) {
+        const double value = x[j] + 0.0; // -0 is 0
+        uint64_t bits = 0;
+        memcpy(&bits, &value, sizeof bits);
+        hash = mix(hash ^ bits);
+    }
+    return hash;
+}
+
+static bool are_equal(const double *a, const double *b, int32_t d)
+{
+    bool equal = true;
+    for (int32_t j = 0; j < d; ++j) {
+        equal = equal && a[j] == b[j];
+    }
+    return equal;
+}
+
+clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated)
+{
+    clast_status status = CLAST_OK;
+    clx_keyed *entry = NULL;
+    int64_t n = 0;
+    int64_t first = 0;
+    CLX_NEED(n_repeated);
+    CLX_TRY(clx_cloud_check(cloud));
+    const int32_t d = cloud->dimension;
+    CLX_TRY(clx_alloc(&entry, cloud->n, sizeof *entry));
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        entry[i] = (clx_keyed){hash_of(cloud->x + i * d, d), (uint64_t)i};
+    }
+    CLX_TRY(clx_sort_keyed(entry, cloud->n));
+    for (int64_t i = 1; i < cloud->n; ++i) {
+        first = entry[i].key == entry[first].key ? first : i;
+        n += first < i && are_equal(cloud->x + (int64_t)entry[first].item * d,
+                                    cloud->x + (int64_t)entry[i].item * d, d);
+    }
+    *n_repeated = n;
+done:
+    clx_free(entry);
     return status;
 }

@@ -8,7 +8,6 @@
 #include <math.h>
 
 enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1 };
-static const double MIXING = 0.1; ///< collisions a particle makes on average between two deals
 
 static double merged_radius(const clast_population *p, const clast_collide_config *c, int64_t i,
                             int64_t j)
@@ -89,70 +88,6 @@ typedef struct {
     bool *is_too_many;
 } step_context;
 
-static void shuffle(int64_t *item, int64_t n, clx_rng *rng)
-{
-    for (int64_t i = n - 1; i > 0; --i) {
-        const int64_t j = clx_rng_below(rng, i + 1);
-        const int64_t held = item[i];
-        item[i] = item[j];
-        item[j] = held;
-    }
-}
-
-static void evolve(clx_block *block, double dt)
-{
-    if (block->config->collisions == CLAST_COLLISIONS_POISSON) {
-        clx_block_poisson(block, dt);
-    } else {
-        clx_block_next_events(block, dt);
-    }
-}
-
-/// Deals a cell of many kinds into random blocks again and again. In a block of m of the cell's n
-/// particles each meets m - 1 others at (n - 1) / (m - 1) times the rate, so that its expected
-/// number of collisions stays.
-static void evolve_in_blocks(clx_block *cell, double dt)
-{
-    int64_t n = cell->n;
-    double left = dt;
-    while (left > 0.0 && n > 1) {
-        const int64_t n_block = (n + cell->config->block - 1) / cell->config->block;
-        double delta = left;
-        shuffle(cell->member, n, cell->rng);
-        for (int64_t k = 0; k < n_block; ++k) {
-            const int64_t begin = n * k / n_block;
-            clx_block block = *cell;
-            block.member += begin;
-            block.frozen += begin;
-            block.kind += begin;
-            block.n = n * (k + 1) / n_block - begin;
-            if (block.n < 2) {
-                continue;
-            }
-            block.deal = (double)(n - 1) / (double)(block.n - 1);
-            block.scale *= block.deal;
-            block.n_event = 0;
-            block.n_real = 0.0;
-            (void)clx_block_sort(&block, block.n);
-            if (k == 0) {
-                const double rate = block.scale * clx_block_rates(&block) / (double)block.n;
-                delta = rate * left > MIXING ? MIXING / rate : left;
-            }
-            evolve(&block, delta);
-            cell->n_event += block.n_event;
-            cell->n_real += block.n_real;
-        }
-        int64_t kept = 0;
-        for (int64_t m = 0; m < n; ++m) {
-            if (cell->population->monomers[cell->member[m]] > 0) {
-                cell->member[kept++] = cell->member[m];
-            }
-        }
-        n = kept;
-        left -= delta;
-    }
-}
-
 static void evolve_cell(const step_context *s, int32_t c)
 {
     const int64_t begin = s->start[c];
@@ -176,11 +111,12 @@ static void evolve_cell(const step_context *s, int32_t c)
     if (n < 1 || (n < 2 && !(s->config->self_collisions && s->population->weight != NULL))) {
         return;
     }
-    shuffle(block.member, n, &rng);
+    clx_block_shuffle(block.member, n, &rng);
     if (clx_block_sort(&block, limit > 0 ? limit : KIND_LIMIT)) {
-        evolve(&block, s->dt);
+        (void)clx_block_rates(&block);
+        clx_block_evolve(&block, s->dt);
     } else if (limit > 0) {
-        evolve_in_blocks(&block, s->dt);
+        clx_block_evolve_dealt(&block, s->scratch.n_kind + begin, s->dt);
     } else {
         s->is_too_many[c] = true;
     }
@@ -366,6 +302,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
     CLX_TRY(clx_alloc(&s.scratch.next, n, sizeof *s.scratch.next));
     CLX_TRY(clx_alloc(&s.scratch.frozen, n, sizeof *s.scratch.frozen));
     CLX_TRY(clx_alloc(&s.scratch.kind, n, sizeof *s.scratch.kind));
+    CLX_TRY(clx_alloc(&s.scratch.n_kind, n, sizeof *s.scratch.n_kind));
     CLX_TRY(clx_alloc(&s.start, (int64_t)cells->n + 1, sizeof *s.start));
     CLX_TRY(clx_alloc(&s.n_event, cells->n, sizeof *s.n_event));
     CLX_TRY(clx_alloc(&s.n_real, cells->n, sizeof *s.n_real));
@@ -377,6 +314,7 @@ done:
     clx_free(s.scratch.next);
     clx_free(s.scratch.frozen);
     clx_free(s.scratch.kind);
+    clx_free(s.scratch.n_kind);
     clx_free(s.start);
     clx_free(s.n_event);
     clx_free(s.n_real);

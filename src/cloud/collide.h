@@ -19,6 +19,7 @@ typedef struct clx_collide_scratch {
     int64_t *next;   ///< [n] list of a kind, -1 ends it
     int64_t *frozen; ///< [n] particles by kind at the start of a sub-step
     clx_kind *kind;  ///< [n]
+    int64_t *n_kind; ///< [n] kinds of the blocks of a deal
 } clx_collide_scratch;
 
 /// A block: particles member [n] that meet at the rate kernel x scale.
@@ -44,9 +45,21 @@ bool clx_block_sort(clx_block *block, int64_t limit);
 /// Rows of all kinds anew; returns the sum over particles of their rows.
 double clx_block_rates(clx_block *block);
 
-/// Evolves a sorted block for a time dt in the configured mode.
-void clx_block_next_events(clx_block *block, double dt);
-void clx_block_poisson(clx_block *block, double dt);
+/// A particle as a kind without members; the rate over scale of a pair of kinds; twice the rate
+/// over scale at which the particles of one parcel collide.
+clx_kind clx_block_as_seen(const clx_block *block, int64_t particle);
+double clx_block_kernel(const clx_block *block, const clx_kind *x, const clx_kind *y);
+double clx_block_self_rate(const clx_block *block, const clx_kind *kind);
+
+/// Takes dead particles out of the members.
+void clx_block_drop_dead(clx_block *block);
+
+/// Evolves a sorted block with rates for a time dt in the configured mode.
+void clx_block_evolve(clx_block *block, double dt);
+
+/// Evolves a cell of more kinds than config->block for a time dt; n_kind [block->n] is scratch.
+void clx_block_evolve_dealt(clx_block *cell, int64_t *n_kind, double dt);
+void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng);
 
 /// Lets two live particles stick; weighted parcels as clast_collide says. `live` lists those that
 /// change and live on, in rising order; returns how many. *n_real grows by the collisions.

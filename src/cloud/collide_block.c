@@ -4,7 +4,7 @@
 #include <math.h>
 
 /// The kind of a particle, without members.
-static clx_kind as_seen(const clx_block *b, int64_t i)
+clx_kind clx_block_as_seen(const clx_block *b, int64_t i)
 {
     const clast_population *p = b->population;
     const double weight = p->weight != NULL ? p->weight[i] : 1.0;
@@ -64,7 +64,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
 {
     b->n_kind = 0;
     for (int64_t m = 0; m < b->n; ++m) {
-        const clx_kind seen = as_seen(b, b->member[m]);
+        const clx_kind seen = clx_block_as_seen(b, b->member[m]);
         const int64_t k = find_kind(b, &seen);
         if (k == b->n_kind) {
             if (k == limit) {
@@ -78,7 +78,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
 }
 
 /// Rate of a pair over scale.
-static double kernel(const clx_block *b, const clx_kind *x, const clx_kind *y)
+double clx_block_kernel(const clx_block *b, const clx_kind *x, const clx_kind *y)
 {
     return fmax(x->weight, y->weight) *
            clast_kernel_value(b->config->kernel, b->medium, &x->as, &y->as);
@@ -86,7 +86,7 @@ static double kernel(const clx_block *b, const clx_kind *x, const clx_kind *y)
 
 /// Twice the rate, over scale, at which the particles of one parcel collide: rows count pairs
 /// twice. A parcel is always in its own block, so its rate has no share of the deal.
-static double self_rate(const clx_block *b, const clx_kind *kind)
+double clx_block_self_rate(const clx_block *b, const clx_kind *kind)
 {
     if (!b->config->self_collisions || kind->weight <= 1.0) {
         return 0.0;
@@ -97,9 +97,10 @@ static double self_rate(const clx_block *b, const clx_kind *kind)
 
 static double row_of(const clx_block *b, int64_t k)
 {
-    double row = self_rate(b, &b->kind[k]);
+    double row = clx_block_self_rate(b, &b->kind[k]);
     for (int64_t l = 0; l < b->n_kind; ++l) {
-        row += kernel(b, &b->kind[k], &b->kind[l]) * (double)(b->kind[l].n - (l == k ? 1 : 0));
+        row += clx_block_kernel(b, &b->kind[k], &b->kind[l]) *
+               (double)(b->kind[l].n - (l == k ? 1 : 0));
     }
     return row;
 }
@@ -145,7 +146,7 @@ enum { WITHIN = -2 }; ///< in place of a second kind: the parcel's own particles
 /// Second kind: chance kernel x number of other particles of that kind.
 static int64_t pick_second(clx_block *b, int64_t first)
 {
-    const double within = self_rate(b, &b->kind[first]);
+    const double within = clx_block_self_rate(b, &b->kind[first]);
     double at = clx_rng_uniform(b->rng) * b->kind[first].row - within;
     int64_t last = within > 0.0 ? WITHIN : -1;
     if (at < 0.0) {
@@ -153,7 +154,8 @@ static int64_t pick_second(clx_block *b, int64_t first)
     }
     for (int64_t k = 0; k < b->n_kind; ++k) {
         const int64_t n = b->kind[k].n - (k == first ? 1 : 0);
-        const double chance = n > 0 ? (double)n * kernel(b, &b->kind[first], &b->kind[k]) : 0.0;
+        const double chance =
+            n > 0 ? (double)n * clx_block_kernel(b, &b->kind[first], &b->kind[k]) : 0.0;
         if (chance > 0.0) {
             last = k;
             at -= chance;
@@ -169,7 +171,7 @@ static int64_t pick_second(clx_block *b, int64_t first)
 static void unload(clx_block *b, const clx_kind *gone)
 {
     for (int64_t k = 0; k < b->n_kind; ++k) {
-        b->kind[k].row = fmax(0.0, b->kind[k].row - kernel(b, &b->kind[k], gone));
+        b->kind[k].row = fmax(0.0, b->kind[k].row - clx_block_kernel(b, &b->kind[k], gone));
     }
 }
 
@@ -183,9 +185,9 @@ static void drop_if_empty(clx_block *b, int64_t kind)
 /// Puts a new aggregate into the block's kinds and rows.
 static void load(clx_block *b, int64_t particle)
 {
-    const clx_kind seen = as_seen(b, particle);
+    const clx_kind seen = clx_block_as_seen(b, particle);
     for (int64_t k = 0; k < b->n_kind; ++k) {
-        b->kind[k].row += kernel(b, &b->kind[k], &seen);
+        b->kind[k].row += clx_block_kernel(b, &b->kind[k], &seen);
     }
     const int64_t kind = find_kind(b, &seen);
     if (kind == b->n_kind) {
@@ -237,10 +239,10 @@ static bool one_event(clx_block *b, double total)
     return true;
 }
 
-void clx_block_next_events(clx_block *b, double dt)
+static void next_events(clx_block *b, double dt)
 {
     enum { LEAST_REFRESH = 64 };
-    double total = clx_block_rates(b);
+    double total = total_of(b);
     double time = 0.0;
     int64_t since = 0;
     while (total > 0.0) {
@@ -312,18 +314,20 @@ static bool frozen_event(clx_block *b, double total)
     return false;
 }
 
-static void keep_alive(clx_block *b)
+void clx_block_drop_dead(clx_block *b)
 {
     int64_t n = 0;
     for (int64_t m = 0; m < b->n; ++m) {
-        if (b->population->monomers[b->member[m]] > 0) {
-            b->member[n++] = b->member[m];
+        const int64_t i = b->member[m];
+        if (b->population->monomers[i] > 0) { // the dead go behind: the cell's list keeps each once
+            b->member[m] = b->member[n];
+            b->member[n++] = i;
         }
     }
     b->n = n;
 }
 
-void clx_block_poisson(clx_block *b, double dt)
+static void poisson(clx_block *b, double dt)
 {
     double left = dt;
     while (left > 0.0 && b->n > 0) {
@@ -341,9 +345,18 @@ void clx_block_poisson(clx_block *b, double dt)
             freeze(b);
             for (int64_t e = 0; e < n_event && frozen_event(b, total); ++e) {
             }
-            keep_alive(b);
+            clx_block_drop_dead(b);
             (void)clx_block_sort(b, b->n);
         }
         left -= delta;
+    }
+}
+
+void clx_block_evolve(clx_block *block, double dt)
+{
+    if (block->config->collisions == CLAST_COLLISIONS_POISSON) {
+        poisson(block, dt);
+    } else {
+        next_events(block, dt);
     }
 }

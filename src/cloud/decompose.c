@@ -17,16 +17,18 @@
 #define FIELD(type, name) #name, .offset = offsetof(clast_decompose_config, name), type
 const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_TEXT, domain), 0, 0, 0, "-",
-     "known domain: box:LOW..,HIGH.., cylinder:R,L, half-pipe:R,L, sphere:R, mesh:FILE [m]", "",
-     .common = true, .group = "domain"},
+     "known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), "
+     "half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm]",
+     "", .common = true, .group = "domain"},
     {FIELD(CLAST_FIELD_CHOICE, outside), 0, 0, 0, "-",
      "points outside the domain: refuse the file, or leave them out", "error|drop", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, variant), 0, 0, 0, "-",
      "how far to go: tests and passes, first test and one pass, one pass, tests alone",
      "full|first|fast|test", .common = true, .group = "method"},
     {FIELD(CLAST_FIELD_CHOICE, mesh), CLAST_CELLS_AUTO, 0, 0, "-",
-     "what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant "
-     "in 3-D, else boxes",
+     "what bins are joined into; tree splits by a chi-square test; auto: tree for the full "
+     "variant, "
+     "else boxes",
      "boxes|components|bins|labels|tree|auto", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
@@ -50,8 +52,9 @@ const clast_field clast_decompose_fields[] = {
     {FIELD(CLAST_FIELD_BOOL, strict), 0, 0, 0, "-",
      "bins exactly at a threshold are ambient (the prose; the printed algorithm takes them)", NULL},
     {FIELD(CLAST_FIELD_I32, max_pass), 10, 1, CLAST_MAX_PASS, "-", "passes at the most", NULL},
-    {FIELD(CLAST_FIELD_F64, beta_dt), 1e-6, 0.0, 1e300, "-",
-     "collision kernel times time step [m^d]", NULL, .common = true},
+    {FIELD(CLAST_FIELD_F64, beta_dt), 0.0, 0.0, 1e300, "-",
+     "collision kernel times time step [m^d]; 0: pair integral per beta dt [1/m^d]", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_F64, tree_level), 0.01, 1e-9, 0.5, "-",
      "level of the test in each tree cell", NULL, .group = "tree"},
     {FIELD(CLAST_FIELD_F64, tree_root_level), 1e-4, 1e-12, 0.5, "-",
@@ -304,6 +307,11 @@ done:
     return status;
 }
 
+bool clast_cells_are_labelled(const clast_cells *cells)
+{
+    return cells->of_bin != NULL;
+}
+
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
     double u[3] = {0};
@@ -386,8 +394,8 @@ static clast_status cross_events(const clast_cloud *half, const clast_decompose_
     }
     for (int32_t c = 0; c < a.cells.n; ++c) {
         const double both = a.cells.weight[c] + weight[c];
-        sum += fmin(2.0 * config->beta_dt * a.cells.weight[c] * weight[c] / a.cells.volume[c],
-                    0.5 * both);
+        const double pairs = 2.0 * a.cells.weight[c] * weight[c] / a.cells.volume[c];
+        sum += config->beta_dt > 0.0 ? fmin(config->beta_dt * pairs, 0.5 * both) : pairs;
     }
     *events = sum / (1.0 + a.smoothing_bias);
 done:
@@ -417,26 +425,27 @@ done:
     return status;
 }
 
-/// Boxes of bins keep the noise of about one point a bin in 3-D; the tree does not.
-static bool takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+/// Boxes of bins are joined for their counts and keep the noise, and blobs narrower than a bin; the
+/// tree does not.
+static bool takes_tree(const clast_decompose_config *config)
 {
     return config->mesh == CLAST_CELLS_TREE ||
            (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
-            config->variant == CLAST_VARIANT_FULL &&
-            (cloud->dimension == 3 || cloud->variable != NULL));
+            config->variant == CLAST_VARIANT_FULL);
 }
 
 static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                const clast_decompose_config *config, clast_decomposition *result)
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
-    const bool is_tree = takes_tree(config, cloud);
+    const bool is_tree = takes_tree(config);
     if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
         result->stop = m->n_test < 5           ? CLAST_STOP_UNTESTED
                        : result->before.reject ? CLAST_STOP_TESTED
                                                : CLAST_STOP_ACCEPTED;
         return one_cell(m, &result->cells);
     }
+    result->has_drawn = result->has_drawn || (!is_tree && config->ghost_samples > 0);
     return is_tree ? tree_cells(cloud, m, config, result) : bin_cells(m, config, result);
 }
 
@@ -449,9 +458,9 @@ static clast_status check_config(const clast_decompose_config *config)
     return clast_fields_check(clast_decompose_fields, &named);
 }
 
-bool clx_decompose_takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+bool clx_decompose_takes_tree(const clast_decompose_config *config)
 {
-    return takes_tree(config, cloud);
+    return takes_tree(config);
 }
 
 clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
@@ -461,7 +470,7 @@ clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *
     CLX_TRY(check_config(config));
     CLX_TRY(clx_domain_check(domain));
     CLX_TRY(clx_cloud_check(cloud));
-    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
+    CLX_CHECK(cloud->variable == NULL || takes_tree(config), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");
 done:
     return status;
@@ -501,10 +510,16 @@ done:
 }
 
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
-                                  const clast_decompose_config *config, clast_decomposition *result)
+                                  const clast_decompose_config *config, clx_shown *kept,
+                                  clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_events_count(cloud, config, sample, result));
+    result->beta_dt = config->beta_dt;
+    result->volume = clast_domain_volume(sample->domain);
+    result->seed = config->seed;
+    result->has_drawn =
+        result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
+    CLX_TRY(clx_events_count(cloud, config, sample, kept, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
@@ -526,7 +541,7 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
     CLX_TRY(clx_decompose_test(&m, config, &made.before));
     CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
-    CLX_TRY(clx_decompose_events(cloud, &m, config, &made));
+    CLX_TRY(clx_decompose_events(cloud, &m, config, NULL, &made));
     *result = made;
     made = (clast_decomposition){0};
 done:

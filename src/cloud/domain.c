@@ -1,90 +1,8 @@
 // Domains and their measure-preserving maps to the unit cube.
 #include <clast/domain.h>
 
-#include "base/number.h"
 #include "cloud/surface.h"
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { MAX_NUMBER = 6 };
-
-/// Numbers after the colon; -1 when they are not numbers.
-static int parse_numbers(const char *text, double *number)
-{
-    int n = 0;
-    const char *at = text;
-    while (*at != '\0') {
-        char *end = NULL;
-        if (n == MAX_NUMBER) {
-            return -1;
-        }
-        number[n] = clx_number_read(at, &end);
-        if (end == at || !isfinite(number[n]) || (*end != ',' && *end != '\0')) {
-            return -1;
-        }
-        ++n;
-        at = *end == ',' ? end + 1 : end;
-    }
-    return n;
-}
-
-static clast_status bad(const char *text)
-{
-    return clx_fail(CLAST_E_CONFIG,
-                    "domain '%s': expected box:LOW...,HIGH... (2, 4 or 6 numbers), cylinder:R,L, "
-                    "half-pipe:R,L, sphere:R with positive sizes, or mesh:FILE",
-                    text);
-}
-
-static bool set_box(const double *number, int n, clast_domain *domain)
-{
-    domain->dimension = n / 2;
-    for (int j = 0; j < n / 2; ++j) {
-        domain->low[j] = number[j];
-        domain->high[j] = number[n / 2 + j];
-        if (!(domain->high[j] > domain->low[j])) {
-            return false;
-        }
-    }
-    return n == 2 || n == 4 || n == 6;
-}
-
-clast_status clast_domain_parse(const char *text, clast_domain *domain)
-{
-    static const struct {
-        const char *name;
-        clast_domain_kind kind;
-        int n;
-    } kinds[] = {{"box:", CLAST_DOMAIN_BOX, 0},
-                 {"cylinder:", CLAST_DOMAIN_CYLINDER, 2},
-                 {"half-pipe:", CLAST_DOMAIN_HALF_PIPE, 2},
-                 {"sphere:", CLAST_DOMAIN_SPHERE, 1}};
-    if (text == NULL || domain == NULL) {
-        return clx_fail(CLAST_E_ARGUMENT, "clast_domain_parse: %s is NULL",
-                        text == NULL ? "text" : "domain");
-    }
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
-        const size_t length = strlen(kinds[k].name);
-        if (strncmp(text, kinds[k].name, length) != 0) {
-            continue;
-        }
-        clast_domain made = {.kind = kinds[k].kind, .dimension = 3};
-        double number[MAX_NUMBER] = {0};
-        const int n = parse_numbers(text + length, number);
-        made.radius = number[0];
-        made.length = kinds[k].n == 2 ? number[1] : 1.0;
-        const bool fits = made.kind == CLAST_DOMAIN_BOX
-                              ? set_box(number, n, &made)
-                              : n == kinds[k].n && made.radius > 0.0 && made.length > 0.0;
-        if (!fits) {
-            return bad(text);
-        }
-        *domain = made;
-        return CLAST_OK;
-    }
-    return bad(text);
-}
 
 bool clx_domain_is_boxed(const clast_domain *d)
 {
@@ -140,8 +58,32 @@ static bool map_sphere(const clast_domain *d, const double *x, double *u)
     return r <= 1.0;
 }
 
+/// Coordinates along a placed domain's own axes, from its centre.
+static void to_local(const clast_domain *d, const double *x, double local[3])
+{
+    const double from[3] = {x[0] - d->centre[0], x[1] - d->centre[1], x[2] - d->centre[2]};
+    for (int k = 0; k < 3; ++k) {
+        const double *a = d->axes[k];
+        local[k] = a[0] * from[0] + a[1] * from[1] + a[2] * from[2];
+    }
+}
+
+static void to_world(const clast_domain *d, double *x)
+{
+    const double local[3] = {x[0], x[1], x[2]};
+    for (int k = 0; k < 3; ++k) {
+        x[k] = d->centre[k] + d->axes[0][k] * local[0] + d->axes[1][k] * local[1] +
+               d->axes[2][k] * local[2];
+    }
+}
+
 bool clast_domain_map(const clast_domain *d, const double *x, double *u)
 {
+    double local[3];
+    if (d->is_placed) {
+        to_local(d, x, local);
+        x = local;
+    }
     if (d->kind == CLAST_DOMAIN_SPHERE) {
         return map_sphere(d, x, u);
     }
@@ -185,5 +127,8 @@ void clast_domain_unmap(const clast_domain *d, const double *u, double *x)
         x[0] = rho * cos(angle);
         x[1] = rho * sin(angle);
         x[2] = u[2] * d->length;
+    }
+    if (d->is_placed) {
+        to_world(d, x);
     }
 }

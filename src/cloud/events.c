@@ -3,6 +3,7 @@
 #include "cloud/events.h"
 
 #include "base/alloc.h"
+#include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <math.h>
@@ -21,13 +22,15 @@ typedef struct {
     const clx_sample *sample;
     clast_cells *cells;
     double scale; ///< volume of the domain over the sum of the cells' volumes
+    double rate;  ///< beta dt; 1 where it is not known, and nothing is capped
     bool is_printed;
-    bool is_plain;   ///< nothing is extrapolated
-    part *cell;      ///< [cells->n]
-    part *half;      ///< [n_half][2^d] halves of the cells of group -2, -3 ..
-    bool *capped;    ///< [cells->n]
-    double pairs;    ///< sum of K_ij w_i w_j over i != j where no cell is capped
-    double variance; ///< of that sum
+    bool is_plain;     ///< nothing is extrapolated
+    part *cell;        ///< [cells->n]
+    part *half;        ///< [n_half][2^d] halves of the cells of group -2, -3 ..
+    bool *capped;      ///< [cells->n]
+    double pairs;      ///< sum of K_ij w_i w_j over i != j where no cell is capped
+    double variance;   ///< of that sum, and where is_certified of its systematic error too
+    bool is_certified; ///< by the resolution: no error is added for what was extrapolated
 } count;
 
 static void add_weight(part *p, double w)
@@ -149,6 +152,12 @@ static void add_pairs(count *n, const part *p, int n_part)
     }
 }
 
+/// Most events of a cell: every particle in one.
+static double cap_of(const count *n, int32_t c)
+{
+    return n->config->beta_dt > 0.0 ? 0.5 * n->cells->weight[c] : (double)INFINITY;
+}
+
 /// Each cell's events by its own count, uncapped; returns the sum of w_i w_j / V over i != j where
 /// no cap binds.
 static double count_plain(const count *n)
@@ -158,8 +167,8 @@ static double count_plain(const count *n)
         const double *w = n->cell[c].power;
         const double pairs = fmax(0.0, w[0] * w[0] - w[1]) / n->cell[c].volume;
         const double wanted =
-            n->config->beta_dt * (n->is_printed ? w[0] * w[0] / n->cell[c].volume : 0.5 * pairs);
-        n->capped[c] = wanted > 0.5 * w[0];
+            n->rate * (n->is_printed ? w[0] * w[0] / n->cell[c].volume : 0.5 * pairs);
+        n->capped[c] = wanted > cap_of(n, c);
         n->cells->events[c] = wanted;
         sum += n->capped[c] ? 0.0 : pairs;
     }
@@ -200,7 +209,7 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
     // pairs can only be hidden: below 1 it is noise, and of a handful of points it may be negative
     const double factor = !n->is_plain && plain > 0.0 ? fmax(0.5, n->pairs / plain) : 1.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
-        const double cap = 0.5 * n->cells->weight[c];
+        const double cap = cap_of(n, c);
         const double shared = factor * n->cells->events[c];
         r->n_capped += n->capped[c] || shared > cap ? 1 : 0;
         n->cells->events[c] = n->capped[c] ? cap : fmin(cap, shared);
@@ -209,20 +218,101 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
     r->smoothing_bias = 1.0 / factor - 1.0;
 }
 
+/// Sum of w_i w_j / V over i != j in all cells, capped or not.
+static double count_all(const count *n)
+{
+    double sum = 0.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        const double *w = n->cell[c].power;
+        sum += fmax(0.0, w[0] * w[0] - (n->is_printed ? 0.0 : w[1])) / n->cell[c].volume;
+    }
+    return sum;
+}
+
+/// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are
+/// a tree; of other cells it tells how far they are off. [docs/theory/decompose.md section 8]
+static void certify(count *n, const clx_resolution *shown, double plain, clast_decomposition *r)
+{
+    const double all = count_all(n);
+    const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
+    r->resolved = shown->resolved;
+    r->points_needed = shown->n_factor * (double)r->n;
+    r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
+    if (n->is_plain) {
+        r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
+    } else if (shown->resolved) {
+        n->pairs = shown->value * share;
+    } else {
+        n->pairs = fmax(n->pairs, shown->low * share);
+    }
+    n->is_certified = r->resolved;
+    if (n->is_certified) {
+        const double error =
+            log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value * share;
+        n->variance = error * error;
+    }
+}
+
 /// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the
 /// extrapolation is an assumption: a third of what it adds counts as a standard error.
 static void set_interval(const count *n, clast_decomposition *r)
 {
-    const double rate = n->is_printed ? n->config->beta_dt : 0.5 * n->config->beta_dt;
-    const double added = r->events * r->smoothing_bias;
+    const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
+    const double added = n->is_certified ? 0.0 : r->events * r->smoothing_bias;
     double variance = rate * rate * fmax(0.0, n->variance) + added * added / 9.0;
+    double cap = 0.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
+        cap += cap_of(n, c);
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
-    const double reach =
-        r->events > 0.0 ? 1.959963984540054 * sqrt(variance) / r->events : 0.0; // 97.5 %
+    const double reach = r->events > 0.0 ? CLX_NORMAL_975 * sqrt(variance) / r->events : 0.0;
     r->events_low = r->events * exp(-reach);
-    r->events_high = r->events * exp(reach);
+    r->events_high = fmin(cap, r->events * exp(reach));
+}
+
+/// The interval of a sample that is not resolved: nothing is known above.
+static void open_interval(const count *n, const clx_resolution *shown, double plain,
+                          clast_decomposition *r)
+{
+    const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
+    const double all = count_all(n);
+    double capped = 0.0;
+    double variance = 0.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        capped += n->capped[c] ? n->cells->events[c] : 0.0;
+        variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
+    }
+    const double low = all > 0.0 ? rate * shown->low * plain / all : 0.0;
+    r->events_low = fmin(r->events - capped, low) +
+                    (capped > 0.0 ? capped * exp(-CLX_NORMAL_975 * sqrt(variance) / capped) : 0.0);
+    r->events_high = INFINITY;
+}
+
+static clx_resolution scaled(clx_resolution shown, double factor)
+{
+    shown.value *= factor;
+    shown.low *= factor;
+    shown.high *= factor;
+    return shown;
+}
+
+/// What the pairs of all points show: counted, or as kept.
+static clast_status find_shown(const count *n, clx_shown *kept, clx_resolution *shown)
+{
+    clast_status status = CLAST_OK;
+    clx_ladder ladder;
+    const double all = count_all(n);
+    if (kept != NULL && kept->is_known) {
+        *shown = scaled(kept->relative, all);
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
+    *shown = clx_resolution_of(&ladder);
+    if (kept != NULL && all > 0.0) {
+        *kept = (clx_shown){true, scaled(*shown, 1.0 / all)};
+    }
+done:
+    return status;
 }
 
 static clast_status alloc_parts(count *n)
@@ -242,25 +332,34 @@ done:
 }
 
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clast_decomposition *result)
+                              const clx_sample *sample, clx_shown *kept,
+                              clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     const clast_domain *domain = sample->domain;
+    clx_resolution shown = {0};
     count n = {.cloud = cloud,
                .config = config,
                .sample = sample,
                .cells = &result->cells,
                .scale = domain->kind == CLAST_DOMAIN_MESH ? 1.0 : clast_domain_volume(domain),
+               .rate = config->beta_dt > 0.0 ? config->beta_dt : 1.0,
                .is_printed = config->paper || config->events == CLAST_EVENTS_PAPER};
     n.is_plain = n.is_printed || !config->extrapolate || result->cells.group == NULL;
     CLX_TRY(alloc_parts(&n));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
+    CLX_TRY(find_shown(&n, kept, &shown));
     const double plain = count_plain(&n);
     count_pairs(&n);
+    certify(&n, &shown, plain, result);
     share_out(&n, plain, result);
     set_interval(&n, result);
-    result->bias_estimate = result->n > 0 ? (double)result->cells.n / (double)result->n : 0.0;
+    if (!result->resolved) {
+        open_interval(&n, &shown, plain, result);
+    }
+    result->bias_estimate =
+        n.is_printed && result->n > 0 ? (double)result->cells.n / (double)result->n : (double)NAN;
 done:
     clx_free(n.cell);
     clx_free(n.half);

@@ -54,7 +54,7 @@ static void cast(clast_uniformity *r, int test, double statistic, double p,
                  const clast_uniformity_config *config)
 {
     if (votes(config, test)) {
-        r->vote[r->n_test] = (clast_vote){names[test], statistic, p, p < config->level};
+        r->vote[r->n_test] = (clast_vote){names[test], statistic, p, p < config->level, {-1, -1}};
         r->n_reject += p < config->level ? 1 : 0;
         ++r->n_test;
     }
@@ -99,14 +99,18 @@ static clast_status cast_pearson(const double *u, int64_t n, int32_t d,
                                  const clast_uniformity_config *config, clast_uniformity *r)
 {
     clast_status status = CLAST_OK;
+    static const int32_t pair[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     clast_pearson found;
     if (votes(config, PEARSON) && d > 1) {
         CLX_TRY(clast_pearson_test(u, n, d, &found));
-        double least = 1.0;
-        for (int k = 0; k < found.n_pair; ++k) {
-            least = fmin(least, found.p[k]);
+        int least = 0;
+        for (int k = 1; k < found.n_pair; ++k) {
+            least = found.p[k] < found.p[least] ? k : least;
         }
-        cast(r, PEARSON, found.r[0], config->paper ? least : found.p_bonferroni, config);
+        cast(r, PEARSON, found.r[least], config->paper ? found.p[least] : found.p_bonferroni,
+             config);
+        r->vote[r->n_test - 1].axis[0] = pair[least][0];
+        r->vote[r->n_test - 1].axis[1] = pair[least][1];
     }
 done:
     return status;

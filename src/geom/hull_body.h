@@ -130,9 +130,15 @@ typedef struct clx_box {
 
 /// The box of least volume found: every view of a face is tried as a side with the exact least
 /// rectangle around the shadow, the best few and the given frame are then turned about each of
-/// their axes in turn until none gains.      [ORourke1985; Chang2011]
+/// their axes in turn until none gains; for few faces the boxes on edges alone too.
+/// [ORourke1985; Chang2011]
 clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_views *views,
                                      double frame[3][3], clx_box *box);
+
+/// Replaces the box by the least one whose neighbouring sides hold an edge each, if that is clearly
+/// less.
+/// @note O(n_edge^2 n_vert)
+void clx_hull_body_box_on_edges(const clx_hull_body *body, clx_box *best);
 
 /// The fitted box: longest caliper, longest caliper at right angles to it, width across both. Where
 /// several calipers are equally long (regular bodies), the box of least volume.

@@ -5,14 +5,15 @@
 // best box is the least rectangle around the shadow, which has a side along the outline
 // [FreemanShapira1975]), a face being skipped when its width times its shadow, a lower bound, is no
 // gain; the best few boxes and the principal frame are then turned about one axis at a time to that
-// axis' least rectangle [Chang2011, the local step]. The result is a box that no such turn
-// improves: an upper bound of the least volume; docs/theory/form.md has the measured gap.
+// axis' least rectangle [Chang2011, the local step]. For few faces every pair of edges is tried as
+// well (hull_box_edges.c). The result is a box that no such turn improves: an upper bound of the
+// least volume; docs/theory/form.md has the measured gap.
 #include "geom/hull_body.h"
 
 #include "base/alloc.h"
 #include "math/vec3.h"
 
-enum { KEPT = 6, MOST_TURNS = 60 };
+enum { KEPT = 6, MOST_TURNS = 60, FEW_FACES = 48 };
 
 static const double GAIN = 1e-13;
 
@@ -131,6 +132,10 @@ clast_status clx_hull_body_least_box(const clx_hull_body *body, const clx_face_v
         if (box_volume(&kept[k]) < box_volume(&best)) {
             best = kept[k];
         }
+    }
+    if (body->n_face <= FEW_FACES) {
+        clx_hull_body_box_on_edges(body, &best);
+        turn_down(body, &shadow, &best);
     }
     for (int k = 0; k < 3; ++k) {
         best.edge[k] = clx_hull_body_width(body, best.axis[k]);

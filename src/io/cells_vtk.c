@@ -158,23 +158,44 @@ done:
     return status;
 }
 
-static clast_status put_cell_data(clx_file *file, clx_vtk_array *array, const boxes *b,
-                                  const clast_cells *cells)
+/// What the numbers depend on.
+static void put_fields(clx_file *file, const clast_decomposition *r, const clast_domain *domain)
 {
-    static const char *const name[7] = {"cell",  "count", "volume", "density",
-                                        "label", "pass",  "events"};
+    char text[CLAST_DOMAIN_TEXT];
+    clast_domain_format(domain, text);
+    (void)clx_file_print(file, "<FieldData>\n");
+    clx_vtk_field_text(file, "unit", "m");
+    clx_vtk_field_text(file, "domain", text);
+    clx_vtk_field_number(file, "volume", r->volume);
+    if (r->beta_dt > 0.0) {
+        clx_vtk_field_number(file, "beta_dt", r->beta_dt);
+    }
+    if (r->has_drawn) {
+        clx_vtk_field_number(file, "seed", (double)r->seed);
+    }
+    (void)clx_file_print(file, "\n</FieldData>\n");
+}
+
+static clast_status put_cell_data(clx_file *file, clx_vtk_array *array, const boxes *b,
+                                  const clast_decomposition *r)
+{
+    const clast_cells *cells = &r->cells;
+    const char *const name[7] = {
+        "cell",  "count", "volume", "density", r->beta_dt > 0.0 ? "events" : "pair_integral",
+        "label", "pass"};
+    const int n = clast_cells_are_labelled(cells) ? 7 : 5;
     clast_status status = CLAST_OK;
     (void)clx_file_print(file, "<CellData>\n");
-    for (int k = 0; k < 7; ++k) {
+    for (int k = 0; k < n; ++k) {
         for (int64_t i = 0; i < b->n; ++i) {
             const int32_t c = b->cell[i];
             const double value[7] = {(double)c,
                                      (double)cells->count[c],
                                      cells->volume[c],
                                      (double)cells->count[c] / cells->volume[c],
+                                     cells->events[c],
                                      (double)cells->label[c],
-                                     (double)cells->pass[c],
-                                     cells->events[c]};
+                                     (double)cells->pass[c]};
             CLX_TRY(clx_vtk_add(array, &value[k], sizeof value[k]));
         }
         CLX_TRY(clx_vtk_end(array, file, "Float64", name[k], 1));
@@ -199,12 +220,13 @@ clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
     clx_vtk_head(&file, "UnstructuredGrid");
+    put_fields(&file, result, domain);
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
                          b.n * n_corner, b.n);
     CLX_TRY(put_corners(&file, &array, &b, domain));
     CLX_TRY(put_cells(&file, &array, b.n, n_corner, type[domain->dimension]));
-    CLX_TRY(put_cell_data(&file, &array, &b, &result->cells));
+    CLX_TRY(put_cell_data(&file, &array, &b, result));
     (void)clx_file_print(&file, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     CLX_TRY(clx_file_commit(&file));
 done:
@@ -238,13 +260,13 @@ done:
     return status;
 }
 
-/// Number of the cell, its label or its pass for each point.
+/// Number of the cell and, where cells have them, its label and its pass for each point.
 static clast_status put_marks(clx_file *file, clx_vtk_array *array, int64_t n,
                               const clast_cells *cells)
 {
     static const char *const name[3] = {"cell", "label", "pass"};
     clast_status status = CLAST_OK;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 3 : 1); ++k) {
         for (int64_t i = 0; i < n; ++i) {
             const int32_t c = cells->of_point[i];
             const int32_t value = k == 0   ? c
@@ -283,7 +305,7 @@ done:
 }
 
 clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
-                                    const clast_decomposition *result)
+                                    const clast_decomposition *result, const clast_domain *domain)
 {
     clast_status status = CLAST_OK;
     clx_file file = {0};
@@ -291,6 +313,7 @@ clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(clx_vtk_begin(&array));
     clx_vtk_head(&file, "PolyData");
+    put_fields(&file, result, domain);
     (void)clx_file_print(&file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfVerts=\"%" PRId64
                          "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",

@@ -306,8 +306,11 @@ static clast_status survey(cursor c, int header, outline *o, cursor *end)
     }
     CLX_CHECK(o->n_ragged == 0, CLAST_E_FORMAT,
               "%s:%" PRId64 ": %" PRId64 " cells where the first row has %d; %" PRId64
-              " such rows in all",
-              c.name, o->ragged_line, o->ragged_cells, o->n_column, o->n_ragged);
+              " such rows in all%s",
+              c.name, o->ragged_line, o->ragged_cells, o->n_column, o->n_ragged,
+              c.separator == ',' && o->ragged_cells == (int64_t)2 * o->n_column
+                  ? "; decimal commas? write 0.5, not 0,5"
+                  : "");
     *end = c;
 done:
     return status;

@@ -9,14 +9,10 @@
 
 static const char prefix[] = "mesh:";
 
-static clast_status read_mesh(const char *path, const char *unit, clast_domain *domain)
+static clast_status read_mesh(const char *path, double scale, clast_domain *domain)
 {
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
-    double scale = 1.0;
-    if (unit != NULL && unit[0] != '\0') {
-        CLX_TRY(clast_unit_factor(unit, "m", &scale));
-    }
     CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
     CLX_TRY(clast_mesh_require_solid(path, &mesh, NULL));
     status = clast_domain_of_mesh(&mesh, scale, domain);
@@ -32,13 +28,14 @@ done:
 
 clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain)
 {
-    if (strncmp(text, prefix, sizeof prefix - 1) == 0) {
-        return read_mesh(text + sizeof prefix - 1, unit, domain);
-    }
+    clast_status status = CLAST_OK;
+    double scale = 1.0;
     if (unit != NULL && unit[0] != '\0') {
-        return clx_fail(CLAST_E_CONFIG,
-                        "the unit %s is of the file of mesh:FILE; domain '%s' is in metres", unit,
-                        text);
+        CLX_TRY(clast_unit_factor(unit, "m", &scale));
     }
-    return clast_domain_parse(text, domain);
+    status = strncmp(text, prefix, sizeof prefix - 1) == 0
+                 ? read_mesh(text + sizeof prefix - 1, scale, domain)
+                 : clast_domain_parse_in(text, scale, domain);
+done:
+    return status;
 }

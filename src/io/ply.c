@@ -64,7 +64,7 @@ static uint64_t load(const uint8_t *p, int32_t size, bool is_big_endian)
     return v;
 }
 
-static double decode(const uint8_t *p, clx_ply_type type, bool is_big_endian)
+double clx_ply_decode(const uint8_t *p, clx_ply_type type, bool is_big_endian)
 {
     const uint64_t bits = load(p, clx_ply_size(type), is_big_endian);
     const uint32_t low = (uint32_t)bits;
@@ -95,7 +95,7 @@ static clast_status next_binary(body *b, clx_ply_type type, double *value)
     if (b->end - b->at < size) {
         return cut_off(b);
     }
-    *value = decode(b->at, type, b->ply->is_big_endian);
+    *value = clx_ply_decode(b->at, type, b->ply->is_big_endian);
     b->at += size;
     return CLAST_OK;
 }

@@ -41,6 +41,9 @@ typedef struct clx_ply {
 /// Bytes of one number.
 int32_t clx_ply_size(clx_ply_type type);
 
+/// One number of a binary file.
+double clx_ply_decode(const uint8_t *bytes, clx_ply_type type, bool is_big_endian);
+
 bool clx_ply_is_integer(clx_ply_type type);
 
 /// Reads the header; row counts are held against the bytes that follow.

@@ -6,6 +6,12 @@ clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);
 clast_status clx_points_dump(const char *name, const void *bytes, size_t n, int64_t frame,
                              clast_table *table);
+clast_status clx_points_ply(const char *name, const void *bytes, size_t n, clast_table *table);
+clast_status clx_points_xyz(const char *name, const void *bytes, size_t n, clast_table *table);
+
+/// Whether the bytes begin with a count, a line of words, and so many rows "NAME x y z".
+bool clx_points_is_xyz(const void *bytes, size_t n);
+
 clast_status clx_points_h5(const char *path, const char *dataset, clast_table *table);
 
 /// Adds an array value [n_row][width] as columns: `name` for one number, name_x .. for two or

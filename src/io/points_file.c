@@ -54,6 +54,13 @@ static bool begins(const void *bytes, size_t n, const char *mark)
     return n >= strlen(mark) && memcmp(bytes, mark, strlen(mark)) == 0;
 }
 
+/// The first word, with nothing else on its line.
+static bool is_word(const char *bytes, size_t n, const char *mark)
+{
+    return n > strlen(mark) && begins(bytes, n, mark) &&
+           strchr("\r\n", bytes[strlen(mark)]) != NULL;
+}
+
 /// <VTKFile among the first bytes.
 static bool is_vtk_xml(const char *bytes, size_t n)
 {
@@ -79,6 +86,12 @@ clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
     }
     if (is_vtk_xml(bytes, n)) {
         return clx_points_vtx(name, bytes, n, table);
+    }
+    if (is_word(bytes, n, "ply")) {
+        return clx_points_ply(name, bytes, n, table);
+    }
+    if (clx_points_is_xyz(bytes, n)) {
+        return clx_points_xyz(name, bytes, n, table);
     }
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
 }

@@ -4,7 +4,7 @@
 //    "kind": "single_form", "intercept": 0.28, "terms": [{"feature": "...", "coefficient": ...}],
 //    "ranges": [{"feature": "...", "low": ..., "high": ...}], "covariance": [[...]],
 //    "rounding": 0, "deviation": 0.005, "n_bed": 63, "r2": ..., "cv_mean_error": ...,
-//    "cv_median_error": ..., "provenance": {...}}
+//    "cv_median_error": ..., "leverage_limit": ..., "provenance": {...}}
 //
 // A file is checked against itself before it is used: known features, finite numbers, ordered
 // ranges, a covariance that is symmetric with a diagonal >= 0. Unknown keys are refused, as a
@@ -31,10 +31,10 @@ typedef struct {
 static clast_status check_keys(const reader *r)
 {
     static const char *const known[] = {
-        "format",    "version", "name",   "source",        "kind",
-        "intercept", "terms",   "ranges", "covariance",    "rounding",
-        "deviation", "n_bed",   "r2",     "cv_mean_error", "cv_median_error",
-        "provenance"};
+        "format",         "version",   "name",   "source",        "kind",
+        "intercept",      "terms",     "ranges", "covariance",    "rounding",
+        "deviation",      "n_bed",     "r2",     "cv_mean_error", "cv_median_error",
+        "leverage_limit", "provenance"};
     clast_status status = CLAST_OK;
     for (void *at = json_object_iter((json_t *)r->root); at != NULL;
          at = json_object_iter_next((json_t *)r->root, at)) {
@@ -195,6 +195,7 @@ static clast_status read_figures(const reader *r, clast_porosity_model *m)
     CLX_TRY(number(r, r->root, "r2", false, NAN, &m->r2));
     CLX_TRY(number(r, r->root, "cv_mean_error", false, NAN, &m->cv_mean_error));
     CLX_TRY(number(r, r->root, "cv_median_error", false, NAN, &m->cv_median_error));
+    CLX_TRY(number(r, r->root, "leverage_limit", false, NAN, &m->leverage_limit));
     CLX_CHECK(m->deviation >= 0.0 && m->rounding >= 0.0, CLAST_E_FORMAT,
               "%s: 'deviation' and 'rounding' must not be negative", r->path);
     CLX_CHECK(n_bed >= 0.0 && n_bed <= 1e15, CLAST_E_FORMAT, "%s: 'n_bed' is no count", r->path);
@@ -334,6 +335,7 @@ static json_t *model_json(const clast_porosity_model *m, const char *const (*pro
     (void)json_object_set_new(root, "r2", real_or_null(m->r2));
     (void)json_object_set_new(root, "cv_mean_error", real_or_null(m->cv_mean_error));
     (void)json_object_set_new(root, "cv_median_error", real_or_null(m->cv_median_error));
+    (void)json_object_set_new(root, "leverage_limit", real_or_null(m->leverage_limit));
     for (int32_t k = 0; k < n; ++k) {
         (void)json_object_set_new(notes, provenance[k][0], plain(provenance[k][1]));
     }

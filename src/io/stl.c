@@ -190,8 +190,9 @@ static clast_status parse_binary(const uint8_t *bytes, size_t n, gather *g)
     g->report->n_trailing = (int64_t)n - size;
     CLX_TRY(parse_facets(g, bytes, n_facet));
     if (g->report->n_trailing > 0) {
-        clx_report_warn(g->report, "%" PRId64 " bytes after the last of %" PRId64 " facets ignored",
-                        g->report->n_trailing, n_facet);
+        clx_report_warn(g->report,
+                        "%" PRId64 " byte%s after the last of %" PRId64 " facets ignored",
+                        g->report->n_trailing, g->report->n_trailing == 1 ? "" : "s", n_facet);
     }
 done:
     return status;

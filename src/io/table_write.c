@@ -67,11 +67,34 @@ static void put_separator(clx_file *file, int32_t k)
     }
 }
 
+static void put_note(clx_file *file, const char *note)
+{
+    (void)clx_file_write(file, "# ", 2);
+    for (const char *c = note; *c != '\0';) {
+        if (*c == '\n' || *c == '\r') {
+            (void)clx_file_write(file, " ", 1);
+            ++c;
+        } else {
+            put_byte(file, &c);
+        }
+    }
+    (void)clx_file_write(file, "\n", 1);
+}
+
 clast_status clast_table_write_csv(const clast_table *table, const char *path)
+{
+    return clast_table_write_csv_note(table, NULL, path);
+}
+
+clast_status clast_table_write_csv_note(const clast_table *table, const char *note,
+                                        const char *path)
 {
     clast_status status = CLAST_OK;
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
+    if (note != NULL) {
+        put_note(&file, note);
+    }
     for (int32_t k = 0; k < table->n_column; ++k) {
         put_separator(&file, k);
         put_cell(&file, table->column[k].name);

@@ -4,6 +4,7 @@
 #include "io/vtk_array.h"
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include <string.h>
 #include <zlib.h>
 
@@ -22,6 +23,29 @@ clast_status clx_vtk_begin(clx_vtk_array *array)
     array->n_block = 0;
     array->last = 0;
     return array->block != NULL ? CLAST_OK : clx_alloc(&array->block, CLX_VTK_BLOCK, 1);
+}
+
+/// A text is its letters' codes, and 0.
+void clx_vtk_field_text(clx_file *file, const char *name, const char *text)
+{
+    (void)clx_file_print(file,
+                         "<Array type=\"String\" Name=\"%s\" NumberOfTuples=\"1\" "
+                         "format=\"ascii\">",
+                         name);
+    for (; *text != '\0'; ++text) {
+        (void)clx_file_print(file, "%d ", (unsigned char)*text);
+    }
+    (void)clx_file_print(file, "0</Array>");
+}
+
+void clx_vtk_field_number(clx_file *file, const char *name, double value)
+{
+    char number[CLX_NUMBER_SIZE];
+    (void)clx_number_format(value, number);
+    (void)clx_file_print(file,
+                         "<DataArray type=\"Float64\" Name=\"%s\" NumberOfTuples=\"1\" "
+                         "format=\"ascii\">%s</DataArray>",
+                         name, number);
 }
 
 /// Speed over size: level 6 took 4 times as long for 8 % less on placed surfaces.

@@ -17,6 +17,10 @@ typedef struct clx_vtk_array {
 /// Writes the file's opening lines, down to <TYPE>, with this machine's byte order.
 void clx_vtk_head(clx_file *file, const char *type);
 
+/// Arrays of one text or one number, for <FieldData>.
+void clx_vtk_field_text(clx_file *file, const char *name, const char *text);
+void clx_vtk_field_number(clx_file *file, const char *name, double value);
+
 enum { CLX_VTK_BLOCK = 1 << 18 };
 
 clast_status clx_vtk_begin(clx_vtk_array *array);

@@ -5,21 +5,12 @@
 #include "io/vtk_array.h"
 #include <inttypes.h>
 
-/// The unit of lengths as a text of the file's field data: its letters' codes, and 0.
-static void put_unit(clx_file *file, const char *unit)
-{
-    (void)clx_file_print(file, "<FieldData><Array type=\"String\" Name=\"unit\" "
-                               "NumberOfTuples=\"1\" format=\"ascii\">");
-    for (; *unit != '\0'; ++unit) {
-        (void)clx_file_print(file, "%d ", *unit);
-    }
-    (void)clx_file_print(file, "0</Array></FieldData>\n");
-}
-
 static void put_head(clx_file *file, const char *unit, int64_t n_point, int64_t n_cell)
 {
     clx_vtk_head(file, "UnstructuredGrid");
-    put_unit(file, unit);
+    (void)clx_file_print(file, "<FieldData>");
+    clx_vtk_field_text(file, "unit", unit);
+    (void)clx_file_print(file, "</FieldData>\n");
     (void)clx_file_print(file,
                          "<Piece NumberOfPoints=\"%" PRId64 "\" NumberOfCells=\"%" PRId64 "\">\n",
                          n_point, n_cell);

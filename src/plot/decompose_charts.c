@@ -5,15 +5,20 @@
 #include "math/sort.h"
 #include <clast/chart.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+enum { LABEL_SIZE = 64 };
 enum { MOST_POINTS = 20000, N_GROUP = 4, MAX_PASS_DRAWN = 6, CORNERS = 6 };
 
-const char *clast_decompose_chart_name(clast_decompose_chart chart)
+const char *clast_decompose_chart_name(clast_decompose_chart chart,
+                                       const clast_decomposition *result)
 {
     static const char *const name[CLAST_N_DECOMPOSE_CHART] = {"points", "density", "score",
                                                               "events"};
-    return name[chart];
+    return chart == CLAST_DECOMPOSE_CHART_EVENTS && result != NULL && result->beta_dt == 0.0
+               ? "pair_integral"
+               : name[chart];
 }
 
 bool clast_decompose_chart_fits(clast_decompose_chart chart, const clast_decomposition *result)
@@ -56,6 +61,25 @@ static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells
                           .colour = colour[group]};
 }
 
+/// Points coloured by the density of their cell, where cells have no labels; x, y and value hold
+/// n_most numbers each.
+static clast_series points_by_density(const clast_cloud *cloud, const clast_cells *cells, double *x,
+                                      double *y, double *value)
+{
+    const int64_t stride = cloud->n / MOST_POINTS + 1;
+    int64_t n = 0;
+    for (int64_t i = 0; i < cloud->n; i += stride) {
+        const int32_t c = cells->of_point[i];
+        if (c >= 0) {
+            x[n] = cloud->x[i * cloud->dimension];
+            y[n] = cloud->x[i * cloud->dimension + 1];
+            value[n++] = cells->weight[c] / cells->volume[c];
+        }
+    }
+    return (clast_series){
+        .kind = CLAST_SERIES_POINTS, .x = x, .y = y, .value = cells->n > 1 ? value : NULL, .n = n};
+}
+
 /// Edges of all cells as one broken line of 2-D boxes.
 static int64_t outline(const clast_cells *cells, double *x, double *y)
 {
@@ -92,13 +116,23 @@ static clast_status draw_points(const clast_cloud *cloud, const clast_decomposit
                                             .n = outline(&r->cells, x, x + n_edge),
                                             .colour = -1};
     }
-    for (int group = 0; group < N_GROUP; ++group) {
+    const bool has_labels = clast_cells_are_labelled(&r->cells);
+    if (!has_labels) {
+        series[n_series++] =
+            points_by_density(cloud, &r->cells, buffer, buffer + n_most, buffer + 2 * n_most);
+    }
+    for (int group = 0; group < N_GROUP && has_labels; ++group) {
         double *x = buffer + 2 * group * n_most;
         series[n_series] = points_of(cloud, &r->cells, group, x, x + n_most);
         n_series += series[n_series].n > 0 ? 1 : 0;
     }
+    char label[LABEL_SIZE];
+    (void)snprintf(label, sizeof label, "density of the cell (1/m^%d)", r->dimension);
+    // one density has no scale of colours
+    const bool is_coloured = !has_labels && r->cells.n > 1;
     const clast_chart chart = {.x = {.label = "x (m)"},
                                .y = {.label = "y (m)"},
+                               .value_axis = {.label = is_coloured ? label : NULL, .log = true},
                                .series = series,
                                .n_series = n_series,
                                .equal = true};
@@ -259,8 +293,12 @@ static clast_status draw_events(const clast_decomposition *r, const char *path)
                                      .n = r->n_capped > 0 ? 2 : 0,
                                      .colour = 1,
                                      .dashed = true}};
+    char label[LABEL_SIZE] = "events of a cell (-)";
+    if (r->beta_dt == 0.0) {
+        (void)snprintf(label, sizeof label, "pair integral of a cell (1/m^%d)", r->dimension);
+    }
     const clast_chart chart = {.x = {.label = "particles of a cell (-)"},
-                               .y = {.label = "events of a cell (-)"},
+                               .y = {.label = label},
                                .series = series,
                                .n_series = r->n_capped > 0 ? 2 : 1};
     CLX_TRY(clast_chart_write(&chart, path));
@@ -274,7 +312,7 @@ clast_status clast_decompose_chart_write(clast_decompose_chart chart, const clas
 {
     if (!clast_decompose_chart_fits(chart, result)) {
         return clx_fail(CLAST_E_USAGE, "there is nothing to draw in chart %s",
-                        clast_decompose_chart_name(chart));
+                        clast_decompose_chart_name(chart, result));
     }
     switch (chart) {
     case CLAST_DECOMPOSE_CHART_POINTS:

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { N_OWN = 2 }; // columns row and porosity before the candidates
-
 void clx_fit_end(clx_fit *fit)
 {
     clx_free(fit->r);
@@ -70,16 +68,16 @@ static void rank_all(clx_fit *f)
     }
 }
 
-clast_status clx_fit_begin(const clast_fit_data *data, const clast_porosity_fit_config *config,
+clast_status clx_fit_begin(const clx_fit_sample *sample, const clast_porosity_fit_config *config,
                            clx_fit *fit)
 {
     clast_status status = CLAST_OK;
     clx_fit f = {.config = config,
-                 .n = data->beds.n_row,
-                 .row = data->beds.column[0].number,
-                 .y = data->beds.column[1].number,
-                 .m = data->beds.n_column - N_OWN,
-                 .candidate = data->beds.column + N_OWN};
+                 .n = sample->n,
+                 .row = sample->row,
+                 .y = sample->y,
+                 .m = sample->m,
+                 .candidate = sample->candidate};
     const clx_moments m = clx_sample_moments(f.y, f.n);
     CLX_CHECK(f.m > 0, CLAST_E_FORMAT, "fit: the table has no column besides the porosity");
     CLX_CHECK(f.n >= config->n_fold && f.n >= 4, CLAST_E_FORMAT,
@@ -146,7 +144,10 @@ static clast_status note_trial(clx_fit *f, int32_t candidate, double mean, doubl
 {
     clast_status status = CLAST_OK;
     clast_table *t = f->trials;
-    const int64_t k = t->n_row;
+    const int64_t k = t != NULL ? t->n_row : 0;
+    if (t == NULL) {
+        return CLAST_OK;
+    }
     const double value[4] = {f->n_chosen + 1.0, mean, median, r2};
     CLX_TRY(clast_table_resize(t, k + 1));
     CLX_TRY(clast_table_set_text(t, 0, k, f->candidate[candidate].name));

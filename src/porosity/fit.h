@@ -2,6 +2,14 @@
 // Parts of a porosity fit.
 #include <clast/porosity_fit.h>
 
+/// Beds with candidates, borrowed: all of a fit, or a part of them.
+typedef struct clx_fit_sample {
+    int64_t n; ///< beds
+    const double *y, *row;
+    int32_t m;                     ///< candidates
+    const clast_column *candidate; ///< [m]
+} clx_fit_sample;
+
 /// A fit under way: candidates and which of them are in the model.
 typedef struct clx_fit {
     const clast_porosity_fit_config *config;
@@ -17,7 +25,7 @@ typedef struct clx_fit {
     int32_t *chosen;              ///< [m]
     int32_t *fold;                ///< [n_repeat][n]
     double *x, *held_out, *error; ///< scratch [n][m + 1], [n], [n]
-    clast_table *trials;          ///< borrowed
+    clast_table *trials;          ///< borrowed; NULL: nobody asks
 } clx_fit;
 
 typedef enum {
@@ -29,7 +37,7 @@ typedef enum {
 } clx_candidate;
 
 /// Ranks the candidates and sets aside those without use.
-clast_status clx_fit_begin(const clast_fit_data *data, const clast_porosity_fit_config *config,
+clast_status clx_fit_begin(const clx_fit_sample *sample, const clast_porosity_fit_config *config,
                            clx_fit *fit);
 void clx_fit_end(clx_fit *fit);
 
@@ -42,6 +50,20 @@ int32_t clx_fit_design(clx_fit *fit, int32_t more);
 /// Held-out errors of the design of p columns: mean and median, averaged over the repeats; held_out
 /// of the last repeat stays in fit->held_out.
 clast_status clx_fit_score(clx_fit *fit, int32_t p, double *mean, double *median);
+
+/// What the model is worth: held-out errors with the selection inside the folds, and permutations.
+typedef struct clx_fit_validity {
+    double mean_error, median_error, r2_held_out;
+    double *held_out; ///< [n] of the first repeat
+    double *r2;       ///< [n_permutation]
+    double *greatest; ///< [n_permutation] greatest |r| of a candidate
+} clx_fit_validity;
+
+clast_status clx_fit_validate(const clx_fit *fit, clx_fit_validity *validity);
+void clx_fit_validity_free(clx_fit_validity *validity);
+
+/// Share of values that reach x, counting x itself: (1 + count) / (1 + n); NaN for n = 0.
+double clx_fit_share(const double *value, int32_t n, double x);
 
 /// Model and tables of the chosen features.
 clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_porosity_fit *out);

@@ -33,8 +33,14 @@ const clast_field clast_porosity_fit_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, score), 0, 0, 0, "-",
      "absolute error that decides: the mean (Tables 9, 10 of the paper) or the median",
      "mean|median", .common = true},
-    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8e19, "-", "random numbers of the folds", NULL,
-     .common = true},
+    {FIELD(CLAST_FIELD_CHOICE, validation), 0, 0, 0, "-",
+     "features for a held-out bed: selected anew without it (nested), or with it, as in the paper "
+     "(published), which makes the errors too small",
+     "nested|published", .common = true},
+    {FIELD(CLAST_FIELD_I32, n_permutation), 199, 0, 1e6, "-",
+     "permutations of the porosities among the beds for p-values (0: none)", NULL},
+    {FIELD(CLAST_FIELD_U64, seed), 1, 0, 1.8e19, "-", "random numbers of folds and permutations",
+     NULL, .common = true},
     {0}};
 
 void clast_fit_data_free(clast_fit_data *data)

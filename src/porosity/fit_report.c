@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { N_OWN = 2 }; // columns row and porosity before the candidates
+
 void clast_porosity_fit_free(clast_porosity_fit *fit)
 {
     clast_porosity_model_free(&fit->model);
@@ -47,13 +49,16 @@ static void state_text(const clx_fit *f, int32_t j, char *text, size_t size)
     }
 }
 
-static clast_status report_ranking(const clx_fit *f, clast_porosity_fit *out)
+static clast_status report_ranking(const clx_fit *f, const clx_fit_validity *v,
+                                   clast_porosity_fit *out)
 {
     static const char *const number[] = {"r", "p"};
     clast_status status = CLAST_OK;
+    double *unused = NULL;
     clast_table *t = &out->ranking;
     CLX_TRY(start_table(t, "ranking", f->m, "feature", number, 2));
     CLX_TRY(clast_table_add_text(t, "state"));
+    CLX_TRY(clast_table_add_number(t, "p_family", "-", &unused));
     for (int32_t k = 0; k < f->m; ++k) {
         char text[256];
         const int32_t j = f->rank[k];
@@ -62,6 +67,10 @@ static clast_status report_ranking(const clx_fit *f, clast_porosity_fit *out)
         CLX_TRY(clast_table_set_text(t, 3, k, text));
         t->column[1].number[k] = f->r[j];
         t->column[2].number[k] = f->p[j];
+        t->column[4].number[k] =
+            isnan(f->r[j]) || f->state[j] == CLX_CANDIDATE_NOT_FINITE
+                ? (double)NAN
+                : clx_fit_share(v->greatest, f->config->n_permutation, fabs(f->r[j]));
         out->n_removed += f->state[j] == CLX_CANDIDATE_REMOVED ? 1 : 0;
     }
 done:
@@ -110,12 +119,16 @@ static clast_status report_terms(const clx_fit *f, const clx_least_squares *ls, 
     static const char *const number[] = {"coefficient", "standard_error", "t", "p", "vif", "low",
                                          "high"};
     clast_status status = CLAST_OK;
+    const bool is_selected =
+        f->config->use[0] == '\0' && f->config->validation == CLAST_VALIDATION_NESTED;
     CLX_TRY(start_table(t, "terms", ls->p, "term", number, 7));
     for (int32_t j = 0; j < ls->p; ++j) {
         const double error = sqrt(ls->covariance[j * (ls->p + 1)]);
         const double ratio = error > 0.0 ? ls->b[j] / error : HUGE_VAL;
         double value[7] = {ls->b[j], error, ratio, 0.0, NAN, NAN, NAN};
-        value[3] = error > 0.0 ? clx_student_two_sided(ratio, (double)(ls->n - ls->p)) : 0.0;
+        value[3] = is_selected   ? (double)NAN
+                   : error > 0.0 ? clx_student_two_sided(ratio, (double)(ls->n - ls->p))
+                                 : 0.0;
         if (j > 0) {
             const clast_column *c = &f->candidate[f->chosen[j - 1]];
             CLX_TRY(inflation(f, ls->p, j, &value[4]));
@@ -182,6 +195,10 @@ static clast_status report_model(const clx_fit *f, clast_model_kind kind,
     m->deviation = sqrt(ls->variance);
     m->n_bed = f->n;
     m->r2 = ls->r2;
+    m->leverage_limit = 0.0;
+    for (int64_t i = 0; i < ls->n; ++i) {
+        m->leverage_limit = fmax(m->leverage_limit, ls->leverage[i]);
+    }
     memcpy(m->covariance, ls->covariance, (size_t)ls->p * (size_t)ls->p * sizeof *ls->covariance);
     for (int32_t k = 0; k < f->n_chosen + 2; ++k) {
         const int32_t j = k < f->n_chosen ? f->chosen[k] : landmark(f, kind, k - f->n_chosen);
@@ -205,6 +222,7 @@ clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_poro
 {
     clast_status status = CLAST_OK;
     clx_least_squares ls = {0};
+    clx_fit_validity v = {0};
     clast_porosity_model *m = &out->model;
     const int32_t p = clx_fit_design(fit, -1);
     CLX_CHECK(fit->n > p, CLAST_E_FORMAT,
@@ -214,10 +232,21 @@ clast_status clx_fit_report(clx_fit *fit, const clast_fit_data *data, clast_poro
     CLX_TRY(clx_least_squares_fit(&(clx_regression){fit->x, fit->y, fit->n, p}, &ls));
     out->condition = ls.condition;
     CLX_TRY(report_model(fit, data->kind, &ls, m));
-    CLX_TRY(report_ranking(fit, out));
+    CLX_TRY(clx_fit_validate(fit, &v));
+    out->p_value = clx_fit_share(v.r2, fit->config->n_permutation, ls.r2);
+    out->r2_held_out = v.r2_held_out;
+    if (fit->config->validation == CLAST_VALIDATION_NESTED) {
+        m->cv_mean_error = v.mean_error;
+        m->cv_median_error = v.median_error;
+        memcpy(fit->held_out, v.held_out, (size_t)fit->n * sizeof *fit->held_out);
+    } else {
+        out->r2_held_out = NAN; // of the paper's way none is known
+    }
+    CLX_TRY(report_ranking(fit, &v, out));
     CLX_TRY(report_terms(fit, &ls, &out->terms));
     CLX_TRY(report_rows(fit, &ls, &out->rows));
 done:
+    clx_fit_validity_free(&v);
     clx_least_squares_free(&ls);
     return status;
 }
@@ -230,7 +259,10 @@ clast_status clast_porosity_fit_data(const clast_fit_data *data,
     clast_status status = CLAST_OK;
     clast_porosity_fit out = {0};
     clx_fit f = {0};
-    CLX_TRY(clx_fit_begin(data, config, &f));
+    const clx_fit_sample sample = {data->beds.n_row, data->beds.column[1].number,
+                                   data->beds.column[0].number, data->beds.n_column - N_OWN,
+                                   data->beds.column + N_OWN};
+    CLX_TRY(clx_fit_begin(&sample, config, &f));
     CLX_TRY(start_table(&out.trials, "trials", 0, "feature", number, 4));
     f.trials = &out.trials;
     CLX_TRY(clx_fit_select(&f));

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_TERM = 4, N_RANGE = 4 };
+enum { MAX_TERM = 4, N_SINGLE_RANGE = 3, N_MIXTURE_RANGE = 4 };
 
 typedef struct {
     const char *feature;
@@ -30,13 +30,16 @@ static const char *const mixture_feature[] = {"inverse_mean_equancy", "inverse_d
                                               "inverse_mean_elongation",
                                               "inverse_deviation_elongation"};
 
-// 0.647 -+ 2 * 0.175 and 0.682 -+ 2 * 0.139 (Fig. 2, Table 2), cut at 1.
-static const range single_range[] = {{"flatness", 0.297, 0.997}, {"elongation", 0.404, 0.960}};
-// Set-ups of sec. 7.1: means 0.4 to 0.8, deviations 0.1 and 0.2.
-static const range mixture_range[] = {{"mean_flatness", 0.4, 0.8},
-                                      {"deviation_flatness", 0.1, 0.2},
-                                      {"mean_elongation", 0.4, 0.8},
-                                      {"deviation_elongation", 0.1, 0.2}};
+// 0.647 -+ 2 * 0.175 and 0.682 -+ 2 * 0.139 (Fig. 2, Table 2), cut at 1. L/S: medians of the least
+// and the greatest of 63 grains drawn from these two normal laws (4000 draws).
+static const range single_range[N_SINGLE_RANGE] = {
+    {"flatness", 0.297, 0.997}, {"elongation", 0.404, 0.960}, {"inverse_equancy", 1.28, 6.92}};
+// Table 2's ranges as sec. 2.2 gives them ("for which we consider our model to be applicable", sec.
+// 7.2), the mean flatness no less than the least of the set-ups of sec. 7.1.
+static const range mixture_range[N_MIXTURE_RANGE] = {{"mean_flatness", 0.4, 0.8},
+                                                     {"deviation_flatness", 0.13, 0.2},
+                                                     {"mean_elongation", 0.68, 0.77},
+                                                     {"deviation_elongation", 0.12, 0.17}};
 
 static const published models[CLAST_N_PUBLISHED_MODEL] = {
     {"single_form_U1", CLAST_MODEL_SINGLE, 0.278, {0.019, 0.014}, 4.66e-3, NAN},   // eq. 17
@@ -78,7 +81,8 @@ clast_status clx_model_room(const char *name, const char *source, int32_t n_term
                               .n_range = n_range,
                               .r2 = NAN,
                               .cv_mean_error = NAN,
-                              .cv_median_error = NAN};
+                              .cv_median_error = NAN,
+                              .leverage_limit = NAN};
     const int64_t p = (int64_t)n_term + 1;
     CLX_TRY(clx_alloc_text(&m.name, name));
     CLX_TRY(clx_alloc_text(&m.source, source));
@@ -113,14 +117,17 @@ clast_status clast_porosity_model_published(int32_t number, clast_porosity_model
     const published *p = &models[number];
     const bool is_single = p->kind == CLAST_MODEL_SINGLE;
     const int32_t n_term = is_single ? 2 : 4;
+    const int32_t n_range = is_single ? N_SINGLE_RANGE : N_MIXTURE_RANGE;
     CLX_TRY(clx_model_room(p->name, "Rettinger et al., Granular Matter 24 (2022) 118", n_term,
-                           n_term, false, &m));
+                           n_range, false, &m));
     for (int32_t k = 0; k < n_term; ++k) {
-        const range *r = is_single ? &single_range[k] : &mixture_range[k];
         CLX_TRY(
             clx_alloc_text(&m.term[k].feature, is_single ? single_feature[k] : mixture_feature[k]));
-        CLX_TRY(clx_alloc_text(&m.range[k].feature, r->feature));
         m.term[k].coefficient = p->coefficient[k];
+    }
+    for (int32_t k = 0; k < n_range; ++k) {
+        const range *r = is_single ? &single_range[k] : &mixture_range[k];
+        CLX_TRY(clx_alloc_text(&m.range[k].feature, r->feature));
         m.range[k].low = r->low;
         m.range[k].high = r->high;
     }

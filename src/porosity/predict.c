@@ -78,6 +78,22 @@ static double coefficient_variance(const clast_porosity_model *m, const double *
     return fmax(sum, 0.0);
 }
 
+/// Leverage of the values among those that the model was fitted to; NaN where it does not know.
+static double leverage(const clast_porosity_model *m, const double *value)
+{
+    double sum = 0.0;
+    const int32_t p = m->n_term + 1;
+    for (int32_t i = 0; i < p && m->covariance != NULL; ++i) {
+        const double xi = i == 0 ? 1.0 : value[i - 1];
+        for (int32_t j = 0; j < p; ++j) {
+            sum += xi * m->covariance[i * p + j] * (j == 0 ? 1.0 : value[j - 1]);
+        }
+    }
+    const bool is_known =
+        m->covariance != NULL && isfinite(m->leverage_limit) && m->deviation > 0.0;
+    return is_known ? sum / (m->deviation * m->deviation) : (double)NAN;
+}
+
 clast_status clast_porosity_model_apply(const clast_porosity_model *model, const double *value,
                                         const double *range_value, clast_prediction *prediction)
 {
@@ -102,7 +118,8 @@ clast_status clast_porosity_model_apply(const clast_porosity_model *model, const
             ++p.n_outside;
         }
     }
-    p.in_range = p.n_outside == 0;
+    p.leverage = leverage(model, value);
+    p.in_range = p.n_outside == 0 && !(p.leverage > model->leverage_limit * (1.0 + 1e-9));
     *prediction = p;
 done:
     return status;

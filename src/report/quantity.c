@@ -62,8 +62,24 @@ static const char *plain_unit(const char *si_unit)
                                            {"kg/m^3", "kg/m\302\263"},
                                            {"m/s^2", "m/s\302\262"},
                                            {"J/m^2", "J/m\302\262"},
+                                           {"model units^2", "model units\302\262"},
+                                           {"model units^3", "model units\302\263"},
                                            {"deg", "\302\260"},
                                            {"um", "\302\265m"}};
+    for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
+        if (strcmp(units[k][0], si_unit) == 0) {
+            return units[k][1];
+        }
+    }
+    return si_unit;
+}
+
+const char *clx_quantity_model_unit(const char *si_unit)
+{
+    static const char *const units[][2] = {{"m", "model units"},
+                                           {"m^2", "model units^2"},
+                                           {"m^3", "model units^3"},
+                                           {"1/m", "1/model unit"}};
     for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
         if (strcmp(units[k][0], si_unit) == 0) {
             return units[k][1];
@@ -84,6 +100,7 @@ clx_quantity_scale clx_quantity_scale_for(double value, const char *si_unit)
     int best = 0;
     int n = 0;
     while (n < MAX_SCALE && l->unit[n].name != NULL) {
+        best = value == 0.0 && l->unit[n].factor == 1.0 ? n : best; // 0 Pa rather than 0 GPa
         ++n;
     }
     while (value != 0.0 && best + 1 < n && fabs(value) * l->unit[best].factor < 0.9995 * l->least) {

@@ -4,6 +4,8 @@
 
 enum { CLX_QUANTITY_SIZE = 128 };
 
+#define CLX_MODEL_UNITS "model units:"
+
 typedef struct clx_quantity {
     char label[CLX_QUANTITY_SIZE]; ///< "" for an unknown key
     const char *unit;              ///< SI unit; "" for none
@@ -14,9 +16,18 @@ typedef struct clx_quantity {
 /// The quantity of a key of summary.json or of a column ("size_m", "porosity_surface_hull",
 /// "interval.d_agg.low"); its unit is the one that the name ends in, if any.
 ///
-/// @param place  table or list that holds the key, for keys that mean something else there; may be
-///               NULL
+/// @param place  table or list that holds the key, for keys that mean something else there; the key
+///               of a quantity, whose unit its mean, deviation, low and high have; NULL; or any of
+///               these after CLX_MODEL_UNITS, where lengths are in the unit of a file that does not
+///               tell it
 clx_quantity clx_quantity_of(const char *key, const char *place);
+
+/// True when the name of a column ends in its unit: "size_m".
+bool clx_quantity_names_unit(const char *key);
+
+/// The unit of a run whose lengths are in the unit of a file that does not tell it: "m^3" ->
+/// "model units^3"; others as they are.
+const char *clx_quantity_model_unit(const char *si_unit);
 
 /// A unit to show, and how many of them are one SI unit.
 typedef struct clx_quantity_scale {
@@ -34,6 +45,9 @@ void clx_quantity_format(double value, const clx_quantity_scale *scale,
 
 /// The label, or the key itself as code when it is not known.
 void clx_quantity_put_label(clx_file *file, const char *key, const char *place);
+
+/// The label of a key that names a row, with the unit that it ends in: "Sieve size (m)".
+void clx_quantity_put_name(clx_file *file, const char *key);
 
 /// Writes value and unit with the full value as a tooltip; nothing but a dash for nan and inf.
 void clx_quantity_put(clx_file *file, double value, const char *si_unit);

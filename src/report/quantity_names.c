@@ -172,12 +172,38 @@ static const char *cut_unit(name *key)
     return NULL;
 }
 
+bool clx_quantity_names_unit(const char *key)
+{
+    name whole = {key, strlen(key)};
+    return cut_unit(&whole) != NULL;
+}
+
+/// Unit of the quantity that the key is a statistic of, "mean" of "z_high".
+static const char *unit_of_parent(const char *key, const char *place)
+{
+    static const char *const statistics[] = {"mean", "deviation", "low", "high"};
+    clx_quantity parent = {.unit = ""};
+    for (size_t k = 0; place != NULL && k < sizeof statistics / sizeof *statistics; ++k) {
+        if (strcmp(key, statistics[k]) == 0 && find((name){place, strlen(place)}, NULL, &parent)) {
+            return parent.unit;
+        }
+    }
+    return "";
+}
+
 clx_quantity clx_quantity_of(const char *key, const char *place)
 {
     static const clx_quantity none = {.unit = "", .words = ""};
+    const size_t n = sizeof CLX_MODEL_UNITS - 1;
     clx_quantity q = none;
     name whole = {key, strlen(key)};
+    if (place != NULL && strncmp(place, CLX_MODEL_UNITS, n) == 0) {
+        q = clx_quantity_of(key, place[n] != '\0' ? place + n : NULL);
+        q.unit = clx_quantity_names_unit(key) ? q.unit : clx_quantity_model_unit(q.unit);
+        return q;
+    }
     if (find_plain(whole, place, &q) || find_part(whole, place, &q)) {
+        q.unit = q.unit[0] == '\0' ? unit_of_parent(key, place) : q.unit;
         return q;
     }
     const char *unit = cut_unit(&whole);
@@ -198,4 +224,14 @@ void clx_quantity_put_label(clx_file *file, const char *key, const char *place)
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, key);
     (void)clx_file_print(file, "</code>");
+}
+
+void clx_quantity_put_name(clx_file *file, const char *key)
+{
+    clx_quantity_put_label(file, key, NULL);
+    if (clx_quantity_names_unit(key)) {
+        (void)clx_file_print(file, " (");
+        clx_page_text(file, clx_quantity_of(key, NULL).unit);
+        (void)clx_file_print(file, ")");
+    }
 }

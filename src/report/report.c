@@ -12,6 +12,8 @@
 #include "report/tables.h"
 #include "report/view3d.h"
 #include <clast/state.h>
+#include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -71,6 +73,24 @@ static const char *word_of(const clx_run *run, const char *key)
     return word != NULL ? word : "";
 }
 
+/// How much of a study that was stopped is done: its other runs have no exit code.
+static void put_open_study(clx_file *file, const clx_run *run)
+{
+    const clast_table *results = clx_run_table(run, "results");
+    const double *code = results != NULL ? clast_table_numbers(results, "exit_code") : NULL;
+    int64_t n = 0;
+    for (int64_t i = 0; code != NULL && i < results->n_row; ++i) {
+        n += isfinite(code[i]) ? 1 : 0;
+    }
+    if (clx_run_has(run, "study.json") && code != NULL && n < results->n_row) {
+        (void)clx_file_print(file,
+                             "<p class=\"note\">stopped: %" PRId64 " of %" PRId64
+                             " runs are done; the same clast study command goes on with the "
+                             "rest</p>\n",
+                             n, results->n_row);
+    }
+}
+
 /// Name, command and outcome of the run; index -1: the only run, whose name is above already.
 static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
 {
@@ -97,6 +117,7 @@ static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
     (void)clx_file_print(file, "<code>");
     clx_page_text(file, run->path);
     (void)clx_file_print(file, "</code></p>\n");
+    put_open_study(file, run);
 }
 
 static clast_status put_run(clx_file *file, const clx_run *run, int32_t index,

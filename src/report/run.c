@@ -36,6 +36,12 @@ bool clx_run_has(const clx_run *run, const char *file)
     return false;
 }
 
+bool clx_run_is_without_unit(const clx_run *run)
+{
+    const char *unit = json_string_value(json_object_get(run->summary, "unit"));
+    return unit != NULL && strcmp(unit, "model") == 0;
+}
+
 const clast_table *clx_run_table(const clx_run *run, const char *name)
 {
     for (int32_t i = 0; i < run->n_table; ++i) {

@@ -23,6 +23,9 @@ typedef struct clx_run {
 clast_status clx_run_read(const char *folder, const char *page, clx_run *run);
 void clx_run_free(clx_run *run);
 
+/// True when the run's lengths are in the unit of a file that does not tell it.
+bool clx_run_is_without_unit(const clx_run *run);
+
 /// The table of that file name without ".csv", or NULL.
 const clast_table *clx_run_table(const clx_run *run, const char *name);
 

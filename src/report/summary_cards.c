@@ -6,6 +6,7 @@
 #include "report/quantity.h"
 #include "report/value.h"
 #include <clast/envelope.h>
+#include <stdio.h>
 #include <string.h>
 
 static bool is_scalar(const json_t *value)
@@ -212,7 +213,8 @@ static void put_item(clx_file *file, const char *place, const json_t *head, cons
     }
 }
 
-static void put_list(clx_file *file, const char *key, const json_t *list, int32_t rows)
+static void put_list(clx_file *file, const char *key, const char *place, const json_t *list,
+                     int32_t rows)
 {
     const size_t n = json_array_size(list);
     const json_t *head = json_array_get(list, 0);
@@ -223,13 +225,13 @@ static void put_list(clx_file *file, const char *key, const json_t *list, int32_
                          "<table>\n",
                          n);
     if (json_is_object(head)) {
-        put_item_head(file, key, head);
+        put_item_head(file, place, head);
     }
     for (size_t i = 0; i < n && i < (size_t)rows; ++i) {
         const json_t *item = json_array_get(list, i);
         (void)clx_file_print(file, "<tr><td class=\"n\">%zu</td>", i + 1);
         if (json_is_object(head)) {
-            put_item(file, key, head, item);
+            put_item(file, place, head, item);
         } else {
             clx_value_put_cell(file, key, NULL, item);
         }
@@ -288,19 +290,28 @@ static bool is_flat(const json_t *object)
     return json_object_size(object) > 0;
 }
 
+/// Where the keys of a part of the summary stand, as for clx_quantity_of; "": at its top.
+static void place_of(const clx_run *run, const char *key, char place[CLX_QUANTITY_SIZE])
+{
+    (void)snprintf(place, CLX_QUANTITY_SIZE, "%s%s",
+                   clx_run_is_without_unit(run) ? CLX_MODEL_UNITS : "", key);
+}
+
 static void put_part(clx_file *file, const clx_run *run, const char *key, const json_t *value,
                      int32_t rows)
 {
+    char place[CLX_QUANTITY_SIZE];
+    place_of(run, key, place);
     if (is_in_table(run, key, value) || is_by_envelope(value)) {
         return;
     }
     if (json_is_array(value) && json_array_size(value) > 0) {
-        put_list(file, key, value, rows);
+        put_list(file, key, place, value, rows);
     } else if (is_flat(value)) {
         (void)clx_file_print(file, "<div class=\"card\"><h4>");
         clx_quantity_put_label(file, key, NULL);
         (void)clx_file_print(file, "</h4>");
-        put_pairs(file, value, key);
+        put_pairs(file, value, place);
     } else if (json_is_object(value) && first_row(value) != NULL) {
         put_spread(file, key, value);
     }
@@ -311,8 +322,10 @@ void clx_summary_tables(clx_file *file, const clx_run *run, int32_t rows)
     const char *key = NULL;
     json_t *value = NULL;
     bool has_envelope = false;
+    char place[CLX_QUANTITY_SIZE];
+    place_of(run, "", place);
     (void)clx_file_print(file, "<div class=\"cards\">\n<div class=\"card\"><h4>Results</h4>");
-    put_pairs(file, run->summary, NULL);
+    put_pairs(file, run->summary, place[0] != '\0' ? place : NULL);
     json_object_foreach(run->summary, key, value)
     {
         has_envelope = has_envelope || is_by_envelope(value);

@@ -29,9 +29,10 @@ static bool is_one_of(const char *text, const char *const *names, size_t n)
 /// Text column "unit" of tables that name a quantity a row (name, value, unit), or NULL.
 static const clast_column *units_of(const clast_table *table)
 {
-    const int32_t name = clast_table_find(table, "name");
+    const bool has_name =
+        clast_table_find(table, "name") >= 0 || clast_table_find(table, "quantity") >= 0;
     const int32_t unit = clast_table_find(table, "unit");
-    if (table->column == NULL || name < 0 || unit < 0) {
+    if (table->column == NULL || !has_name || unit < 0) {
         return NULL;
     }
     return table->column[unit].text != NULL ? &table->column[unit] : NULL;
@@ -82,12 +83,15 @@ static clx_quantity_scale scale_of(const clast_table *table, int32_t c, const ch
     return clx_quantity_scale_for(most, si_unit);
 }
 
-static shown show(const clast_table *table, int32_t c)
+static shown show(const clast_table *table, int32_t c, bool is_without_unit)
 {
-    static const char *const names[] = {"name", "feature", "term", "column", "a", "b"};
+    static const char *const names[] = {"name", "feature", "term", "column", "a", "b", "quantity"};
     static const char *const valued[] = {"value", "error", "mean", "deviation", "low", "high"};
     const clast_column *column = &table->column[c];
-    shown s = {.column = column, .quantity = clx_quantity_of(column->name, table->name)};
+    char place[CLX_QUANTITY_SIZE];
+    (void)snprintf(place, sizeof place, "%s%s", is_without_unit ? CLX_MODEL_UNITS : "",
+                   table->name);
+    shown s = {.column = column, .quantity = clx_quantity_of(column->name, place)};
     s.scale = scale_of(table, c, s.quantity.unit);
     s.is_name = is_one_of(column->name, names, sizeof names / sizeof *names);
     if (is_one_of(column->name, valued, sizeof valued / sizeof *valued)) {
@@ -132,7 +136,7 @@ static void put_cell(clx_file *file, const shown *s, int64_t row)
     if (s->column->number != NULL) {
         put_number(file, s, row);
     } else if (s->is_name) {
-        clx_quantity_put_label(file, s->column->text[row], NULL);
+        clx_quantity_put_name(file, s->column->text[row]);
     } else {
         clx_page_text(file, s->column->text[row]);
     }
@@ -168,7 +172,8 @@ static void put_turned(clx_file *file, const clast_table *table, const shown *s,
     }
 }
 
-static clast_status put_table(clx_file *file, const clast_table *table, int32_t rows)
+static clast_status put_table(clx_file *file, const clast_table *table, bool is_without_unit,
+                              int32_t rows)
 {
     clast_status status = CLAST_OK;
     shown *s = NULL;
@@ -176,7 +181,7 @@ static clast_status put_table(clx_file *file, const clast_table *table, int32_t 
     CLX_TRY(clx_alloc(&s, table->n_column, sizeof *s));
     for (int32_t c = 0; c < table->n_column; ++c) {
         if (&table->column[c] != units_of(table)) { // the values show theirs
-            s[n++] = show(table, c);
+            s[n++] = show(table, c, is_without_unit);
         }
     }
     const bool is_turned = table->n_row == 1;
@@ -211,6 +216,7 @@ static void put_link(clx_file *file, const clx_run *run, const clast_table *tabl
 clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
 {
     clast_status status = CLAST_OK;
+    const bool is_without_unit = clx_run_is_without_unit(run);
     for (int32_t i = 0; i < run->n_table; ++i) {
         const clast_table *table = &run->table[i];
         const bool is_open = strcmp(table->name, "history") == 0 || table->n_row == 1;
@@ -219,11 +225,12 @@ clast_status clx_tables_put(clx_file *file, const clx_run *run, int32_t rows)
         clx_quantity_put_label(file, table->name, "table");
         (void)clx_file_print(file, " <small>%" PRId64 " row%s</small></summary>", table->n_row,
                              table->n_row == 1 ? "" : "s");
-        CLX_TRY(put_table(file, table, rows));
+        CLX_TRY(put_table(file, table, is_without_unit, rows));
         (void)clx_file_print(file, "<p class=\"note\">%s",
                              table->n_row > rows ? "The first rows of " : "All rows of ");
         put_link(file, run, table);
-        (void)clx_file_print(file, ", there in SI units.</p></details>\n");
+        (void)clx_file_print(file, "%s.</p></details>\n",
+                             is_without_unit ? "" : ", there in SI units");
     }
 done:
     return status;

@@ -8,9 +8,11 @@
 /// The label of a thing that has one ("henze_zirkler"), else the text as it is.
 static void put_text(clx_file *file, const char *key, const char *text)
 {
-    const bool is_name = strcmp(key, "name") == 0;
-    const clx_quantity q = clx_quantity_of(is_name ? text : "", NULL);
-    clx_page_text(file, q.label[0] != '\0' ? q.label : text);
+    if (strcmp(key, "name") == 0 && clx_quantity_of(text, NULL).label[0] != '\0') {
+        clx_quantity_put_name(file, text);
+    } else {
+        clx_page_text(file, text);
+    }
 }
 
 void clx_value_put(clx_file *file, const char *key, const char *place, const json_t *value)

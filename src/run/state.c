@@ -135,8 +135,29 @@ clast_status clast_run_folder_check(const char *folder)
               folder);
     clx_run_state_line(folder, &state, line);
     CLX_CHECK(state.is_whole || state.is_study, CLAST_E_IO, "%s", line);
+    CLX_CHECK(!state.is_study || has_file(folder, "results.csv"), CLAST_E_IO,
+              "%s: a study that has not ended; the same clast study command goes on with it",
+              folder);
 done:
     clx_run_state_free(&state);
+    return status;
+}
+
+/// RUN/state.h5 of a run that has not ended is not there yet: says so, as RUN alone does.
+static clast_status check_absent_state(const char *argument)
+{
+    clast_status status = CLAST_OK;
+    char folder[CLAST_RUN_PATH];
+    const char *slash = strrchr(argument, '/');
+    const int n = slash != NULL ? (int)(slash - argument) : 0;
+    if (slash == NULL || strcmp(slash + 1, "state.h5") != 0 || n == 0 || n >= CLAST_RUN_PATH) {
+        return CLAST_OK;
+    }
+    (void)snprintf(folder, sizeof folder, "%.*s", n, argument);
+    if (has_file(folder, "manifest.json")) {
+        CLX_TRY(clast_run_folder_check(folder));
+    }
+done:
     return status;
 }
 
@@ -145,7 +166,11 @@ clast_status clast_run_folder_state(const char *argument, char path[CLAST_RUN_PA
     clast_status status = CLAST_OK;
     clx_run_state state = {0};
     struct stat found;
-    if (stat(argument, &found) != 0 || !S_ISDIR(found.st_mode)) {
+    const bool is_there = stat(argument, &found) == 0;
+    if (!is_there) {
+        CLX_TRY(check_absent_state(argument));
+    }
+    if (!is_there || !S_ISDIR(found.st_mode)) {
         const int n = snprintf(path, CLAST_RUN_PATH, "%s", argument);
         CLX_CHECK(n > 0 && n < CLAST_RUN_PATH, CLAST_E_IO, "%.60s...: the path is too long",
                   argument);

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include <clast/field.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -253,6 +254,21 @@ static void label_size(const clast_table *table, const roles *r, clast_form_set 
     }
 }
 
+/// Column of the sizes, with their unit where that is known: "size_mm".
+static void size_name(const clast_form_set *set, char name[NAME_SIZE])
+{
+    const char *open = strrchr(set->size_label, '(');
+    const char *line = strrchr(set->size_label, '_');
+    const char *start = open != NULL ? open : line;
+    char unit[16] = "";
+    double factor = 0.0;
+    if (start != NULL) {
+        (void)snprintf(unit, sizeof unit, "%.*s", (int)strcspn(start + 1, ")"), start + 1);
+    }
+    const bool is_length = unit[0] != '\0' && clast_unit_factor(unit, "m", &factor) == CLAST_OK;
+    (void)snprintf(name, NAME_SIZE, "size%s%s", is_length ? "_" : "", is_length ? unit : "");
+}
+
 clast_status clast_form_set_of(const clast_table *table, const char *columns, clast_form_set *set)
 {
     clast_status status = CLAST_OK;
@@ -347,7 +363,9 @@ clast_status clast_form_set_factors(const clast_form_set *set, clast_table *tabl
         }
     }
     if (set->size != NULL) {
-        CLX_TRY(clast_table_add_number(&t, "size", "-", &column));
+        char name[NAME_SIZE];
+        size_name(set, name);
+        CLX_TRY(clast_table_add_number(&t, name, name[4] == '_' ? name + 5 : "-", &column));
         memcpy(column, set->size, (size_t)set->n * sizeof *column);
     }
     *table = t;

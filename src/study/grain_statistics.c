@@ -78,7 +78,36 @@ done:
     return status;
 }
 
-/// Histogram of one column as table and chart.
+/// The table of a histogram with the unit of its numbers in the names of its columns: low_m,
+/// density_1/m.
+static clast_status histogram_table(const clast_histogram *h, const char *name, const char *unit,
+                                    clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table plain = {0};
+    clast_table made = {0};
+    CLX_TRY(clast_histogram_table(h, name, &plain));
+    CLX_TRY(clast_table_init(&made, name, plain.n_row));
+    for (int32_t c = 0; c < plain.n_column; ++c) {
+        static const char *const by[] = {"_", "_", NULL, "_1/", "_1/"}; // low high count density..
+        char full[64];
+        double *number = NULL;
+        const bool has_unit = unit[0] != '\0' && c < 5 && by[c] != NULL;
+        (void)snprintf(full, sizeof full, "%s%s%s", plain.column[c].name, has_unit ? by[c] : "",
+                       has_unit ? unit : "");
+        CLX_TRY(clast_table_add_number(
+            &made, full, has_unit ? full + strlen(plain.column[c].name) + 1 : "-", &number));
+        memcpy(number, plain.column[c].number, (size_t)plain.n_row * sizeof *number);
+    }
+    *table = made;
+    made = (clast_table){0};
+done:
+    clast_table_free(&plain);
+    clast_table_free(&made);
+    return status;
+}
+
+/// Histogram of one column, named "size_m" where it has a unit, as table and chart.
 static clast_status write_histogram(const double *x, int64_t n, const char *column,
                                     const char *label, const char *folder, const char *extension)
 {
@@ -87,9 +116,11 @@ static clast_status write_histogram(const double *x, int64_t n, const char *colu
     clast_table t = {0};
     char name[64];
     char path[PATH_SIZE];
-    (void)snprintf(name, sizeof name, "histogram_%s", column);
+    const size_t n_plain = strcspn(column, "_");
+    const char *unit = column[n_plain] == '_' ? column + n_plain + 1 : "";
+    (void)snprintf(name, sizeof name, "histogram_%.*s", (int)n_plain, column);
     CLX_TRY(clast_histogram_of(x, n, &h));
-    CLX_TRY(write_table(clast_histogram_table(&h, name, &t), &t, folder, name));
+    CLX_TRY(write_table(histogram_table(&h, name, unit, &t), &t, folder, name));
     CLX_TRY(path_of(folder, name, extension, path));
     CLX_TRY(clast_chart_histogram(x, n, label, path));
 done:
@@ -110,8 +141,10 @@ clast_status clast_grain_statistics_write(const clast_grain_statistics *statisti
         write_histogram(set->flatness, set->n, "flatness", "flatness S/I (-)", folder, extension));
     CLX_TRY(write_histogram(set->elongation, set->n, "elongation", "elongation I/L (-)", folder,
                             extension));
-    if (set->size != NULL && statistics->statistics.summary[statistics->statistics.n - 1].n > 0) {
-        CLX_TRY(write_histogram(set->size, set->n, "size", set->size_label, folder, extension));
+    const int32_t last = statistics->statistics.n - 1;
+    if (set->size != NULL && statistics->statistics.summary[last].n > 0) {
+        CLX_TRY(write_histogram(set->size, set->n, statistics->statistics.name[last],
+                                set->size_label, folder, extension));
     }
     CLX_TRY(path_of(folder, "correlation", extension, path));
     CLX_TRY(clast_chart_correlation(&statistics->statistics, path));

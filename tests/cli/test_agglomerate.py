@@ -42,7 +42,7 @@ class Agglomerate(Case):
         self.assertEqual(r.code, 0, r.err)
         for name in ("moments.svg", "number.svg"):
             self.assertIn("<svg", (self.folder / "run" / name).read_text())
-        self.assertEqual(json.loads((self.folder / "run/summary.json").read_text()), r.json)
+        self.assertEqual(json.loads((self.folder / "run/summary.json").read_text()), {k: v for k, v in r.json.items() if k != "wall_s"})
         with open(self.folder / "run/particles.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         sizes = {}

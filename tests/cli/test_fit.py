@@ -55,6 +55,36 @@ class Fit(Case):
         self.assertAlmostEqual(out["cv_mean_error"], sum(errors) / 63, places=14)
         self.assertAlmostEqual(out["cv_median_error"], errors[31], places=14)
 
+    def test_a_selection_among_noise_is_told(self):
+        # 40 columns of noise, 30 beds: "R2 0.47, p 0.003"
+        rows = ["porosity," + ",".join(f"x{k}" for k in range(40))]
+        for i in range(30):
+            rows.append(",".join(repr(0.4 + 0.02 * math.sin(1e4 * math.sin(i * 41 + k + 1))) for k in range(41)))
+        path = self.write("\n".join(rows) + "\n")
+        out = clast("fit", path, "--n-permutation", 39, "--json").json
+        published = clast("fit", path, "--validation", "published", "--n-permutation", 0, "--json").json
+        self.assertGreater(out["r2"], 0.3)
+        self.assertLess(out["r2_held_out"], 0.1)
+        self.assertGreater(out["p_value"], 0.05)
+        self.assertIsNone(out["terms"][1]["p"])
+        self.assertGreater(out["ranking"][0]["p_family"], out["ranking"][0]["p"])
+        self.assertLess(published["cv_mean_error"], out["cv_mean_error"])
+        self.assertIsNone(published["p_value"])
+        words = clast("fit", path, "--n-permutation", 19).out
+        self.assertIn("no better than the mean", words)
+        self.assertIn("of 19 permutations", words)
+        self.assertIn("as published", clast("fit", path, "--validation", "published", "--n-permutation", 0).out)
+
+    def test_values_far_out_together_are_out_of_range(self):
+        # x and y within their own ranges, but never at such a pair
+        text = "porosity,x,y\n" + "".join(
+            f"{0.35 + 0.02 * x + 0.03 * y + 0.001 * math.sin(k * k)!r},{x!r},{y!r}\n"
+            for k, (x, y) in enumerate((0.1 * k, 0.1 * k + 0.05 * math.sin(3 * k)) for k in range(30)))
+        run = self.folder / "run"
+        self.assertEqual(clast("fit", self.write(text), "--use", "x,y", "-o", run).code, 0)
+        answer = clast("predict", self.write("x,y\n1.5,1.5\n0.3,2.6\n", "new.csv"), "--model", run / "model.json", "--json").json
+        self.assertEqual([b["in_range"] for b in answer["beds"]], [True, False])
+
     def test_columns_of_any_table(self):
         text = "porosity,clay,depth_m\n" + "".join(
             f"{0.4 - 0.3 * c + 0.01 * d},{c},{d}\n" for c, d in ((0.1 * k % 0.37, math.sin(k)) for k in range(30)))

@@ -68,6 +68,20 @@ class Help(Case):
                 self.assertTrue(set(named(page.out)) <= set(completed(command)))
                 self.assertEqual(clast(*command.split(), "-h").out, page.out)
 
+    def test_what_a_command_does_not_take_is_refused(self):
+        # -o wrote nothing, --json printed roff: options that were read and left
+        for words in (["mesh", "check", ROOT / "data/standin63/grain00.ply"], ["bench", "--list"], ["man"], ["completion"]):
+            self.assert_fails(2, *words, "-o", self.folder / "out", says=["writes no file: leave out -o"])
+            self.assertNotIn("--output", clast(*[word for word in words if isinstance(word, str)][:2 if words[0] == "mesh" else 1],
+                                               "--help-all").out)
+        for word in ("man", "completion"):
+            self.assert_fails(2, word, "--json", says=["is no data: leave out --json"])
+        listed = clast("bench", "--list", "--json").json["scenes"]
+        self.assertEqual([scene["name"] for scene in listed], [row.split()[0] for row in clast("bench", "--list").out.splitlines()])
+        for command in COMMANDS:
+            page = clast(*command.split(), "--help-all").out
+            self.assertEqual("[CONFIG.yaml]" in page or "CONFIG" in page.splitlines()[0], "is a key of the YAML file" in page, command)
+
     def test_examples_are_three_and_their_options_exist(self):
         for command in COMMANDS:
             with self.subTest(command):
@@ -127,6 +141,9 @@ class Help(Case):
                                       ("aggregate", "--size=20", "size: 20 has no unit"),
                                       ("pack", "--layer=1", "layer: 1 has no unit; write 1mm"),
                                       ("pack", "--width=0.1", "width: 0.1 has no unit; write 0.1m"),
+                                      # the nearest spelling of a width of 104mm was 100um
+                                      ("pack", "--width=100", "width: 100 has no unit; write 100mm"),
+                                      ("pack", "--height=1", "height: 1 has no unit; write 1m"),
                                       ("pack", "--curve=uniform:3,5mm", "3 has no unit; write 3mm"),
                                       ("pack", "--curve=4", "4 has no unit; write 4mm"),
                                       ("grading", "--mass=-1", "mass"),

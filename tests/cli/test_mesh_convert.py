@@ -55,9 +55,9 @@ class Convert(Case):
         donut = BROKEN / "numpy-stl/HalfDonut.stl"
         got = clast("mesh", "convert", donut, "-o", self.folder / "a.ply", "--json").json
         self.assertEqual(len(got["warnings"]), 1)
-        self.assertIn("1 bytes after the last", got["warnings"][0])
+        self.assertIn("1 byte after the last", got["warnings"][0])
         plain = clast("mesh", "convert", donut, "-o", self.folder / "a.ply")
-        self.assertIn("1 bytes after the last", plain.err)
+        self.assertIn("1 byte after the last", plain.err)
         self.assertIn("288 triangles", plain.out)
 
     def test_3mf_is_in_millimetres_with_every_triangle(self):

@@ -59,6 +59,11 @@ class Predict(Case):
         out = self.answer("--flatness", "0.3+-0.15", "--elongation", "0.7+-0.3")
         self.assertFalse(out["in_range"])
         self.assertEqual([r["feature"] for r in out["out_of_range"]], ["mean_flatness", "deviation_elongation"])
+        # L/S 8.1 of a form whose flatness and elongation are each in range; a spread that Table 2 does not have
+        out = self.answer("--flatness", "0.3", "--elongation", "0.41")
+        self.assertEqual([r["feature"] for r in out["out_of_range"]], ["inverse_equancy"])
+        out = self.answer("--flatness", "0.6+-0.15", "--elongation", "0.6+-0.15")
+        self.assertEqual([r["feature"] for r in out["out_of_range"]], ["mean_elongation"])
 
     def test_each_row_is_a_bed(self):
         path = self.table("L,I,S\n4,3,2\n4,4,4\n")

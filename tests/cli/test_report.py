@@ -71,6 +71,48 @@ class Report(Case):
             self.assertNotIn(bad, text)
         self.assertNotRegex(text, r"\d(\.\d+)?e-\d+")
 
+    def test_lengths_without_a_unit_stay_so(self):
+        # a packing without a unit was 20.08 m high on its page, its pores 58 mm wide
+        balls = os.path.join(self.folder.name, "balls.csv")
+        with open(balls, "w", encoding="utf-8") as file:
+            file.write("x,y,z,radius\n" + "".join(f"{x}.5,{y}.5,{z}.5,0.5\n" for x in range(4) for y in range(4) for z in range(4)))
+        grains = [os.path.join(DATA, f"standin63/grain0{k}.ply") for k in range(4)]
+        for words in [["porosity", balls, "--bed", "periodic:0,0,0,4,4,4", "--gap", "1e-6", "--local", "--pores", "64"],
+                      ["shape", *grains]]:
+            with self.subTest(words[0]):
+                out = os.path.join(self.folder.name, words[0])
+                made = clast(*words, "--statistics" if words[0] == "shape" else "-o", out, "-q")
+                self.assertEqual(made.code, 0, made.err)
+                self.assertEqual(clast("report", out).code, 0)
+                page = self.page(os.path.join(out, "report.html"))
+                text = seen(page)
+                self.assertNotRegex(text, r"\d\s+(?:[mnc\u00b5]?m)(?:\u00b2|\u00b3)?(?!\w)|\((?:1/)?[mnc\u00b5]?m(?:\u00b2|\u00b3)?\)|SI units")
+                self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+                for name in os.listdir(out):
+                    if name.endswith(".csv"):
+                        head = self.page(os.path.join(out, name)).splitlines()[0]
+                        self.assertNotRegex(head, r"_(1/)?m[23]?\b", name)
+                self.assertRegex(self.page(os.path.join(out, "summary.json")), r'"unit": "model"')
+        self.assertRegex(seen(self.page(os.path.join(self.folder.name, "porosity/report.html"))), r"4\.000\s+model units")
+        # with a unit the sizes have it
+        out = os.path.join(self.folder.name, "si")
+        self.assertEqual(clast("shape", *grains, "--unit", "mm", "--statistics", out, "-q").code, 0)
+        self.assertTrue(self.page(os.path.join(out, "factors.csv")).splitlines()[0].endswith(",size_m"))
+        self.assertTrue(self.page(os.path.join(out, "histogram_size.csv")).startswith("low_m,high_m,count,density_1/m,normal_1/m"))
+
+    def test_means_of_runs_have_the_units_of_what_they_are_of(self):
+        # "Bed evaluated to: mean 0.02042" had none, and a deviation of 0 Pa was "0 GPa"
+        spread = {"mean": 0.0204, "deviation": 0.0, "low": 0.0203, "high": 0.0205}
+        self.put("summary.json", json.dumps({"n_run": 2, "z_high": spread, "stress": {"stress_xx": {**spread, "mean": 271.0}}}))
+        self.put("means.csv", "quantity,unit,mean,deviation,low,high\nz_high,m,0.0204,0,0.0203,0.0205\nstress_xx,Pa,271,0,270,272\n")
+        self.assertEqual(clast("report", self.run_path).code, 0)
+        page = self.page(os.path.join(self.run_path, "report.html"))
+        text = seen(page)
+        self.assertRegex(text, r"Bed evaluated to\s+Mean\s+20\.40\s+mm")
+        self.assertRegex(text, r"(?s)Over|Quantity.*Bed evaluated to\s+20\.40\s+mm\s+0\s+m\s+20\.30\s+mm")
+        self.assertNotIn("GPa", text)
+        self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+
     def test_no_page_of_a_command_has_a_key_for_a_label(self):
         packed = os.path.join(self.folder.name, "packed")
         cube = ["--domain", "box:0,0,0,1,1,1"]

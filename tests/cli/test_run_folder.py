@@ -159,7 +159,9 @@ class RunFolder(Case):
                     said = self.start(words, run, f"{run.name}/checkpoint-0*[1-9]*.h5", sent)
                     if sent == signal.SIGTERM:
                         self.assertRegex(said, rf"stopped at \d+ %, go on with clast {name} --resume {run}\n")
-                    for reader in self.readers(run):
+                    # the state that is not there yet: "No such file or directory"
+                    states = [("porosity", run / "state.h5"), ("render", run / "state.h5", "-o", self.folder / "out.png")]
+                    for reader in self.readers(run) + states:
                         code = 2 if reader[0] == "predict" else 3
                         found = self.assert_fails(code, *reader, says=("--resume",))
                         self.assertRegex(found.err, rf"{run}: stopped at \d+ %, go on with clast {name} --resume {run}")
@@ -254,6 +256,16 @@ class RunFolder(Case):
         for folder in (study, study / "runs/000001/out"):
             self.assertEqual(clast("report", folder).code, 0)
         self.assert_fails(2, "study", plan, "-o", run, says=("holds a run", "another folder"))
+        # a study that was stopped had a page like any other
+        results = study / "results.csv"
+        rows = [line.split(",") for line in results.read_text().splitlines()]
+        self.assertNotIn("runs are done", (study / "report.html").read_text())
+        rows[2] = [rows[2][0], rows[2][1]] + [""] * (len(rows[2]) - 2)
+        results.write_text("".join(",".join(row) + "\n" for row in rows))
+        self.assertEqual(clast("report", study).code, 0)
+        self.assertIn("stopped: 1 of 2 runs are done", (study / "report.html").read_text())
+        results.unlink()
+        self.assert_fails(3, "report", study, says=(f"{study}: a study that has not ended", "clast study"))
 
 
 if __name__ == "__main__":

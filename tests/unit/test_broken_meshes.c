@@ -20,7 +20,7 @@ typedef struct {
 static const sound sounds[] = {
     {"trimesh/unit_cube.STL", 8, 12, 6.0, 1.0, 1e-12, NULL, 1},
     {"numpy-stl/CubeInvalidUnicode.stl", 8, 12, NAN, 8.0, 1e-12, NULL, 1},
-    {"numpy-stl/HalfDonut.stl", 144, 288, NAN, 2.343149, 1e-6, "1 bytes after the last", 1},
+    {"numpy-stl/HalfDonut.stl", 144, 288, NAN, 2.343149, 1e-6, "1 byte after the last", 1},
     {"numpy-stl/Moon_Chinese.stl", 60, 116, NAN, 0.8887226, 1e-6, NULL, 1},
     {"numpy-stl/triamid.stl", 7, 10, NAN, NAN, 0.0, NULL, 1},
     {"trimesh/empty.stl", 0, 0, 0.0, NAN, 0.0, NULL, 1},

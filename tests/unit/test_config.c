@@ -11,6 +11,7 @@
 #include <clast/porosity_fit.h>
 #include <clast/render.h>
 #include <clast/report.h>
+#include <clast/spectrum.h>
 #include <clast/study.h>
 #include <clast/synthesize.h>
 #include <stdio.h>
@@ -144,10 +145,10 @@ static void every_field_reads_its_own_unit(void **state)
 {
     (void)state;
     const clast_field *const tables[] = {
-        clast_aggregate_fields,   clast_report_fields,      clast_render_fields,
-        clast_decompose_fields,   clast_fill_fields,        clast_agglomerate_fields,
-        clast_pack_fields,        clast_synthesize_fields,  clast_study_fields,
-        clast_mesh_repair_fields, clast_porosity_fit_fields};
+        clast_aggregate_fields,   clast_report_fields,       clast_render_fields,
+        clast_decompose_fields,   clast_fill_fields,         clast_agglomerate_fields,
+        clast_pack_fields,        clast_synthesize_fields,   clast_study_fields,
+        clast_mesh_repair_fields, clast_porosity_fit_fields, clast_spectrum_fields};
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; ++k) {
         for (const clast_field *f = tables[k]; f->name != NULL; ++f) {
             char text[64];

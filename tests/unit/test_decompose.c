@@ -16,6 +16,7 @@ static clast_decompose_config config_of(const char *domain)
     CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
     CHECK_OK(
         clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c, domain, false));
+    c.beta_dt = 1e-6;
     return c;
 }
 
@@ -157,6 +158,107 @@ static void chosen_tests_and_statistics_vote(void **state)
     set(&c, "tests", "");
     CHECK_STATUS(clast_decompose(&cloud, &c, &r), CLAST_E_CONFIG);
     clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Without beta dt a decomposition counted with 1e-6 m^d, which nobody had asked for. */
+static void without_beta_dt_events_are_the_pair_integral(void **state)
+{
+    (void)state;
+    const clast_cloud cloud = cloud_of("f2_n500");
+    clast_decompose_config c = config_of(square);
+    clast_decomposition timed = {0};
+    clast_decomposition plain = {0};
+    assert_true(clast_fields_find(clast_decompose_fields, "beta_dt")->value == 0.0);
+    set(&c, "crossfit", "true");
+    CHECK_OK(clast_decompose(&cloud, &c, &timed));
+    c.beta_dt = 0.0;
+    CHECK_OK(clast_decompose(&cloud, &c, &plain));
+    assert_int_equal(timed.n_capped, 0);
+    CHECK_REL(plain.events * 1e-6, timed.events, 1e-12);
+    CHECK_REL(plain.events_low * 1e-6, timed.events_low, 1e-12);
+    CHECK_REL(plain.events_high * 1e-6, timed.events_high, 1e-12);
+    CHECK_REL(plain.events_cross * 1e-6, timed.events_cross, 1e-12);
+    assert_true(plain.events > 100.0 * (double)plain.n); // far beyond any cap
+    assert_int_equal(plain.n_capped, 0);
+    clast_decomposition_free(&timed);
+    c.beta_dt = 1.0;
+    CHECK_OK(clast_decompose(&cloud, &c, &timed));
+    assert_true(timed.n_capped > 0);
+    CHECK_ABS(timed.events_high, 250.0, 0.0); // the interval ends where every particle has met one
+    clast_decomposition_free(&timed);
+    clast_decomposition_free(&plain);
+    clast_fields_free(clast_decompose_fields, &c);
+}
+
+/* Statistic and p were of two pairs: r of (x, y), p of the least of three. */
+static void pearson_votes_with_one_pair(void **state)
+{
+    (void)state;
+    enum { N = 500 };
+    static double u[3 * N];
+    const double side[3] = {1.0, 1.0, 1.0};
+    const clast_uniformity_config config = {.level = 0.05, .votes = 2};
+    clast_uniformity found;
+    clast_pearson pearson;
+    for (int i = 0; i < N; ++i) {
+        clx_rng rng = clx_rng_at(4, CLX_STREAM_TEST, (uint64_t)i);
+        u[3 * i] = clx_rng_uniform(&rng);
+        u[3 * i + 1] = clx_rng_uniform(&rng);
+        u[3 * i + 2] = 0.5 * (u[3 * i + 1] + clx_rng_uniform(&rng));
+    }
+    CHECK_OK(clast_uniformity_test(u, N, 3, side, &config, &found));
+    CHECK_OK(clast_pearson_test(u, N, 3, &pearson));
+    assert_int_equal(found.n_test, 5);
+    CHECK_ABS(found.vote[4].statistic, pearson.r[2], 0.0);
+    CHECK_ABS(found.vote[4].p, 3.0 * pearson.p[2], 0.0);
+    assert_int_equal(found.vote[4].axis[0], 1);
+    assert_int_equal(found.vote[4].axis[1], 2);
+    assert_int_equal(found.vote[0].axis[0], -1);
+}
+
+/* Means over 400 clouds of 100 points: ratio 1, z standard normal; beyond 50,000 points a part. A
+ * lattice of 8^3 has its neighbours at 1/8, uniform points at 0.554 / 8 (1 + O(1/n)). */
+static void spacing_is_that_of_uniform_points_or_of_a_lattice(void **state)
+{
+    (void)state;
+    enum { N = 100, R = 400, M = 8, MANY = 120000 };
+    static double u[3 * MANY];
+    clast_spacing found;
+    for (int32_t d = 1; d <= 3; ++d) {
+        double sum = 0.0;
+        double square_sum = 0.0;
+        for (int r = 0; r < R; ++r) {
+            clx_rng rng = clx_rng_at(5, CLX_STREAM_TEST, (uint64_t)(3 * r + d));
+            for (int i = 0; i < N * d; ++i) {
+                u[i] = clx_rng_uniform(&rng);
+            }
+            CHECK_OK(clast_spacing_test(u, N, d, &found));
+            sum += found.z / R;
+            square_sum += found.z * found.z / R;
+        }
+        CHECK_ABS(sum, 0.0, 3.5 / sqrt(R));
+        CHECK_ABS(square_sum, 1.0, 3.5 * sqrt(2.0 / R));
+        clx_rng rng = clx_rng_at(6, CLX_STREAM_TEST, (uint64_t)d);
+        for (int i = 0; i < MANY * d; ++i) {
+            u[i] = clx_rng_uniform(&rng);
+        }
+        CHECK_OK(clast_spacing_test(u, MANY, d, &found));
+        assert_true(fabs(found.z) < 3.5);
+    }
+    for (int i = 0; i < M * M * M; ++i) {
+        u[3 * i] = (i % M + 0.5) / M;
+        u[3 * i + 1] = (i / M % M + 0.5) / M;
+        u[3 * i + 2] = (i / M / M + 0.5) / M;
+    }
+    CHECK_OK(clast_spacing_test(u, M * M * M, 3, &found));
+    CHECK_ABS(found.ratio, 1.0 / 0.55396, 0.01);
+    assert_true(found.p < 1e-100);
+    for (int i = 0; i < 3 * M; ++i) {
+        u[i] = 0.25;
+    }
+    CHECK_OK(clast_spacing_test(u, M, 3, &found));
+    CHECK_ABS(found.ratio, 0.0, 0.0);
+    CHECK_STATUS(clast_spacing_test(u, 4, 3, &found), CLAST_E_ARGUMENT);
 }
 
 static void paper_prints_what_the_paper_printed(void **state)
@@ -461,6 +563,9 @@ int main(void)
         cmocka_unit_test(interval_covers_as_stated),
         cmocka_unit_test(sampled_ghosts_agree_with_the_formula),
         cmocka_unit_test(chosen_tests_and_statistics_vote),
+        cmocka_unit_test(without_beta_dt_events_are_the_pair_integral),
+        cmocka_unit_test(pearson_votes_with_one_pair),
+        cmocka_unit_test(spacing_is_that_of_uniform_points_or_of_a_lattice),
         cmocka_unit_test(paper_prints_what_the_paper_printed),
         cmocka_unit_test(crossfit_has_no_bias_on_uniform_points),
         cmocka_unit_test(crossfit_keeps_the_variable),

@@ -18,6 +18,7 @@ static clast_decompose_config config_of(const char *mesh)
     clast_decompose_config c;
     CHECK_OK(clast_fields_default(clast_decompose_fields, &c));
     CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &c, mesh, false));
+    c.beta_dt = 1e-6;
     return c;
 }
 
@@ -366,10 +367,50 @@ static void surfaces_that_bound_nothing_are_refused(void **state)
     assert_null(domain.surface);
     CHECK_STATUS(clast_domain_parse("mesh:a.stl", &domain), CLAST_E_CONFIG);
     CHECK_STATUS(clast_domain_read("mesh:", NULL, &domain), CLAST_E_IO);
-    CHECK_STATUS(clast_domain_read("box:0,1", "mm", &domain), CLAST_E_CONFIG);
+    CHECK_STATUS(clast_domain_read("box:0,1", "kg", &domain), CLAST_E_CONFIG);
     clast_mesh_free(&mesh);
     clast_mesh_free(&other);
     clast_mesh_free(&both);
+}
+
+/* Names in any unit, read back as they are written in m; a body that lies anywhere holds the points
+ * of the one about the origin, moved and turned. */
+static void names_have_units_and_places(void **state)
+{
+    (void)state;
+    static const char *const name[][3] = {
+        {"box:0,0,0,1mm,2mm,3cm", "", "box:0,0,0,0.001,0.002,0.03"},
+        {"box:0,0,10,2cm", "mm", "box:0,0,0.01,0.02"},
+        {"cylinder:5,2 m", "mm", "cylinder:0.005,2"},
+        {"half-pipe:0.1,1", "", "half-pipe:0.1,1"},
+        {"sphere:1,2,3,4", "mm", "sphere:0.001,0.002,0.003,0.004"},
+        {"cylinder:1,2,3,0,0,5,4,6", "mm", "cylinder:0.001,0.002,0.003,0,0,1,0.004,0.006"}};
+    char text[CLAST_DOMAIN_TEXT];
+    clast_domain domain = {0};
+    for (size_t k = 0; k < sizeof name / sizeof name[0]; ++k) {
+        CHECK_OK(clast_domain_read(name[k][0], name[k][1], &domain));
+        clast_domain_format(&domain, text);
+        assert_string_equal(text, name[k][2]);
+        CHECK_OK(clast_domain_parse(text, &domain));
+    }
+    CHECK_OK(clast_domain_parse("cylinder:1,2,3,1,2,2,0.5,4", &domain));
+    CHECK_REL(clast_domain_volume(&domain), CLAST_PI, 1e-15);
+    for (uint64_t i = 0; i < 1000; ++i) {
+        clx_rng rng = clx_rng_at(2, CLX_STREAM_TEST, i);
+        const double u[3] = {clx_rng_uniform(&rng), clx_rng_uniform(&rng), clx_rng_uniform(&rng)};
+        double x[3];
+        double back[3];
+        clast_domain_unmap(&domain, u, x);
+        const double from[3] = {x[0] - 1.0, x[1] - 2.0, x[2] - 3.0};
+        const double along = (from[0] + 2.0 * from[1] + 2.0 * from[2]) / 3.0;
+        const double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2];
+        CHECK_ABS(along, 4.0 * u[2], 1e-13);
+        CHECK_ABS(square - along * along, 0.25 * u[0], 1e-13);
+        assert_true(clast_domain_map(&domain, x, back));
+        CHECK_ABS(back[1], u[1], 1e-12);
+    }
+    CHECK_STATUS(clast_domain_parse_in("box:0,1", 0.0, &domain), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_domain_parse("box:0,0,,1", &domain), CLAST_E_CONFIG);
 }
 
 /* The ellipse x^2/9 + y^2 < 1 by (r^2, angle), area 3 pi. */
@@ -532,6 +573,7 @@ static void every_refused_allocation_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_have_units_and_places),
         cmocka_unit_test(cut_bins_of_a_corner_are_sixths),
         cmocka_unit_test(cut_bins_agree_with_boxes_points_and_the_whole),
         cmocka_unit_test(a_half_pipe_of_triangles_is_the_half_pipe),

@@ -1,0 +1,147 @@
+// Tables, files for ParaView and charts of a decomposition.
+#include "decompose_files.h"
+
+#include <clast/decompose_charts.h>
+#include <clast/decompose_file.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+
+void cli_decompose_note(const cli_decompose_job *j, char note[CLI_DECOMPOSE_NOTE])
+{
+    const clast_decomposition *r = j->result;
+    int used = snprintf(note, CLI_DECOMPOSE_NOTE, "domain %s (m), volume %.9g m^%d", j->name,
+                        r->volume, r->dimension);
+    if (r->beta_dt > 0.0) {
+        used += snprintf(note + used, (size_t)(CLI_DECOMPOSE_NOTE - used), ", beta_dt %.9g m^%d",
+                         r->beta_dt, r->dimension);
+    } else {
+        used += snprintf(note + used, (size_t)(CLI_DECOMPOSE_NOTE - used),
+                         ", no beta_dt: pair integral in 1/m^%d", r->dimension);
+    }
+    if (j->has_drawn) {
+        (void)snprintf(note + used, (size_t)(CLI_DECOMPOSE_NOTE - used), ", seed %llu",
+                       (unsigned long long)r->seed);
+    }
+}
+
+/// Corners of a mapped domain's cells are coordinates of the unit cube, which have no unit.
+static clast_status cell_table(const clast_decomposition *r, bool is_mapped, clast_table *table)
+{
+    static const char *const name_of[2][2][3] = {
+        {{"x_low_m", "y_low_m", "z_low_m"}, {"x_high_m", "y_high_m", "z_high_m"}},
+        {{"u_low", "v_low", "w_low"}, {"u_high", "v_high", "w_high"}}};
+    const char *const *low = name_of[is_mapped ? 1 : 0][0];
+    const char *const *high = name_of[is_mapped ? 1 : 0][1];
+    const clast_cells *cells = &r->cells;
+    clast_status status = clast_table_init(table, "cells", cells->n);
+    for (int32_t j = 0; j < 2 * r->dimension && status == CLAST_OK; ++j) {
+        double *column = NULL;
+        const int32_t axis = j / 2;
+        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis],
+                                        is_mapped ? "-" : "m", &column);
+        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+            column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
+        }
+    }
+    const bool is_pairs = r->beta_dt == 0.0;
+    const char *const name[7] = {
+        "volume", "count", "density", is_pairs ? "pair_integral" : "events",
+        "weight", "label", "pass"};
+    char unit[2][8];
+    (void)snprintf(unit[0], sizeof unit[0], "m^%d", r->dimension);
+    (void)snprintf(unit[1], sizeof unit[1], "1/m^%d", r->dimension);
+    const char *const unit_of[7] = {unit[0], "-", unit[1], is_pairs ? unit[1] : "-", "-", "-", "-"};
+    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 7 : 5) && status == CLAST_OK; ++k) {
+        double *column = NULL;
+        status = clast_table_add_number(table, name[k], unit_of[k], &column);
+        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+            const double value[7] = {cells->volume[c],
+                                     (double)cells->count[c],
+                                     (double)cells->count[c] / cells->volume[c],
+                                     cells->events[c],
+                                     cells->weight[c],
+                                     (double)cells->label[c],
+                                     (double)cells->pass[c]};
+            column[c] = value[k];
+        }
+    }
+    return status;
+}
+
+/// A row a point: cell, and label and pass where cells have them.
+static clast_status label_table(const clast_decomposition *r, int64_t n_point, clast_table *table)
+{
+    static const char *const name[3] = {"cell", "label", "pass"};
+    const clast_cells *cells = &r->cells;
+    clast_status status = clast_table_init(table, "points", n_point);
+    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 3 : 1) && status == CLAST_OK; ++k) {
+        double *column = NULL;
+        status = clast_table_add_number(table, name[k], "-", &column);
+        for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
+            const int32_t c = cells->of_point[i];
+            column[i] = k == 0   ? c
+                        : c < 0  ? (double)NAN // outside of the domain
+                        : k == 1 ? cells->label[c]
+                                 : cells->pass[c];
+        }
+    }
+    return status;
+}
+
+static clast_status write_tables(const cli_decompose_job *j, const char *folder)
+{
+    const clast_decomposition *r = j->result;
+    const bool is_mapped =
+        j->domain->kind != CLAST_DOMAIN_BOX && j->domain->kind != CLAST_DOMAIN_MESH;
+    char path[4096];
+    char note[CLI_DECOMPOSE_NOTE];
+    cli_decompose_note(j, note);
+    clast_table cells = {0};
+    clast_table points = {0};
+    clast_status status = cell_table(r, is_mapped, &cells);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
+        status = clast_table_write_csv_note(&cells, note, path);
+    }
+    if (status == CLAST_OK) {
+        status = label_table(r, j->cloud->n, &points);
+    }
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
+        status = clast_table_write_csv_note(&points, note, path);
+    }
+    if (status == CLAST_OK && r->search.n_row > 0) {
+        (void)snprintf(path, sizeof path, "%s/thresholds.csv", folder);
+        status = clast_table_write_csv_note(&r->search, note, path);
+    }
+    clast_table_free(&cells);
+    clast_table_free(&points);
+    return status;
+}
+
+static clast_status write_pictures(const cli_decompose_job *j, const char *folder)
+{
+    const clast_decomposition *r = j->result;
+    char path[4096];
+    (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
+    clast_status status = clast_cells_write_vtu(path, r, j->domain);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
+        status = clast_points_write_vtp(path, j->cloud, r, j->domain);
+    }
+    for (int k = 0; k < CLAST_N_DECOMPOSE_CHART && status == CLAST_OK; ++k) {
+        if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
+            (void)snprintf(path, sizeof path, "%s/%s.%s", folder,
+                           clast_decompose_chart_name((clast_decompose_chart)k, r), j->chart_end);
+            status = clast_decompose_chart_write((clast_decompose_chart)k, j->cloud, r, path);
+        }
+    }
+    return status;
+}
+
+clast_status cli_decompose_files(const cli_decompose_job *j, const char *folder)
+{
+    const clast_status status = write_tables(j, folder);
+    return status == CLAST_OK ? write_pictures(j, folder) : status;
+}

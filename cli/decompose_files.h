@@ -1,0 +1,22 @@
+#pragma once
+// Tables, files for ParaView and charts of a decomposition.
+#include <clast/clast.h>
+
+/// What a decomposition is of and found.
+typedef struct cli_decompose_job {
+    const clast_domain *domain;
+    const clast_cloud *cloud;
+    const clast_decomposition *result;
+    const clast_table *sizes; ///< without columns unless asked for
+    const char *name;         ///< of the domain, in m
+    const char *chart_end;    ///< "svg"
+    bool has_drawn;           ///< the seed mattered
+} cli_decompose_job;
+
+enum { CLI_DECOMPOSE_NOTE = 1024 };
+
+/// What the numbers depend on, a line: domain, volume, beta dt, seed.
+void cli_decompose_note(const cli_decompose_job *job, char note[CLI_DECOMPOSE_NOTE]);
+
+/// cells.csv, point_cells.csv, thresholds.csv, cells.vtu, points.vtp and charts.
+clast_status cli_decompose_files(const cli_decompose_job *job, const char *folder);

@@ -1,0 +1,43 @@
+#pragma once
+// Points sorted into the occupied cells of a regular grid, and sums over their neighbours.
+#include "base/status.h"
+
+#include <clast/domain.h>
+#include <clast/pairs.h>
+
+/// Points by cell, cells in the order of their keys; along axis 0 neighbours are contiguous.
+typedef struct clx_pair_cells {
+    int32_t d;
+    int64_t n, n_cell;
+    double side, low[3]; ///< of the cells; low corner of the points
+    int64_t dim[3];      ///< cells an axis with two empty ones at either end
+    double *x[3];        ///< [n] coordinates in this order
+    double *safe;        ///< [n] distance to the border
+    int64_t *key;        ///< [n_cell]
+    int64_t *begin;      ///< [n_cell + 1]
+} clx_pair_cells;
+
+/// What is summed in each shell of distance. Of a pair h is the mean of its two edge weights.
+typedef struct clx_pair_sum {
+    int64_t pairs;                 ///< ordered pairs: twice the number of pairs
+    int64_t squares;               ///< over points: number of neighbours in the shell, squared
+    double weight;                 ///< over ordered pairs: h
+    double weight2;                ///< h^2
+    double joint[CLAST_MAX_SHELL]; ///< [k <= this shell] over points: product of the sums of h in
+                                   ///< shell k and in this one
+} clx_pair_sum;
+
+/// @param x  [n][d]
+clast_status clx_pair_cells_make(const double *x, int64_t n, int32_t d, double radius,
+                                 clx_pair_cells *cells);
+void clx_pair_cells_free(clx_pair_cells *cells);
+
+/// Sum over cells of the squared number of points: pairs to be looked at, but for a factor.
+double clx_pair_cells_work(const clx_pair_cells *cells);
+
+/// Sums over all pairs closer than radius[n_shell - 1], at most twice the cells' side; shell k
+/// holds distances radius[k - 1] <= r < radius[k].
+///
+/// @param sum  [n_shell], zeros    @param n_repeated  ordered pairs at the distance 0
+clast_status clx_pair_cells_sum(clx_pair_cells *cells, const clast_domain *domain, int32_t n_shell,
+                                const double *radius, clx_pair_sum *sum, int64_t *n_repeated);

@@ -1,0 +1,451 @@
+// Integral of the squared density as the value at r = 0 of the density's autocorrelation
+//
+//     A(r) = average over directions u of the integral of f(x) f(x + r u) dx,
+//
+// which the pairs in shells of distance show for r > 0. A is fitted as a mixture of Gaussians in r,
+// A(r) = sum c_j exp(-r^2 / (4 s_j^2)), c_j >= 0: every function that is completely monotone in r^2
+// [Schoenberg1938]. Blobs, sheets, lines, plumes, their sums on any background and, by exp(-r / L),
+// densities with jumps are of this kind. The narrowest s is the widest one that fits as well as
+// narrower ones; the interval is that of the profile likelihood of Poisson numbers with shapes of
+// half that width allowed, widened by the projection term. [docs/theory/pairs.md section 4]
+#include "cloud/pair_integral.h"
+
+#include "base/alloc.h"
+#include "math/special.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    MOST_SHAPE = 81,
+    MOST_USED = 24,
+    N_ITERATION = 400,
+    N_BISECT = 20,
+    N_STRETCH = 4,
+    LEAST_PAIRS = 10, ///< within twice the narrowest width that is looked at
+    FINER = 2         ///< levels narrower than the chosen one that the interval allows
+};
+
+/// Where the choices of the fit stand; all measured in docs/theory/pairs.md.
+static const double widest = 8.0;               ///< greatest s over the greatest distance
+static const double step = 0.70710678118654752; ///< from one s to the next
+static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
+static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
+static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
+static const double chi2_95 = 3.841458820694124;
+static const double normal_975 = 1.959963984540054;
+
+typedef struct {
+    const clx_pair_shells *in;
+    bool has_kinks;                           ///< exp(-r / L) beside each Gaussian
+    int32_t n_shape;                          ///< 1 + n_level, or 1 + 2 n_level with kinks
+    int32_t n_level;                          ///< widths below the uniform shape
+    double s[MOST_SHAPE];                     ///< of each level, descending, the first INFINITY
+    double mass[MOST_SHAPE][CLAST_MAX_SHELL]; ///< pairs in each shell for c = 1
+    double total[MOST_SHAPE];                 ///< pairs in all shells
+    double scale;                             ///< of edge-corrected pairs in Poisson numbers
+    double pairs[CLAST_MAX_SHELL];            ///< divided by it
+} fit;
+
+typedef struct {
+    double c[MOST_SHAPE];
+    double likelihood, integral;
+} mixture;
+
+static double ball(int32_t d)
+{
+    return d == 1 ? 2.0 : d == 2 ? CLAST_PI : 4.0 / 3.0 * CLAST_PI;
+}
+
+/// Integral of exp(-r^2 / (4 s^2)) over the ball of radius r.
+static double gauss_in_ball(int32_t d, double s, double r)
+{
+    if (isinf(s)) {
+        return ball(d) * pow(r, d);
+    }
+    return pow(4.0 * CLAST_PI * s * s, 0.5 * d) * clx_gamma_p(0.5 * d, r * r / (4.0 * s * s));
+}
+
+/// Integral of exp(-r / length) over it.
+static double exp_in_ball(int32_t d, double length, double r)
+{
+    const double unit[3] = {2.0, 2.0 * CLAST_PI, 8.0 * CLAST_PI};
+    return unit[d - 1] * pow(length, d) * clx_gamma_p(d, r / length);
+}
+
+static void add_shape(fit *f, double s, bool is_kink)
+{
+    const clx_pair_shells *in = f->in;
+    const double n_pair = 0.5 * in->n * (in->n - 1.0) / f->scale;
+    const int32_t j = f->n_shape++;
+    double before = 0.0;
+    f->total[j] = 0.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        const double within = is_kink ? exp_in_ball(in->d, kink * s, in->radius[k])
+                                      : gauss_in_ball(in->d, s, in->radius[k]);
+        f->mass[j][k] = n_pair * (within - before);
+        f->total[j] += f->mass[j][k];
+        before = within;
+    }
+}
+
+/// Distance with so many pairs within it, and half of it as the least s.
+static double least_scale(const clx_pair_shells *in)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        sum += in->pairs[k];
+        if (sum >= LEAST_PAIRS) {
+            return 0.5 * in->radius[k];
+        }
+    }
+    return INFINITY;
+}
+
+/// Shapes of a level and all wider ones.
+static int32_t shapes(const fit *f, int32_t level)
+{
+    const int32_t most = level < f->n_level ? level : f->n_level;
+    return 1 + (f->has_kinks ? 2 : 1) * most;
+}
+
+/// The shapes, all widths times `stretch`.
+static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, fit *f)
+{
+    double sum = 0.0;
+    double spread = 0.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        sum += in->pairs[k];
+        spread += in->spread[k];
+    }
+    *f = (fit){.in = in, .has_kinks = has_kinks, .s = {(double)INFINITY}};
+    f->scale = sum > 0.0 ? fmax(1.0, spread / sum) : 1.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        f->pairs[k] = in->pairs[k] / f->scale;
+    }
+    add_shape(f, INFINITY, false);
+    const double least = least_scale(in);
+    for (double s = widest * in->radius[in->n_shell - 1];
+         s >= least && f->n_shape + 2 <= MOST_SHAPE; s *= step) {
+        if (has_kinks) {
+            add_shape(f, stretch * s, true);
+        }
+        add_shape(f, stretch * s, false);
+        f->s[++f->n_level] = stretch * s;
+    }
+}
+
+static void expect(const fit *f, int32_t n_shape, const double *c, double *mean)
+{
+    memset(mean, 0, CLAST_MAX_SHELL * sizeof *mean);
+    for (int32_t j = 0; j < n_shape; ++j) {
+        for (int32_t k = 0; k < f->in->n_shell && c[j] > 0.0; ++k) {
+            mean[k] += c[j] * f->mass[j][k];
+        }
+    }
+}
+
+/// Maximises the Poisson log-likelihood less tilt times the integral by EM from m->c.
+static void maximise(const fit *f, int32_t n_shape, double tilt, mixture *m)
+{
+    double mean[CLAST_MAX_SHELL];
+    for (int32_t round = 0; round < N_ITERATION; ++round) {
+        double most = 0.0;
+        expect(f, n_shape, m->c, mean);
+        for (int32_t j = 0; j < n_shape; ++j) {
+            double sum = 0.0;
+            for (int32_t k = 0; k < f->in->n_shell; ++k) {
+                sum += mean[k] > 0.0 ? f->mass[j][k] * f->pairs[k] / mean[k] : 0.0;
+            }
+            const double next = m->c[j] * sum / (f->total[j] + tilt);
+            most = fmax(most, fabs(next - m->c[j]));
+            m->c[j] = next;
+        }
+        if (most < 1e-9 * m->c[0]) {
+            break;
+        }
+    }
+    expect(f, n_shape, m->c, mean);
+    m->likelihood = 0.0;
+    m->integral = 0.0;
+    for (int32_t k = 0; k < f->in->n_shell; ++k) {
+        m->likelihood += (f->pairs[k] > 0.0 ? f->pairs[k] * log(mean[k]) : 0.0) - mean[k];
+    }
+    for (int32_t j = 0; j < n_shape; ++j) {
+        m->integral += m->c[j];
+    }
+}
+
+static mixture start(const fit *f, int32_t n_shape)
+{
+    mixture m = {{0}, 0.0, 0.0};
+    double sum = 0.0;
+    double mass = 0.0;
+    for (int32_t k = 0; k < f->in->n_shell; ++k) {
+        sum += f->pairs[k];
+    }
+    for (int32_t j = 0; j < n_shape; ++j) {
+        mass += f->total[j];
+    }
+    for (int32_t j = 0; j < n_shape; ++j) {
+        m.c[j] = sum / mass;
+    }
+    return m;
+}
+
+static mixture best(const fit *f, int32_t n_shape, double tilt)
+{
+    mixture m = start(f, n_shape);
+    maximise(f, n_shape, tilt, &m);
+    return m;
+}
+
+/// Integral where twice the log-likelihood has fallen by the quantile: the most (up) or least one.
+static double bound(const fit *f, int32_t n_shape, const mixture *top, double factor, bool up)
+{
+    double least_total = INFINITY;
+    for (int32_t j = 0; j < n_shape; ++j) {
+        least_total = fmin(least_total, f->total[j]);
+    }
+    // the tilt as a share of the least total: -1 .. 0 up, 0 .. infinity down
+    double low = 0.0;
+    double high = up ? 1.0 : 1.0;
+    mixture m = *top;
+    const double wanted = top->likelihood - 0.5 * chi2_95 * factor;
+    for (int b = 0; b < 60 && !up; ++b) {
+        m = best(f, n_shape, high * least_total);
+        if (m.likelihood < wanted) {
+            break;
+        }
+        high *= 4.0;
+    }
+    for (int b = 0; b < N_BISECT; ++b) {
+        const double middle = 0.5 * (low + high);
+        m = best(f, n_shape, (up ? -middle : middle) * least_total);
+        if (m.likelihood < wanted) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return m.integral;
+}
+
+/// Solves a x = b, a symmetric and positive definite [n][n], by Cholesky; a is lost.
+static void solve(double *a, int n, double *b)
+{
+    for (int j = 0; j < n; ++j) {
+        for (int k = 0; k < j; ++k) {
+            for (int i = j; i < n; ++i) {
+                a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            }
+        }
+        const double root = sqrt(fmax(a[j * n + j], 1e-300));
+        for (int i = j; i < n; ++i) {
+            a[i * n + j] /= root;
+        }
+    }
+    for (int j = 0; j < n; ++j) {
+        for (int k = 0; k < j; ++k) {
+            b[j] -= a[j * n + k] * b[k];
+        }
+        b[j] /= a[j * n + j];
+    }
+    for (int j = n - 1; j >= 0; --j) {
+        for (int k = j + 1; k < n; ++k) {
+            b[j] -= a[k * n + j] * b[k];
+        }
+        b[j] /= a[j * n + j];
+    }
+}
+
+/// How the sum of the coefficients (more < 0), or the coefficient of a shape `more` that is added,
+/// answers to the numbers of pairs: a row of (M W M')^-1 M W of weighted least squares with the
+/// shapes in use.
+static void response(const fit *f, const mixture *m, int32_t n_shape, int32_t more, double *row)
+{
+    double mean[CLAST_MAX_SHELL];
+    double a[MOST_USED * MOST_USED];
+    double b[MOST_USED];
+    int32_t used[MOST_USED];
+    int32_t n = 0;
+    expect(f, n_shape, m->c, mean);
+    for (int32_t j = f->n_shape - 1; j >= 0 && n < MOST_USED; --j) { // narrow ones first
+        if (j == more || (j < n_shape && m->c[j] * f->total[j] > 1e-3)) {
+            used[n++] = j;
+        }
+    }
+    for (int32_t i = 0; i < n; ++i) {
+        b[i] = more < 0 || used[i] == more ? 1.0 : 0.0;
+        for (int32_t j = 0; j < n; ++j) {
+            double sum = 0.0;
+            for (int32_t k = 0; k < f->in->n_shell; ++k) {
+                sum += mean[k] > 0.0 ? f->mass[used[i]][k] * f->mass[used[j]][k] / mean[k] : 0.0;
+            }
+            a[i * n + j] = sum * (i == j ? 1.0 + 1e-9 : 1.0);
+        }
+    }
+    solve(a, n, b);
+    for (int32_t k = 0; k < f->in->n_shell; ++k) {
+        row[k] = 0.0;
+        for (int32_t i = 0; i < n; ++i) {
+            row[k] += mean[k] > 0.0 ? b[i] * f->mass[used[i]][k] / mean[k] : 0.0;
+        }
+    }
+}
+
+/// Variance of a linear form of the numbers of pairs, by their covariance and as if they were
+/// Poisson numbers.
+static void variances(const fit *f, const mixture *m, int32_t n_shape, const double *row,
+                      double *full, double *poisson)
+{
+    double mean[CLAST_MAX_SHELL];
+    const int32_t n = f->in->n_shell;
+    expect(f, n_shape, m->c, mean);
+    *full = *poisson = 0.0;
+    for (int32_t k = 0; k < n; ++k) {
+        *poisson += row[k] * row[k] * mean[k];
+        for (int32_t l = 0; l < n; ++l) {
+            *full += row[k] * row[l] * f->in->covariance[k * n + l] / (f->scale * f->scale);
+        }
+    }
+}
+
+/// p of Pearson's statistic of the fitted shape, shells joined to 10 expected pairs.
+static double fit_p(const fit *f, int32_t n_shape, const mixture *m)
+{
+    double mean[CLAST_MAX_SHELL];
+    double chi2 = 0.0;
+    double seen = 0.0;
+    double expected = 0.0;
+    int n = 0;
+    expect(f, n_shape, m->c, mean);
+    for (int32_t k = 0; k < f->in->n_shell; ++k) {
+        seen += f->pairs[k];
+        expected += mean[k];
+        if (expected >= 10.0) {
+            chi2 += (seen - expected) * (seen - expected) / expected;
+            seen = expected = 0.0;
+            ++n;
+        }
+    }
+    return n > 1 ? clx_chi2_sf(chi2, n - 1) : 1.0;
+}
+
+/// Variance of the share of a shape two levels below over that of Poisson numbers: pairs of one
+/// point with many neighbours do not count as so many numbers. At least 1.
+static double overdispersion(const fit *f, const mixture *m, int32_t level)
+{
+    double row[CLAST_MAX_SHELL];
+    double full = 0.0;
+    double poisson = 0.0;
+    const int32_t more = shapes(f, level + FINER) - 1;
+    if (level == f->n_level) {
+        return 1.0;
+    }
+    response(f, m, shapes(f, level), more, row);
+    variances(f, m, shapes(f, level), row, &full, &poisson);
+    return poisson > 0.0 ? fmax(1.0, full / poisson) : 1.0;
+}
+
+/// What one family of shapes says.
+typedef struct {
+    int32_t level;
+    double likelihood; ///< over the overdispersion
+    double value, low, high, s;
+    double fit_p;
+} answer;
+
+static answer ask(fit *f)
+{
+    const mixture all = best(f, f->n_shape, 0.0);
+    mixture m = best(f, 1, 0.0);
+    answer a = {.level = 0};
+    double factor = overdispersion(f, &m, 0);
+    while (a.level < f->n_level && 2.0 * (all.likelihood - m.likelihood) > gain_needed * factor) {
+        m = best(f, shapes(f, ++a.level), 0.0);
+        factor = overdispersion(f, &m, a.level);
+    }
+    const mixture narrow = m;
+    double enough = 1.0;
+    double too_wide = 1.0 / step;
+    for (int b = 0; b < N_STRETCH && a.level > 0; ++b) { // the widest that will do
+        const double middle = sqrt(enough * too_wide);
+        prepare(f->in, f->has_kinks, middle, f);
+        m = best(f, shapes(f, a.level), 0.0);
+        if (2.0 * (narrow.likelihood - m.likelihood) > stretch_loss * factor) {
+            too_wide = middle;
+        } else {
+            enough = middle;
+        }
+    }
+    prepare(f->in, f->has_kinks, enough, f);
+    m = best(f, shapes(f, a.level), 0.0);
+    const int32_t finer = a.level == 0 ? 1 : shapes(f, a.level + FINER);
+    const mixture top = best(f, finer, 0.0);
+    const double low = bound(f, finer, &top, factor, false);
+    const double high = bound(f, finer, &top, factor, true);
+    double row[CLAST_MAX_SHELL];
+    double full = 0.0;
+    double poisson = 0.0;
+    response(f, &m, shapes(f, a.level), -1, row);
+    variances(f, &m, shapes(f, a.level), row, &full, &poisson);
+    const double shared = normal_975 * sqrt(fmax(0.0, full - poisson)) / m.integral;
+    a.value = m.integral;
+    a.low = a.value * exp(-hypot(log(a.value / fmin(low, a.value)), shared));
+    a.high = a.value * exp(hypot(log(fmax(high, a.value) / a.value), shared));
+    a.s = f->s[a.level];
+    a.likelihood = m.likelihood / factor;
+    a.fit_p = fit_p(f, shapes(f, a.level), &m);
+    return a;
+}
+
+/// Pairs that decide the integral: within three widths of the narrowest shape, nine tenths of its
+/// own in 3-D.
+static void set_window(const clx_pair_shells *in, clast_pair_integral *result)
+{
+    int32_t k = 0;
+    double n_pair = in->pairs[0];
+    while (k + 1 < in->n_shell && in->radius[k] < 3.0 * result->scale) {
+        n_pair += in->pairs[++k];
+    }
+    result->window = in->radius[k];
+    result->n_pair = (int64_t)llround(n_pair);
+}
+
+clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *result)
+{
+    clast_status status = CLAST_OK;
+    clast_pair_integral made = {.scale = INFINITY};
+    fit *f = NULL;
+    CLX_TRY(clx_alloc(&f, 1, sizeof *f));
+    prepare(in, false, 1.0, f);
+    if (f->n_level == 0) { // next to no pairs
+        made.estimate = (clast_estimate){NAN, 0.0, INFINITY, false};
+        made.fit_p = 1.0;
+        made.n_needed = NAN;
+        set_window(in, &made);
+        *result = made;
+        goto done;
+    }
+    const answer smooth = ask(f);
+    const int32_t n_level = f->n_level;
+    prepare(in, true, 1.0, f);
+    const answer kinked = ask(f);
+    const double share = 1.0 / (1.0 + exp(smooth.likelihood - kinked.likelihood)); // of the kinked
+    clast_estimate *e = &made.estimate;
+    e->value = exp((1.0 - share) * log(smooth.value) + share * log(kinked.value));
+    e->low = fmin(smooth.low, kinked.low);
+    e->high = fmax(smooth.high, kinked.high);
+    e->resolved = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
+    made.scale = smooth.s;
+    made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
+    made.n_needed = in->n;
+    set_window(in, &made);
+    if (!e->resolved) {
+        e->high = INFINITY;
+    }
+    *result = made;
+done:
+    clx_free(f);
+    return status;
+}

@@ -1,0 +1,333 @@
+// Pairs of a cloud by distance: the pair correlation and what follows from it.
+// [docs/theory/pairs.md; Ripley1977, Ohser1983, Stoyan1994]
+#include <clast/pairs.h>
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+#include "cloud/contract.h"
+#include "cloud/pair_cells.h"
+#include "cloud/pair_integral.h"
+#include <clast/decompose.h>
+#include <math.h>
+#include <string.h>
+
+enum { NEIGHBOURS = 113, BLOCK = 4096, N_COLUMN = 11 };
+
+static const double octave_shells = 6.0; ///< shells for a factor of two in distance
+static const double most_share = 0.3;    ///< of the domain's size: default distances end there
+static const double most_work = 400.0;   ///< pairs in common cells a point for a default distance
+static const double normal_975 = 1.959963984540054;
+
+const clast_field clast_pairs_fields[] = {
+    {"pairs_radius", offsetof(clast_pairs_config, radius), CLAST_FIELD_F64, 0.0, 0.0, 1e300, "m",
+     "greatest distance of pairs; 0: of some 110 neighbours a point, three mean spacings in 3-D",
+     .text = NULL},
+    {"pairs_shells", offsetof(clast_pairs_config, n_shell), CLAST_FIELD_I32, 48, 1, CLAST_MAX_SHELL,
+     "-", "shells of distance, six for each factor of two", .text = NULL},
+    {"outside", offsetof(clast_pairs_config, outside), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
+     "points outside the domain", .text = "error|drop", .group = NULL},
+    {0}};
+
+void clast_pairs_free(clast_pairs *pairs)
+{
+    clast_table_free(&pairs->shells);
+    *pairs = (clast_pairs){0};
+}
+
+typedef struct {
+    const clast_domain *domain;
+    const clast_cloud *cloud;
+    double *x;    ///< [n][d] points inside
+    bool *inside; ///< [cloud->n]
+    int64_t n;
+    double radius[CLAST_MAX_SHELL];
+    double share[CLAST_MAX_SHELL], error[CLAST_MAX_SHELL];
+    clx_pair_sum sum[CLAST_MAX_SHELL];
+    clx_pair_cells cells;
+} job;
+
+static void find_inside(int64_t begin, int64_t end, int32_t worker, void *context)
+{
+    const job *w = context;
+    (void)worker;
+    for (int64_t i = begin; i < end; ++i) {
+        double u[3];
+        w->inside[i] = clast_domain_map(w->domain, w->cloud->x + i * w->cloud->dimension, u);
+    }
+}
+
+static clast_status select_points(const clast_pairs_config *config, job *w)
+{
+    clast_status status = CLAST_OK;
+    const clast_cloud *cloud = w->cloud;
+    const int32_t d = cloud->dimension;
+    for (int64_t i = 0; i < cloud->n * d; ++i) {
+        CLX_CHECK(isfinite(cloud->x[i]), CLAST_E_FORMAT,
+                  "point %lld has a coordinate that is not finite", (long long)(i / d + 1));
+    }
+    CLX_TRY(clx_alloc(&w->inside, cloud->n, sizeof *w->inside));
+    CLX_TRY(clx_alloc(&w->x, cloud->n * d, sizeof *w->x));
+    clx_parallel_for(cloud->n, BLOCK, find_inside, w);
+    for (int64_t i = 0; i < cloud->n; ++i) {
+        if (w->inside[i]) {
+            memcpy(w->x + w->n++ * d, cloud->x + i * d, (size_t)d * sizeof *w->x);
+        }
+    }
+    CLX_CHECK(w->n == cloud->n || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,
+              "%lld of %lld points lie outside the domain; give the true domain, or leave them out "
+              "with --outside drop",
+              (long long)(cloud->n - w->n), (long long)cloud->n);
+    CLX_CHECK(w->n >= 2, CLAST_E_LIMIT, "%lld points in the domain have no pair", (long long)w->n);
+done:
+    return status;
+}
+
+/// Half of the domain's least width, where it is known: mirror images further out find no room.
+static double half_width(const clast_domain *d)
+{
+    double half = INFINITY;
+    if (d->kind == CLAST_DOMAIN_BOX) {
+        for (int32_t j = 0; j < d->dimension; ++j) {
+            half = fmin(half, 0.5 * (d->high[j] - d->low[j]));
+        }
+    } else if (d->kind == CLAST_DOMAIN_CYLINDER || d->kind == CLAST_DOMAIN_HALF_PIPE) {
+        half =
+            fmin(0.5 * d->length, d->kind == CLAST_DOMAIN_CYLINDER ? d->radius : 0.5 * d->radius);
+    } else if (d->kind == CLAST_DOMAIN_SPHERE) {
+        half = d->radius;
+    }
+    return half;
+}
+
+/// Cells for the greatest distance; a default one shrinks until the cloud's densest parts are
+/// affordable.
+static clast_status make_cells(const clast_pairs_config *config, job *w)
+{
+    clast_status status = CLAST_OK;
+    const int32_t d = w->domain->dimension;
+    const double ball[3] = {2.0, CLAST_PI, 4.0 / 3.0 * CLAST_PI};
+    const double volume = clast_domain_volume(w->domain);
+    double radius = config->radius;
+    if (radius == 0.0) {
+        radius = pow(NEIGHBOURS * volume / ((double)w->n * ball[d - 1]), 1.0 / d);
+        radius = fmin(radius, fmin(most_share * pow(volume, 1.0 / d), half_width(w->domain)));
+    }
+    CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
+    const double most = fmax(most_work * (double)w->n, 2e6);
+    for (int turn = 0; config->radius == 0.0 && turn < 40; ++turn) {
+        const double work = clx_pair_cells_work(&w->cells) * pow(4.0, d);
+        if (work <= 16.0 * most) {
+            break;
+        }
+        radius *= fmin(0.8, fmax(0.25, pow(16.0 * most / work, 1.0 / d)));
+        clx_pair_cells_free(&w->cells);
+        CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
+    }
+    for (int32_t k = 0; k < config->n_shell; ++k) {
+        w->radius[k] = radius * exp2((k + 1 - config->n_shell) / octave_shells);
+    }
+    w->radius[config->n_shell - 1] = radius;
+done:
+    return status;
+}
+
+/// 95 % interval of a number's mean, by its variance in units of the number: [low, high] with
+/// (number - mean)^2 = z^2 dispersion mean.
+static void interval(double number, double variance, double *low, double *high)
+{
+    const double z2 = normal_975 * normal_975 * (number > 0.0 ? variance / number : 1.0);
+    const double root = sqrt(z2 * number + 0.25 * z2 * z2);
+    *low = fmax(0.0, number + 0.5 * z2 - root);
+    *high = number + 0.5 * z2 + root;
+}
+
+/// Variance of a number of pairs beyond its own sum of squares: what points share with their
+/// neighbours. `squares`: sum over points of its neighbours' sum squared.
+static double projection(double n, double pairs, double own, double squares)
+{
+    return fmax(0.0, squares - 2.0 * own - (n - 1.5) * 4.0 * pairs * pairs / (n * (n - 1.0)));
+}
+
+static clast_status add_columns(clast_table *table, double **column)
+{
+    static const char *const name[] = {
+        "r_low_m", "r_high_m", "pairs",    "pairs_within", "expected",     "g",
+        "g_low",   "g_high",   "integral", "integral_low", "integral_high"};
+    clast_status status = CLAST_OK;
+    for (int k = 0; k < N_COLUMN && status == CLAST_OK; ++k) {
+        status = clast_table_add_number(table, name[k],
+                                        k < 2   ? "m"
+                                        : k < 8 ? "-"
+                                                : "1/m^d",
+                                        &column[k]);
+    }
+    for (int k = 0; k < N_COLUMN && status == CLAST_OK; ++k) {
+        column[k] = clast_table_numbers(table, name[k]);
+    }
+    return status;
+}
+
+/// g of shell k with its interval.
+static void set_g(const job *w, int32_t k, double **column)
+{
+    const double n = (double)w->n;
+    const double share = w->share[k] - (k > 0 ? w->share[k - 1] : 0.0);
+    const double error = hypot(w->error[k], k > 0 ? w->error[k - 1] : 0.0);
+    const double expected = 0.5 * n * (n - 1.0) * share;
+    const double pairs = 0.5 * (double)w->sum[k].pairs;
+    double low = 0.0;
+    double high = 0.0;
+    double variance = pairs + projection(n, pairs, pairs, (double)w->sum[k].squares);
+    variance += share > 0.0 ? pairs * pairs * error * error / (share * share) : 0.0;
+    interval(pairs, variance, &low, &high);
+    column[0][k] = k > 0 ? w->radius[k - 1] : 0.0;
+    column[1][k] = w->radius[k];
+    column[2][k] = pairs;
+    column[3][k] = pairs + (k > 0 ? column[3][k - 1] : 0.0);
+    column[4][k] = expected;
+    column[5][k] = expected > 0.0 ? pairs / expected : (double)NAN;
+    column[6][k] = expected > 0.0 ? low / expected : (double)NAN;
+    column[7][k] = expected > 0.0 ? high / expected : (double)NAN;
+}
+
+/// Covariance of the edge-corrected numbers of pairs of two shells, n given: a U-statistic's.
+static double covariance(const job *w, int32_t k, int32_t l)
+{
+    const double n = (double)w->n;
+    const double own = k == l ? 0.5 * w->sum[k].weight2 : 0.0;
+    const double joint = w->sum[k > l ? k : l].joint[k > l ? l : k];
+    const double product = 0.25 * w->sum[k].weight * w->sum[l].weight;
+    return joint - own - (n - 1.5) * 4.0 * product / (n * (n - 1.0));
+}
+
+/// The integral by all pairs within each radius, with the sampling error alone.
+static void set_integrals(const job *w, int32_t n_shell, const double *matrix, double **column)
+{
+    const double unit[3] = {2.0, CLAST_PI, 4.0 / 3.0 * CLAST_PI};
+    const double n = (double)w->n;
+    const int32_t d = w->domain->dimension;
+    double within = 0.0;
+    double own = 0.0;
+    double variance = 0.0;
+    for (int32_t k = 0; k < n_shell; ++k) {
+        const double ball = 0.5 * n * (n - 1.0) * unit[d - 1] * pow(w->radius[k], d);
+        double low = 0.0;
+        double high = 0.0;
+        within += 0.5 * w->sum[k].weight;
+        own += 0.5 * w->sum[k].weight2;
+        variance += matrix[k * n_shell + k];
+        for (int32_t l = 0; l < k; ++l) {
+            variance += 2.0 * matrix[k * n_shell + l];
+        }
+        interval(within, fmax(own, variance), &low, &high);
+        column[8][k] = within / ball;
+        column[9][k] = low / ball;
+        column[10][k] = high / ball;
+    }
+}
+
+static clast_status fill(job *w, int32_t n_shell, clast_pairs *result)
+{
+    clast_status status = CLAST_OK;
+    double *column[N_COLUMN];
+    double pairs[CLAST_MAX_SHELL];
+    double spread[CLAST_MAX_SHELL];
+    double *matrix = NULL;
+    CLX_TRY(clx_alloc(&matrix, (int64_t)n_shell * n_shell, sizeof *matrix));
+    CLX_TRY(clast_table_init(&result->shells, "pairs", n_shell));
+    CLX_TRY(add_columns(&result->shells, column));
+    for (int32_t k = 0; k < n_shell; ++k) {
+        set_g(w, k, column);
+        pairs[k] = 0.5 * w->sum[k].weight;
+        spread[k] = 0.5 * w->sum[k].weight2;
+        for (int32_t l = 0; l < n_shell; ++l) {
+            matrix[k * n_shell + l] = covariance(w, k, l);
+        }
+        result->n_pair += w->sum[k].pairs / 2;
+        if (w->share[k] > 0.0) {
+            result->edge_error = fmax(result->edge_error, w->error[k] / w->share[k]);
+        }
+    }
+    set_integrals(w, n_shell, matrix, column);
+    const clx_pair_shells shells = {.d = w->domain->dimension,
+                                    .n_shell = n_shell,
+                                    .n = (double)w->n,
+                                    .radius = w->radius,
+                                    .pairs = pairs,
+                                    .spread = spread,
+                                    .covariance = matrix};
+    CLX_TRY(clx_pair_integral(&shells, &result->integral));
+done:
+    clx_free(matrix);
+    return status;
+}
+
+static clast_status check(const clast_domain *domain, const clast_cloud *cloud,
+                          const clast_pairs_config *config)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(config);
+    CLX_TRY(clx_domain_check(domain));
+    CLX_TRY(clx_cloud_check(cloud));
+    CLX_TRY(clast_fields_check(clast_pairs_fields, config));
+    CLX_CHECK(domain->dimension == cloud->dimension, CLAST_E_CONFIG,
+              "the domain has %d dimensions, the points have %d", domain->dimension,
+              cloud->dimension);
+    CLX_CHECK(cloud->weight == NULL, CLAST_E_CONFIG,
+              "pairs of points with weights are not counted: g(r) of parcels is not that of the "
+              "particles they stand for; leave the weight column out");
+done:
+    return status;
+}
+
+clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
+                               const clast_pairs_config *config, clast_pairs *pairs)
+{
+    clast_status status = CLAST_OK;
+    clast_pairs made = {0};
+    job w = {.domain = domain, .cloud = cloud};
+    CLX_NEED(pairs);
+    CLX_TRY(check(domain, cloud, config));
+    CLX_TRY(select_points(config, &w));
+    CLX_TRY(make_cells(config, &w));
+    CLX_TRY(clast_pairs_uniform(domain, config->n_shell, w.radius, w.share, w.error));
+    CLX_TRY(
+        clx_pair_cells_sum(&w.cells, domain, config->n_shell, w.radius, w.sum, &made.n_repeated));
+    made.n_repeated /= 2;
+    made.n = w.n;
+    made.n_outside = cloud->n - w.n;
+    made.dimension = domain->dimension;
+    made.n_shell = config->n_shell;
+    made.volume = clast_domain_volume(domain);
+    made.radius = w.radius[config->n_shell - 1];
+    CLX_TRY(fill(&w, config->n_shell, &made));
+    *pairs = made;
+    made = (clast_pairs){0};
+done:
+    clx_free(w.x);
+    clx_free(w.inside);
+    clx_pair_cells_free(&w.cells);
+    clast_pairs_free(&made);
+    return status;
+}
+
+clast_estimate clast_estimate_choose(clast_estimator estimator, const clast_estimate *cells,
+                                     const clast_estimate *pairs, bool *disagree)
+{
+    const bool both = cells->resolved && pairs->resolved;
+    const bool apart = both && (cells->high < pairs->low || pairs->high < cells->low);
+    if (disagree != NULL) {
+        *disagree = apart;
+    }
+    if (estimator != CLAST_ESTIMATOR_AUTO) {
+        return estimator == CLAST_ESTIMATOR_PAIRS ? *pairs : *cells;
+    }
+    if (both) {
+        const bool wide = pairs->high * cells->low > cells->high * pairs->low;
+        return wide && !apart ? *cells : *pairs;
+    }
+    if (cells->resolved != pairs->resolved) {
+        return cells->resolved ? *cells : *pairs;
+    }
+    return cells->low > pairs->low ? *cells : *pairs;
+}

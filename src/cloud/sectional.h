@@ -1,0 +1,50 @@
+#pragma once
+// A population balance on pivots: rates of change and their Jacobian. [docs/theory/agglomeration.md
+// section 6]
+#include <clast/spectrum.h>
+
+/// State beyond the n sections: monomers that left the grid above, and that settled.
+enum { CLX_GEL, CLX_SETTLED, CLX_N_BESIDE };
+
+/// y [n + CLX_N_BESIDE] are shares of the monomers at the start: y_i = N_i x_i / monomers.
+typedef struct clx_sectional {
+    int32_t n;
+    double *x;        ///< [n] pivots [monomers], rising
+    double *rate;     ///< [n][n] alpha beta of j <= k [m^3/s]
+    double *share;    ///< [n][n] number share of the lower pivot of a new particle
+    int32_t *lower;   ///< [n][n] that pivot; n: beyond the grid
+    double *breaks;   ///< [n] S [1/s]
+    double *fragment; ///< [n][n] of a broken particle of k, number at pivot i: [k n + i]
+    double *sink;     ///< [n] w / depth [1/s]
+    double *source;   ///< [n] shares of the monomers at the start a time [1/s]
+    double monomers;  ///< at the start [1/m^3]
+    int64_t n_evaluation;
+} clx_sectional;
+
+/// Pivots from low to high: steps of `step` (0: none) until those of 1/per_octave octave are
+/// longer.
+clast_status clx_sectional_grid(double low, double high, double step, int32_t per_octave,
+                                clx_sectional *s);
+
+/// Adds `number` particles of size v to the pivots beside it, number and mass kept (at the ends of
+/// the grid mass alone).
+void clx_sectional_add(const clx_sectional *s, double v, double number, double *n_at);
+
+/// Fills rates; s->monomers and x are there.
+clast_status clx_sectional_rates(const clast_spectrum_config *config,
+                                 const clast_collide_config *collide, clx_sectional *s);
+
+/// dy/dt, and its Jacobian in columns [n + CLX_N_BESIDE][n + CLX_N_BESIDE]. Both keep the sum of y
+/// to rounding, sources apart.
+void clx_sectional_slope(clx_sectional *s, const double *y, double *slope);
+void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *const *column);
+
+/// Integrates from y; rows [n_step + 1][n + CLX_N_BESIDE], the first given. *gel_time: when 1e-3
+/// had left the grid, else NaN.
+clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *config,
+                                 double *rows, double *gel_time);
+
+/// A particle of x monomers as kernels see it.
+clast_collider clx_collider_of_size(const clast_collide_config *collide, double x);
+
+void clx_sectional_free(clx_sectional *s);

@@ -1,0 +1,367 @@
+// The size spectrum of a box in time: configuration, both solvers, tables. [docs/theory/
+// agglomeration.md section 6]
+#include "cloud/spectrum.h"
+
+#include "base/alloc.h"
+#include <math.h>
+#include <stdio.h>
+
+#define FIELD(type, name) #name, .offset = offsetof(clast_spectrum_config, name), type
+const clast_field clast_spectrum_fields[] = {
+    {FIELD(CLAST_FIELD_CHOICE, solver), 0, 0, 0, "-",
+     "of a box: draws, or a sectional population balance (needs SUNDIALS)", "monte-carlo|sectional",
+     .group = "box without positions"},
+    {FIELD(CLAST_FIELD_CHOICE, initial), 0, 0, 0, "-", "sizes at the start of a box",
+     "mono|exponential|lognormal|table"},
+    {FIELD(CLAST_FIELD_F64, concentration), 0.0, 0.0, 1e300, "-",
+     "particles a volume at the start of a box [1/m^3]", NULL},
+    {FIELD(CLAST_FIELD_F64, initial_mean), 1.0, 1e-100, 1e100, "-",
+     "mean size at the start [monomers]", NULL},
+    {FIELD(CLAST_FIELD_F64, initial_sd), 1.5, 1.001, 100.0, "-",
+     "geometric standard deviation of a lognormal start", NULL},
+    {FIELD(CLAST_FIELD_I32, particles), 10000, 2, 10000000, "-", "particles of a Monte Carlo box",
+     NULL},
+    {FIELD(CLAST_FIELD_F64, size_min), 0.0, 0.0, 1e100, "-",
+     "smallest size of the grid [monomers]; 0: that of the start", NULL},
+    {FIELD(CLAST_FIELD_F64, size_max), 0.0, 0.0, 1e100, "-",
+     "largest size of the grid [monomers]; 0: 1e5 mean sizes of the start", NULL},
+    {FIELD(CLAST_FIELD_I32, per_octave), 16, 1, 1000, "-",
+     "sections of the grid that double the size", NULL},
+    {FIELD(CLAST_FIELD_F64, breakage_rate), 0.0, 0.0, 1e300, "-",
+     "S1 [1/s]: a particle of x monomers breaks at S1 x^p", NULL},
+    {FIELD(CLAST_FIELD_F64, breakage_exponent), 1.0, -10.0, 10.0, "-", "p", NULL},
+    {FIELD(CLAST_FIELD_CHOICE, fragments), 0, 0, 0, "-",
+     "sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves", "power|halves"},
+    {FIELD(CLAST_FIELD_F64, fragment_exponent), 0.0, -0.99, 100.0, "-",
+     "c; 0: two fragments, uniform", NULL},
+    {FIELD(CLAST_FIELD_F64, source), 0.0, 0.0, 1e300, "-",
+     "particles that come in, a volume and time [1/(m^3 s)]", NULL},
+    {FIELD(CLAST_FIELD_F64, source_size), 1.0, 1e-100, 1e100, "-", "their size [monomers]", NULL},
+    {FIELD(CLAST_FIELD_F64, settling_depth), 0.0, 0.0, 1e300, "m",
+     "particles leave at settling speed / this depth; 0: they stay", NULL},
+    {FIELD(CLAST_FIELD_F64, tolerance), 1e-7, 1e-12, 1e-2, "-",
+     "relative error of a step of the sectional solver", NULL},
+    {0}};
+#undef FIELD
+
+void clast_spectrum_free(clast_spectrum *result)
+{
+    clast_table_free(&result->history);
+    clast_table_free(&result->spectrum);
+    *result = (clast_spectrum){0};
+}
+
+static clast_status check_kernel(const clast_spectrum_config *config, const clast_collide_config *c)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clast_kernel_check(c->kernel, &c->medium));
+    const uint32_t needs =
+        clast_kernel_needs(c->kernel) |
+        (config->settling_depth > 0.0 ? CLAST_NEEDS_MASS | CLAST_NEEDS_RADIUS : 0);
+    CLX_CHECK((needs & CLAST_NEEDS_VELOCITY) == 0, CLAST_E_CONFIG,
+              "kernel: ballistic is a kernel of velocities, which a box does not have");
+    CLX_CHECK((needs & (CLAST_NEEDS_RADIUS | CLAST_NEEDS_MASS)) == 0 || c->monomer_radius > 0.0,
+              CLAST_E_CONFIG, "a box with this kernel or sink needs --monomer-radius");
+    CLX_CHECK(c->radius_law != CLAST_RADIUS_FRACTAL || c->monomer_radius > 0.0, CLAST_E_CONFIG,
+              "fractal radii need --monomer-radius");
+    CLX_CHECK((needs & CLAST_NEEDS_MASS) == 0 || c->medium.particle_density > 0.0, CLAST_E_CONFIG,
+              "a box with this kernel or sink needs masses: --particle-density");
+    CLX_CHECK((needs & CLAST_NEEDS_SPEED_RMS) == 0 || c->medium.speed_rms > 0.0, CLAST_E_CONFIG,
+              "a box with this kernel needs --speed-rms");
+done:
+    return status;
+}
+
+static clast_status check(const clast_spectrum_config *config, const clast_collide_config *collide,
+                          const clast_spectrum *result)
+{
+    clast_status status = CLAST_OK;
+    CLX_NEED(config);
+    CLX_NEED(collide);
+    CLX_NEED(result);
+    CLX_TRY(clast_fields_check(clast_spectrum_fields, config));
+    CLX_CHECK(config->duration > 0.0 && isfinite(config->duration) && config->n_step > 0 &&
+                  config->repeats > 0,
+              CLAST_E_CONFIG, "duration: a box needs a time > 0, not %g s in %d steps, %d runs",
+              config->duration, config->n_step, config->repeats);
+    CLX_TRY(check_kernel(config, collide));
+    CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL ||
+                  (config->breakage_rate == 0.0 && config->source == 0.0 &&
+                   config->settling_depth == 0.0),
+              CLAST_E_CONFIG,
+              "solver: monte-carlo knows no breakage, sources or settling; take sectional");
+    CLX_CHECK(config->solver == CLAST_SOLVER_MONTE_CARLO || config->repeats == 1, CLAST_E_CONFIG,
+              "repeats: the sectional solver draws nothing, so it runs once, not %d times",
+              config->repeats);
+done:
+    return status;
+}
+
+static clast_status make_grid(const clx_start *start, clx_sectional *grid)
+{
+    const clast_spectrum_config *c = start->config;
+    const double low = c->size_min > 0.0 ? c->size_min : start->low;
+    const double mean = c->initial == CLAST_INITIAL_TABLE ? start->high : c->initial_mean;
+    const double high = c->size_max > 0.0 ? c->size_max : fmax(1e5 * mean, 100.0 * start->high);
+    return clx_sectional_grid(low, high, start->unit, c->per_octave, grid);
+}
+
+static clast_status make_sums(int32_t n_row, int32_t n, clx_spectrum_sums *s)
+{
+    clast_status status = CLAST_OK;
+    s->n_row = n_row;
+    CLX_CHECK((double)n_row * n < 1e8, CLAST_E_LIMIT,
+              "%d times of %d sections are too many; take fewer steps", n_row, n);
+    CLX_TRY(clx_alloc(&s->number, (int64_t)n_row * n, sizeof *s->number));
+    CLX_TRY(clx_alloc(&s->number2, (int64_t)n_row * n, sizeof *s->number2));
+    CLX_TRY(clx_alloc(&s->moment, 4 * (int64_t)n_row, sizeof *s->moment));
+    CLX_TRY(clx_alloc(&s->moment2, 4 * (int64_t)n_row, sizeof *s->moment2));
+    CLX_TRY(clx_alloc(&s->beside, CLX_N_BESIDE * (int64_t)n_row, sizeof *s->beside));
+done:
+    return status;
+}
+
+static void free_sums(clx_spectrum_sums *s)
+{
+    clx_free(s->number);
+    clx_free(s->number2);
+    clx_free(s->moment);
+    clx_free(s->moment2);
+    clx_free(s->beside);
+}
+
+/// One row of the sectional solver into sums; the error of its mass.
+static double sum_row(const clx_sectional *g, const double *y, double time, int32_t row,
+                      clx_spectrum_sums *sums)
+{
+    double mass = y[g->n + CLX_GEL] + y[g->n + CLX_SETTLED];
+    double added = 1.0;
+    for (int32_t i = 0; i < g->n; ++i) {
+        const double number = y[i] * g->monomers / g->x[i];
+        double power = number;
+        sums->number[(int64_t)row * g->n + i] = number;
+        mass += y[i];
+        added += g->source[i] * time;
+        for (int k = 0; k < 4; ++k) {
+            sums->moment[4 * row + k] += power;
+            power *= g->x[i];
+        }
+    }
+    for (int k = 0; k < CLX_N_BESIDE; ++k) {
+        sums->beside[CLX_N_BESIDE * row + k] = y[g->n + k];
+    }
+    return (mass - added) / added;
+}
+
+static clast_status solve(const clx_start *start, const clast_collide_config *collide,
+                          clx_sectional *g, clx_spectrum_sums *sums, clast_spectrum *made)
+{
+    clast_status status = CLAST_OK;
+    const clast_spectrum_config *config = start->config;
+    const int32_t width = g->n + CLX_N_BESIDE;
+    double *rows = NULL;
+    CLX_TRY(clx_alloc(&rows, (int64_t)width * sums->n_row, sizeof *rows));
+    clx_start_add(start, g, rows);
+    for (int32_t i = 0; i < g->n; ++i) {
+        g->monomers += rows[i] * g->x[i];
+    }
+    for (int32_t i = 0; i < g->n; ++i) {
+        rows[i] *= g->x[i] / g->monomers;
+    }
+    CLX_TRY(clx_sectional_rates(config, collide, g));
+    CLX_TRY(clx_sectional_solve(g, config, rows, &made->gel_time));
+    for (int32_t row = 0; row < sums->n_row; ++row) {
+        const double time = config->duration / config->n_step * row;
+        const double error = sum_row(g, rows + (int64_t)row * width, time, row, sums);
+        made->mass_error = fmax(made->mass_error, fabs(error));
+    }
+    sums->n_run = 1;
+    made->n_evaluation = g->n_evaluation;
+    // a kernel whose value at twice the sizes is more than twice as high gels in a finite time
+    const int64_t n = g->n;
+    made->is_gelation = g->rate[n * n - 1] > 2.02 * g->rate[(n - 1 - config->per_octave) * (n + 1)];
+done:
+    clx_free(rows);
+    return status;
+}
+
+static double deviation(double sum, double sum2, int32_t n)
+{
+    const double mean = sum / n;
+    return n > 1 ? sqrt(fmax(0.0, sum2 / n - mean * mean) * n / (n - 1.0)) : 0.0;
+}
+
+/// Adds a column; `offset` and `stride` say where its sums lie.
+static clast_status add_column(clast_table *table, const char *name, const char *unit,
+                               const double *sum, const double *sum2, int32_t stride, int32_t n_run)
+{
+    clast_status status = CLAST_OK;
+    double *column = NULL;
+    CLX_TRY(clast_table_add_number(table, name, unit, &column));
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        const double value = sum[row * stride];
+        column[row] = sum2 != NULL ? deviation(value, sum2[row * stride], n_run) : value / n_run;
+    }
+done:
+    return status;
+}
+
+/// n_1 .. n_8 where the first pivots are single particles, pairs, ...
+static clast_status add_clusters(const clx_sectional *g, const clx_spectrum_sums *sums,
+                                 clast_table *history)
+{
+    enum { N_CLUSTER = 8 };
+    clast_status status = CLAST_OK;
+    for (int32_t k = 0; k < N_CLUSTER && k < g->n; ++k) {
+        char name[24];
+        if (fabs(g->x[k] - (k + 1) * g->x[0]) > 1e-9 * g->x[k]) {
+            break;
+        }
+        (void)snprintf(name, sizeof name, "n_%d", k + 1);
+        CLX_TRY(add_column(history, name, "1/m^3", sums->number + k, NULL, g->n, sums->n_run));
+        (void)snprintf(name, sizeof name, "n_%d_sd", k + 1);
+        CLX_TRY(add_column(history, name, "1/m^3", sums->number + k, sums->number2 + k, g->n,
+                           sums->n_run));
+    }
+done:
+    return status;
+}
+
+/// M0 and M2 of the constant, additive and product kernel from those of the start, after a time t;
+/// NaN after the gel. [Smoluchowski1916; Golovin1963; McLeod1962]
+static void exact_at(uint32_t kernel, double rate, const double m[3], double t, double exact[2])
+{
+    if (kernel == 1U) {
+        exact[0] = m[0] / (1.0 + 0.5 * rate * m[0] * t);
+        exact[1] = m[2] + rate * m[1] * m[1] * t;
+    } else if (kernel == 2U) {
+        exact[0] = m[0] * exp(-rate * m[1] * t);
+        exact[1] = m[2] * exp(2.0 * rate * m[1] * t);
+    } else {
+        const bool is_sol = rate * m[2] * t < 1.0;
+        exact[0] = is_sol ? m[0] - 0.5 * rate * m[1] * m[1] * t : (double)NAN;
+        exact[1] = is_sol ? m[2] / (1.0 - rate * m[2] * t) : (double)NAN;
+    }
+}
+
+static clast_status add_exact(const clast_spectrum_config *config,
+                              const clast_collide_config *collide, clast_spectrum *made)
+{
+    clast_status status = CLAST_OK;
+    clast_table *h = &made->history;
+    const uint32_t kernel = collide->kernel;
+    const clast_medium *m = &collide->medium;
+    const double rate = collide->alpha * (kernel == 1U   ? m->constant
+                                          : kernel == 2U ? m->additive
+                                                         : m->product);
+    double *column = NULL;
+    if ((kernel != 1U && kernel != 2U && kernel != 4U) || config->breakage_rate > 0.0 ||
+        config->source > 0.0 || config->settling_depth > 0.0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_table_add_number(h, "exact_M0", "1/m^3", &column));
+    CLX_TRY(clast_table_add_number(h, "exact_M2", "1/m^3", &column));
+    const double start[3] = {clast_table_numbers(h, "M0")[0], clast_table_numbers(h, "M1")[0],
+                             clast_table_numbers(h, "M2")[0]};
+    for (int64_t row = 0; row < h->n_row; ++row) {
+        double exact[2];
+        exact_at(kernel, rate, start, clast_table_numbers(h, "time_s")[row], exact);
+        clast_table_numbers(h, "exact_M0")[row] = exact[0];
+        clast_table_numbers(h, "exact_M2")[row] = exact[1];
+    }
+    if (kernel == 4U) {
+        made->exact_gel_time = 1.0 / (rate * start[2]);
+    }
+done:
+    return status;
+}
+
+static clast_status make_history(const clx_start *start, const clx_sectional *g,
+                                 const clx_spectrum_sums *sums, clast_table *history)
+{
+    static const char *const name[4] = {"M0", "M1", "M2", "M3"};
+    static const char *const name_sd[4] = {"M0_sd", "M1_sd", "M2_sd", "M3_sd"};
+    static const char *const beside[CLX_N_BESIDE] = {"gel_fraction", "settled_fraction"};
+    clast_status status = CLAST_OK;
+    const clast_spectrum_config *config = start->config;
+    double *time = NULL;
+    CLX_TRY(clast_table_init(history, "history", sums->n_row));
+    CLX_TRY(clast_table_add_number(history, "time_s", "s", &time));
+    for (int32_t row = 0; row < sums->n_row; ++row) {
+        time[row] = config->duration / config->n_step * row;
+    }
+    for (int k = 0; k < 4; ++k) {
+        CLX_TRY(add_column(history, name[k], "1/m^3", sums->moment + k, NULL, 4, sums->n_run));
+        CLX_TRY(add_column(history, name_sd[k], "1/m^3", sums->moment + k, sums->moment2 + k, 4,
+                           sums->n_run));
+    }
+    for (int k = 0; k < CLX_N_BESIDE && config->solver == CLAST_SOLVER_SECTIONAL; ++k) {
+        CLX_TRY(add_column(history, beside[k], "-", sums->beside + k, NULL, CLX_N_BESIDE, 1));
+    }
+    if (start->unit > 0.0) {
+        CLX_TRY(add_clusters(g, sums, history));
+    }
+done:
+    return status;
+}
+
+static clast_status make_spectrum(const clast_spectrum_config *config, const clx_sectional *g,
+                                  const clx_spectrum_sums *sums, clast_table *table)
+{
+    static const char *const name[6] = {"time_s", "size", "n", "n_sd", "density", "mass_fraction"};
+    static const char *const unit[6] = {"s", "-", "1/m^3", "1/m^3", "1/m^3", "-"};
+    clast_status status = CLAST_OK;
+    double *column = NULL;
+    CLX_TRY(clast_table_init(table, "spectrum", (int64_t)sums->n_row * g->n));
+    for (int k = 0; k < 6; ++k) {
+        CLX_TRY(clast_table_add_number(table, name[k], unit[k], &column));
+    }
+    for (int64_t at = 0; at < table->n_row; ++at) {
+        const int64_t row = at / g->n;
+        const int32_t i = (int32_t)(at % g->n);
+        const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
+        const double below = i > 0 ? g->x[i] - g->x[i - 1] : above;
+        const double n = sums->number[at] / sums->n_run;
+        const double value[6] = {config->duration / config->n_step * (double)row,
+                                 g->x[i],
+                                 n,
+                                 deviation(sums->number[at], sums->number2[at], sums->n_run),
+                                 n / (0.5 * (above + below)),
+                                 n * g->x[i] * sums->n_run / sums->moment[1]};
+        for (int k = 0; k < 6; ++k) {
+            table->column[k].number[at] = value[k];
+        }
+    }
+done:
+    return status;
+}
+
+clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
+                                   const clast_collide_config *collide,
+                                   const clast_spectrum_start *start_table, clast_spectrum *result)
+{
+    clast_status status = CLAST_OK;
+    clx_start start = {0};
+    clx_sectional grid = {0};
+    clx_spectrum_sums sums = {0};
+    clast_spectrum made = {.gel_time = (double)NAN, .exact_gel_time = (double)NAN};
+    CLX_TRY(check(config, collide, result));
+    CLX_TRY(clx_start_begin(config, start_table, &start));
+    CLX_TRY(make_grid(&start, &grid));
+    CLX_TRY(make_sums(config->n_step + 1, grid.n, &sums));
+    if (config->solver == CLAST_SOLVER_SECTIONAL) {
+        CLX_TRY(solve(&start, collide, &grid, &sums, &made));
+    } else {
+        CLX_TRY(clx_spectrum_sample(&start, collide, &grid, &sums, &made.n_evaluation));
+    }
+    CLX_TRY(make_history(&start, &grid, &sums, &made.history));
+    CLX_TRY(add_exact(config, collide, &made));
+    CLX_TRY(make_spectrum(config, &grid, &sums, &made.spectrum));
+    *result = made;
+    made = (clast_spectrum){0};
+done:
+    clast_spectrum_free(&made);
+    free_sums(&sums);
+    clx_sectional_free(&grid);
+    return status;
+}

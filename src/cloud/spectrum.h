@@ -1,0 +1,34 @@
+#pragma once
+// The start of a box and what its runs add up to.
+#include "cloud/sectional.h"
+
+/// Sizes at the start: a law, or a table's rows.
+typedef struct clx_start {
+    const clast_spectrum_config *config;
+    const clast_spectrum_start *table; ///< NULL but for CLAST_INITIAL_TABLE
+    double concentration;              ///< N0 [1/m^3]
+    double low, high;                  ///< sizes that hold all but 1e-9 of the mass [monomers]
+    double unit;                       ///< every size is a whole multiple of it; 0: any size
+} clx_start;
+
+clast_status clx_start_begin(const clast_spectrum_config *config, const clast_spectrum_start *table,
+                             clx_start *start);
+
+/// The size below which a share u of the particles lies.
+double clx_start_quantile(const clx_start *start, double u);
+
+/// Adds the start to the pivots of a grid [1/m^3]; number and mass kept.
+void clx_start_add(const clx_start *start, const clx_sectional *grid, double *number);
+
+/// Sums over runs; rows are times.
+typedef struct clx_spectrum_sums {
+    int32_t n_row, n_run;
+    double *number, *number2; ///< [n_row][n_section] and squares
+    double *moment, *moment2; ///< [n_row][4] of x^k, and squares
+    double *beside;           ///< [n_row][CLX_N_BESIDE] shares, sectional alone
+} clx_spectrum_sums;
+
+/// Monte Carlo runs into sums.
+clast_status clx_spectrum_sample(const clx_start *start, const clast_collide_config *collide,
+                                 const clx_sectional *grid, clx_spectrum_sums *sums,
+                                 int64_t *n_event);

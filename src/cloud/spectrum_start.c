@@ -1,0 +1,156 @@
+// Laws of sizes at the start of a box. [docs/theory/agglomeration.md section 6]
+#include "cloud/spectrum.h"
+
+#include "base/status.h"
+#include "math/quadrature.h"
+#include "math/special.h"
+#include <math.h>
+
+static const double SMALLEST = 1e-3; ///< of the mean: exponential; 5e-7 of the mass lies below
+static const double TAIL_DEVIATIONS = 6.5; ///< of a lognormal start on the grid
+
+static double log_sd(const clx_start *s)
+{
+    return log(s->config->initial_sd);
+}
+
+static double log_median(const clx_start *s)
+{
+    return log(s->config->initial_mean) - 0.5 * log_sd(s) * log_sd(s);
+}
+
+static clast_status begin_table(clx_start *s)
+{
+    clast_status status = CLAST_OK;
+    const clast_spectrum_start *t = s->table;
+    double sum = 0.0;
+    CLX_CHECK(t != NULL && t->n > 0 && t->size != NULL && t->number != NULL, CLAST_E_CONFIG,
+              "initial: a start by table needs one: --initial-file");
+    s->low = INFINITY;
+    for (int64_t i = 0; i < t->n; ++i) {
+        CLX_CHECK(t->size[i] > 0.0 && isfinite(t->size[i]) && t->number[i] >= 0.0 &&
+                      isfinite(t->number[i]),
+                  CLAST_E_FORMAT, "row %lld of the sizes at the start: size %g, number %g",
+                  (long long)i + 1, t->size[i], t->number[i]);
+        s->low = fmin(s->low, t->size[i]);
+        s->high = fmax(s->high, t->size[i]);
+        sum += t->number[i];
+    }
+    CLX_CHECK(sum > 0.0, CLAST_E_FORMAT, "the sizes at the start hold no particles");
+    s->unit = s->low;
+    for (int64_t i = 0; i < t->n; ++i) {
+        const double whole = round(t->size[i] / s->low);
+        s->unit = fabs(t->size[i] - whole * s->low) > 1e-9 * t->size[i] ? 0.0 : s->unit;
+    }
+    s->concentration = s->config->concentration > 0.0 ? s->config->concentration : sum;
+done:
+    return status;
+}
+
+clast_status clx_start_begin(const clast_spectrum_config *config, const clast_spectrum_start *table,
+                             clx_start *start)
+{
+    clast_status status = CLAST_OK;
+    clx_start s = {.config = config, .table = table, .concentration = config->concentration};
+    const double mean = config->initial_mean;
+    if (config->initial == CLAST_INITIAL_TABLE) {
+        CLX_TRY(begin_table(&s));
+    } else if (config->initial == CLAST_INITIAL_MONO) {
+        s.low = s.high = s.unit = mean;
+    } else if (config->initial == CLAST_INITIAL_EXPONENTIAL) {
+        s.low = SMALLEST * mean;
+        s.high = 40.0 * mean;
+    } else {
+        s.low = exp(log_median(&s) - TAIL_DEVIATIONS * log_sd(&s));
+        s.high = exp(log_median(&s) + TAIL_DEVIATIONS * log_sd(&s) + log_sd(&s) * log_sd(&s));
+    }
+    CLX_CHECK(s.concentration > 0.0, CLAST_E_CONFIG,
+              "concentration: a box needs the number of particles a volume, --concentration");
+    CLX_CHECK(config->size_min == 0.0 || config->size_min <= s.low, CLAST_E_CONFIG,
+              "size_min: %g monomers is above the smallest size at the start, %g", config->size_min,
+              s.low);
+    CLX_CHECK(config->size_max == 0.0 || config->size_max >= s.high, CLAST_E_CONFIG,
+              "size_max: %g monomers is below the largest size at the start, %g", config->size_max,
+              s.high);
+    *start = s;
+done:
+    return status;
+}
+
+static double table_quantile(const clast_spectrum_start *t, double u)
+{
+    double sum = 0.0;
+    int64_t last = 0;
+    for (int64_t i = 0; i < t->n; ++i) {
+        sum += t->number[i];
+    }
+    double at = u * sum;
+    for (int64_t i = 0; i < t->n; ++i) {
+        last = t->number[i] > 0.0 ? i : last;
+        at -= t->number[i];
+        if (at < 0.0) {
+            break;
+        }
+    }
+    return t->size[last];
+}
+
+double clx_start_quantile(const clx_start *s, double u)
+{
+    if (s->config->initial == CLAST_INITIAL_TABLE) {
+        return table_quantile(s->table, u);
+    }
+    if (s->config->initial == CLAST_INITIAL_MONO) {
+        return s->config->initial_mean;
+    }
+    if (s->config->initial == CLAST_INITIAL_EXPONENTIAL) {
+        return -s->config->initial_mean * log1p(-u);
+    }
+    return exp(log_median(s) + log_sd(s) * clx_normal_quantile(u));
+}
+
+/// Number a size, over the concentration.
+static double density(const clx_start *s, double x)
+{
+    if (s->config->initial == CLAST_INITIAL_EXPONENTIAL) {
+        return exp(-x / s->config->initial_mean) / s->config->initial_mean;
+    }
+    const double z = (log(x) - log_median(s)) / log_sd(s);
+    return exp(-0.5 * z * z) / (sqrt(2.0 * CLAST_PI) * log_sd(s) * x);
+}
+
+static void add_density(const clx_start *s, const clx_sectional *grid, double *number)
+{
+    for (int32_t i = 0; i + 1 < grid->n; ++i) {
+        const double width = grid->x[i + 1] - grid->x[i];
+        for (int q = 0; q < CLX_GAUSS_N; ++q) {
+            const double u = clx_gauss_point(q);
+            const double part =
+                s->concentration * width * clx_gauss_weight(q) * density(s, grid->x[i] + u * width);
+            number[i] += (1.0 - u) * part;
+            number[i + 1] += u * part;
+        }
+    }
+    number[0] +=
+        s->concentration * (s->config->initial == CLAST_INITIAL_EXPONENTIAL
+                                ? -expm1(-grid->x[0] / s->config->initial_mean)
+                                : clx_normal_cdf((log(grid->x[0]) - log_median(s)) / log_sd(s)));
+}
+
+void clx_start_add(const clx_start *s, const clx_sectional *grid, double *number)
+{
+    if (s->config->initial == CLAST_INITIAL_MONO) {
+        clx_sectional_add(grid, s->config->initial_mean, s->concentration, number);
+    } else if (s->config->initial == CLAST_INITIAL_TABLE) {
+        double sum = 0.0;
+        for (int64_t i = 0; i < s->table->n; ++i) {
+            sum += s->table->number[i];
+        }
+        for (int64_t i = 0; i < s->table->n; ++i) {
+            clx_sectional_add(grid, s->table->size[i], s->concentration * s->table->number[i] / sum,
+                              number);
+        }
+    } else {
+        add_density(s, grid, number);
+    }
+}

@@ -1,0 +1,157 @@
+"""CLI: clouds in any unit, file and place: decompose gives the answer of the same points in metres about the origin."""
+import math
+import random
+import struct
+import unittest
+
+from clitest import ROOT, Case, clast
+
+CSV = ROOT / "data/d2sd/points_b3_n500.csv"
+ROWS = [[float(c) for c in line.split(",")] for line in CSV.read_text().split()[1:]]
+CUBE = "box:0,0,0,1,1,1"
+N = len(ROWS)
+# what a file's format or place cannot change
+SAME = ("n", "tests", "score", "passes", "n_cell", "pair_integral", "pair_integral_low", "volume", "spacing")
+
+
+def ply(kind):
+    """Vertices with a list and a number before x, after an element that is not theirs."""
+    order = {"binary_little_endian": "<", "binary_big_endian": ">"}.get(kind)
+    head = (f"ply\nformat {kind} 1.0\ncomment drops\nelement box 1\nproperty list uchar float side\nelement vertex {N}\n"
+            "property uchar red\nproperty double x\nproperty double y\nproperty list uchar int near\nproperty double z\n"
+            "property float size\nend_header\n").encode()
+    if order is None:
+        return head + b"2 1 1\n" + "".join(f"7 {p[0]!r} {p[1]!r} 2 4 5 {p[2]!r} {k}\n" for k, p in enumerate(ROWS)).encode()
+    rows = [struct.pack(order + "BddBiidf", 7, p[0], p[1], 2, 4, 5, p[2], k) for k, p in enumerate(ROWS)]
+    return head + struct.pack(order + "Bff", 2, 1, 1) + b"".join(rows)
+
+
+class CloudInputs(Case):
+    def write(self, name, points, header="x,y,z\n", separator=","):
+        path = self.folder / name
+        path.write_text(header + "".join(separator.join(map(repr, p)) + "\n" for p in points))
+        return path
+
+    def answer(self, path, domain, *options):
+        r = clast("decompose", path, "--domain", domain, "--json", *options)
+        self.assertEqual(r.code, 0, f"{path} {domain}: {r.err}")
+        return r.json
+
+    def assert_same(self, got, wanted, places=9, keys=SAME):
+        def flat(value):
+            if isinstance(value, dict):
+                return [x for v in value.values() for x in flat(v)]
+            return [x for v in value for x in flat(v)] if isinstance(value, list) else [value]
+        for key in keys:
+            a, b = flat(got[key]), flat(wanted[key])
+            self.assertEqual(len(a), len(b), key)
+            for x, y in zip(a, b):
+                if isinstance(y, float):
+                    self.assertAlmostEqual(x, y, delta=10 ** -places * (1 + abs(y)), msg=key)
+                else:
+                    self.assertEqual(x, y, key)
+
+    def test_positions_and_domain_have_units(self):
+        wanted = self.answer(CSV, CUBE)
+        mm = self.write("mm.csv", [[1e3 * c for c in p] for p in ROWS])
+        named = self.write("named.csv", [[1e3 * c for c in p] for p in ROWS], "x_mm,y_mm,z_mm\n")
+        for path, domain, options in ((mm, "box:0,0,0,1000,1000,1000", ["--unit", "mm"]),
+                                      (mm, "box:0,0,0,1m,1000mm,100cm", ["--unit", "mm"]),
+                                      (mm, "box:0,0,0,1,1,1", ["--unit", "mm", "--domain-unit", "m"]),
+                                      (named, CUBE, ["--columns", "x_mm,y_mm,z_mm"]),
+                                      (named, "box:0,0,0,1e3mm,1m,1e6um", ["--columns", "x_mm,y_mm,z_mm"])):
+            r = self.answer(path, domain, *options)
+            self.assertEqual(r["domain"], CUBE)
+            self.assert_same(r, wanted)
+        self.assert_fails(2, "decompose", named, "--domain", CUBE, "--columns", "x_mm,y_mm,z_mm", "--unit", "um",
+                          says=["column 'x_mm' is in mm by its name", "um"])
+        self.assert_fails(2, "decompose", mm, "--domain", CUBE, "--unit", "kg", says=["kg"])
+        self.assert_fails(2, "decompose", mm, "--domain", "box:0,0,0,1kg,1,1", says=["domain 'box:0,0,0,1kg,1,1'"])
+        agglomerate = ["--constant", "1e-3", "--n-step", "1", "--json"]
+        a = clast("agglomerate", mm, "--domain", "box:0,0,0,1m,1m,1m", "--unit", "mm", *agglomerate)
+        b = clast("agglomerate", CSV, "--domain", CUBE, *agglomerate)
+        self.assertEqual((a.code, a.json["n_particle"]), (0, b.json["n_particle"]))
+
+    def test_ply_and_xyz_hold_the_same_points(self):
+        wanted = self.answer(CSV, CUBE)
+        for kind in ("ascii", "binary_little_endian", "binary_big_endian"):
+            path = self.folder / f"{kind}.ply"
+            path.write_bytes(ply(kind))
+            self.assert_same(self.answer(path, CUBE), wanted, 12)
+            r = clast("decompose", path, "--domain", CUBE, "--weight-column", "red", "--json")
+            self.assertEqual(r.code, 0, r.err)
+            path.write_bytes(ply(kind)[:-2000])
+            self.assert_fails(3, "decompose", path, "--domain", CUBE, says=[path.name])
+        xyz = self.folder / "drops.xyz"
+        text = f"{N}\nt = 0.5 s, 2 drops\n" + "".join(f"H {p[0]!r}\t{p[1]!r} {p[2]!r} {k}\n" for k, p in enumerate(ROWS))
+        xyz.write_text(text)
+        self.assert_same(self.answer(xyz, CUBE), wanted, 12)
+        self.assert_same(self.answer(xyz, CUBE, "--columns", "x,y,z"), wanted, 12)
+        xyz.write_text(text[:-2000])
+        self.assert_fails(3, "decompose", xyz, "--domain", CUBE, says=["drops.xyz"])
+        xyz.write_text(text.replace("H ", "H far ", 1).replace("far " + repr(ROWS[0][0]), "0.5", 1).replace(repr(ROWS[40][1]), "here", 1))
+        self.assert_fails(3, "decompose", xyz, "--domain", CUBE, says=["drops.xyz:43", "column y", "'here'"])
+
+    def test_a_file_without_a_header_has_numbered_columns(self):
+        path = self.write("bare.xyz", ROWS, "", " ")
+        self.assert_fails(3, "decompose", path, "--domain", CUBE,
+                          says=["column_1, column_2, column_3", "no header", "--columns column_1,column_2,column_3"])
+        self.assert_same(self.answer(path, CUBE, "--columns", "column_1,column_2,column_3"), self.answer(CSV, CUBE), 12)
+        self.assertIn("column_1", clast("decompose", "--help-all").out)
+
+    def test_errors_tell_row_column_and_a_guess(self):
+        def fails(text, *says):
+            path = self.folder / "bad.csv"
+            path.write_text(text)
+            self.assert_fails(3, "decompose", path, "--domain", CUBE, says=["bad.csv", *says])
+        fails("x;y;z\n0,1;0,2;0,3\n", "column 'x'", "row 1 holds '0,1'", "decimal comma")
+        fails("x,y,z\n0,1,0,2,0,3\n", ":2: 6 cells where the first row has 3", "decimal commas")
+        fails("x,y,z\n.1,.2,.3\n.1,oops,.3\n", "column 'y'", "row 2 holds 'oops'")
+        fails("X,Y,Z\n.1,.2,.3\n", "it has X, Y, Z", "did you mean 'X'")
+        fails("x|y|z\n.1|.2|.3\n", "it has x|y|z", "another delimiter")
+        fails("a,b,c\n.1,.2,.3\n", "named 'x'", "it has a, b, c")
+
+    def test_repeated_points_are_counted(self):
+        path = self.write("twice.csv", ROWS + ROWS[:20] + ROWS[:3] + [[-0.0, 0.5, 0.5], [0.0, 0.5, 0.5]])
+        self.assertEqual(self.answer(path, CUBE)["n_repeated"], 24)
+        self.assertEqual(self.answer(CSV, CUBE)["n_repeated"], 0)
+        self.assertIn("24 repeat the place of an earlier one", clast("decompose", path, "--domain", CUBE).out)
+        self.assertNotIn("repeat", clast("decompose", CSV, "--domain", CUBE).out)
+
+    def test_cylinders_and_spheres_lie_anywhere(self):
+        random.seed(6)
+        local = []
+        while len(local) < 600:
+            p = [random.gauss(0.2, 0.3), random.gauss(0.0, 0.4), random.random()]
+            if math.hypot(p[0], p[1]) < 1:
+                local.append(p)
+        wanted = self.answer(self.write("z.csv", local), "cylinder:1,1")
+        # along x, of a base at (5, -2, 7): its own x is y then, its own y is z
+        moved = self.write("x.csv", [[5 + p[2], -2 + p[0], 7 + p[1]] for p in local])
+        for domain in ("cylinder:5,-2,7,1,0,0,1,1", "cylinder:5000mm,-2,7,3,0,0,1,100cm"):
+            r = self.answer(moved, domain)
+            self.assertEqual(r["domain"], "cylinder:5,-2,7,1,0,0,1,1")
+            self.assert_same(r, wanted)
+            self.assertEqual(r["n_outside"], 0)
+        same = self.answer(self.write("zz.csv", [[p[0] + 5, p[1] - 2, p[2] + 7] for p in local]), "cylinder:5,-2,7,0,0,1,1,1")
+        self.assert_same(same, wanted)
+        tilted = self.folder / "tilted"
+        axis, side, third = (0.6, 0.0, 0.8), (0.8, 0.0, -0.6), (0.0, 1.0, 0.0)
+        turned = [[1 + p[0] * side[k] + p[1] * third[k] + p[2] * axis[k] for k in range(3)] for p in local]
+        r = self.answer(self.write("t.csv", turned), "cylinder:1,1,1,3,0,4,1,1", "-o", tilted)
+        self.assertEqual((r["n"], r["n_outside"]), (600, 0))
+        ball = []
+        while len(ball) < 600:
+            p = [random.gauss(0.3, 0.2), random.gauss(0.0, 0.3), random.gauss(0.0, 0.3)]
+            if math.hypot(*p) < 1:
+                ball.append(p)
+        here = self.answer(self.write("ball.csv", ball), "sphere:1")
+        there = self.answer(self.write("far.csv", [[p[0] + 2, p[1] - 3, p[2] + 4] for p in ball]), "sphere:2,-3,4,1")
+        self.assert_same(there, here, 9)
+        for bad in ("cylinder:0,0,0,0,0,0,1,1", "cylinder:0,0,0,1mm,0,0,1,1", "cylinder:1,1,1", "sphere:1,2", "sphere:0,0,0,-1",
+                    "box:0,0,0,1,1", "sphere:0,0,0,1,"):
+            self.assert_fails(2, "decompose", CSV, "--domain", bad, says=[f"domain '{bad}'", "cylinder:X,Y,Z,NX,NY,NZ,R,L"])
+
+
+if __name__ == "__main__":
+    unittest.main()

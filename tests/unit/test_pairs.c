@@ -1,0 +1,480 @@
+/* Unit: pairs by distance, their edge correction, and the integral of the squared density. */
+#include "support.h"
+
+#include "base/alloc.h"
+#include "brute_pairs.h"
+#include "cloud/covariogram.h"
+#include "cloud/pair_edge.h"
+#include "math/rng.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { N = 600 };
+
+static double uniform_at(uint64_t seed, uint64_t i, int skip)
+{
+    clx_rng rng = clx_rng_at(seed, CLX_STREAM_TEST, i);
+    double u = 0.0;
+    for (int k = 0; k <= skip; ++k) {
+        u = clx_rng_uniform(&rng);
+    }
+    return u;
+}
+
+static clast_domain domain_of(const char *text)
+{
+    clast_domain domain = {0};
+    CHECK_OK(clast_domain_parse(text, &domain));
+    return domain;
+}
+
+/* Points uniform in the domain. */
+static clast_cloud uniform(const clast_domain *domain, int64_t n, uint64_t seed)
+{
+    clast_cloud cloud = {0};
+    CHECK_OK(clast_cloud_alloc(n, domain->dimension, &cloud));
+    for (int64_t i = 0; i < n; ++i) {
+        uint64_t turn = 0;
+        double u[3];
+        double image[3];
+        double *x = cloud.x + i * domain->dimension;
+        do { // a mesh: again until inside
+            for (int j = 0; j < 3; ++j) {
+                u[j] = uniform_at(seed, (uint64_t)i + (turn << 32), j);
+            }
+            clast_domain_unmap(domain, u, x);
+            ++turn;
+        } while (!clast_domain_map(domain, x, image));
+    }
+    return cloud;
+}
+
+static clast_pairs_config config_of(double radius)
+{
+    clast_pairs_config config;
+    CHECK_OK(clast_fields_default(clast_pairs_fields, &config));
+    config.radius = radius;
+    return config;
+}
+
+static clast_pairs count(const clast_domain *domain, const clast_cloud *cloud, double radius)
+{
+    const clast_pairs_config config = config_of(radius);
+    clast_pairs pairs = {0};
+    CHECK_OK(clast_pairs_count(domain, cloud, &config, &pairs));
+    return pairs;
+}
+
+static clast_domain ball_mesh(double r, int level)
+{
+    clast_mesh m = {0};
+    clast_domain domain = {0};
+    const double axes[3] = {r, r, r};
+    CHECK_OK(clast_mesh_ellipsoid(axes, level, &m));
+    CHECK_OK(clast_domain_of_mesh(&m, 1.0, &domain));
+    clast_mesh_free(&m);
+    return domain;
+}
+
+/* The counts are those of the plain loop over all pairs, in 1, 2 and 3 dimensions, for radii far
+ * below and far above the spacing. */
+static void counts_are_those_of_brute_force(void **state)
+{
+    (void)state;
+    static const char *const boxes[] = {"box:-1,3", "box:0,0,2,0.5", "box:0,0,0,1,1,1",
+                                        "box:0,0,0,5,0.01,1"};
+    static const double radii[] = {0.02, 0.3, 1.4};
+    for (size_t b = 0; b < sizeof boxes / sizeof boxes[0]; ++b) {
+        const clast_domain domain = domain_of(boxes[b]);
+        clast_cloud cloud = uniform(&domain, N, b + 1);
+        cloud.x[0] = cloud.x[domain.dimension]; // a repeated point
+        for (int j = 1; j < domain.dimension; ++j) {
+            cloud.x[j] = cloud.x[domain.dimension + j];
+        }
+        for (size_t k = 0; k < sizeof radii / sizeof radii[0]; ++k) {
+            clast_pairs pairs = count(&domain, &cloud, radii[k]);
+            int64_t expected[CLAST_MAX_SHELL] = {0};
+            const double *seen = clast_table_numbers(&pairs.shells, "pairs");
+            brute_pairs(&cloud, pairs.n_shell, clast_table_numbers(&pairs.shells, "r_high_m"),
+                        expected);
+            for (int32_t i = 0; i < pairs.n_shell; ++i) {
+                assert_int_equal((int64_t)seen[i], expected[i]);
+            }
+            assert_int_equal(pairs.n_repeated, 1);
+            clast_pairs_free(&pairs);
+        }
+        clast_cloud_free(&cloud);
+    }
+}
+
+/* Set covariance of boxes: P(|X - Y| < r) reaches 1 at the diagonal; known moments of the distance
+ * (mean 1/3 on a line, 0.521405... in a square, 0.661707... in a cube [Robbins 1978]). */
+static void boxes_have_their_distances(void **state)
+{
+    (void)state;
+    static const char *const boxes[] = {"box:0,1", "box:0,0,1,1", "box:0,0,0,1,1,1"};
+    static const double mean[] = {1.0 / 3.0, 0.52140543316472067, 0.66170718226717623};
+    enum { M = 4000 };
+    double *radius = malloc(M * sizeof *radius);
+    double *share = malloc(M * sizeof *share);
+    for (int d = 1; d <= 3; ++d) {
+        const clast_domain domain = domain_of(boxes[d - 1]);
+        double sum = 0.0;
+        for (int i = 0; i < M; ++i) {
+            radius[i] = sqrt(d) * (i + 1) / M;
+        }
+        CHECK_OK(clast_pairs_uniform(&domain, M, radius, share, NULL));
+        for (int i = 0; i < M; ++i) { // mean distance: integral of 1 - share, trapezoids
+            sum += (1.0 - (i > 0 ? share[i - 1] : 0.0) + 1.0 - share[i]) * 0.5 * sqrt(d) / M;
+        }
+        CHECK_ABS(share[M - 1], 1.0, 1e-11);
+        CHECK_ABS(sum, mean[d - 1], 2e-7); // the trapezoids
+    }
+    free(radius);
+    free(share);
+}
+
+/* A cylinder and a sphere: P = 1 at the greatest distance; mean distances 36/35 R of a ball; the
+ * slope of the set covariance is - S / 4. */
+static void round_domains_have_theirs(void **state)
+{
+    (void)state;
+    const clast_domain sphere = domain_of("sphere:2");
+    const clast_domain cylinder = domain_of("cylinder:0.5,3");
+    double share[3];
+    double error[3];
+    const double far[2][3] = {{1.0, 2.0, 4.0}, {0.5, 2.0, hypot(1.0, 3.0)}};
+    CHECK_OK(clast_pairs_uniform(&sphere, 3, far[0], share, error));
+    CHECK_ABS(share[2], 1.0, 1e-12);
+    CHECK_ABS(share[0], 1.0 / 8 - 9.0 / 16 / 16 + 1.0 / 32 / 64, 1e-12); // s^3 - 9/16 s^4 + s^6/32
+    assert_true(error[2] == 0.0);
+    CHECK_OK(clast_pairs_uniform(&cylinder, 3, far[1], share, NULL));
+    CHECK_ABS(share[2], 1.0, 1e-10);
+    const double v = clast_domain_volume(&cylinder);
+    const double surface = 2.0 * CLAST_PI * 0.5 * 3.0 + 2.0 * CLAST_PI * 0.25;
+    CHECK_REL((v - clx_covariogram(&cylinder, 1e-4)) / 1e-4, 0.25 * surface, 1e-3);
+}
+
+/* Chords of a meshed ball, and of a meshed box far from a cube, against the formulas of the solids;
+ * and a hollow ball, where lines cross four times, against pairs of points. */
+static void chords_of_a_mesh_agree_with_formulas(void **state)
+{
+    (void)state;
+    const double radius[4] = {0.1, 0.5, 1.0, 2.0};
+    double share[2][4];
+    double error[4];
+    clast_mesh box = {0};
+    clast_domain mesh = {0};
+    CHECK_OK(clast_mesh_box(1.0, 2.0, 0.5, &box));
+    CHECK_OK(clast_domain_of_mesh(&box, 1.0, &mesh));
+    const clast_domain solid = domain_of("box:0,0,0,1,2,0.5");
+    CHECK_OK(clast_pairs_uniform(&mesh, 4, radius, share[0], error));
+    CHECK_OK(clast_pairs_uniform(&solid, 4, radius, share[1], NULL));
+    for (int k = 0; k < 4; ++k) {
+        assert_true(error[k] < (radius[k] < 0.2 ? 1e-4 : 5e-3) * share[1][k]);
+        CHECK_ABS(share[0][k], share[1][k], 4.0 * error[k] + 1e-9);
+    }
+    clast_mesh_free(&box);
+    clast_domain_free(&mesh);
+    mesh = ball_mesh(1.0, 5);
+    const clast_domain ball = domain_of("sphere:1");
+    CHECK_OK(clast_pairs_uniform(&mesh, 4, radius, share[0], error));
+    CHECK_OK(clast_pairs_uniform(&ball, 4, radius, share[1], NULL));
+    for (int k = 0; k < 4; ++k) { // 20,480 triangles: V is 0.1 % less
+        CHECK_REL(share[0][k], share[1][k], 2e-3);
+    }
+    clast_domain_free(&mesh);
+}
+
+static bool square_map(const void *context, const double *x, double *u)
+{
+    (void)context;
+    for (int j = 0; j < 2; ++j) {
+        u[j] = x[j] / 2.0;
+    }
+    return u[0] >= 0.0 && u[0] <= 1.0 && u[1] >= 0.0 && u[1] <= 1.0;
+}
+
+static void square_unmap(const void *context, const double *u, double *x)
+{
+    (void)context;
+    x[0] = 2.0 * u[0];
+    x[1] = 2.0 * u[1];
+}
+
+static clast_domain square_by_map(void)
+{
+    const clast_domain_map_functions functions = {
+        .dimension = 2, .volume = 4.0, .map = square_map, .unmap = square_unmap};
+    clast_domain domain = {0};
+    CHECK_OK(clast_domain_of_map(&functions, &domain));
+    return domain;
+}
+
+/* Half pipes by chords and a map by points: within their stated error of the truth. A half pipe's P
+ * is 1 at its diagonal. */
+static void sampled_domains_keep_their_stated_error(void **state)
+{
+    (void)state;
+    const clast_domain pipe = domain_of("half-pipe:0.5,3");
+    const double radius[4] = {0.05, 0.2, 1.0, 3.2};
+    double share[4];
+    double exact[4];
+    double error[4];
+    CHECK_OK(clast_pairs_uniform(&pipe, 4, radius, share, error));
+    CHECK_ABS(share[3], 1.0, 4.0 * error[3] + 1e-9);
+    assert_true(error[3] < 0.03 && error[0] < 2e-5 * share[0]);
+    const clast_domain map = square_by_map();
+    const clast_domain box = domain_of("box:0,0,2,2");
+    CHECK_OK(clast_pairs_uniform(&map, 4, radius, share, error));
+    CHECK_OK(clast_pairs_uniform(&box, 4, radius, exact, NULL));
+    for (int k = 0; k < 4; ++k) {
+        assert_true(error[k] < 1e-2 * exact[k]);
+        CHECK_ABS(share[k], exact[k], 4.0 * error[k] + 1e-9);
+    }
+}
+
+/* Of uniform clouds g is 1 in every shell and the integral is 1 / V, in every kind of domain: 40
+ * clouds, within 4 standard errors of their spread. The mirrors of pipes and meshes leave out a
+ * share of the order (r / R)^2 of the integral at r = 0.4 R. */
+static void a_uniform_cloud_has_g_1_in_every_domain(void **state)
+{
+    (void)state;
+    clast_domain domains[7] = {
+        domain_of("box:0,2"),      domain_of("box:0,0,1,2"),   domain_of("box:1,1,1,2,3,2"),
+        domain_of("cylinder:1,2"), domain_of("half-pipe:1,2"), domain_of("sphere:1"),
+        ball_mesh(1.0, 2)};
+    enum { REPEATS = 40, SHELLS = 6 };
+    for (size_t k = 0; k < 7; ++k) {
+        double sum[SHELLS + 1] = {0};
+        double squares[SHELLS + 1] = {0};
+        clast_pairs_config config = config_of(0.4);
+        config.n_shell = SHELLS;
+        for (int r = 0; r < REPEATS; ++r) {
+            clast_cloud cloud = uniform(&domains[k], 300, 1000 * k + (uint64_t)r);
+            clast_pairs pairs = {0};
+            CHECK_OK(clast_pairs_count(&domains[k], &cloud, &config, &pairs));
+            for (int i = 0; i <= SHELLS; ++i) {
+                const double value =
+                    i < SHELLS
+                        ? clast_table_numbers(&pairs.shells, "g")[i]
+                        : pairs.volume * clast_table_numbers(&pairs.shells, "integral")[SHELLS - 1];
+                sum[i] += value / REPEATS;
+                squares[i] += value * value / REPEATS;
+            }
+            clast_pairs_free(&pairs);
+            clast_cloud_free(&cloud);
+        }
+        for (int i = 0; i <= SHELLS; ++i) {
+            const double error = sqrt((squares[i] - sum[i] * sum[i]) / (REPEATS - 1));
+            assert_true(error < 0.1);
+            const bool is_rough = i == SHELLS && (k == 3 || k == 4 || k == 6);
+            CHECK_ABS(sum[i], 1.0, 4.0 * error + (is_rough ? 0.01 : 0.0));
+        }
+        clast_domain_free(&domains[k]);
+    }
+}
+
+/* Mirror images in a box: of a point in a corner's eighth, 8 for a pair inward; and 1 far inside.
+ */
+static void edge_weights_complete_the_ball(void **state)
+{
+    (void)state;
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    const double corner[3] = {0.05, 0.05, 0.05};
+    const double inward[3] = {0.2, 0.2, 0.2};
+    const double along[3] = {0.2, 0.06, 0.06};
+    const double middle[3] = {0.5, 0.5, 0.5};
+    assert_true(clx_pair_edge_weight(&box, corner, inward) == 8.0);
+    assert_true(clx_pair_edge_weight(&box, corner, along) == 2.0);
+    assert_true(clx_pair_edge_weight(&box, middle, inward) == 1.0);
+    assert_true(clx_pair_edge_weight(&box, inward, corner) == 1.0);
+    CHECK_REL(clx_pair_edge_safe(&box, corner, 1.0), 0.05, 1e-15);
+}
+
+/* A share in a blob of 3 normal axes in a uniform background. */
+static clast_cloud blob(int64_t n, double share, double sd, const bool axis[3], uint64_t seed)
+{
+    clast_cloud cloud = {0};
+    CHECK_OK(clast_cloud_alloc(n, 3, &cloud));
+    for (int64_t i = 0; i < n; ++i) {
+        clx_rng rng = clx_rng_at(seed, CLX_STREAM_TEST, (uint64_t)i);
+        const bool inside = clx_rng_uniform(&rng) < share;
+        for (int j = 0; j < 3; ++j) {
+            cloud.x[3 * i + j] =
+                inside && axis[j] ? 0.5 + sd * clx_rng_normal(&rng) : clx_rng_uniform(&rng);
+        }
+    }
+    return cloud;
+}
+
+/* A sheet of sd 0.02 with 1000 points, where cells of the tree are a third low: the mean of 12
+ * clouds is right within 5 %, every interval covers but one at most. */
+static void a_thin_sheet_is_resolved(void **state)
+{
+    (void)state;
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    const bool axis[3] = {false, false, true};
+    const double truth = 1.0 / (2.0 * 0.02 * sqrt(CLAST_PI));
+    double mean = 0.0;
+    int covered = 0;
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+        clast_cloud cloud = blob(1000, 1.0, 0.02, axis, 500 + seed);
+        clast_pairs pairs = count(&box, &cloud, 0.0);
+        const clast_estimate *e = &pairs.integral.estimate;
+        assert_true(e->resolved && e->low <= e->value && e->value <= e->high);
+        mean += e->value / 12.0;
+        covered += e->low <= truth && truth <= e->high ? 1 : 0;
+        clast_pairs_free(&pairs);
+        clast_cloud_free(&cloud);
+    }
+    CHECK_REL(mean, truth, 0.05);
+    assert_true(covered >= 11);
+}
+
+/* The same bytes for 1, 2 and 4 threads. */
+static void threads_do_not_change_bytes(void **state)
+{
+    (void)state;
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    const bool axis[3] = {true, true, true};
+    clast_cloud cloud = blob(20000, 0.3, 0.06, axis, 77);
+    clast_pairs first = {0};
+    for (int threads = 1; threads <= 4; threads *= 2) {
+        clast_parallel_set_threads(threads);
+        clast_pairs pairs = count(&box, &cloud, 0.0);
+        if (threads == 1) {
+            first = pairs;
+            continue;
+        }
+        assert_memory_equal(&pairs.integral, &first.integral, sizeof first.integral);
+        for (int32_t c = 0; c < first.shells.n_column; ++c) {
+            assert_memory_equal(pairs.shells.column[c].number, first.shells.column[c].number,
+                                (size_t)first.n_shell * sizeof(double));
+        }
+        clast_pairs_free(&pairs);
+    }
+    clast_parallel_set_threads(0);
+    clast_pairs_free(&first);
+    clast_cloud_free(&cloud);
+}
+
+static clast_status count_in(void *context)
+{
+    const clast_domain *domain = context;
+    const clast_pairs_config config = {.radius = 0.2, .n_shell = 5};
+    double x[12] = {0.1, 0.1, 0.1, 0.2, 0.2, 0.1, 0.3, 0.1, 0.2, 0.1, 0.2, 0.3};
+    const clast_cloud cloud = {.n = 4, .dimension = 3, .x = x};
+    clast_pairs pairs = {0};
+    const clast_status status = clast_pairs_count(domain, &cloud, &config, &pairs);
+    clast_pairs_free(&pairs);
+    return status;
+}
+
+static void allocations_are_refused(void **state)
+{
+    (void)state;
+    clast_domain box = domain_of("box:0,0,0,1,1,1");
+    clast_domain mesh = ball_mesh(1.0, 1);
+    support_refuse_each_allocation(count_in, &box);
+    support_refuse_each_allocation(count_in, &mesh);
+    clast_domain_free(&mesh);
+}
+
+/* What cannot be counted is refused by name, and the output stays. */
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    double x[9] = {0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.3, 0.3, 0.3};
+    double weight[3] = {1, 2, 3};
+    clast_cloud cloud = {.n = 3, .dimension = 3, .x = x};
+    clast_pairs_config config = config_of(0.0);
+    clast_pairs pairs = {.n = -77};
+    CHECK_STATUS(clast_pairs_count(NULL, &cloud, &config, &pairs), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_pairs_count(&box, NULL, &config, &pairs), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, NULL, &pairs), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, NULL), CLAST_E_ARGUMENT);
+    config.radius = NAN;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_CONFIG);
+    config = config_of(0.0);
+    config.n_shell = 0;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_CONFIG);
+    config = config_of(0.0);
+    cloud.weight = weight;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "weights"));
+    cloud.weight = NULL;
+    x[4] = 1.5;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_FORMAT);
+    config.outside = CLAST_OUTSIDE_DROP;
+    x[4] = NAN;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_FORMAT);
+    x[4] = 1.5;
+    x[1] = 2.5;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_LIMIT);
+    cloud.n = 0;
+    CHECK_STATUS(clast_pairs_count(&box, &cloud, &config, &pairs), CLAST_E_LIMIT);
+    assert_int_equal(pairs.n, -77);
+    const double radius[2] = {0.2, 0.1};
+    double share[2];
+    CHECK_STATUS(clast_pairs_uniform(&box, 2, radius, share, NULL), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_pairs_uniform(&box, 0, radius, share, NULL), CLAST_E_ARGUMENT);
+    CHECK_STATUS(clast_pairs_uniform(&box, 1, NULL, share, NULL), CLAST_E_ARGUMENT);
+}
+
+/* Two points: nothing is resolved, the interval is open; two in one place too. */
+static void few_points_are_not_resolved(void **state)
+{
+    (void)state;
+    const clast_domain box = domain_of("box:0,0,0,1,1,1");
+    double x[6] = {0.1, 0.1, 0.1, 0.2, 0.2, 0.2};
+    const clast_cloud cloud = {.n = 2, .dimension = 3, .x = x};
+    for (int same = 0; same < 2; ++same) {
+        clast_pairs pairs = count(&box, &cloud, 0.0);
+        assert_false(pairs.integral.estimate.resolved);
+        assert_true(isinf(pairs.integral.estimate.high));
+        clast_pairs_free(&pairs);
+        memcpy(x + 3, x, 3 * sizeof *x);
+    }
+}
+
+/* Which of two estimates counts. */
+static void estimates_are_chosen_by_rule(void **state)
+{
+    (void)state;
+    const clast_estimate narrow = {1.0, 0.9, 1.1, true};
+    const clast_estimate wide = {1.05, 0.7, 1.5, true};
+    const clast_estimate far = {3.0, 2.5, 3.6, true};
+    const clast_estimate open = {2.0, 1.5, (double)INFINITY, false};
+    bool apart = true;
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &narrow, &wide, &apart).value == 1.0);
+    assert_false(apart);
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &wide, &narrow, NULL).value == 1.0);
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &narrow, &far, &apart).value == 3.0);
+    assert_true(apart);
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_CELLS, &narrow, &far, &apart).value == 1.0);
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &open, &wide, &apart).value == 1.05);
+    assert_false(apart);
+    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_PAIRS, &wide, &open, NULL).value == 2.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(counts_are_those_of_brute_force),
+        cmocka_unit_test(boxes_have_their_distances),
+        cmocka_unit_test(round_domains_have_theirs),
+        cmocka_unit_test(chords_of_a_mesh_agree_with_formulas),
+        cmocka_unit_test(sampled_domains_keep_their_stated_error),
+        cmocka_unit_test(a_uniform_cloud_has_g_1_in_every_domain),
+        cmocka_unit_test(edge_weights_complete_the_ball),
+        cmocka_unit_test(a_thin_sheet_is_resolved),
+        cmocka_unit_test(threads_do_not_change_bytes),
+        cmocka_unit_test(allocations_are_refused),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(few_points_are_not_resolved),
+        cmocka_unit_test(estimates_are_chosen_by_rule),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,402 @@
+/* Unit: spectra of a box meet exact solutions, a plain twin and each other; mass to 1e-12. */
+#include "support.h"
+
+#include <clast/spectrum.h>
+#include <stdio.h>
+#include <string.h>
+
+static clast_spectrum_config box(int32_t solver, double duration)
+{
+    clast_spectrum_config c;
+    CHECK_OK(clast_fields_default(clast_spectrum_fields, &c));
+    c.solver = solver;
+    c.concentration = 1.0;
+    c.duration = duration;
+    c.n_step = 4;
+    c.repeats = 1;
+    c.tolerance = 1e-8;
+    c.size_max = 1e3;
+    return c;
+}
+
+static clast_collide_config kernel(const char *name)
+{
+    clast_collide_config c = {.alpha = 1.0, .leap = 0.01, .block = 1024, .seed = 5};
+    c.medium.constant = c.medium.additive = c.medium.product = 1.0;
+    c.fractal_dimension = 1.8;
+    c.fractal_prefactor = 1.0;
+    CHECK_OK(clast_kernel_parse(name, &c.kernel));
+    return c;
+}
+
+/* The last value of a column. */
+static double last(const clast_spectrum *r, const char *name)
+{
+    const double *value = clast_table_numbers(&r->history, name);
+    assert_non_null(value);
+    return value[r->history.n_row - 1];
+}
+
+static void need_sectional(void)
+{
+    if (!clast_spectrum_has_sectional()) {
+        print_message("SKIPPED: this build has no SUNDIALS (tools/setup.sh sundials)\n");
+        skip();
+    }
+}
+
+static clast_spectrum evolve(const clast_spectrum_config *c, const clast_collide_config *k)
+{
+    clast_spectrum r;
+    CHECK_OK(clast_spectrum_evolve(c, k, NULL, &r));
+    assert_true(c->solver == CLAST_SOLVER_MONTE_CARLO || r.mass_error < 1e-12);
+    return r;
+}
+
+/* Number, singles, pairs, triplets and sum of squares of single particles at the start: closed
+ * forms of Smoluchowski, Golovin and McLeod, to 1e-3 on 16 sections an octave (numbers: 1e-6). */
+static void single_particles_meet_the_exact_solutions(void **state)
+{
+    (void)state;
+    need_sectional();
+    const double g = 1.0 - exp(-0.8);
+    const double s = exp(-0.8);
+    const struct {
+        const char *name;
+        double t, m0, m2, n[3];
+    } want[] = {{"constant", 2.0, 0.5, 3.0, {0.25, 0.125, 0.0625}},
+                {"additive",
+                 0.8,
+                 s,
+                 exp(1.6),
+                 {s * exp(-g), s * g * exp(-2 * g), 1.5 * s * g * g * exp(-3 * g)}},
+                {"product", 0.5, 0.75, 2.0, {exp(-0.5), 0.25 * exp(-1.0), 0.125 * exp(-1.5)}}};
+    for (size_t i = 0; i < sizeof want / sizeof want[0]; ++i) {
+        const clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, want[i].t);
+        const clast_collide_config k = kernel(want[i].name);
+        clast_spectrum r = evolve(&c, &k);
+        CHECK_REL(last(&r, "M0"), want[i].m0, 1e-6);
+        CHECK_REL(last(&r, "n_1"), want[i].n[0], 1e-6);
+        CHECK_REL(last(&r, "n_2"), want[i].n[1], 1e-6);
+        CHECK_REL(last(&r, "n_3"), want[i].n[2], 1e-6);
+        CHECK_REL(last(&r, "M2"), want[i].m2, 1e-3);
+        CHECK_REL(last(&r, "exact_M0"), want[i].m0, 1e-14);
+        CHECK_REL(last(&r, "exact_M2"), want[i].m2, 1e-14);
+        clast_spectrum_free(&r);
+    }
+}
+
+/* Exponential start, constant kernel: it stays exponential, n = 4/(T+2)^2 exp(-2x/(T+2)). Additive
+ * kernel: M0 = exp(-T), M2 = 2 exp(2T). All to 1e-3, every
+ * section from 0.02 to 6 mean sizes too. */
+static void exponential_starts_meet_the_exact_solutions(void **state)
+{
+    (void)state;
+    need_sectional();
+    clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, 1.0);
+    c.initial = CLAST_INITIAL_EXPONENTIAL;
+    c.size_max = 200.0;
+    clast_collide_config k = kernel("constant");
+    clast_spectrum r = evolve(&c, &k);
+    CHECK_REL(last(&r, "M0"), 1.0 / 1.5, 1e-6);
+    CHECK_REL(last(&r, "M2"), 3.0, 1e-3);
+    const int64_t n = r.spectrum.n_row / r.history.n_row;
+    const double *x = clast_table_numbers(&r.spectrum, "size") + 4 * n;
+    const double *density = clast_table_numbers(&r.spectrum, "density") + 4 * n;
+    int n_tested = 0;
+    for (int64_t i = 2; i < n; ++i) {
+        if (x[i] > 0.02 && x[i] < 6.0) {
+            CHECK_REL(density[i], 4.0 / 9.0 * exp(-2.0 * x[i] / 3.0), 1e-3);
+            ++n_tested;
+        }
+    }
+    assert_true(n_tested > 50);
+    clast_spectrum_free(&r);
+    k = kernel("additive");
+    c.per_octave = 24;
+    c.duration = 0.5;
+    r = evolve(&c, &k);
+    CHECK_REL(last(&r, "M0"), exp(-0.5), 1e-6);
+    CHECK_REL(last(&r, "M2"), 2.0 * exp(1.0), 1e-3);
+    clast_spectrum_free(&r);
+}
+
+/* The error of M2 falls with the square of the sections' width. */
+static void the_order_of_convergence_is_two(void **state)
+{
+    (void)state;
+    need_sectional();
+    double error[3];
+    for (int i = 0; i < 3; ++i) {
+        clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, 1.0);
+        const clast_collide_config k = kernel("additive");
+        c.initial = CLAST_INITIAL_EXPONENTIAL;
+        c.per_octave = 4 << i;
+        clast_spectrum r = evolve(&c, &k);
+        error[i] = last(&r, "M2") / (2.0 * exp(2.0)) - 1.0;
+        clast_spectrum_free(&r);
+    }
+    assert_true(error[0] / error[1] > 3.4 && error[0] / error[1] < 5.0);
+    assert_true(error[1] / error[2] > 3.4 && error[1] / error[2] < 5.0);
+}
+
+enum { TWIN = 160 };
+
+/* The discrete equation as printed, by Runge and Kutta's rule: dn_k/dt = 1/2 sum K n_i n_j - n_k
+ * sum K n_j; sizes to 160, where the mass beyond is below 1e-9 in these cases. */
+static void twin_slope(const clast_collide_config *k, const double *n, double *slope)
+{
+    static double beta[TWIN][TWIN];
+    static uint32_t made;
+    if (made != k->kernel) {
+        for (int i = 0; i < TWIN; ++i) {
+            for (int j = 0; j < TWIN; ++j) {
+                clast_collider a = {.monomers = i + 1, .radius = k->monomer_radius * cbrt(i + 1.0)};
+                clast_collider b = {.monomers = j + 1, .radius = k->monomer_radius * cbrt(j + 1.0)};
+                beta[i][j] = clast_kernel_value(k->kernel, &k->medium, &a, &b);
+            }
+        }
+        made = k->kernel;
+    }
+    memset(slope, 0, TWIN * sizeof *slope);
+    for (int i = 0; i < TWIN; ++i) {
+        for (int j = 0; j < TWIN; ++j) {
+            slope[i] -= beta[i][j] * n[i] * n[j];
+            if (i + j + 1 < TWIN) {
+                slope[i + j + 1] += 0.5 * beta[i][j] * n[i] * n[j];
+            }
+        }
+    }
+}
+
+static void twin(const clast_collide_config *k, double t, double *n)
+{
+    enum { N_STEP = 100 };
+    const double part[4] = {0.0, 0.5, 0.5, 1.0};
+    memset(n, 0, TWIN * sizeof *n);
+    n[0] = 1.0;
+    for (int step = 0; step < N_STEP; ++step) {
+        static double rate[4][TWIN];
+        for (int s = 0; s < 4; ++s) {
+            double z[TWIN];
+            for (int i = 0; i < TWIN; ++i) {
+                z[i] = n[i] + (s > 0 ? part[s] * t / N_STEP * rate[s - 1][i] : 0.0);
+            }
+            twin_slope(k, z, rate[s]);
+        }
+        for (int i = 0; i < TWIN; ++i) {
+            n[i] +=
+                t / N_STEP / 6.0 * (rate[0][i] + 2.0 * rate[1][i] + 2.0 * rate[2][i] + rate[3][i]);
+        }
+    }
+}
+
+/* Kernels without a closed form: the twin's number and clusters to 1e-3, by both solvers (Monte
+ * Carlo: 4 standard errors of 40 runs and what 2000 particles differ from infinitely many). */
+static void both_solvers_meet_the_plain_twin(void **state)
+{
+    (void)state;
+    static const char *const name[2] = {"brownian", "shear_laminar"};
+    for (int i = 0; i < 2; ++i) {
+        clast_collide_config k = kernel(name[i]);
+        k.monomer_radius = 1.0;
+        k.medium.temperature = 293.0;
+        k.medium.viscosity = 1e-20; /* 8 k T / (3 mu) is about 1 */
+        k.medium.shear = 0.05;
+        const double t = i == 0 ? 2.0 : 1.0;
+        double n[TWIN];
+        double m0 = 0.0;
+        twin(&k, t, n);
+        for (int s = 0; s < TWIN; ++s) {
+            m0 += n[s];
+        }
+        assert_true(m0 > 0.3 && m0 < 0.9);
+        if (clast_spectrum_has_sectional()) {
+            const clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, t);
+            clast_spectrum r = evolve(&c, &k);
+            CHECK_REL(last(&r, "M0"), m0, 1e-3);
+            CHECK_REL(last(&r, "n_1"), n[0], 1e-3);
+            CHECK_REL(last(&r, "n_5"), n[4], 1e-3);
+            clast_spectrum_free(&r);
+        }
+        clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, t);
+        c.particles = 2000;
+        c.repeats = 40;
+        clast_spectrum r = evolve(&c, &k);
+        CHECK_ABS(last(&r, "M0"), m0, 4.0 * last(&r, "M0_sd") / sqrt(40.0) + 4.0 / 2000.0);
+        CHECK_ABS(last(&r, "n_1"), n[0], 4.0 * last(&r, "n_1_sd") / sqrt(40.0) + 4.0 / 2000.0);
+        CHECK_REL(last(&r, "M1"), 1.0, 1e-13);
+        assert_true(last(&r, "M0_sd") > 0.0 && last(&r, "M0_sd") < 0.05);
+        clast_spectrum_free(&r);
+    }
+}
+
+/* Monte Carlo of an exponential and a lognormal start in the additive kernel, whose sizes are not
+ * whole: M0 falls as exp(-M1 t). */
+static void monte_carlo_draws_the_laws_of_the_start(void **state)
+{
+    (void)state;
+    for (int32_t initial = CLAST_INITIAL_EXPONENTIAL; initial <= CLAST_INITIAL_LOGNORMAL;
+         ++initial) {
+        clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, 0.5);
+        const clast_collide_config k = kernel("additive");
+        c.initial = initial;
+        c.initial_mean = 3.0;
+        c.particles = 1500;
+        c.repeats = 20;
+        clast_spectrum r = evolve(&c, &k);
+        CHECK_REL(clast_table_numbers(&r.history, "M1")[0], 3.0, 3e-3);
+        CHECK_ABS(last(&r, "M0"), exp(-1.5), 4.0 * last(&r, "M0_sd") / sqrt(20.0) + 4e-3);
+        clast_spectrum_free(&r);
+    }
+}
+
+/* Uniform binary breakage at S1 x: alone, an exponential start keeps its form with M0 = 1 + S1 t
+ * and M2 = 2 / (1 + S1 t); with a constant kernel (Aizenman and Bak) M0' = S1 M1 - K M0^2 / 2.
+ * Halves: M0' = S1 M1 too. */
+static void breakage_meets_the_exact_solutions(void **state)
+{
+    (void)state;
+    need_sectional();
+    clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, 1.5);
+    clast_collide_config k = kernel("constant");
+    c.initial = CLAST_INITIAL_EXPONENTIAL;
+    c.size_max = 100.0;
+    c.breakage_rate = 2.0;
+    c.size_min = 1e-4; /* fragments below the grid are counted by mass */
+    c.per_octave = 24;
+    for (int32_t law = 0; law < 3; ++law) {
+        k.alpha = law == 0 ? 1.0 : 0.0;
+        c.fragments = law == 2 ? CLAST_FRAGMENTS_HALVES : CLAST_FRAGMENTS_POWER;
+        clast_spectrum r = evolve(&c, &k);
+        const double even = 2.0; /* sqrt(2 S1 M1 / K) */
+        const double growth = tanh(0.5 * even * 1.5);
+        const double m0 = law == 0 ? even * (1.0 + even * growth) / (even + growth) : 4.0;
+        CHECK_REL(last(&r, "M0"), m0, 1e-3);
+        if (law == 1) {
+            CHECK_REL(last(&r, "M2"), 0.5, 1e-3);
+        }
+        clast_spectrum_free(&r);
+    }
+}
+
+/* A source adds its particles, a settling sink takes each at w / depth, mass to 1e-12. */
+static void sources_and_sinks_keep_their_books(void **state)
+{
+    (void)state;
+    need_sectional();
+    clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, 100.0);
+    clast_collide_config k = kernel("constant");
+    k.alpha = 0.0;
+    k.monomer_radius = 1e-5;
+    k.medium.viscosity = 1e-3;
+    k.medium.density = 1000.0;
+    k.medium.particle_density = 2000.0;
+    k.medium.gravity = 10.0;
+    c.settling_depth = 0.02;
+    clast_spectrum r = evolve(&c, &k);
+    const double w = 2.0 / 9.0 * 1000.0 * 10.0 * 1e-10 / 1e-3; /* Stokes */
+    CHECK_REL(last(&r, "M0"), exp(-w * 100.0 / 0.02), 1e-6);
+    CHECK_REL(last(&r, "settled_fraction"), 1.0 - exp(-w * 100.0 / 0.02), 1e-6);
+    clast_spectrum_free(&r);
+    c.settling_depth = 0.0;
+    c.source = 0.01;
+    c.source_size = 2.5;
+    r = evolve(&c, &k);
+    CHECK_REL(last(&r, "M1"), 3.5, 1e-6);
+    CHECK_REL(last(&r, "M0"), 2.0, 1e-6);
+    clast_spectrum_free(&r);
+}
+
+/* The product kernel gels at 1 / (c M2): told with the time, and the sol's mass is 1 / t after it
+ * [Ziff1980]. A grid that is too small is no gelation. */
+static void gelation_is_named_with_its_time(void **state)
+{
+    (void)state;
+    need_sectional();
+    clast_spectrum_config c = box(CLAST_SOLVER_SECTIONAL, 1.25);
+    clast_collide_config k = kernel("product");
+    c.size_max = 1e5;
+    c.per_octave = 12;
+    clast_spectrum r = evolve(&c, &k);
+    assert_true(r.is_gelation);
+    CHECK_REL(r.gel_time, 1.0, 0.01);
+    CHECK_REL(r.exact_gel_time, 1.0, 1e-14);
+    CHECK_REL(last(&r, "M1"), 0.8, 2e-3);
+    CHECK_REL(last(&r, "gel_fraction"), 0.2, 1e-2);
+    assert_true(isnan(last(&r, "exact_M0")));
+    clast_spectrum_free(&r);
+    c.size_max = 20.0;
+    c.duration = 20.0;
+    k = kernel("constant");
+    r = evolve(&c, &k);
+    assert_true(!r.is_gelation && r.gel_time > 1.0 && r.gel_time < 20.0);
+    clast_spectrum_free(&r);
+}
+
+static clast_status evolve_once(void *context)
+{
+    const clast_spectrum_config *c = context;
+    const clast_collide_config k = kernel("constant");
+    const double size[2] = {1.0, 2.0};
+    const double number[2] = {0.5, 0.5};
+    const clast_spectrum_start start = {2, size, number};
+    clast_spectrum r = {0};
+    const clast_status status = clast_spectrum_evolve(c, &k, &start, &r);
+    clast_spectrum_free(&r);
+    return status;
+}
+
+static void every_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    for (int32_t solver = 0; solver < (clast_spectrum_has_sectional() ? 2 : 1); ++solver) {
+        clast_spectrum_config c = box(solver, 0.5);
+        c.initial = CLAST_INITIAL_TABLE;
+        c.particles = 30;
+        c.size_max = 20.0;
+        c.per_octave = 3;
+        support_refuse_each_allocation(evolve_once, &c);
+    }
+}
+
+static void what_does_not_go_together_is_refused(void **state)
+{
+    (void)state;
+    const clast_collide_config k = kernel("constant");
+    const clast_collide_config moving = kernel("ballistic");
+    clast_spectrum r = {0};
+    clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
+    CHECK_STATUS(clast_spectrum_evolve(&c, &moving, NULL, &r), CLAST_E_CONFIG);
+    c.breakage_rate = 1.0;
+    CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "sectional"));
+    c = box(CLAST_SOLVER_SECTIONAL, 1.0);
+    c.concentration = 0.0;
+    CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
+    c.concentration = 1.0;
+    c.size_max = 0.5;
+    CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
+    if (!clast_spectrum_has_sectional()) {
+        c.size_max = 0.0;
+        CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), "without SUNDIALS"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(single_particles_meet_the_exact_solutions),
+        cmocka_unit_test(exponential_starts_meet_the_exact_solutions),
+        cmocka_unit_test(the_order_of_convergence_is_two),
+        cmocka_unit_test(both_solvers_meet_the_plain_twin),
+        cmocka_unit_test(monte_carlo_draws_the_laws_of_the_start),
+        cmocka_unit_test(breakage_meets_the_exact_solutions),
+        cmocka_unit_test(sources_and_sinks_keep_their_books),
+        cmocka_unit_test(gelation_is_named_with_its_time),
+        cmocka_unit_test(every_refused_allocation_is_told),
+        cmocka_unit_test(what_does_not_go_together_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
