@@ -116,9 +116,13 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
 }
 
-static void part(const clx_batch *p, int k)
+static void part(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_link *link = p->link[k];
+    double *roll = clx_link_roll(dem, link);
+    if (roll != NULL) {
+        v3_set(roll, 0.0, 0.0, 0.0);
+    }
     link->wake = p->travel[k] + p->meet.gap[k];
     link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
@@ -131,11 +135,13 @@ static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch
 {
     clx_load on_a = {0};
     clx_load on_b = {0};
-    clx_push_pair(dem, &dem->law, link, t, &on_a, &on_b);
+    clx_push_pair(dem, &dem->law, link, clx_link_roll(dem, link), t, &on_a, &on_b);
     *out = (clx_pushed){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);
     v3_scale(out->torque_a, -1.0, on_a.torque);
+    out->torque_b[3] = on_b.torque[3];
+    out->torque_a[3] = -on_a.torque[3];
 }
 
 static void push_one(const clast_dem *dem, const clx_batch *p, int k)
@@ -154,7 +160,7 @@ static void push_each(clast_dem *dem, const clx_batch *p)
 {
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
-            part(p, k);
+            part(dem, p, k);
         } else {
             p->link[k]->touches = 1;
             push_one(dem, p, k);

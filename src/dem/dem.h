@@ -28,7 +28,7 @@ typedef struct clx_grain {
     double round_radius; ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
-    double spare;
+    double held;  ///< exact steps: sum of the contacts' loads in the last step (clx_law_hold)
 } clx_grain;
 
 /// What only the integration reads.
@@ -92,13 +92,15 @@ static_assert(sizeof(clx_near_pair) == 192, "a pair takes three lines");
 
 /// Force and torque on a grain, in fours.
 typedef struct clx_load {
-    double force[4], torque[4]; ///< the fourth of each is 0
+    double force[4];  ///< the fourth is 0
+    double torque[4]; ///< the fourth is 0; with exact steps the grain's `held`
 } clx_load;
 
 /// What a contact does to its grains: the force on b, and the torques.
 typedef struct clx_pushed {
-    double force[4], torque_b[4]; ///< the fourth of each is 0
-    double torque_a[4];           ///< to be taken off
+    double force[4];    ///< the fourth is 0
+    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's load on b
+    double torque_a[4]; ///< to be taken off
 } clx_pushed;
 
 /// A link that is awake, and its place among those that were asked for.
@@ -244,6 +246,9 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
+    double *roll;       ///< [n_link][3] torques of rolling springs on b, where the law has them
+    double *other_roll; ///< of the buffer
+    int64_t roll_capacity, other_roll_capacity;
     clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]

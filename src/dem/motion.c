@@ -207,6 +207,7 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
     clx_grain *g = &dem->grain[i];
     const double dt = dem->config.time_step;
     double speed = shift(c, i, load->force);
+    g->held = load->torque[3];
     const bool is_fine = speed * dt <= c->stride * g->radius;
     if (g->kind == CLAST_SHAPE_SPHERE) {
         const double kept =

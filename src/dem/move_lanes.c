@@ -50,6 +50,7 @@ typedef struct {
     clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
     clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
     clx_lanes inverse[9];                                 ///< of the shapes' inertia
+    clx_lanes held;                                       ///< sums of contacts' loads
     clx_marks is_fast;                                    ///< turns too fast for the series
 } grains;
 
@@ -84,6 +85,7 @@ CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_load load[CLX_LAN
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
+    g->held = torque[3];
     lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
     lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                  m[3].orientation);
@@ -162,6 +164,11 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
 {
     clx_grain *to = &dem->grain[i];
     clx_motion *m = &dem->motion[i];
+    if (dem->law.is_exact) {
+        for (int k = 0; k < CLX_LANES; ++k) {
+            to[k].held = g->held[k];
+        }
+    }
     lanes_scatter(g->position, to[0].position, to[1].position, to[2].position, to[3].position);
     lanes_scatter(g->velocity, to[0].velocity, to[1].velocity, to[2].velocity, to[3].velocity);
     lanes_scatter(g->spin, to[0].spin, to[1].spin, to[2].spin, to[3].spin);

@@ -15,6 +15,8 @@ typedef struct clx_dem_saved {
                         ///< scale, density, travel
     double *anchor;     ///< [n_known][8] of items: position, orientation, margin
     double *limit; ///< [n_known] paths up to which they are not asked; NULL in older checkpoints
+    double *held;  ///< [n_grain] loads of exact steps, or NULL
+    double *roll;  ///< [n_link][3] torques of rolling springs, or NULL
     int32_t *id;   ///< [n_link][5] a, b, image in x and y, flags
     double *link;  ///< [n_link][4] wake, slide
     int32_t memory_width; ///< bytes of a contact memory
