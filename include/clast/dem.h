@@ -32,6 +32,12 @@ typedef enum {
                     ///< 3/2 pi w R* as a constant
 } clast_dem_cohesion;
 
+/// Drag law of grains that are spheres.
+typedef enum {
+    CLAST_DEM_DRAG_FORM,    ///< that of all forms [Bagheri2016]
+    CLAST_DEM_DRAG_STANDARD ///< the standard curve of spheres (clast_drag_sphere)
+} clast_dem_sphere_drag;
+
 /// Resistance against rolling. [Ai2011]
 typedef enum {
     CLAST_DEM_ROLL_TORQUE, ///< model A: a constant torque against the roll; nothing rests by it
@@ -74,6 +80,10 @@ typedef struct clast_dem_config {
     double gravity;          ///< [m/s2], along -z
     double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]
     double fluid_viscosity;  ///< drag, torque of fluid at rest; 0: none [Pa s]
+    int32_t sphere_drag;     ///< clast_dem_sphere_drag
+    bool hindrance;          ///< drag grows with the grains around (clast_drag_hindrance)
+    double added_mass;       ///< fluid moved along over the grain's volume; 1/2 of a sphere
+    bool wet_restitution;    ///< restitution falls with the impact's Stokes number
     int32_t domain;          ///< clast_dem_domain
     double width, depth;     ///< along x and y; depth 0: as width [m]
     double height;           ///< of the lid, and of generation [m]

@@ -58,6 +58,32 @@ done:
     return status;
 }
 
+/// Options of the fluid that something else has to be there for.
+static clast_status check_fluid(const clast_dem_config *c)
+{
+    clast_status status = CLAST_OK;
+    clast_dem_config soft = *c;
+    const bool has_more =
+        c->sphere_drag != CLAST_DEM_DRAG_FORM || c->hindrance || c->wet_restitution;
+    CLX_CHECK(c->fluid_viscosity > 0.0 || !has_more, CLAST_E_CONFIG,
+              "sphere_drag, hindrance and wet_restitution act with a fluid_viscosity alone (water: "
+              "1e-3 Pa s)");
+    CLX_CHECK(c->fluid_density > 0.0 || (c->added_mass == 0.0 && !c->hindrance), CLAST_E_CONFIG,
+              "added_mass and hindrance act with a fluid_density alone");
+    CLX_CHECK(!c->hindrance || c->domain != CLAST_DEM_OPEN, CLAST_E_CONFIG,
+              "hindrance goes by the porosity at a height: it needs a cylinder, periodic or box");
+    CLX_CHECK(!c->wet_restitution ||
+                  (c->law == CLAST_DEM_LINEAR && c->contact_scheme == CLAST_DEM_EXPLICIT),
+              CLAST_E_CONFIG, "wet_restitution is for law linear with contact_scheme explicit");
+    if (c->wet_restitution) {
+        soft.restitution = fmin(CLX_LAW_SOFT, c->restitution);
+        const clx_law law = clx_law_make(&soft);
+        CLX_TRY(clx_dem_check_step(&law, c->time_step, 0.0, 0.0));
+    }
+done:
+    return status;
+}
+
 clast_status clx_dem_check(const clast_dem_config *config)
 {
     clast_status status = CLAST_OK;
@@ -77,6 +103,7 @@ clast_status clx_dem_check(const clast_dem_config *config)
     CLX_CHECK(config->law == CLAST_DEM_LINEAR || config->contact_scheme == CLAST_DEM_EXPLICIT,
               CLAST_E_CONFIG, "contact_scheme exact is for law linear: Hertz's has no exact step");
     CLX_TRY(check_cohesion(config));
+    CLX_TRY(check_fluid(config));
 done:
     return status;
 }

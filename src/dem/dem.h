@@ -70,6 +70,12 @@ typedef struct clx_link {
     double slide[3];      ///< tangential displacement of b over a
 } clx_link;
 
+/// What only some laws remember of a contact.
+typedef struct clx_extra {
+    double roll[3];     ///< torque of the rolling spring on b
+    double restitution; ///< of its impact in a fluid; 0: it has not begun
+} clx_extra;
+
 /// A contact's memory, three cache lines: two hold all of a face with a vertex.
 typedef struct clx_memory_slot {
     clx_contact_memory record;
@@ -170,6 +176,14 @@ typedef struct clx_sweeping {
     int64_t push_capacity, awake_capacity, kept_capacity[2];
 } clx_sweeping;
 
+/// Volume of grains by height, for the porosity around one.
+typedef struct clx_slabs {
+    double *solid; ///< [n] [m3]
+    int64_t capacity;
+    int32_t n;
+    double low, thick, volume; ///< of the first slab's bottom; of a slab
+} clx_slabs;
+
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
 
 typedef struct clx_wall {
@@ -246,9 +260,9 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
-    double *roll;       ///< [n_link][3] torques of rolling springs on b, where the law has them
-    double *other_roll; ///< of the buffer
-    int64_t roll_capacity, other_roll_capacity;
+    clx_extra *extra;       ///< [n_link] where the law has them (has_extra)
+    clx_extra *other_extra; ///< of the buffer
+    int64_t extra_capacity, other_extra_capacity;
     clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]
@@ -300,6 +314,7 @@ struct clast_dem {
     clx_list list;
     clx_near near;
     clx_sweeping sweeping;
+    clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
 };
 

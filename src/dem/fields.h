@@ -134,6 +134,34 @@
          "Pa s",                                                                                   \
          "viscosity for drag and torque of a fluid at rest; 0: none, as published",                \
          NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, sphere_drag, CHOICE),                                                \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "drag of spheres: the law of all forms, or the standard curve of spheres",                \
+         "form|standard"},                                                                         \
+        {CLX_DEM_AT(TYPE, IN, hindrance, BOOL),                                                    \
+         0,                                                                                        \
+         0,                                                                                        \
+         1,                                                                                        \
+         "-",                                                                                      \
+         "drag grows with the grains around, by the porosity at its height (Di Felice)",           \
+         NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, added_mass, F64),                                                    \
+         0,                                                                                        \
+         0,                                                                                        \
+         10.0,                                                                                     \
+         "-",                                                                                      \
+         "fluid that a grain moves along, over its volume; 0.5 of a sphere",                       \
+         NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, wet_restitution, BOOL),                                              \
+         0,                                                                                        \
+         0,                                                                                        \
+         1,                                                                                        \
+         "-",                                                                                      \
+         "restitution falls with the impact's Stokes number (Gondret)",                            \
+         NULL},                                                                                    \
         {CLX_DEM_AT(TYPE, IN, rounding, F64),                                                      \
          0,                                                                                        \
          0,                                                                                        \

@@ -61,12 +61,16 @@ clx_law clx_law_make(const clast_dem_config *c)
         .rolling = c->rolling_friction,
         .has_roll_spring = c->rolling_friction > 0.0 && c->rolling_model == CLAST_DEM_ROLL_SPRING,
         .damping_ratio = -ln / root,
+        .is_wet = c->wet_restitution,
+        .restitution = c->restitution,
+        .viscosity = c->fluid_viscosity,
         .cohesion_energy = c->cohesion_energy};
     law.root_kappa = sqrt(law.kappa);
     law.time = CLAST_PI / sqrt(law.stiffness - 0.25 * law.damping * law.damping);
     law.friction[0] = c->friction;
     law.friction[1] = c->wall_friction >= 0.0 ? c->wall_friction : c->friction;
     law.pull = (c->cohesion == CLAST_DEM_DMT ? 2.0 : 1.5) * CLAST_PI * c->surface_energy;
+    law.has_extra = law.has_roll_spring || law.is_wet;
     law.has_neck = c->law == CLAST_DEM_HERTZ && c->cohesion == CLAST_DEM_JKR;
     law.adhesion = sqrt(2.0 * CLAST_PI * c->surface_energy / law.young);
     law.is_exact = c->contact_scheme == CLAST_DEM_EXACT;

@@ -5,6 +5,10 @@
 #include "math/vec3.h"
 #include <clast/dem.h>
 
+/// Restitution that fluids leave at least: softer rebounds have less than 0.4 % of their energy,
+/// and stiffer dashpots would ask for shorter steps than the published ones.
+#define CLX_LAW_SOFT 0.06
+
 /// Share of what would stop a roll within a step that resistance may take: several contacts act on
 /// a grain.
 #define CLX_LAW_STOPS 0.1
@@ -27,12 +31,15 @@ typedef struct clx_law {
     double alpha;             ///< damping of Hertz's law [Antypov2011]
     double friction[2];       ///< between grains, at walls
     double rolling;
-    bool has_roll_spring;   ///< model C
-    double damping_ratio;   ///< -ln e / sqrt(pi^2 + ln^2 e)
-    double cohesion_energy; ///< [J/m3]
-    double pull;            ///< DMT, JKR: force over R* [N/m]
-    bool has_neck;          ///< JKR's whole curve: with Hertz's law
-    double adhesion;        ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
+    bool has_extra;                ///< contacts remember more than their displacement (clx_extra)
+    bool is_wet;                   ///< restitution by the impact's Stokes number
+    double restitution, viscosity; ///< dry; of the fluid [Pa s]
+    bool has_roll_spring;          ///< model C
+    double damping_ratio;          ///< -ln e / sqrt(pi^2 + ln^2 e)
+    double cohesion_energy;        ///< [J/m3]
+    double pull;                   ///< DMT, JKR: force over R* [N/m]
+    bool has_neck;                 ///< JKR's whole curve: with Hertz's law
+    double adhesion;               ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
 } clx_law;
 
 /// One contact as the law sees it.
@@ -45,8 +52,9 @@ typedef struct clx_meeting {
     double mass;        ///< m_eff
     double radius;      ///< R*, harmonic [m]
     double friction;
-    double head_on; ///< exact steps: share of the contact's load that its normal has, at most 1
-    double held;    ///< exact steps: load of the more loaded grain
+    double restitution; ///< in a fluid, of its impact; else 0
+    double head_on;     ///< exact steps: share of the contact's load that its normal has, at most 1
+    double held;        ///< exact steps: load of the more loaded grain
 } clx_meeting;
 
 /// What acts on b; a gets the opposite.
@@ -152,9 +160,14 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
 {
     clx_springs s;
     if (law->kind == CLAST_DEM_LINEAR) {
-        const double k = c->mass * law->stiffness;
-        s.elastic = k * c->overlap;
+        double k = c->mass * law->stiffness;
         s.normal_damping = c->mass * law->damping;
+        if (c->restitution > 0.0) {
+            const double ln = log(c->restitution);
+            k = c->mass * (CLAST_PI * CLAST_PI + ln * ln) / (law->time * law->time);
+            s.normal_damping = -2.0 * c->mass * ln / law->time;
+        }
+        s.elastic = k * c->overlap;
         s.tangential = law->kappa * k;
         s.tangential_damping = law->root_kappa * s.normal_damping;
         return s;
@@ -171,6 +184,17 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
     s.tangential_damping =
         s.normal_damping * sqrt(s.tangential / (2.0 * law->young * root)); // same share of critical
     return s;
+}
+
+/// Restitution of an impact in a fluid: e_dry exp(-35 / St), St = m u / (6 pi mu R*^2), that is
+/// rho d u / (9 mu) of a sphere at a wall. [Gondret2002; Legendre2005] Not below CLX_LAW_SOFT.
+static inline double clx_law_impact(const clx_law *law, const clx_meeting *c)
+{
+    const double speed = -v3_dot(c->velocity, c->normal);
+    const double stokes =
+        c->mass * speed / (6.0 * CLAST_PI * law->viscosity * c->radius * c->radius);
+    const double share = stokes > 0.0 ? exp(-35.0 / stokes) : 0.0;
+    return fmax(fmin(CLX_LAW_SOFT, law->restitution), law->restitution * share);
 }
 
 static inline double clx_law_pull(const clx_law *law, const clx_meeting *c)

@@ -18,8 +18,8 @@ void clx_list_free(clx_list *list)
 {
     clx_free(list->link);
     clx_free(list->other);
-    clx_free(list->roll);
-    clx_free(list->other_roll);
+    clx_free(list->extra);
+    clx_free(list->other_extra);
     clx_free(list->memory);
     clx_free(list->free_slot);
     clx_free(list->begin);
@@ -262,8 +262,8 @@ done:
 static void keep(clx_list *l, int64_t old, int64_t n)
 {
     l->other[n] = l->link[old];
-    if (l->other_roll != NULL) {
-        v3_copy(&l->other_roll[3 * n], &l->roll[3 * old]);
+    if (l->other_extra != NULL) {
+        l->other_extra[n] = l->extra[old];
     }
 }
 
@@ -277,8 +277,8 @@ static void drop(clx_list *l, int64_t old)
 static void start(clx_list *l, const clx_found *f, int64_t n)
 {
     l->other[n] = fresh(f);
-    if (l->other_roll != NULL) {
-        v3_set(&l->other_roll[3 * n], 0.0, 0.0, 0.0);
+    if (l->other_extra != NULL) {
+        l->other_extra[n] = (clx_extra){0};
     }
 }
 
@@ -322,12 +322,12 @@ static void swap_buffers(clx_list *l)
     l->capacity = l->other_capacity;
     l->other = link;
     l->other_capacity = capacity;
-    double *const roll = l->roll;
-    const int64_t roll_capacity = l->roll_capacity;
-    l->roll = l->other_roll;
-    l->roll_capacity = l->other_roll_capacity;
-    l->other_roll = roll;
-    l->other_roll_capacity = roll_capacity;
+    clx_extra *const extra = l->extra;
+    const int64_t extra_capacity = l->extra_capacity;
+    l->extra = l->other_extra;
+    l->extra_capacity = l->other_extra_capacity;
+    l->other_extra = extra;
+    l->other_extra_capacity = extra_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
@@ -337,9 +337,9 @@ static clast_status merge(clast_dem *dem)
     int64_t n = 0;
     CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_link + l->n_found + 1,
                            sizeof *l->other));
-    if (dem->law.has_roll_spring) {
-        CLX_TRY(clx_grow(&l->other_roll, &l->other_roll_capacity, 3 * (l->n_link + l->n_found) + 1,
-                         sizeof *l->other_roll));
+    if (dem->law.has_extra) {
+        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_link + l->n_found + 1,
+                         sizeof *l->other_extra));
     }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {

@@ -50,7 +50,6 @@ typedef struct {
     clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
     clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
     clx_lanes inverse[9];                                 ///< of the shapes' inertia
-    clx_lanes held;                                       ///< sums of contacts' loads
     clx_marks is_fast;                                    ///< turns too fast for the series
 } grains;
 
@@ -85,7 +84,6 @@ CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_load load[CLX_LAN
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
-    g->held = torque[3];
     lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
     lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                  m[3].orientation);
@@ -164,11 +162,6 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
 {
     clx_grain *to = &dem->grain[i];
     clx_motion *m = &dem->motion[i];
-    if (dem->law.is_exact) {
-        for (int k = 0; k < CLX_LANES; ++k) {
-            to[k].held = g->held[k];
-        }
-    }
     lanes_scatter(g->position, to[0].position, to[1].position, to[2].position, to[3].position);
     lanes_scatter(g->velocity, to[0].velocity, to[1].velocity, to[2].velocity, to[3].velocity);
     lanes_scatter(g->spin, to[0].spin, to[1].spin, to[2].spin, to[3].spin);
@@ -194,6 +187,7 @@ bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
         n_round += g[k].kind == CLAST_SHAPE_SPHERE ? 1 : 0;
     }
     return n % CLX_LANES == 0 && dem->config.fluid_viscosity <= 0.0 &&
+           dem->config.added_mass <= 0.0 &&
            (n_round == n || (n_round == 0 && dem->config.gyroscopic));
 }
 

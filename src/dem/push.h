@@ -90,17 +90,17 @@ static inline double clx_rolling_inertia(const clx_grain *a, const clx_grain *b)
     return b->mass > 0.0 ? ia * ib / (ia + ib) : ia;
 }
 
-/// The rolling spring's torque of a link, or NULL where the law has none.
-static inline double *clx_link_roll(const clast_dem *dem, const clx_link *link)
+/// What the law remembers of a link beside its displacement, or NULL where it does not.
+static inline clx_extra *clx_link_extra(const clast_dem *dem, const clx_link *link)
 {
-    if (!dem->law.has_roll_spring) {
+    if (!dem->law.has_extra) {
         return NULL;
     }
     const clx_near *near = &dem->near;
     const int64_t k = near->is_packed
                           ? near->link[(const clx_near_pair *)(const void *)link - near->pair]
                           : link - dem->list.link;
-    return &dem->list.roll[3 * k];
+    return &dem->list.extra[k];
 }
 
 static inline double clx_item_curve(const clast_dem *dem, int32_t item)
@@ -125,15 +125,34 @@ static inline double clx_link_neck(const clast_dem *dem, const clx_link *link)
     return -clx_jkr_tear(&dem->law, link->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
-/// A pair that touches; its rolling spring's torque is `roll`, NULL where the law has none.
+/// What fluid that is moved along makes of a grain's inertia: 1 + C_m rho_f / rho.
+static inline double clx_heavier(const clast_dem *dem, const clx_motion *m)
+{
+    return 1.0 + dem->config.added_mass * dem->config.fluid_density / m->density;
+}
+
+/// Reduced mass of a link with the fluid that its grains move along.
+static inline double clx_heavier_mass(const clast_dem *dem, const clx_link *link)
+{
+    const int32_t a = clx_item_grain(dem, link->a);
+    const double of_a = dem->grain[a].mass * clx_heavier(dem, &dem->motion[a]);
+    if (link->b < 0) {
+        return of_a;
+    }
+    const int32_t b = clx_item_grain(dem, link->b);
+    const double of_b = dem->grain[b].mass * clx_heavier(dem, &dem->motion[b]);
+    return of_a * of_b / (of_a + of_b);
+}
+
+/// A pair that touches; `extra` as clx_link_extra.
 static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_link *p,
-                                 double *roll, const clx_dem_touch *t, clx_load *on_a,
+                                 clx_extra *extra, const clx_dem_touch *t, clx_load *on_a,
                                  clx_load *on_b)
 {
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
-    const bool needs_radius =
-        law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY || law->rolling > 0.0;
+    const bool needs_radius = law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY ||
+                              law->rolling > 0.0 || law->is_wet;
     const double ra = needs_radius ? clx_item_curve(dem, p->a) : 0.0;
     clx_meeting m;
     clx_push push;
@@ -153,6 +172,16 @@ static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_l
         m.radius = ra;
         m.friction = law->friction[1];
     }
+    m.restitution = 0.0;
+    if (law->is_wet) {
+        if (extra->restitution == 0.0) {
+            extra->restitution = clx_law_impact(law, &m);
+        }
+        m.restitution = extra->restitution;
+    }
+    if (dem->config.added_mass > 0.0) {
+        m.mass = clx_heavier_mass(dem, p);
+    }
     if (law->is_exact) {
         double load[2];
         clx_hold_pair(law, a, b, t, &m, load);
@@ -161,9 +190,9 @@ static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_l
     }
     clx_law_force(law, &m, dem->config.time_step, p->slide, &push);
     v3_set(push.rolling, 0.0, 0.0, 0.0);
-    if (roll != NULL) {
+    if (law->has_roll_spring) {
         clx_law_roll_spring(law, &m, clx_reduced_inertia(a, b), clx_rolling_inertia(a, b),
-                            dem->config.time_step, roll, &push);
+                            dem->config.time_step, extra->roll, &push);
     } else if (law->rolling > 0.0) {
         clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &push);
     }

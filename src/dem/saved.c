@@ -14,7 +14,7 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->anchor);
     clx_free(s->limit);
     clx_free(s->held);
-    clx_free(s->roll);
+    clx_free(s->extra);
     clx_free(s->id);
     clx_free(s->link);
     clx_free(s->memory);
@@ -90,9 +90,11 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
             s.held[i] = dem->grain[i].held;
         }
     }
-    if (dem->law.has_roll_spring) {
-        CLX_TRY(clx_alloc(&s.roll, 3 * s.n_link, sizeof *s.roll));
-        memcpy(s.roll, l->roll, (size_t)(3 * s.n_link) * sizeof *s.roll);
+    if (dem->law.has_extra) {
+        CLX_TRY(clx_alloc(&s.extra, CLX_SAVED_EXTRA * s.n_link, sizeof *s.extra));
+        if (s.n_link > 0) {
+            memcpy(s.extra, l->extra, (size_t)s.n_link * sizeof *l->extra);
+        }
     }
     *saved = s;
     s = (clx_dem_saved){0};
@@ -171,26 +173,26 @@ done:
     return status;
 }
 
-/// What only some laws remember: loads of exact steps, torques of rolling springs.
+/// What only some laws remember: loads of exact steps, what laws with springs against rolling or
+/// a fluid's restitution keep.
 static clast_status take_extras(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
-    CLX_CHECK(dem->law.is_exact == (s->held != NULL) &&
-                  dem->law.has_roll_spring == (s->roll != NULL),
-              CLAST_E_FORMAT, "the checkpoint is of another contact_scheme or rolling_model");
+    CLX_CHECK(dem->law.is_exact == (s->held != NULL) && dem->law.has_extra == (s->extra != NULL),
+              CLAST_E_FORMAT, "the checkpoint is of another contact law");
     for (int64_t i = 0; s->held != NULL && i < s->n_grain; ++i) {
         CLX_CHECK(s->held[i] >= 0.0 && isfinite(s->held[i]), CLAST_E_FORMAT,
                   "grain %lld of the checkpoint: its load is not a number", (long long)i);
         dem->grain[i].held = s->held[i];
     }
-    if (s->roll != NULL) {
-        CLX_TRY(clx_grow(&l->roll, &l->roll_capacity, 3 * s->n_link + 1, sizeof *l->roll));
+    if (s->extra != NULL) {
+        CLX_TRY(clx_grow(&l->extra, &l->extra_capacity, s->n_link + 1, sizeof *l->extra));
+        memcpy(l->extra, s->extra, (size_t)s->n_link * sizeof *l->extra);
     }
-    for (int64_t k = 0; s->roll != NULL && k < 3 * s->n_link; ++k) {
-        CLX_CHECK(isfinite(s->roll[k]), CLAST_E_FORMAT, "link %lld of the checkpoint is not finite",
-                  (long long)(k / 3));
-        l->roll[k] = s->roll[k];
+    for (int64_t k = 0; s->extra != NULL && k < CLX_SAVED_EXTRA * s->n_link; ++k) {
+        CLX_CHECK(isfinite(s->extra[k]), CLAST_E_FORMAT,
+                  "link %lld of the checkpoint is not finite", (long long)(k / CLX_SAVED_EXTRA));
     }
 done:
     return status;

@@ -37,8 +37,8 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     if (d->held != NULL) {
         a[n++] = (array){"/pack/held", CLX_H5_F64, d->n_grain, 1, d->held};
     }
-    if (d->roll != NULL) {
-        a[n++] = (array){"/pack/roll", CLX_H5_F64, d->n_link, 3, d->roll};
+    if (d->extra != NULL) {
+        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_link, CLX_SAVED_EXTRA, d->extra};
     }
     if (d->memory != NULL) {
         a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_link, d->memory_width, d->memory};
@@ -195,8 +195,8 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     if (clx_h5_has(h5, "/pack/held")) {
         CLX_TRY(clx_alloc(&d->held, d->n_grain, sizeof *d->held));
     }
-    if (clx_h5_has(h5, "/pack/roll")) {
-        CLX_TRY(clx_alloc(&d->roll, 3 * d->n_link, sizeof *d->roll));
+    if (clx_h5_has(h5, "/pack/extra")) {
+        CLX_TRY(clx_alloc(&d->extra, CLX_SAVED_EXTRA * d->n_link, sizeof *d->extra));
     }
     if (clx_h5_has(h5, "/pack/memory")) {
         CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));
