@@ -324,6 +324,9 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK) {
         json_t *out = summary(c, &result, cli_clock() - begun);
+        cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
+        (void)json_object_set_new(out, "seed",
+                                  json_integer((json_int_t)c->agglomerate.decompose.seed));
         if (folder != NULL) {
             status = keep_results(common, c, &result, out, folder);
         }

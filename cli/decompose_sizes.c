@@ -111,9 +111,10 @@ static clast_status one_size(const clast_domain *domain, const clast_cloud *all,
     }
     if (status == CLAST_OK) {
         const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
+        const double high = r.resolved ? r.events_high : (double)NAN;
         const double made[8] = {
-            (double)n,         r.events,         r.events_low,         r.events_high,
-            (double)r.cells.n, r.events * scale, r.events_low * scale, r.events_high * scale};
+            (double)n,         r.events,         r.events_low,         high,
+            (double)r.cells.n, r.events * scale, r.events_low * scale, high * scale};
         memcpy(row, made, sizeof made);
         row[9] = row[8] * scale;
     }

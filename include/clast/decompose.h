@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 #include <clast/domain.h>
 #include <clast/field.h>
+#include <clast/pairs.h>
 #include <clast/table.h>
 #include <clast/uniformity.h>
 
@@ -23,7 +24,7 @@ typedef enum {
     CLAST_CELLS_BINS,
     CLAST_CELLS_LABELS,
     CLAST_CELLS_TREE,
-    CLAST_CELLS_AUTO ///< tree for the full variant in 3-D, boxes else and with paper
+    CLAST_CELLS_AUTO ///< tree for the full variant, boxes for the others and with paper
 } clast_cell_kind;
 
 typedef enum {
@@ -64,8 +65,11 @@ typedef struct clast_decompose_config {
     double tree_root_level;    ///< of the test of the whole cloud: one cell, or a tree
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
-    bool tree_refine; ///< cells below the root are given as the blocks that their last test saw
-    bool extrapolate; ///< add the pairs that tree cells hide by being taken as uniform
+    bool tree_refine;    ///< cells below the root are given as the blocks that their last test saw
+    bool extrapolate;    ///< add the pairs that tree cells hide by being taken as uniform
+    bool pairs;          ///< count pairs by distance too
+    double pairs_radius; ///< greatest distance [m]; 0: see clast_pairs_config
+    int32_t estimator;   ///< clast_estimator: which estimate `events` is
     uint64_t seed;
 } clast_decompose_config;
 
@@ -178,13 +182,20 @@ typedef struct clast_decomposition {
     clast_decompose_stop stop;
     clast_cells cells;
     double events, events_low,
-        events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap
+        events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap; not
+                           ///< resolved: events_low alone holds, and events_high is INFINITY
+    bool resolved;         ///< the points show all of their own structure that counts: the bias of
+                           ///< events is at most 2 %
+    double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
+                           ///< where that cannot be told
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
     int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
+    double cells_bias;     ///< relative bias of the pairs counted in these cells against those that
+                           ///< all sizes of cells show together; NAN where not resolved
     double bias_estimate;  ///< cells / n: relative bias of n^2 against n (n - 1); NAN of n (n - 1)
     double
         smoothing_bias; ///< relative bias of pairs in cells taken as uniform, as estimated; taken
@@ -193,6 +204,11 @@ typedef struct clast_decomposition {
     double volume;      ///< of the domain [m^d]
     uint64_t seed;      ///< of what was drawn
     bool has_drawn;     ///< ghosts, or the part of weighted points that is tested
+    clast_pairs pairs;  ///< with config->pairs or another estimator than cells, else {0}
+    clast_estimate events_by_cells, events_by_pairs; ///< the same of both, beta dt n (n - 1) / 2
+                                                     ///< times the integral; with pairs
+    clast_estimator estimator;                       ///< of the two: which one `events` is
+    bool disagree; ///< both are resolved and their intervals have no number in common
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

@@ -44,6 +44,19 @@ double clast_drag_coefficient(double reynolds, const clast_drag *drag)
            0.46 * drag->newton / (1.0 + 5330.0 / scaled);
 }
 
+double clast_drag_sphere(double reynolds)
+{
+    return 24.0 / reynolds * (1.0 + 0.15 * pow(reynolds, 0.687)) +
+           0.42 / (1.0 + 42500.0 * pow(reynolds, -1.16));
+}
+
+double clast_drag_hindrance(double reynolds, double porosity)
+{
+    const double off = 1.5 - log10(reynolds);
+    const double n = 3.7 - 0.65 * exp(-0.5 * off * off);
+    return pow(fmin(1.0, fmax(0.36, porosity)), -(n + 1.0));
+}
+
 /// Root of C_D Re^2 = wanted by halving in log Re between bounds that hold it.
 static double solve_reynolds(double wanted, const clast_drag *drag)
 {

@@ -157,8 +157,9 @@ static clast_status parse_number(const clast_field *f, const char *text, bool is
 {
     const bool is_none = f->low == -1.0 && strcmp(text, "-1") == 0;
     const char *unit = f->unit != NULL ? f->unit : "-";
-    const clast_status status = is_si || is_none ? clast_unit_parse(text, unit, value)
-                                                 : clx_unit_parse_asked(text, unit, f->value, value);
+    const clast_status status = is_si || is_none
+                                    ? clast_unit_parse(text, unit, value)
+                                    : clx_unit_parse_asked(text, unit, f->value, value);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", f->name);
         return status;

@@ -7,6 +7,7 @@
 #include "cloud/cut_cells.h"
 #include "cloud/decompose_steps.h"
 #include "cloud/events.h"
+#include "cloud/pair_events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"
@@ -26,8 +27,9 @@ const clast_field clast_decompose_fields[] = {
      "how far to go: tests and passes, first test and one pass, one pass, tests alone",
      "full|first|fast|test", .common = true, .group = "method"},
     {FIELD(CLAST_FIELD_CHOICE, mesh), CLAST_CELLS_AUTO, 0, 0, "-",
-     "what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant "
-     "in 3-D, else boxes",
+     "what bins are joined into; tree splits by a chi-square test; auto: tree for the full "
+     "variant, "
+     "else boxes",
      "boxes|components|bins|labels|tree|auto", .common = true},
     {FIELD(CLAST_FIELD_CHOICE, events), 0, 0, 0, "-", "n (n - 1) / 2 pairs, or n^2 as printed",
      "pairs|paper"},
@@ -69,6 +71,17 @@ const clast_field clast_decompose_fields[] = {
      "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
      "cells",
      NULL},
+    {FIELD(CLAST_FIELD_BOOL, pairs), 0, 0, 0, "-",
+     "count pairs by distance: g(r), and events by pairs beside those by cells", NULL,
+     .common = true, .group = "pairs"},
+    {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "-",
+     "greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three "
+     "mean spacings in 3-D",
+     NULL},
+    {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_CELLS, 0, 0, "-",
+     "what events are counted by; auto: of cells and pairs the one that resolves the cloud and is "
+     "more certain",
+     "cells|pairs|auto"},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
      .group = "random numbers"},
     {0}};
@@ -127,6 +140,7 @@ void clast_decomposition_free(clast_decomposition *result)
 {
     free_cells(&result->cells);
     clast_table_free(&result->search);
+    clast_pairs_free(&result->pairs);
     *result = (clast_decomposition){0};
 }
 
@@ -412,6 +426,8 @@ static clast_status crossfit(const clast_cloud *cloud, const clast_decompose_con
     double found[2] = {0};
     clast_decompose_config plain = *config;
     plain.crossfit = false;
+    plain.pairs = false;
+    plain.estimator = CLAST_ESTIMATOR_CELLS;
     for (int k = 0; k < 2; ++k) {
         CLX_TRY(take_half(cloud, k, &half[k]));
     }
@@ -424,20 +440,20 @@ done:
     return status;
 }
 
-/// Boxes of bins keep the noise of about one point a bin in 3-D; the tree does not.
-static bool takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+/// Boxes of bins are joined for their counts and keep the noise, and blobs narrower than a bin; the
+/// tree does not.
+static bool takes_tree(const clast_decompose_config *config)
 {
     return config->mesh == CLAST_CELLS_TREE ||
            (config->mesh == CLAST_CELLS_AUTO && !config->paper &&
-            config->variant == CLAST_VARIANT_FULL &&
-            (cloud->dimension == 3 || cloud->variable != NULL));
+            config->variant == CLAST_VARIANT_FULL);
 }
 
 static clast_status make_cells(const clast_cloud *cloud, const clx_sample *m,
                                const clast_decompose_config *config, clast_decomposition *result)
 {
     const bool accepted = config->variant != CLAST_VARIANT_FAST && !result->before.reject;
-    const bool is_tree = takes_tree(config, cloud);
+    const bool is_tree = takes_tree(config);
     if (m->n_test < 5 || config->variant == CLAST_VARIANT_TEST || (accepted && !is_tree)) {
         result->stop = m->n_test < 5           ? CLAST_STOP_UNTESTED
                        : result->before.reject ? CLAST_STOP_TESTED
@@ -457,9 +473,9 @@ static clast_status check_config(const clast_decompose_config *config)
     return clast_fields_check(clast_decompose_fields, &named);
 }
 
-bool clx_decompose_takes_tree(const clast_decompose_config *config, const clast_cloud *cloud)
+bool clx_decompose_takes_tree(const clast_decompose_config *config)
 {
-    return takes_tree(config, cloud);
+    return takes_tree(config);
 }
 
 clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
@@ -469,7 +485,7 @@ clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *
     CLX_TRY(check_config(config));
     CLX_TRY(clx_domain_check(domain));
     CLX_TRY(clx_cloud_check(cloud));
-    CLX_CHECK(cloud->variable == NULL || takes_tree(config, cloud), CLAST_E_CONFIG,
+    CLX_CHECK(cloud->variable == NULL || takes_tree(config), CLAST_E_CONFIG,
               "cells uniform in a variable are cells of the tree: --mesh tree");
 done:
     return status;
@@ -509,7 +525,8 @@ done:
 }
 
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
-                                  const clast_decompose_config *config, clast_decomposition *result)
+                                  const clast_decompose_config *config, clx_shown *kept,
+                                  clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     result->beta_dt = config->beta_dt;
@@ -517,7 +534,8 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->seed = config->seed;
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
-    CLX_TRY(clx_events_count(cloud, config, sample, result));
+    CLX_TRY(clx_events_count(cloud, config, sample, kept, result));
+    CLX_TRY(clx_pair_events(sample->domain, cloud, config, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
@@ -539,7 +557,7 @@ clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *c
     CLX_TRY(clx_sample_make(cloud, config, domain, &m));
     CLX_TRY(clx_decompose_test(&m, config, &made.before));
     CLX_TRY(clx_decompose_cells(cloud, &m, config, &made));
-    CLX_TRY(clx_decompose_events(cloud, &m, config, &made));
+    CLX_TRY(clx_decompose_events(cloud, &m, config, NULL, &made));
     *result = made;
     made = (clast_decomposition){0};
 done:

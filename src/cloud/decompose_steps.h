@@ -1,6 +1,6 @@
 #pragma once
 // clast_decompose_in in its steps, for a loop that spares some of them.
-#include "cloud/sample.h"
+#include "cloud/events.h"
 
 /// Configuration (whose domain may be NULL), domain and cloud are such as can be decomposed.
 clast_status clx_decompose_check(const clast_domain *domain, const clast_cloud *cloud,
@@ -14,10 +14,10 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
 clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sample,
                                  const clast_decompose_config *config, clast_decomposition *result);
 
-/// Step 3: events of the cells, which are carried to the domain.
+/// Step 3: events of the cells, which are carried to the domain. `kept` as for clx_events_count.
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
-                                  const clast_decompose_config *config,
+                                  const clast_decompose_config *config, clx_shown *kept,
                                   clast_decomposition *result);
 
 /// Whether cells are those of the uniformity tree, which needs no vote.
-bool clx_decompose_takes_tree(const clast_decompose_config *config, const clast_cloud *cloud);
+bool clx_decompose_takes_tree(const clast_decompose_config *config);

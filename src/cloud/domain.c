@@ -79,7 +79,7 @@ static void to_world(const clast_domain *d, double *x)
 
 bool clast_domain_map(const clast_domain *d, const double *x, double *u)
 {
-    double local[3];
+    double local[3] = {0};
     if (d->is_placed) {
         to_local(d, x, local);
         x = local;
@@ -94,7 +94,7 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
         return map_pipe(d, x, u);
     }
     bool inside = true;
-    for (int32_t j = 0; j < d->dimension; ++j) {
+    for (int32_t j = 0; j < d->dimension && j < 3; ++j) {
         u[j] = (x[j] - d->low[j]) / (d->high[j] - d->low[j]);
         inside = inside && u[j] >= 0.0 && u[j] <= 1.0;
     }

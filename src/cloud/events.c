@@ -3,6 +3,7 @@
 #include "cloud/events.h"
 
 #include "base/alloc.h"
+#include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <math.h>
@@ -23,12 +24,13 @@ typedef struct {
     double scale; ///< volume of the domain over the sum of the cells' volumes
     double rate;  ///< beta dt; 1 where it is not known, and nothing is capped
     bool is_printed;
-    bool is_plain;   ///< nothing is extrapolated
-    part *cell;      ///< [cells->n]
-    part *half;      ///< [n_half][2^d] halves of the cells of group -2, -3 ..
-    bool *capped;    ///< [cells->n]
-    double pairs;    ///< sum of K_ij w_i w_j over i != j where no cell is capped
-    double variance; ///< of that sum
+    bool is_plain;     ///< nothing is extrapolated
+    part *cell;        ///< [cells->n]
+    part *half;        ///< [n_half][2^d] halves of the cells of group -2, -3 ..
+    bool *capped;      ///< [cells->n]
+    double pairs;      ///< sum of K_ij w_i w_j over i != j where no cell is capped
+    double variance;   ///< of that sum, and where is_certified of its systematic error too
+    bool is_certified; ///< by the resolution: no error is added for what was extrapolated
 } count;
 
 static void add_weight(part *p, double w)
@@ -216,22 +218,117 @@ static void share_out(const count *n, double plain, clast_decomposition *r)
     r->smoothing_bias = 1.0 / factor - 1.0;
 }
 
+/// Sum of w_i w_j / V over i != j in all cells, capped or not.
+static double count_all(const count *n)
+{
+    double sum = 0.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        const double *w = n->cell[c].power;
+        sum += fmax(0.0, w[0] * w[0] - (n->is_printed ? 0.0 : w[1])) / n->cell[c].volume;
+    }
+    return sum;
+}
+
+/// Whether the one cell that the tests left agrees with what the pairs show: it is then the better
+/// value, for a uniform cloud's number of pairs is known without error.
+static bool is_one_cell(const count *n, const clx_resolution *shown, double all)
+{
+    const double error = log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value;
+    const double between = error * error - n->variance; // finer cells add what is independent
+    const double off = shown->value - all;
+    return n->cells->n == 1 && !n->capped[0] && between < 1e-4 * all * all &&
+           off * off <= 4.0 * fmax(0.0, between);
+}
+
+/// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are
+/// a tree; of other cells it tells how far they are off. [docs/theory/decompose.md section 8]
+static void certify(count *n, const clx_resolution *shown, double plain, clast_decomposition *r)
+{
+    const double all = count_all(n);
+    const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
+    r->resolved = shown->resolved;
+    r->points_needed = shown->n_factor * (double)r->n;
+    r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
+    if (shown->resolved && is_one_cell(n, shown, all)) {
+        r->cells_bias = 0.0;
+        n->is_certified = true;
+        return;
+    }
+    if (n->is_plain) {
+        r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
+    } else if (shown->resolved) {
+        n->pairs = shown->value * share;
+    } else {
+        n->pairs = fmax(n->pairs, shown->low * share);
+    }
+    n->is_certified = r->resolved;
+    if (n->is_certified) {
+        const double error =
+            log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value * share;
+        n->variance = error * error;
+    }
+}
+
 /// 95 % by the normal law on the logarithm, for pair counts are skewed. The law of the
 /// extrapolation is an assumption: a third of what it adds counts as a standard error.
 static void set_interval(const count *n, clast_decomposition *r)
 {
     const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
-    const double added = r->events * r->smoothing_bias;
+    const double added = n->is_certified ? 0.0 : r->events * r->smoothing_bias;
     double variance = rate * rate * fmax(0.0, n->variance) + added * added / 9.0;
     double cap = 0.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         cap += cap_of(n, c);
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
-    const double reach =
-        r->events > 0.0 ? 1.959963984540054 * sqrt(variance) / r->events : 0.0; // 97.5 %
+    const double reach = r->events > 0.0 ? CLX_NORMAL_975 * sqrt(variance) / r->events : 0.0;
     r->events_low = r->events * exp(-reach);
     r->events_high = fmin(cap, r->events * exp(reach));
+}
+
+/// The interval of a sample that is not resolved: nothing is known above.
+static void open_interval(const count *n, const clx_resolution *shown, double plain,
+                          clast_decomposition *r)
+{
+    const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
+    const double all = count_all(n);
+    double capped = 0.0;
+    double variance = 0.0;
+    for (int32_t c = 0; c < n->cells->n; ++c) {
+        capped += n->capped[c] ? n->cells->events[c] : 0.0;
+        variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
+    }
+    const double low = all > 0.0 ? rate * shown->low * plain / all : 0.0;
+    r->events_low = fmin(r->events - capped, low) +
+                    (capped > 0.0 ? capped * exp(-CLX_NORMAL_975 * sqrt(variance) / capped) : 0.0);
+    r->events_high = INFINITY;
+}
+
+static clx_resolution scaled(clx_resolution shown, double factor)
+{
+    shown.value *= factor;
+    shown.low *= factor;
+    shown.high *= factor;
+    return shown;
+}
+
+/// What the pairs of all points show: counted, or as kept.
+static clast_status find_shown(const count *n, clx_shown *kept, clx_resolution *shown)
+{
+    clast_status status = CLAST_OK;
+    clx_ladder ladder;
+    const double all = count_all(n);
+    if (kept != NULL && kept->is_known) {
+        *shown = scaled(kept->relative, all);
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
+    *shown = clx_resolution_of(&ladder);
+    if (kept != NULL && all > 0.0) {
+        *kept = (clx_shown){true, scaled(*shown, 1.0 / all)};
+    }
+done:
+    return status;
 }
 
 static clast_status alloc_parts(count *n)
@@ -251,10 +348,12 @@ done:
 }
 
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clast_decomposition *result)
+                              const clx_sample *sample, clx_shown *kept,
+                              clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
     const clast_domain *domain = sample->domain;
+    clx_resolution shown = {0};
     count n = {.cloud = cloud,
                .config = config,
                .sample = sample,
@@ -266,10 +365,15 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     CLX_TRY(alloc_parts(&n));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
+    CLX_TRY(find_shown(&n, kept, &shown));
     const double plain = count_plain(&n);
     count_pairs(&n);
+    certify(&n, &shown, plain, result);
     share_out(&n, plain, result);
     set_interval(&n, result);
+    if (!result->resolved) {
+        open_interval(&n, &shown, plain, result);
+    }
     result->bias_estimate =
         n.is_printed && result->n > 0 ? (double)result->cells.n / (double)result->n : (double)NAN;
 done:

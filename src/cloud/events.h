@@ -1,8 +1,18 @@
 #pragma once
 // Events of cells, what uniform cells hide of them, and their interval.
-#include "cloud/sample.h"
+#include "cloud/resolution.h"
+
+/// What the pairs of one sample have shown, over the sum of pairs in its cells.
+typedef struct clx_shown {
+    bool is_known;
+    clx_resolution relative; ///< value, low and high over that sum
+} clx_shown;
 
 /// Fills weight and events of the cells, and the result's events, interval and biases. Cells and
 /// their volumes are those of the unit cube; of a mesh domain the volumes are real ones.
+///
+/// @param kept  NULL: what the pairs show is counted. Else it is taken from there where it is
+/// known, and left there where it was not: cells that stay keep their resolution
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clast_decomposition *result);
+                              const clx_sample *sample, clx_shown *kept,
+                              clast_decomposition *result);

@@ -422,8 +422,8 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     if (f->n_level == 0) { // next to no pairs
         made.estimate = (clast_estimate){NAN, 0.0, INFINITY, false};
         made.fit_p = 1.0;
-        made.n_needed = NAN;
         set_window(in, &made);
+        made.n_needed = in->n * sqrt(10.0 * LEAST_PAIRS / fmax(1.0, (double)made.n_pair));
         *result = made;
         goto done;
     }
@@ -442,7 +442,7 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     made.n_needed = in->n;
     set_window(in, &made);
     if (!e->resolved) {
-        e->high = INFINITY;
+        e->high = made.n_needed = INFINITY;
     }
     *result = made;
 done:

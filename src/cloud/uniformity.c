@@ -104,7 +104,7 @@ static clast_status cast_pearson(const double *u, int64_t n, int32_t d,
     if (votes(config, PEARSON) && d > 1) {
         CLX_TRY(clast_pearson_test(u, n, d, &found));
         int least = 0;
-        for (int k = 1; k < found.n_pair; ++k) {
+        for (int k = 1; k < found.n_pair && k < 3; ++k) {
             least = found.p[k] < found.p[least] ? k : least;
         }
         cast(r, PEARSON, found.r[least], config->paper ? found.p[least] : found.p_bonferroni,

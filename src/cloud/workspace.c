@@ -39,6 +39,7 @@ struct clast_workspace {
     clast_uniformity tests;  ///< the last ones
     clx_moments tested;      ///< at the last tests
     clx_blocks counted;      ///< at the last cut
+    clx_shown shown;         ///< by the pairs of the last cut
     int64_t n_cut;           ///< points at the last cut
     clast_uniformity cut_by; ///< vote at the last cut
     clx_kept_cells kept;
@@ -336,23 +337,25 @@ static clast_status run_call(call *c, const clast_domain *domain)
         clast_decomposition_free(&c->workspace->last);
         CLX_TRY(cut(c));
     }
-    CLX_TRY(clx_decompose_events(&c->cloud, &c->sample, c->config, &c->made));
+    if (c->is_cut) {
+        c->workspace->shown.is_known = false;
+    }
+    CLX_TRY(clx_decompose_events(&c->cloud, &c->sample, c->config, &c->workspace->shown, &c->made));
 done:
     return status;
 }
 
 /// Whether the policy can be kept with this configuration.
-static clast_status check_policy(const clast_workspace_policy *policy, int32_t dimension,
+static clast_status check_policy(const clast_workspace_policy *policy,
                                  const clast_decompose_config *config)
 {
     clast_status status = CLAST_OK;
-    const clast_cloud cloud = {.dimension = dimension};
     const bool spares = policy->tests != CLAST_TESTS_EACH || policy->cells != CLAST_CUT_EACH;
     CLX_CHECK(!config->crossfit || !spares, CLAST_E_CONFIG,
               "crossfit cuts both halves at each call: it goes with the policy tests = each and "
               "cells = each alone");
     CLX_CHECK(policy->tests != CLAST_TESTS_NEVER || config->variant >= CLAST_VARIANT_FAST ||
-                  clx_decompose_takes_tree(config, &cloud),
+                  clx_decompose_takes_tree(config),
               CLAST_E_CONFIG,
               "tests = never: these cells are cut where the tests reject; take mesh = tree, or "
               "variant = fast");
@@ -375,7 +378,7 @@ clast_status clast_workspace_decompose_in(clast_workspace *workspace, const clas
     CLX_NEED(result);
     CLX_TRY(check_points(points));
     CLX_TRY(clx_decompose_check(domain, &(clast_cloud){.dimension = points->dimension}, config));
-    CLX_TRY(check_policy(&workspace->policy, points->dimension, config));
+    CLX_TRY(check_policy(&workspace->policy, config));
     before = clx_pool_enter(workspace->pool);
     is_in = true;
     *result = NULL;

@@ -14,6 +14,8 @@ enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
 {
     clx_link copy = *link;
+    const clx_extra *kept = clx_link_extra(dem, link);
+    clx_extra extra = kept != NULL ? *kept : (clx_extra){0};
     clx_dem_touch t;
     clx_load on_a = {0};
     clx_load on_b = {0};
@@ -21,7 +23,7 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
     if (!clx_link_holds(dem, link, &t)) {
         return false;
     }
-    clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
+    clx_push_pair(dem, &dem->law, &copy, &extra, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
         v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link), on_a.force);
     }

@@ -215,6 +215,7 @@ uint64_t clast_dem_hash(const clast_dem *dem)
             const double who[2] = {dem->list.link[k].a, dem->list.link[k].b};
             h = mix(h, who, 2);
             h = mix(h, dem->list.link[k].slide, 3);
+            h = dem->law.has_extra ? mix(h, dem->list.extra[k].roll, 4) : h;
         }
     }
     return h;

@@ -59,7 +59,9 @@ class TrueWords(Case):
         self.assertIn('Name="pair_integral"', (out / "cells.vtu").read_text())
         page = self.folder / "page.html"
         self.assertEqual(clast("report", out, "-o", page).code, 0)
-        self.assertIn("Pair integral", page.read_text())
+        text = re.sub(r"<[^>]+>", " ", page.read_text())
+        self.assertRegex(text, r"Pair integral, events per beta dt \(1/m\^d\)")
+        self.assertRegex(text, r"Standard score\s+-?[\d.]+\s+p-value")  # "z" is no length here
 
     def test_a_tree_has_no_labels(self):
         out = self.folder / "out"
@@ -159,7 +161,7 @@ class TrueWords(Case):
         out = self.folder / "out"
         r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "-o", out)
         summary = json.loads((out / "summary.json").read_text())
-        wanted = {"domain": "box:0,0,1,1", "volume": 1.0, "volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
+        wanted = {"domain": "box:0,0,1,1", "domain_volume": 1.0, "domain_volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
         for key, value in wanted.items():
             self.assertEqual(r[key], value, key)
             self.assertEqual(summary[key], value, key)
@@ -179,6 +181,12 @@ class TrueWords(Case):
         self.assertEqual(drawn["seed"], 7)
         self.assertEqual(json.loads((self.folder / "drawn/manifest.json").read_text())["seed"], 7)
         self.assertIn("seed 7", table(self.folder / "drawn/cells.csv")[0][0])
+
+    def test_agglomerate_names_its_domain_and_seed_too(self):
+        r = clast("agglomerate", B3, "--domain", "box:0,0,0,1m,1m,100cm", "--constant", "1e-3", "--n-step", "1", "--seed", "5", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual([r.json[key] for key in ("domain", "domain_volume", "domain_volume_unit", "length_unit", "seed")],
+                         [CUBE, 1.0, "m^3", "m", 5])
 
     def test_equal_runs_write_equal_summaries(self):
         for command, options in (("decompose", ["--domain", CUBE]),

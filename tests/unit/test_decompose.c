@@ -50,7 +50,7 @@ static void unit_weights_change_nothing_and_double_ones_count_fourfold(void **st
         cloud.weight = weight;
         CHECK_OK(clast_decompose(&cloud, &c, &weighted));
         CHECK_REL(weighted.events, pass * pass * plain.events, 1e-13);
-        CHECK_REL(weighted.events_high, pass * pass * plain.events_high, 1e-13);
+        CHECK_REL(weighted.events_low, pass * pass * plain.events_low, 1e-13);
         CHECK_REL(weighted.cells.weight[0], pass * (double)plain.cells.count[0], 0.0);
         clast_decomposition_free(&weighted);
     }
@@ -121,6 +121,7 @@ static void sampled_ghosts_agree_with_the_formula(void **state)
     clast_decompose_config c = config_of(square);
     clast_decomposition exact = {0};
     clast_decomposition sampled = {0};
+    set(&c, "mesh", "boxes");
     CHECK_OK(clast_decompose(&cloud, &c, &exact));
     set(&c, "ghost_samples", "400");
     CHECK_OK(clast_decompose(&cloud, &c, &sampled));
@@ -366,6 +367,7 @@ static void a_stop_is_what_happened(void **state)
     assert_string_equal(stop_of(&cloud, &c), "accepted by the tests");
     cloud.n = 4;
     assert_string_equal(stop_of(&cloud, &c), "not tested: fewer than 5 points");
+    set(&c, "mesh", "boxes");
     cloud = cloud_of("f2_n500");
     assert_string_equal(stop_of(&cloud, &c), "split; the tests then accept");
     set(&c, "variant", "first");
@@ -540,9 +542,20 @@ static clast_status decompose_once(void *context)
     return status;
 }
 
+static clast_status measure_spacing_once(void *context)
+{
+    const clast_cloud *cloud = context;
+    clast_spacing spacing;
+    int64_t n_repeated = 0;
+    const clast_status status = clast_spacing_test(cloud->x, cloud->n, cloud->dimension, &spacing);
+    return status == CLAST_OK ? clast_cloud_repeated(cloud, &n_repeated) : status;
+}
+
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
+    clast_cloud cloud = cloud_of("f2_n500");
+    support_refuse_each_allocation(measure_spacing_once, &cloud);
     clast_decompose_config c = config_of(square);
     set(&c, "ghost_samples", "2");
     set(&c, "variant", "fast");

@@ -87,11 +87,11 @@ static void extrapolated_events_equal_sums_over_pairs(void **state)
         c.beta_dt = 1e-15; // far from the cap
         CHECK_OK(clast_decompose(&cloud, &c, &r));
         by_hand(&r.cells, &cloud, sum);
-        CHECK_REL(r.events, 0.5e-15 * sum[0], 1e-12);
-        const double added = r.events * r.smoothing_bias / 3.0;
-        const double sd = hypot(0.5e-15 * sqrt(sum[1]), added);
-        CHECK_REL(log(r.events_high / r.events), 1.959963984540054 * sd / r.events, 1e-11);
-        CHECK_REL(r.events_low * r.events_high, r.events * r.events, 1e-12);
+        assert_true(!r.resolved || run % 3 == 0); // so few points in a heap are not
+        if (!r.resolved) {
+            CHECK_REL(r.events, 0.5e-15 * sum[0], 1e-12);
+            assert_true(isinf(r.events_high) && r.events_low < r.events && r.points_needed > N);
+        }
         double in_cells = 0.0;
         for (int32_t k = 0; k < r.cells.n; ++k) {
             in_cells += r.cells.events[k];

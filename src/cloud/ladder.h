@@ -1,0 +1,21 @@
+#pragma once
+// Pairs of points in one cell of a regular grid, for all halvings of its cells at once, averaged
+// over shifted grids, with the covariance of these sums: what tells whether a sample resolves its
+// own structure. [docs/theory/decompose.md section 8]
+#include "cloud/sample.h"
+
+enum { CLX_LADDER_RUNGS = 12 };
+
+/// Rung r: cells of 2^-(first + r) of the unit cube an axis. The expectation of `pairs` rises from
+/// rung to rung, to the integral of the squared density.
+typedef struct clx_ladder {
+    int32_t first, n; ///< halvings of rung 0; number of rungs
+    int32_t d;
+    double pairs[CLX_LADDER_RUNGS]; ///< sum of w_i w_j / V over i != j in one cell of real volume V
+    double n_pair[CLX_LADDER_RUNGS];                       ///< mean number of such pairs, each once
+    double covariance[CLX_LADDER_RUNGS][CLX_LADDER_RUNGS]; ///< of `pairs`, for Poisson points
+} clx_ladder;
+
+/// @param weight  of all points of the cloud, or NULL (1)
+/// @note O(n log n), 5 sorts; bytes do not depend on threads
+clast_status clx_ladder_count(const clx_sample *sample, const double *weight, clx_ladder *ladder);

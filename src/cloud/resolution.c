@@ -1,0 +1,169 @@
+// What cells of one size hide by being taken as uniform falls with their size: by 2 a halving where
+// the density jumps, by 4 where it is smooth, by less where it has a pole. With q the sums over the
+// ladder's rungs and S = q_r - q_(r-2) the tail is S / (ratio^2 - 1), with a ratio between the one
+// that was measured (2 where nothing was) and 4. The middle is added to q_r, the half range is the
+// estimate's systematic error. [docs/theory/decompose.md section 8]
+#include "cloud/resolution.h"
+
+#include <math.h>
+
+enum { LEAST_HALVINGS = 3 };
+
+static const double least_pairs = 500.0; ///< in the cells of a rung that decides
+static const double most_error = 0.01;   ///< most systematic error of a resolved value
+static const double most_share = 0.5;    ///< the same over its standard error
+static const double witness = 2.5;       ///< finer cells may lie so many standard errors higher
+static const double least_ratio = 1.1, smooth = 4.0, jump = 2.0, expected_ratio = 2.5;
+static const double bound_reach = 2.3;  ///< standard errors, for the greatest of some bounds
+static const double bound_pairs = 50.0; ///< a lower bound needs so many
+
+/// What one rung says.
+typedef struct {
+    double value, systematic, error; ///< error: both kinds
+    bool resolved;                   ///< as far as this rung tells
+    int32_t finer;                   ///< a rung whose pairs show more than that; 0: none
+} reading;
+
+/// Variance of sum a_r q_r.
+static double variance_of(const clx_ladder *l, const double *a)
+{
+    double sum = 0.0;
+    for (int32_t r = 0; r < l->n; ++r) {
+        for (int32_t q = 0; q < l->n; ++q) {
+            sum += a[r] * a[q] * l->covariance[r][q];
+        }
+    }
+    return fmax(0.0, sum);
+}
+
+/// Standard error of q_a - q_b.
+static double error_between(const clx_ladder *l, int32_t a, int32_t b)
+{
+    double form[CLX_LADDER_RUNGS] = {0};
+    form[a] += 1.0;
+    form[b] -= 1.0;
+    return sqrt(variance_of(l, form));
+}
+
+/// What the two halvings before rung r added; no less than a halving before lets expect, so that a
+/// sample is not taken for resolved because a small number came out small by chance.
+static double step_at(const clx_ladder *l, int32_t r)
+{
+    const double seen = l->pairs[r] - l->pairs[r - 2];
+    const double before = r > 2 ? l->pairs[r - 1] - l->pairs[r - 3] : 0.0;
+    return fmax(fmax(seen, before / expected_ratio), error_between(l, r, r - 2));
+}
+
+/// Least ratio of what successive halvings add: the measured one less its standard error. Where
+/// nothing is seen to fall that of a jump, or the lower one of the rung before.
+static double least_ratio_at(const clx_ladder *l, int32_t r)
+{
+    if (r < 3) {
+        return jump;
+    }
+    const double before = l->pairs[r - 1] - l->pairs[r - 3];
+    const double before_error = error_between(l, r - 1, r - 3);
+    if (before < 2.0 * before_error) {
+        return fmin(jump, least_ratio_at(l, r - 1));
+    }
+    const double ratio = (before - before_error) / (step_at(l, r) + error_between(l, r, r - 2));
+    return fmin(smooth, fmax(least_ratio, ratio));
+}
+
+static reading read_rung(const clx_ladder *l, int32_t r)
+{
+    reading made = {0};
+    double form[CLX_LADDER_RUNGS] = {0};
+    const double step = l->pairs[r] - l->pairs[r - 2];
+    const double ratio = least_ratio_at(l, r);
+    const double least = 1.0 / (smooth * smooth - 1.0);
+    const double most = 1.0 / (ratio * ratio - 1.0);
+    form[r] = 1.0 + 0.5 * (least + most);
+    form[r - 2] = -0.5 * (least + most);
+    made.value = l->pairs[r] + 0.5 * (least + most) * step;
+    made.systematic = 0.5 * (most - least) * step_at(l, r);
+    const double variance = variance_of(l, form);
+    made.error = sqrt(variance + made.systematic * made.systematic);
+    for (int32_t m = r + 1; m < l->n; ++m) {
+        double finer[CLX_LADDER_RUNGS] = {0};
+        for (int32_t k = 0; k < l->n; ++k) {
+            finer[k] = (k == m ? 1.0 : 0.0) - form[k];
+        }
+        if (l->pairs[m] - made.value > witness * sqrt(variance_of(l, finer))) {
+            made.finer = m;
+        }
+    }
+    made.resolved = made.finer == 0 && l->n_pair[r] >= least_pairs &&
+                    made.systematic <= most_error * made.value &&
+                    made.systematic <= most_share * sqrt(variance);
+    return made;
+}
+
+/// Greatest lower bound: pairs of any cells fall short of the integral.
+static double lower_bound(const clx_ladder *l)
+{
+    double most = 0.0;
+    for (int32_t r = 0; r < l->n && l->n_pair[r] >= bound_pairs; ++r) {
+        const double reach = bound_reach * sqrt(fmax(0.0, l->covariance[r][r])) / l->pairs[r];
+        most = fmax(most, l->pairs[r] * exp(-reach));
+    }
+    return most;
+}
+
+/// How many times the points would give rung r its pairs; rungs beyond the last have 2^d times
+/// fewer.
+static double factor_for(const clx_ladder *l, int32_t r)
+{
+    const int32_t last = r < l->n ? r : l->n - 1;
+    const double pairs = l->n_pair[last] * ldexp(1.0, -l->d * (r - last));
+    return fmax(1.1, sqrt(least_pairs / pairs));
+}
+
+/// The same for what rung r, the last with pairs enough, leaves open: finer rungs where structure
+/// is seen there, and where the systematic error would have fallen far enough.
+static double factor_needed(const clx_ladder *l, int32_t r)
+{
+    const reading at = read_rung(l, r);
+    const double ratio = fmin(smooth, fmax(1.5, 1.25 * least_ratio_at(l, r)));
+    const double excess = at.systematic / (0.75 * most_error * at.value);
+    int32_t wanted = LEAST_HALVINGS - l->first;
+    if (at.finer > r) {
+        wanted = at.finer + 1;
+    }
+    if (excess > 1.0) {
+        const double halvings = ceil(log(excess) / log(ratio));
+        if (halvings > 12.0) {
+            return INFINITY;
+        }
+        wanted = wanted > r + (int32_t)halvings ? wanted : r + (int32_t)halvings;
+    }
+    return factor_for(l, wanted > r ? wanted : r);
+}
+
+clx_resolution clx_resolution_of(const clx_ladder *l)
+{
+    clx_resolution made = {.high = INFINITY, .n_factor = INFINITY};
+    double least = INFINITY; // error of the value so far
+    int32_t last = 2;
+    bool is_deep = false;
+    for (int32_t r = 2; r < l->n && (r == 2 || l->n_pair[r] >= least_pairs); ++r) {
+        const reading at = read_rung(l, r);
+        last = r;
+        is_deep = is_deep || (at.resolved && l->first + r >= LEAST_HALVINGS);
+        if (at.resolved && at.error < least) {
+            least = at.error;
+            made = (clx_resolution){.value = at.value,
+                                    .low = at.value * exp(-CLX_NORMAL_975 * at.error / at.value),
+                                    .high = at.value * exp(CLX_NORMAL_975 * at.error / at.value),
+                                    .n_factor = 1.0,
+                                    .halvings = l->first + r};
+        }
+    }
+    made.resolved = is_deep;
+    if (!made.resolved) {
+        made.low = lower_bound(l);
+        made.high = INFINITY;
+        made.n_factor = l->n > 2 ? factor_needed(l, last) : (double)INFINITY;
+    }
+    return made;
+}

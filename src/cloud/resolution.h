@@ -1,0 +1,18 @@
+#pragma once
+// Whether a sample resolves its own structure, and the integral of its squared density.
+#include "cloud/ladder.h"
+
+#define CLX_NORMAL_975 1.959963984540054
+#define CLX_MOST_BIAS  0.02 ///< of what is called resolved
+
+typedef struct clx_resolution {
+    double value;     ///< sum over pairs per volume: n (n - 1) times the integral; where resolved
+    double low, high; ///< 95 %; not resolved: low alone holds, at 97.5 %, and high is INFINITY
+    bool resolved;
+    double n_factor;  ///< so many times the points would resolve it: 1 where it is resolved,
+                      ///< INFINITY where that cannot be told
+    int32_t halvings; ///< of the cells whose pairs decide
+} clx_resolution;
+
+/// Reads a ladder. [docs/theory/decompose.md section 8]
+clx_resolution clx_resolution_of(const clx_ladder *ladder);
