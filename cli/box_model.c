@@ -22,7 +22,7 @@ int cli_box_fields(clast_field *fields, int n, size_t offset)
                       "a well-mixed box without POINTS: --concentration and a law of sizes",
                       NULL,
                       "box without positions",
-                      true};
+                      false};
     for (const clast_field *f = clast_spectrum_fields; f->name != NULL; ++f) {
         fields[n] = *f;
         fields[n].group = NULL;
@@ -261,10 +261,12 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
     }
 }
 
-/// Values and band of a column over time.
+/// Values and band of a column over time; `room` [2 n_row] keeps the band's limits.
 static int32_t add_series(const clast_table *h, const char *name, const char *label, int32_t colour,
-                          double *low, double *high, clast_series *series)
+                          double *room, clast_series *series)
 {
+    double *low = room;
+    double *high = room + h->n_row;
     char deviation[64];
     const double *value = clast_table_numbers(h, name);
     if (value == NULL) {
@@ -305,8 +307,7 @@ clast_status cli_draw_columns(const clast_table *h, const char *const *name,
         return cli_fail(CLAST_E_MEMORY, "not enough memory for a chart");
     }
     for (int k = 0; k < N_CURVE && name[k] != NULL; ++k) {
-        double *low = room + 2 * k * h->n_row;
-        n += add_series(h, name[k], label[k], k, low, low + h->n_row, series + n);
+        n += add_series(h, name[k], label[k], k, room + 2 * k * h->n_row, series + n);
     }
     const clast_chart chart = {
         .x = {.label = "time (s)"}, .y = {.label = axis}, .series = series, .n_series = n};
@@ -412,16 +413,15 @@ static clast_status write_files(const clast_spectrum *r, const char *folder, con
     return status;
 }
 
-static clast_status keep(const cli_box *box, const clast_field *fields, const void *config,
-                         const clast_agglomerate_config *agglomerate, const clast_spectrum *r,
-                         const char *picture, const json_t *out, clast_run_folder *folder)
+static clast_status keep(const cli_box_job *job, const clast_spectrum *r, const json_t *out,
+                         clast_run_folder *folder)
 {
-    const bool draws = box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO;
-    const cli_input inputs[] = {{"sizes", box->initial_file}, {NULL, NULL}};
-    clast_status status = cli_results_open(folder, fields, config,
-                                           draws ? &agglomerate->decompose.seed : NULL, inputs);
+    const bool draws = job->box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO;
+    const cli_input inputs[] = {{"sizes", job->box->initial_file}, {NULL, NULL}};
+    clast_status status = cli_results_open(
+        folder, job->fields, job->config, draws ? &job->agglomerate->decompose.seed : NULL, inputs);
     if (status == CLAST_OK) {
-        status = write_files(r, clast_run_folder_path(folder), picture);
+        status = write_files(r, clast_run_folder_path(folder), job->picture);
     }
     status = status == CLAST_OK ? cli_results_summary(folder, out) : status;
     return clast_run_folder_end(folder, status);
@@ -454,29 +454,29 @@ static clast_status evolve(const cli_box *box, const clast_agglomerate_config *a
     return status;
 }
 
-clast_status cli_box_run(const cli_common *common, const clast_field *fields, void *config,
-                         const cli_box *box, const clast_agglomerate_config *agglomerate,
-                         const char *picture, bool *force)
+clast_status cli_box_run(const cli_box_job *job, bool *force)
 {
     clast_spectrum r = {0};
     clast_run_folder *folder = NULL;
+    const cli_common *common = job->common;
+    const char *kernel = job->agglomerate->kernel;
+    const int32_t repeats = job->agglomerate->repeats;
     const double begun = cli_clock();
     clast_status status = cli_results_begin(common, common->output, force, &folder);
     if (status == CLAST_OK) {
-        status = evolve(box, agglomerate, &r);
+        status = evolve(job->box, job->agglomerate, &r);
     }
     if (status == CLAST_OK) {
-        json_t *out =
-            summary_of(box, agglomerate->kernel, agglomerate->repeats, &r, cli_clock() - begun);
+        json_t *out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
         if (folder != NULL) {
-            status = keep(box, fields, config, agglomerate, &r, picture, out, folder);
+            status = keep(job, &r, out, folder);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(out);
         } else {
             json_decref(out);
             if (status == CLAST_OK) {
-                print_words(box, agglomerate->kernel, agglomerate->repeats, &r);
+                print_words(job->box, kernel, repeats, &r);
             }
         }
     }

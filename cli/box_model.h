@@ -18,10 +18,18 @@ int cli_box_fields(clast_field *fields, int n, size_t offset);
 clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
                            const cli_box *box);
 
-/// Runs the box and writes or prints what it gives; `picture` is the extension of charts.
-clast_status cli_box_run(const cli_common *common, const clast_field *fields, void *config,
-                         const cli_box *box, const clast_agglomerate_config *agglomerate,
-                         const char *picture, bool *force);
+/// A run: where results go, the whole configuration, and the parts of it that a box looks at.
+typedef struct cli_box_job {
+    const cli_common *common;
+    const clast_field *fields;
+    const void *config;
+    const cli_box *box;
+    const clast_agglomerate_config *agglomerate;
+    const char *picture; ///< extension of charts
+} cli_box_job;
+
+/// Runs the box and writes or prints what it gives; clears `force`, as cli_results_begin.
+clast_status cli_box_run(const cli_box_job *job, bool *force);
 
 /// Lines of several columns over time_s (names and legends end with NULL, 8 at most; a missing
 /// column is left out), with bands of one standard deviation where there are columns NAME_sd.

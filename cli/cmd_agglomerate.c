@@ -303,9 +303,8 @@ static clast_status run(const cli_common *common, void *values)
     config *c = values;
     const clast_status checked = cli_box_check(common, fields, c, &c->box);
     if (checked != CLAST_OK || c->box.box_model) {
-        return checked != CLAST_OK ? checked
-                                   : cli_box_run(common, fields, c, &c->box, &c->agglomerate,
-                                                 chart_end[c->charts], &c->force);
+        const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
+        return checked != CLAST_OK ? checked : cli_box_run(&job, &c->force);
     }
     loaded l = {0};
     clast_agglomeration result = {0};
