@@ -342,7 +342,7 @@ static clast_status keep_results(const cli_common *common, const config *c,
     }
     status = status == CLAST_OK ? cli_decompose_files(j, folder) : status;
     if (status == CLAST_OK && j->result->pairs.n > 0) {
-        status = cli_decompose_pairs_write(j->result, folder, j->chart_end);
+        status = cli_decompose_pairs_write(j, folder);
     }
     status = status == CLAST_OK ? cli_results_summary(run, summary) : status;
     return clast_run_folder_end(run, status);

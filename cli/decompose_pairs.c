@@ -16,6 +16,20 @@ static void add_column(json_t *out, const char *key, const clast_pairs *p, const
     (void)json_object_set_new(out, key, list);
 }
 
+/// Events with beta dt, else the pair integral: value, low and high.
+static void add_estimate(json_t *out, const clast_decomposition *r, const char *by,
+                         const clast_estimate *e)
+{
+    static const char *const end[3] = {"", "_low", "_high"};
+    const double value[3] = {e->value, e->low, e->high};
+    for (int k = 0; k < 3; ++k) {
+        char key[64];
+        (void)snprintf(key, sizeof key, "%s%s%s", r->beta_dt > 0.0 ? "events" : "pair_integral", by,
+                       end[k]);
+        cli_json_number(out, key, value[k]);
+    }
+}
+
 json_t *cli_decompose_pairs_json(const clast_decomposition *r)
 {
     const clast_pairs *p = &r->pairs;
@@ -40,12 +54,8 @@ json_t *cli_decompose_pairs_json(const clast_decomposition *r)
     cli_json_number(out, "window", i->window);
     cli_json_count(out, "n_window", i->n_pair);
     cli_json_number(out, "fit_p", i->fit_p);
-    cli_json_number(out, "events", r->events_by_pairs.value);
-    cli_json_number(out, "events_low", r->events_by_pairs.low);
-    cli_json_number(out, "events_high", r->events_by_pairs.high);
-    cli_json_number(out, "events_by_cells", r->events_by_cells.value);
-    cli_json_number(out, "events_by_cells_low", r->events_by_cells.low);
-    cli_json_number(out, "events_by_cells_high", r->events_by_cells.high);
+    add_estimate(out, r, "", &r->events_by_pairs);
+    add_estimate(out, r, "_by_cells", &r->events_by_cells);
     cli_json_bool(out, "disagree", r->disagree);
     return out;
 }
@@ -100,12 +110,14 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
     }
 }
 
-clast_status cli_decompose_pairs_write(const clast_decomposition *r, const char *folder,
-                                       const char *end)
+clast_status cli_decompose_pairs_write(const cli_decompose_job *j, const char *folder)
 {
+    const clast_decomposition *r = j->result;
     char path[4096];
+    char note[CLI_DECOMPOSE_NOTE];
+    cli_decompose_note(j, note);
     (void)snprintf(path, sizeof path, "%s/pairs.csv", folder);
-    const clast_status status = clast_table_write_csv(&r->pairs.shells, path);
-    (void)snprintf(path, sizeof path, "%s/pairs.%s", folder, end);
+    const clast_status status = clast_table_write_csv_note(&r->pairs.shells, note, path);
+    (void)snprintf(path, sizeof path, "%s/pairs.%s", folder, j->chart_end);
     return status == CLAST_OK ? clast_pairs_chart_write(&r->pairs, path) : status;
 }

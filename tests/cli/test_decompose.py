@@ -327,13 +327,14 @@ class Pairs(Case):
 
     def test_pairs_are_printed_beside_cells_and_written(self):
         out = self.folder / "out"
-        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--pairs")
+        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--pairs")
         words = clast(*command, "-o", out)
         self.assertEqual(words.code, 0, words.err)
         self.assertRegex(words.out, r"pairs within .* m; integral of the squared density .* 1/m\^3")
         self.assertRegex(words.out, r"events by pairs .*, by cells .*; events are those by cells")
         self.assertTrue((out / "pairs.svg").exists())
-        rows = (out / "pairs.csv").read_text().splitlines()
+        note, *rows = (out / "pairs.csv").read_text().splitlines()
+        self.assertEqual(note, "# domain box:0,0,0,1,1,1 (m), volume 1 m^3, beta_dt 1e-06 m^3")
         self.assertTrue(rows[0].startswith("r_low_m,r_high_m,pairs,pairs_within,expected,g,g_low,g_high,integral"))
         self.assertEqual(len(rows), 49)
         r = json.loads((out / "summary.json").read_text())
@@ -346,13 +347,16 @@ class Pairs(Case):
         self.assertTrue(pairs["g_low"][-1] <= pairs["g"][-1] <= pairs["g_high"][-1])
 
     def test_estimator_says_which_events_count(self):
-        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--estimator")
+        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--json", "--estimator")
         cells, pairs, auto = (clast(*command, e).json for e in ("cells", "pairs", "auto"))
         self.assertNotIn("pairs", cells)
         self.assertEqual(pairs["estimator"], "pairs")
         self.assertEqual(pairs["events"], pairs["pairs"]["events"])
         self.assertAlmostEqual(pairs["pairs"]["events_by_cells"], cells["events"])
         self.assertIn(auto["events"], (pairs["events"], cells["events"]))
+        plain = clast("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--estimator", "pairs").json
+        self.assertEqual(plain["pair_integral"], plain["pairs"]["pair_integral"])
+        self.assertNotIn("events", plain["pairs"])
         refused = clast(*command, "pairs", "--paper")
         self.assertEqual(refused.code, 2)
         self.assertIn("estimator", refused.err)

@@ -42,10 +42,10 @@ class TrueWords(Case):
             timed = self.decompose(path, domain, "--beta-dt", "1e-9")
             self.assertEqual(timed["beta_dt"], 1e-9)
             self.assertIsNone(timed["pair_integral"])
-            for end in ("", "_low", "_high"):
+            for end in ("", "_low", "_high") if plain["resolved"] else ("", "_low"):
                 self.assertAlmostEqual(plain["pair_integral" + end] * 1e-9 / timed["events" + end], 1.0, places=12)
             words = clast("decompose", path, "--domain", domain).out
-            self.assertRegex(words, rf"pair integral [\d.e+]+ \[[\d.e+]+, [\d.e+]+\] 1/m\^{d}, events per beta dt")
+            self.assertRegex(words, rf"pair integral [\d.e+]+ \[[\d.e+]+, [\d.e+-]+\] 1/m\^{d}, events per beta dt")
             self.assertNotRegex(words, r"\bcap\b")
         self.assertAlmostEqual(self.decompose(U2, SQUARE)["pair_integral"], 0.5 * 50 * 49, places=9)
         out = self.folder / "out"
@@ -106,11 +106,17 @@ class TrueWords(Case):
         self.assertTrue(set(next(t for t in flat["tests"] if t["name"] == "pearson")["axes"]) < {"u", "v", "w"})
 
     def test_intervals_end_at_the_cap(self):
-        for beta_dt in ("1e-3", "1e-2", "1"):
-            r = self.decompose(B3, CUBE, "--beta-dt", beta_dt)
-            self.assertLessEqual(r["events_high"], 250.0)
+        random.seed(8)
+        path = self.write("even.csv", [[random.random(), random.random()] for _ in range(2000)])
+        highest = []
+        for beta_dt in ("1e-6", "4.99e-4", "1"):  # one cell of 2000 points: 1000 events at the most
+            r = self.decompose(path, SQUARE, "--beta-dt", beta_dt)
+            self.assertTrue(r["resolved"])
             self.assertLessEqual(r["events_low"], r["events"])
             self.assertLessEqual(r["events"], r["events_high"])
+            highest.append(r["events_high"])
+        self.assertLess(highest[0], 3.0)
+        self.assertEqual(highest[1:], [1000.0, 1000.0])
 
     def test_an_empty_file_is_bad_input(self):
         path = self.folder / "none.csv"
@@ -159,7 +165,7 @@ class TrueWords(Case):
 
     def test_files_hold_what_the_numbers_depend_on(self):
         out = self.folder / "out"
-        r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "-o", out)
+        r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "--mesh", "boxes", "-o", out)
         summary = json.loads((out / "summary.json").read_text())
         wanted = {"domain": "box:0,0,1,1", "domain_volume": 1.0, "domain_volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
         for key, value in wanted.items():
@@ -177,7 +183,7 @@ class TrueWords(Case):
             self.assertEqual(found, {"unit": "m", "domain": "box:0,0,1,1"}, name)
             numbers = dict(re.findall(r'<DataArray type="Float64" Name="(\w+)" NumberOfTuples="1" format="ascii">([^<]+)</DataArray>', text))
             self.assertEqual({key: float(value) for key, value in numbers.items()}, {"volume": 1.0, "beta_dt": 1e-6}, name)
-        drawn = self.decompose(S2, SQUARE, "--ghost-samples", "20", "--seed", "7", "-o", self.folder / "drawn")
+        drawn = self.decompose(S2, SQUARE, "--ghost-samples", "20", "--mesh", "boxes", "--seed", "7", "-o", self.folder / "drawn")
         self.assertEqual(drawn["seed"], 7)
         self.assertEqual(json.loads((self.folder / "drawn/manifest.json").read_text())["seed"], 7)
         self.assertIn("seed 7", table(self.folder / "drawn/cells.csv")[0][0])
