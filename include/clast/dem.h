@@ -205,9 +205,9 @@ CLAST_API clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *
 CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);
 
 /// Forces of all contacts as they are now: columns a, b (grains; b -1: a wall), centre_z_m (of a),
-/// x_m, y_m, z_m (the
-/// point), branch_x_m .. (from a's centre to b's, or to the point on a wall), force_x_N .. (of a on
-/// b). `table` must be empty. Memories are not renewed.
+/// x_m, y_m, z_m (the point), branch_x_m .. (from a's centre to b's, or to the point on a wall),
+/// force_x_N .. (of a on b), normal_x .. (unit, from a to b). `table` must be empty. Memories are
+/// not renewed.
 CLAST_API clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table);
 
 CLAST_END

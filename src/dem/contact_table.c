@@ -7,7 +7,8 @@ static const struct {
     const char *name, *unit;
 } columns[] = {{"a", "-"},          {"b", "-"},         {"centre_z_m", "m"}, {"x_m", "m"},
                {"y_m", "m"},        {"z_m", "m"},       {"branch_x_m", "m"}, {"branch_y_m", "m"},
-               {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"}};
+               {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"},
+               {"normal_x", "-"},   {"normal_y", "-"},  {"normal_z", "-"}};
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
 /// One contact: its numbers, from a copy, so that nothing goes on; false if it is none.
@@ -34,6 +35,7 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
         out[3 + k] = dem->grain[a].position[k] + t.arm_a[k];
         out[6 + k] = link->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
         out[9 + k] = -on_a.force[k];
+        out[12 + k] = t.normal[k];
     }
     return true;
 }

@@ -72,15 +72,33 @@ class Decompose(Case):
         self.assertEqual(only.code, 1)
         self.assertEqual(only.json["stop"], "rejected by the tests; the variant does not split")
         for points, stop in (("u2_n50", "accepted by the tests"), ("f2_n500", "split; the tests then accept")):
-            self.assertEqual(self.decompose(points, "box:0,0,1,1")["stop"], stop)
+            self.assertEqual(self.decompose(points, "box:0,0,1,1", "--mesh", "boxes")["stop"], stop)
         write_points(self.folder / "few.csv", [[0.1, 0.2], [0.5, 0.6], [0.8, 0.1]])
         few = clast("decompose", self.folder / "few.csv", "--domain", "box:0,0,1,1", "--json").json
         self.assertEqual((few["tests"], few["stop"]), ([], "not tested: fewer than 5 points"))
 
+    def test_a_sample_that_does_not_show_its_structure_says_so(self):
+        # 300 points of a sheet of sd 0.02: cells of a tree found 0.36 of the pairs, with an interval about that
+        random.seed(8)
+        sheet = [[random.random(), random.random(), min(1, max(0, random.gauss(0.45, 0.02)))] for _ in range(300)]
+        write_points(self.folder / "sheet.csv", sheet)
+        command = ["decompose", self.folder / "sheet.csv", "--domain", "box:0,0,0,1,1,1"]
+        r = clast(*command, "--json").json
+        self.assertEqual((r["resolved"], r["pair_integral_high"]), (False, None))
+        self.assertLess(r["pair_integral_low"], 0.5 * 300 * 299 / (2 * math.sqrt(math.pi) * 0.02))
+        self.assertGreater(r["points_needed"], 1000)
+        self.assertIn("not resolved: the points do not show their own structure, the lower bound alone holds", clast(*command).out)
+        plane = [[random.random(), random.gauss(0.5, 0.1)] for _ in range(6000)]
+        write_points(self.folder / "plane.csv", plane)
+        r = clast("decompose", self.folder / "plane.csv", "--domain", "box:0,-1,1,2", "--json").json
+        self.assertEqual((r["resolved"], r["points_needed"], r["passes"]), (True, 6000, []))  # a tree in 2-D too
+        self.assertLess(r["pair_integral_low"], 0.5 * 6000 * 5999 / (2 * math.sqrt(math.pi) * 0.1))
+        self.assertGreater(r["pair_integral_high"], 0.5 * 6000 * 5999 / (2 * math.sqrt(math.pi) * 0.1))
+
     def test_words_and_columns_say_what_they_are(self):
-        frame = clast("decompose", DATA / "points_f2_n500.csv", "--domain", "box:0,0,1,1", "--beta-dt", "0.002").out
+        frame = clast("decompose", DATA / "points_f2_n500.csv", "--domain", "box:0,0,1,1", "--beta-dt", "0.002", "--mesh", "boxes").out
         self.assertRegex(frame, r"pass 1: 5 x 5 bins, threshold [\d.]+ of the mean density \(\d+ points a bin; best of \d+\), ")
-        self.assertRegex(frame, r"\d+ cells, events [\d.]+ \[[\d.]+, [\d.]+\] with beta dt 0.002 m\^2, \d+ cells at the cap")
+        self.assertRegex(frame, r"\d+ cells, events [\d.]+ \[[\d.]+, -\] with beta dt 0.002 m\^2, \d+ cells at the cap")
         self.assertIsNone(self.decompose("b3_n500", "box:0,0,0,1,1,1")["points_per_bin"])  # a tree has no bins
         random.seed(3)
         points = [[0.05 * random.random(), 0.05 * random.random(), random.random()] for _ in range(50)] + [[3, 3, 3]]
@@ -111,7 +129,7 @@ class Decompose(Case):
         self.assertAlmostEqual(split["events_cross"], sum(8e-6 * a * b for a, b in zip(*count)), places=9)
 
     def test_frame_has_five_by_five_bins_and_one_pass_as_published(self):
-        r = self.decompose("f2_n500", "box:0,0,1,1")
+        r = self.decompose("f2_n500", "box:0,0,1,1", "--mesh", "boxes")
         self.assertTrue(r["reject"])
         self.assertEqual([p["bins"] for p in r["passes"]], [[5, 5]])
 
@@ -170,7 +188,8 @@ class Decompose(Case):
 
     def test_folder_holds_tables_pictures_and_files_for_paraview(self):
         out = self.folder / "out"
-        r = clast("decompose", DATA / "points_s2_n500.csv", "--domain", "box:0,0,1,1", "--beta-dt", "1e-6", "-o", out, "--json")
+        r = clast("decompose", DATA / "points_s2_n500.csv", "--domain", "box:0,0,1,1", "--mesh", "boxes", "--beta-dt", "1e-6", "-o", out,
+                  "--json")
         self.assertEqual(r.code, 0, r.err)
         names = {"cells.csv", "point_cells.csv", "thresholds.csv", "summary.json", "manifest.json", "cells.vtu", "points.vtp",
                  "points.svg", "density.svg", "score.svg", "events.svg"}
@@ -181,7 +200,8 @@ class Decompose(Case):
         vtp = (out / "points.vtp").read_text()
         self.assertEqual([list(map(float, row)) for row in rows[1:]],
                          [list(t) for t in zip(*(vtk_array(vtp, name) for name in ("cell", "label", "pass")))])
-        again = clast("decompose", out / "points.vtp", "--columns", "x,y", "--domain", "box:0,0,1,1", "--beta-dt", "1e-6", "--json").json
+        again = clast("decompose", out / "points.vtp", "--columns", "x,y", "--domain", "box:0,0,1,1", "--mesh", "boxes", "--beta-dt",
+                      "1e-6", "--json").json
         self.assertEqual(again["events"], r.json["events"])
         vtu = (out / "cells.vtu").read_text()
         self.assertEqual(vtk_array(vtu, "count"), tuple(
@@ -201,7 +221,7 @@ class Decompose(Case):
                   "--beta-dt", "1e-6", "-o", out, "--json")
         self.assertEqual(r.code, 0, r.err)
         lines = csv_lines(out / "events_by_n.csv")
-        rows = [dict(zip(lines[0], map(float, line))) for line in lines[1:]]
+        rows = [dict(zip(lines[0], (float(x or "nan") for x in line))) for line in lines[1:]]  # not resolved: no upper end
         self.assertEqual([row["n"] for row in rows], [500, 1000, 2000, 4000])
         self.assertAlmostEqual(rows[-1]["events"], r.json["events"], delta=0.05 * r.json["events"])
         truth = 0.5e-6 * 4000 ** 2 / (4 * math.pi * 0.01)  # integral of the density's square

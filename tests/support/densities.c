@@ -348,7 +348,6 @@ static double met(const density_scene *s, int64_t i, int64_t j)
     const double var = 2.0 * s->density->size * s->density->size;
     double r2 = 0.0;
     double at[3];
-    clx_rng rng = clx_rng_at((uint64_t)i, CLX_STREAM_TEST, (uint64_t)j);
     for (int32_t k = 0; k < s->dimension; ++k) {
         const double off = s->pool[i * s->dimension + k] - s->pool[j * s->dimension + k];
         const double near = off - round(off);
@@ -358,6 +357,7 @@ static double met(const density_scene *s, int64_t i, int64_t j)
     if (r2 > 25.0 * var) {
         return 0.0;
     }
+    clx_rng rng = clx_rng_at((uint64_t)i, CLX_STREAM_TEST, (uint64_t)j);
     for (int32_t k = 0; k < s->dimension && s->place == PLACE_CYLINDER; ++k) {
         at[k] += 0.5 * sqrt(var) * clx_rng_normal(&rng);
         at[k] -= floor(at[k]);
