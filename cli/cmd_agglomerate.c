@@ -45,10 +45,16 @@ enum { MAX_FIELD = 140, MAX_DETAIL = 6000 };
 static clast_field fields[MAX_FIELD];
 static char details[MAX_DETAIL];
 
+/// Fields of a decomposition that count events and pairs, which collisions do not look at.
 static bool is_left_out(const char *name)
 {
-    return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0 ||
-           strcmp(name, "crossfit") == 0;
+    static const char *const list[] = {"beta_dt", "events",       "crossfit",
+                                       "pairs",   "pairs_radius", "estimator"};
+    bool is_found = false;
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        is_found = is_found || strcmp(name, list[k]) == 0;
+    }
+    return is_found;
 }
 
 static void join_details(void)
