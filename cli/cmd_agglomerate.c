@@ -46,7 +46,8 @@ static char details[MAX_DETAIL];
 static bool is_left_out(const char *name)
 {
     return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0 ||
-           strcmp(name, "crossfit") == 0;
+           strcmp(name, "crossfit") == 0 || strcmp(name, "pairs") == 0 ||
+           strcmp(name, "pairs_radius") == 0 || strcmp(name, "estimator") == 0;
 }
 
 static void join_details(void)
