@@ -333,7 +333,7 @@ static void gather_point(const job *w, const point *p, clx_pair_sum *sum)
 static void add_point(const job *w, const row *rows, int32_t n_row, point *p, clx_pair_sum *sum)
 {
     const clx_pair_cells *c = w->cells;
-    double part[3];
+    double part[3] = {0};
     memset(p->count, 0, sizeof p->count);
     memset(p->extra, 0, sizeof p->extra);
     memset(p->extra2, 0, sizeof p->extra2);

@@ -19,7 +19,7 @@ enum {
     MOST_SHAPE = 81,
     MOST_USED = 24,
     N_ITERATION = 400,
-    N_BISECT = 20,
+    N_BISECT = 12,
     N_STRETCH = 4,
     LEAST_PAIRS = 10, ///< within twice the narrowest width that is looked at
     FINER = 2         ///< levels narrower than the chosen one that the interval allows
@@ -31,6 +31,8 @@ static const double step = 0.70710678118654752; ///< from one s to the next
 static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
 static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
 static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
+static const double most_doubt = 0.25;  ///< half width of the profile's interval, as a logarithm,
+                                        ///< with which a cloud is resolved
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
@@ -124,13 +126,14 @@ static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, f
     }
     add_shape(f, INFINITY, false);
     const double least = least_scale(in);
-    for (double s = widest * in->radius[in->n_shell - 1];
-         s >= least && f->n_shape + 2 <= MOST_SHAPE; s *= step) {
+    double s = widest * in->radius[in->n_shell - 1];
+    while (s >= least && f->n_shape + 2 <= MOST_SHAPE) {
         if (has_kinks) {
             add_shape(f, stretch * s, true);
         }
         add_shape(f, stretch * s, false);
         f->s[++f->n_level] = stretch * s;
+        s *= step;
     }
 }
 
@@ -208,7 +211,7 @@ static double bound(const fit *f, int32_t n_shape, const mixture *top, double fa
     }
     // the tilt as a share of the least total: -1 .. 0 up, 0 .. infinity down
     double low = 0.0;
-    double high = up ? 1.0 : 1.0;
+    double high = 1.0;
     mixture m = *top;
     const double wanted = top->likelihood - 0.5 * chi2_95 * factor;
     for (int b = 0; b < 60 && !up; ++b) {
@@ -335,7 +338,7 @@ static double fit_p(const fit *f, int32_t n_shape, const mixture *m)
 /// point with many neighbours do not count as so many numbers. At least 1.
 static double overdispersion(const fit *f, const mixture *m, int32_t level)
 {
-    double row[CLAST_MAX_SHELL];
+    double row[CLAST_MAX_SHELL] = {0};
     double full = 0.0;
     double poisson = 0.0;
     const int32_t more = shapes(f, level + FINER) - 1;
@@ -352,6 +355,7 @@ typedef struct {
     int32_t level;
     double likelihood; ///< over the overdispersion
     double value, low, high, s;
+    double least, most; ///< of the profile alone
     double fit_p;
 } answer;
 
@@ -384,15 +388,17 @@ static answer ask(fit *f)
     const mixture top = best(f, finer, 0.0);
     const double low = bound(f, finer, &top, factor, false);
     const double high = bound(f, finer, &top, factor, true);
-    double row[CLAST_MAX_SHELL];
+    double row[CLAST_MAX_SHELL] = {0};
     double full = 0.0;
     double poisson = 0.0;
     response(f, &m, shapes(f, a.level), -1, row);
     variances(f, &m, shapes(f, a.level), row, &full, &poisson);
     const double shared = normal_975 * sqrt(fmax(0.0, full - poisson)) / m.integral;
     a.value = m.integral;
-    a.low = a.value * exp(-hypot(log(a.value / fmin(low, a.value)), shared));
-    a.high = a.value * exp(hypot(log(fmax(high, a.value) / a.value), shared));
+    a.least = fmin(low, a.value);
+    a.most = fmax(high, a.value);
+    a.low = a.value * exp(-hypot(log(a.value / a.least), shared));
+    a.high = a.value * exp(hypot(log(a.most / a.value), shared));
     a.s = f->s[a.level];
     a.likelihood = m.likelihood / factor;
     a.fit_p = fit_p(f, shapes(f, a.level), &m);
@@ -436,13 +442,17 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     e->value = exp((1.0 - share) * log(smooth.value) + share * log(kinked.value));
     e->low = fmin(smooth.low, kinked.low);
     e->high = fmax(smooth.high, kinked.high);
-    e->resolved = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
+    const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
+    const double doubt =
+        0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
+    e->resolved = is_seen && doubt <= most_doubt;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
     made.n_needed = in->n;
     set_window(in, &made);
-    if (!e->resolved) {
-        e->high = made.n_needed = INFINITY;
+    if (!e->resolved) { // the doubt falls as the root of the pairs
+        made.n_needed = is_seen ? in->n * doubt / most_doubt : (double)INFINITY;
+        e->high = INFINITY;
     }
     *result = made;
 done:
