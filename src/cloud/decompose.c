@@ -120,6 +120,9 @@ static void free_cells(clast_cells *cells)
 
 void clast_decomposition_free(clast_decomposition *result)
 {
+    if (result == NULL) {
+        return;
+    }
     free_cells(&result->cells);
     clast_table_free(&result->search);
     *result = (clast_decomposition){0};
@@ -303,6 +306,10 @@ done:
 
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
+    if (cells == NULL || x == NULL || clx_domain_check(domain) != CLAST_OK || cells->n < 1 ||
+        cells->low == NULL || cells->high == NULL) {
+        return -1;
+    }
     double u[3] = {0};
     if (!clast_domain_map(domain, x, u)) {
         return -1;
@@ -449,13 +456,12 @@ static clast_status check_config(const clast_decompose_config *config)
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
+    CLX_ARGUMENTS(domain, cloud, config, result);
     clast_status status = CLAST_OK;
     clast_decomposition made = {0};
     clx_sample m = {0};
     clast_uniformity_config vote;
     double side[3];
-    CLX_NEED(config);
-    CLX_NEED(result);
     CLX_TRY(check_config(config));
     CLX_TRY(clx_domain_check(domain));
     CLX_TRY(clx_cloud_check(cloud));
@@ -492,9 +498,9 @@ done:
 clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
                              clast_decomposition *result)
 {
+    CLX_ARGUMENTS(cloud, config, result);
     clast_status status = CLAST_OK;
     clast_domain domain = {0};
-    CLX_NEED(config);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config));
     CLX_TRY(clast_domain_parse(config->domain, &domain));
     CLX_TRY(clast_decompose_in(&domain, cloud, config, result));

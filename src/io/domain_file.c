@@ -32,6 +32,7 @@ done:
 
 clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain)
 {
+    CLX_ARGUMENTS(text, domain);
     if (strncmp(text, prefix, sizeof prefix - 1) == 0) {
         return read_mesh(text + sizeof prefix - 1, unit, domain);
     }

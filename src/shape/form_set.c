@@ -4,6 +4,8 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "shape/whole.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,7 +36,7 @@ const char *clast_row_fault_text(clast_row_fault fault)
 {
     static const char *const text[CLAST_N_ROW_FAULT] = {
         "missing", "not a number", "infinite", "not positive", "above 1", "not L >= I >= S"};
-    return text[fault];
+    return (unsigned)fault < CLAST_N_ROW_FAULT ? text[fault] : "unknown";
 }
 
 /// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
@@ -226,6 +228,9 @@ done:
 
 void clast_form_set_free(clast_form_set *set)
 {
+    if (set == NULL) {
+        return;
+    }
     clx_free(set->row);
     clx_free(set->flatness);
     clx_free(set->elongation);
@@ -255,6 +260,8 @@ static void label_size(const clast_table *table, const roles *r, clast_form_set 
 
 clast_status clast_form_set_of(const clast_table *table, const char *columns, clast_form_set *set)
 {
+    CLX_ARGUMENTS(table, set);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_form_set s = {0};
     roles r;
@@ -310,6 +317,9 @@ static void put_rows(const clast_form_set *set, char *text, size_t size, size_t 
 
 void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
 {
+    if (clx_form_set_fault(set) != NULL || text == NULL || size == 0) {
+        return;
+    }
     int64_t count[CLAST_N_ROW_FAULT] = {0};
     size_t used = 0;
     text[0] = '\0';
@@ -334,6 +344,8 @@ void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size
 
 clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table)
 {
+    CLX_ARGUMENTS(set, table);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     clast_table t = {0};
     double *column = NULL;
@@ -359,6 +371,8 @@ done:
 
 clast_status clast_form_set_left_out(const clast_form_set *set, clast_table *table)
 {
+    CLX_ARGUMENTS(set, table);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     clast_table t = {0};
     double *row = NULL;
