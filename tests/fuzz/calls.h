@@ -68,9 +68,26 @@ static void *take_items(source *s, size_t size)
 
 static double take_f64(source *s)
 {
-    static const double value[] = {1.0,    0.5,      2.0,       1e-3, 0.25, 3.0,   1.0,
-                                   0.1,    0.0,      0.75,      1.5,  -1.0, 1e300, NAN,
-                                   1e-320, INFINITY, -INFINITY, -0.0, 7e15, 100.0};
+    static const double value[] = {1.0,
+                                   0.5,
+                                   2.0,
+                                   1e-3,
+                                   0.25,
+                                   3.0,
+                                   1.0,
+                                   0.1,
+                                   0.0,
+                                   0.75,
+                                   1.5,
+                                   -1.0,
+                                   1e300,
+                                   (double)NAN,
+                                   1e-320,
+                                   (double)INFINITY,
+                                   -(double)INFINITY,
+                                   -0.0,
+                                   7e15,
+                                   100.0};
     const unsigned b = take_byte(s) % 256;
     return b < 160 ? value[b % 12] : b < 176 ? value[b % 20] : (double)b / 256.0;
 }
