@@ -88,6 +88,9 @@ typedef struct {
 
 void clast_agglomeration_free(clast_agglomeration *result)
 {
+    if (result == NULL) {
+        return;
+    }
     clast_table_free(&result->history);
     clast_table_free(&result->particles);
     clast_table_free(&result->spectrum);
@@ -368,6 +371,7 @@ done:
 clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                const clast_agglomerate_config *config, clast_agglomeration *result)
 {
+    CLX_ARGUMENTS(input, config, result);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {0};
     clx_evolution run = {0};

@@ -291,6 +291,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
                            double dt, uint64_t step, const clast_collide_config *config,
                            int64_t *n_event)
 {
+    CLX_ARGUMENTS(population, cells, config);
     clast_status status = CLAST_OK;
     step_context s = {
         .population = population, .cells = cells, .config = config, .dt = dt, .step = step};

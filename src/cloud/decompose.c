@@ -138,6 +138,9 @@ static void free_cells(clast_cells *cells)
 
 void clast_decomposition_free(clast_decomposition *result)
 {
+    if (result == NULL) {
+        return;
+    }
     free_cells(&result->cells);
     clast_table_free(&result->search);
     clast_pairs_free(&result->pairs);
@@ -327,6 +330,10 @@ bool clast_cells_are_labelled(const clast_cells *cells)
 
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
+    if (cells == NULL || x == NULL || clx_domain_check(domain) != CLAST_OK || cells->n < 1 ||
+        cells->low == NULL || cells->high == NULL) {
+        return -1;
+    }
     double u[3] = {0};
     if (!clast_domain_map(domain, x, u)) {
         return -1;
@@ -548,6 +555,7 @@ done:
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
+    CLX_ARGUMENTS(domain, cloud, config, result);
     clast_status status = CLAST_OK;
     clast_decomposition made = {0};
     clx_sample m = {0};
@@ -569,9 +577,9 @@ done:
 clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
                              clast_decomposition *result)
 {
+    CLX_ARGUMENTS(cloud, config, result);
     clast_status status = CLAST_OK;
     clast_domain domain = {0};
-    CLX_NEED(config);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config));
     CLX_TRY(clast_domain_parse(config->domain, &domain));
     CLX_TRY(clast_decompose_in(&domain, cloud, config, result));

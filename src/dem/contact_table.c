@@ -42,6 +42,7 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
 
 clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
 {
+    CLX_ARGUMENTS(dem, table);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     int64_t n = 0;

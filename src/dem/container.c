@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "dem/list.h"
 #include "dem/push.h"
+#include "geom/whole.h"
 
 /// Pushes whose normals are closer than this cosine are one (25 degrees, as in
 /// contact/wall_mesh.c).
@@ -11,6 +12,8 @@ static const double SAME_PUSH = 0.9;
 
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(dem, mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     CLX_CHECK(dem->container == NULL && dem->n_grain == 0, CLAST_E_USAGE,
               "a container is given once, before the first grain");

@@ -4,10 +4,13 @@
 #include "base/lines.h"
 #include "dem/fluid.h"
 #include "dem/list.h"
+#include <clast/settling.h>
+#include <math.h>
 #include <string.h>
 
 clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
 {
+    CLX_ARGUMENTS(config, dem);
     clast_status status = CLAST_OK;
     clast_dem *made = NULL;
     CLX_TRY(clx_dem_check(config));
@@ -177,6 +180,8 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
 
 clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
 {
+    CLX_ARGUMENTS(dem);
+    CLX_ARRAY(grain, n);
     clast_status status = CLAST_OK;
     CLX_CHECK(n >= 0 && n <= INT32_MAX - dem->n_grain, CLAST_E_LIMIT, "%d more grains", n);
     for (int32_t i = 0; i < n; ++i) {
@@ -195,6 +200,9 @@ done:
 
 void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 {
+    if (dem == NULL) {
+        return;
+    }
     dem->drive = *drive;
 }
 
@@ -226,6 +234,7 @@ static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
 
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
+    CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
@@ -254,21 +263,33 @@ done:
 
 int32_t clast_dem_n_grain(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return 0;
+    }
     return dem->n_grain;
 }
 
 int64_t clast_dem_n_step(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return 0;
+    }
     return dem->step;
 }
 
 double clast_dem_time(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return (double)NAN;
+    }
     return (double)dem->step * dem->config.time_step;
 }
 
 void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain)
 {
+    if (dem == NULL || grain == NULL) {
+        return;
+    }
     const clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};

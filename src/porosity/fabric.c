@@ -1,6 +1,7 @@
 // Directions of contacts and grains.
 #include <clast/fabric.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/sym3.h"
@@ -192,6 +193,8 @@ static void grains(rows *r, const clast_assembly *a)
 clast_status clast_fabric(const clast_assembly *assembly, const clast_table *known,
                           const double period[3], clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     rows r = {.n = 0};
