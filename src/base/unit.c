@@ -212,6 +212,7 @@ static clast_status refuse_bare(const char *si_unit, double value, double typica
 
 clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
 {
+    CLX_ARGUMENTS(text, si_unit, value);
     return clx_unit_parse_asked(text, si_unit, 0.0, value);
 }
 
