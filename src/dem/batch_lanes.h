@@ -60,6 +60,11 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
     for (int c = 0; c < 3; ++c) {
         r[c] = b[c] - a[c];
     }
+    if (!(dem->period[0] > 0.0 || dem->period[1] > 0.0)) { // most beds: 3 of 4 operations less
+        r[0] = r[0] + 0.0;                                 // -0 is 0, as below
+        r[1] = r[1] + 0.0;
+        return;
+    }
     for (int c = 0; c < 2; ++c) {
         const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
         const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
