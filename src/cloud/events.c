@@ -237,9 +237,9 @@ static bool is_one_cell(const count *n, const clx_resolution *shown, double all)
 {
     const double error = log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value;
     const double between = error * error - n->variance; // finer cells add what is independent
-    const double off = shown->value - all;
-    return n->cells->n == 1 && !n->capped[0] && between < 1e-4 * all * all &&
-           off * off <= 4.0 * fmax(0.0, between);
+    const double small = fmin(0.9 * CLX_MOST_BIAS * all, 0.5 * error);
+    return n->cells->n == 1 && !n->capped[0] && between < 4e-4 * all * all &&
+           shown->value - all <= fmax(small, 3.0 * sqrt(fmax(0.0, between))); // never too high
 }
 
 /// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are

@@ -23,6 +23,10 @@ enum { N_SHIFT = 5, DEEPEST = 18 };
 /// A rung needs so many pairs: less say nothing, and repeated points would go on for ever.
 static const double least_pairs = 4.0;
 
+/// Cells that the border cuts to less than this part are taken as so large: a pair in a corner's
+/// sliver would weigh 125 times as much as others, and the sum stays a lower bound.
+static const double least_part = 0.1;
+
 typedef struct {
     const clx_sample *sample;
     const double *weight;
@@ -67,14 +71,15 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
         u[1][j] = fmin(1.0, (double)(number + 1) * width - w->shift[j]);
         volume *= u[1][j] - u[0][j];
     }
+    const double least = least_part * w->volume * pow(width, d);
     if (domain->kind != CLAST_DOMAIN_MESH || !cell->is_cut) {
-        return volume;
+        return fmax(volume, least);
     }
     clast_domain_unmap(domain, u[0], corner[0]);
     clast_domain_unmap(domain, u[1], corner[1]);
     const double share = clx_cut_box_share(domain->surface->bvh, corner[0], corner[1]);
     cell->is_cut = share < 1.0;
-    return fmax(share, 1e-6) * volume; // a sliver's pairs would weigh without end
+    return fmax(share * volume, least);
 }
 
 /// Adds a cell to its rung r.

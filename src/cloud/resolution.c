@@ -120,12 +120,18 @@ static double factor_for(const clx_ladder *l, int32_t r)
 }
 
 /// The same for what rung r, the last with pairs enough, leaves open: finer rungs where structure
-/// is seen there, and where the systematic error would have fallen far enough.
+/// is seen there, and where the systematic error would have fallen far enough. Large cells do not
+/// show yet how it falls: as at jumps or where it is smooth is then supposed.
 static double factor_needed(const clx_ladder *l, int32_t r)
 {
     const reading at = read_rung(l, r);
-    const double ratio = fmin(smooth, fmax(1.5, 1.25 * least_ratio_at(l, r)));
-    const double excess = at.systematic / (0.75 * most_error * at.value);
+    const bool is_early = l->first + r < 4;
+    const double ratio =
+        is_early ? expected_ratio : fmin(smooth, fmax(1.5, 1.25 * least_ratio_at(l, r)));
+    const double supposed =
+        0.5 * (1.0 / (jump * jump - 1.0) - 1.0 / (smooth * smooth - 1.0)) * step_at(l, r);
+    const double excess =
+        (is_early ? supposed : at.systematic) / (0.75 * most_error * fmax(at.value, l->pairs[r]));
     int32_t wanted = LEAST_HALVINGS - l->first;
     if (at.finer > r) {
         wanted = at.finer + 1;
