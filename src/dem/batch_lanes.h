@@ -53,10 +53,8 @@ CLX_INLINE void read_periods(clx_link *const link[CLX_LANES], clx_lanes period[2
 CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_lanes a[4],
                         clx_lanes b[4], clx_lanes r[3])
 {
-    clx_lanes period[2];
     collect(p->a + from, offsetof(clx_grain, position), a);
     collect(p->b + from, offsetof(clx_grain, position), b);
-    read_periods(p->link + from, period);
     for (int c = 0; c < 3; ++c) {
         r[c] = b[c] - a[c];
     }
@@ -65,6 +63,8 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
         r[1] = r[1] + 0.0;
         return;
     }
+    clx_lanes period[2];
+    read_periods(p->link + from, period);
     for (int c = 0; c < 2; ++c) {
         const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
         const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
