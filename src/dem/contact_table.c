@@ -24,7 +24,7 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
     if (!clx_link_holds(dem, link, &t)) {
         return false;
     }
-    clx_push_pair(dem, &dem->law, &copy, &extra, &t, &on_a, &on_b);
+    clx_push_pair(dem, &copy, &extra, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
         v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link), on_a.force);
     }

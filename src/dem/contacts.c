@@ -135,7 +135,7 @@ static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch
 {
     clx_load on_a = {0};
     clx_load on_b = {0};
-    clx_push_pair(dem, &dem->law, link, clx_link_extra(dem, link), t, &on_a, &on_b);
+    clx_push_pair(dem, link, clx_link_extra(dem, link), t, &on_a, &on_b);
     *out = (clx_pushed){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);

@@ -289,9 +289,10 @@ static inline double clx_law_stiffness(const clx_law *law, const clx_meeting *c)
 ///                                                                            [Ai2011 model C]
 /// The dashpot rests where the spring gives way, and takes no more than model A may in a step.
 ///
-/// @param inertia   as clx_law_roll    @param about  I_r, of the two about the contact [kg m2]
-static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c, double inertia,
-                                       double about, double dt, double torque[3], clx_push *push)
+/// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m2]
+static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
+                                       const double inertia[2], double dt, double torque[3],
+                                       clx_push *push)
 {
     double roll[3];
     const double lever = law->rolling * c->radius;
@@ -306,6 +307,6 @@ static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
         v3_scale(torque, most / sqrt(size2), torque);
     }
     const double dashpot =
-        fmin(2.0 * law->damping_ratio * sqrt(about * spring), CLX_LAW_STOPS * inertia / dt);
+        fmin(2.0 * law->damping_ratio * sqrt(inertia[1] * spring), CLX_LAW_STOPS * inertia[0] / dt);
     v3_axpy(push->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
 }

@@ -145,10 +145,10 @@ static inline double clx_heavier_mass(const clast_dem *dem, const clx_link *link
 }
 
 /// A pair that touches; `extra` as clx_link_extra.
-static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_link *p,
-                                 clx_extra *extra, const clx_dem_touch *t, clx_load *on_a,
-                                 clx_load *on_b)
+static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *extra,
+                                 const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
 {
+    const clx_law *law = &dem->law;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
     const clx_grain *b = p->b >= 0 ? &dem->grain[clx_item_grain(dem, p->b)] : &clx_immovable;
     const bool needs_radius = law->kind != CLAST_DEM_LINEAR || law->cohesion != CLAST_DEM_DRY ||
@@ -191,8 +191,8 @@ static inline void clx_push_pair(const clast_dem *dem, const clx_law *law, clx_l
     clx_law_force(law, &m, dem->config.time_step, p->slide, &push);
     v3_set(push.rolling, 0.0, 0.0, 0.0);
     if (law->has_roll_spring) {
-        clx_law_roll_spring(law, &m, clx_reduced_inertia(a, b), clx_rolling_inertia(a, b),
-                            dem->config.time_step, extra->roll, &push);
+        const double inertia[2] = {clx_reduced_inertia(a, b), clx_rolling_inertia(a, b)};
+        clx_law_roll_spring(law, &m, inertia, dem->config.time_step, extra->roll, &push);
     } else if (law->rolling > 0.0) {
         clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &push);
     }

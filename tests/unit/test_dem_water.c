@@ -34,7 +34,8 @@ static double fall(const clast_dem_config *config, int32_t side, double diameter
     for (int32_t k = 0; k < n; ++k) {
         grain[k] = (clast_dem_grain){.scale = diameter,
                                      .density = 2650.0,
-                                     .position = {k % side * pitch, k / side % side * pitch,
+                                     .position = {(double)(k % side) * pitch,
+                                                  (double)(k / side % side) * pitch,
                                                   (double)(k / side / side) * pitch},
                                      .orientation = {1.0}};
     }
