@@ -23,6 +23,9 @@ static void take_pairs(clast_decomposition *r)
     r->events_low = r->events_by_pairs.low;
     r->events_high = r->events_by_pairs.high;
     r->smoothing_bias = 0.0; // of pairs nothing was taken off
+    r->resolved = r->events_by_pairs.resolved;
+    r->points_needed = r->pairs.integral.n_needed;
+    r->cells_bias = (double)NAN;
 }
 
 clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *cloud,
