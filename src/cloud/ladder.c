@@ -25,7 +25,7 @@ static const double least_pairs = 4.0;
 
 /// Cells that the border cuts to less than this part are taken as so large: a pair in a corner's
 /// sliver would weigh 125 times as much as others, and the sum stays a lower bound.
-static const double least_part = 0.1;
+static const double least_part = 0.02;
 
 typedef struct {
     const clx_sample *sample;

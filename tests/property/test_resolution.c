@@ -35,7 +35,8 @@ typedef struct {
 } outcome;
 
 /// Decomposes clouds of a density and adds up what was said.
-static outcome run(const char *name, density_place place, int32_t d, double mean_n, int n_cloud)
+static outcome run(const char *name, density_place place, int32_t d, double mean_n, int n_cloud,
+                   uint64_t first)
 {
     outcome o = {0};
     density_scene s = {0};
@@ -45,7 +46,7 @@ static outcome run(const char *name, density_place place, int32_t d, double mean
     for (int k = 0; k < n_cloud; ++k) {
         clast_cloud cloud = {0};
         clast_decomposition r = {0};
-        CHECK_OK(density_scene_draw(&s, mean_n, 40000 + (uint64_t)k, &cloud));
+        CHECK_OK(density_scene_draw(&s, mean_n, first + (uint64_t)k, &cloud));
         CHECK_OK(clast_decompose_in(&s.domain, &cloud, &c, &r));
         ++o.n;
         o.n_resolved += r.resolved ? 1 : 0;
@@ -82,14 +83,14 @@ static void resolved_events_are_right_and_intervals_cover(void **state)
     int n_covered = 0;
     int n_resolved = 0;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
-        const outcome o = run(rows[k].name, rows[k].place, rows[k].d, 2000.0, 40);
+        const outcome o = run(rows[k].name, rows[k].place, rows[k].d, 2000.0, 40, 41000 + 1000 * k);
         assert_true(o.n_resolved > 13);
         CHECK_ABS(o.bias, 0.0, 0.02 + 3.0 * 0.05 / sqrt(40.0));
         assert_true(o.n_excluded <= (0.05 + 3.0 * 0.034) * o.n);
         n_resolved += o.n_resolved;
         n_covered += o.n_resolved - o.n_excluded;
     }
-    CHECK_ABS((double)n_covered / n_resolved, 0.95, 0.02 + 3.0 * 0.01); // together: 93 to 97 %
+    CHECK_ABS((double)n_covered / n_resolved, 0.95, 0.02 + 3.0 * 0.0126); // together: 93 to 97 %
 }
 
 /* Thin and hidden structure that the cells of a tree miss by 12 to 85 %. */
@@ -106,7 +107,8 @@ static void what_is_not_resolved_says_so_and_its_lower_bound_holds(void **state)
                 {"cascade_6", PLACE_BOX, 2, 1000},    {"power_40", PLACE_BOX, 3, 1000},
                 {"inertia_01", PLACE_BOX, 2, 1000},   {"uniform", PLACE_BOX, 3, 100}};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
-        const outcome o = run(rows[k].name, rows[k].place, rows[k].d, rows[k].n, 30);
+        const outcome o =
+            run(rows[k].name, rows[k].place, rows[k].d, rows[k].n, 30, 61000 + 1000 * k);
         assert_true(o.n_resolved <= 1);
         assert_true(o.n_excluded + o.n - o.n_resolved - o.n_low <= 3);
         assert_true(o.needed > 1.1 * rows[k].n);
@@ -189,7 +191,7 @@ static void rungs_are_sums_over_pairs(void **state)
                     (void)side_of(u[k * D + j], shift, width, &cell[1]);
                     same = same && cell[0] == cell[1];
                 }
-                volume = fmax(volume, 0.1 * 2.0 * pow(width, D)); // slivers
+                volume = fmax(volume, 0.02 * 2.0 * pow(width, D)); // slivers
                 sum += same ? weight[i] * weight[k] / volume / 5.0 : 0.0;
             }
         }
