@@ -559,7 +559,7 @@ The same beds as published, less buoyancy alone, beside `--fluid-viscosity "1e-3
 | mean | 0.3590 ± 0.0047 | 0.3945 ± 0.0055 | 0.3726 ± 0.0058 | 0.4033 ± 0.0064 |
 
 So these beds are looser in water, by 0.0355 ± 0.0098 and 0.0307 ± 0.0112. It is how grains arrive that counts, not
-shaking: unshaken, the first seed has 0.4164 in water and 0.3699 less buoyancy alone, and shaking takes 0.020 and 0.015 off. In water grains land
+shaking: unshaken, seeds 1 and 2 have 0.4164 and 0.4103 in water, 0.3699 and 0.3722 less buoyancy alone; shaking takes 0.012 to 0.020 off both. In water grains land
 slower (1.0 m/s at most, their speed at the start, not 2.6) and come to rest where they touch. The paper's choice gives beds as dense as pouring in air makes them; who asks for a
 bed that fell through still water takes the options. Small boxes, one form, one shaking: no more follows.
 
