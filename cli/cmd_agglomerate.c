@@ -1,4 +1,5 @@
 // clast agglomerate: collisions of a particle cloud in uniform cells, in time.
+#include "box_model.h"
 #include "command.h"
 #include "json.h"
 #include "points.h"
@@ -12,6 +13,7 @@
 typedef struct {
     clast_agglomerate_config agglomerate; // first: the tables share offsets
     cli_points points;
+    cli_box box;
     char *monomers_column, *speed_rms_column, *temperature_column, *shear_column,
         *dissipation_column, *fixed_column, *fixed_volume_column;
     int32_t charts;
@@ -39,14 +41,20 @@ static const clast_field own[] = {
 };
 #undef COLUMN
 
-enum { MAX_FIELD = 100, MAX_DETAIL = 6000 };
+enum { MAX_FIELD = 140, MAX_DETAIL = 6000 };
 static clast_field fields[MAX_FIELD];
 static char details[MAX_DETAIL];
 
+/// Fields of a decomposition that count events and pairs, which collisions do not look at.
 static bool is_left_out(const char *name)
 {
-    return strcmp(name, "beta_dt") == 0 || strcmp(name, "events") == 0 ||
-           strcmp(name, "crossfit") == 0;
+    static const char *const list[] = {"beta_dt", "events",       "crossfit",
+                                       "pairs",   "pairs_radius", "estimator"};
+    bool is_found = false;
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; ++k) {
+        is_found = is_found || strcmp(name, list[k]) == 0;
+    }
+    return is_found;
 }
 
 static void join_details(void)
@@ -56,8 +64,13 @@ static void join_details(void)
         "Cells by `clast decompose` (its options below), collisions in each cell at the rate alpha "
         "beta / V a pair,\nevent by event; monomers are integers and none is lost. Several POINTS "
         "files are snapshots of the same\nparticles, --duration apart; cells are made anew when "
-        "the cloud has changed.\n-o FOLDER writes history.csv, particles.csv, summary.json, "
-        "manifest.json and charts (moments, number).\n\nkernel               beta(1, 2)\n");
+        "the cloud has changed.\n-o FOLDER writes history.csv, spectrum.csv, "
+        "particles.csv, summary.json, manifest.json\nand charts (number, moments, clusters, "
+        "spectrum).\n"
+        "With --box-model there are no POINTS: the size spectrum of a well-mixed box, by Monte "
+        "Carlo "
+        "or a sectional\nsolver, with breakage, sources and settling; -o writes history.csv, "
+        "spectrum.csv and charts.\n\nkernel               beta(1, 2)\n");
     const clast_kernel_info *table = clast_kernel_table();
     for (int k = 0; k < CLAST_N_KERNEL && used < sizeof details; ++k) {
         used += (size_t)snprintf(details + used, sizeof details - used, "%-20s %s   [%s]\n",
@@ -78,6 +91,7 @@ __attribute__((constructor)) static void join_fields(void)
          ++f) {
         fields[n++] = *f;
     }
+    n = cli_box_fields(fields, n, offsetof(config, box));
     for (const clast_field *f = clast_decompose_fields; f->name != NULL && n + 1 < MAX_FIELD; ++f) {
         if (!is_left_out(f->name)) {
             fields[n++] = *f;
@@ -167,6 +181,18 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
         set_column(moments, key[k], h, name[k]);
     }
     (void)json_object_set_new(out, "moments", moments);
+    json_t *clusters = json_object();
+    static const char *const cluster[] = {"n_1", "n_2", "n_3", "n_4", "n_5", "n_6", "n_7", "n_8"};
+    for (int k = 0; k < 8; ++k) {
+        set_column(clusters, cluster[k], h, cluster[k]);
+    }
+    (void)json_object_set_new(out, "clusters", clusters);
+    if (c->agglomerate.repeats > 1) {
+        json_t *deviations = json_object();
+        set_column(deviations, "M2", h, "M2_sd");
+        set_column(deviations, "M3", h, "M3_sd");
+        (void)json_object_set_new(out, "moments_sd", deviations);
+    }
     set_column(out, "events", h, "events");
     set_column(out, "n_cell", h, "n_cell");
     cli_json_count(out, "repeats", c->agglomerate.repeats);
@@ -215,50 +241,47 @@ static void print_words(const config *c, const clast_agglomeration *r)
     }
 }
 
-static clast_status draw(const clast_table *h, const char *path, const char *const column[3],
-                         const char *label)
+static clast_status write_charts(const clast_agglomeration *r, const char *end, const char *folder)
 {
-    static const char *const legend[3] = {"cells", "exact", "your mesh"};
-    clast_series series[3];
-    int32_t n = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double *value = column[k] != NULL ? clast_table_numbers(h, column[k]) : NULL;
-        if (value != NULL) {
-            series[n++] = (clast_series){.kind = CLAST_SERIES_LINE,
-                                         .label = legend[k],
-                                         .x = clast_table_numbers(h, "time_s"),
-                                         .y = value,
-                                         .n = h->n_row,
-                                         .colour = k,
-                                         .dashed = k == 1};
-        }
+    static const char *const number[] = {"n_particle", "exact_n_particle", "fixed_n_particle",
+                                         NULL};
+    static const char *const square[] = {"M2", "exact_M2", NULL};
+    static const char *const legend[] = {"cells", "exact", "your mesh", NULL};
+    static const char *const cluster[] = {"n_1", "n_2", "n_3", "n_4", "n_5",
+                                          "n_6", "n_7", "n_8", NULL};
+    static const char *const size[] = {"k = 1", "2", "3", "4", "5", "6", "7", "8", NULL};
+    const struct {
+        const char *file, *const *name, *const *label, *axis;
+    } chart[3] = {{"number", number, legend, "particles (-)"},
+                  {"moments", square, legend, "sum of squared monomer numbers (-)"},
+                  {"clusters", cluster, size, "particles of k monomers (-)"}};
+    clast_status status = CLAST_OK;
+    char path[4096];
+    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s.%s", folder, chart[k].file, end);
+        status = cli_draw_columns(&r->history, chart[k].name, chart[k].label, chart[k].axis, path);
     }
-    const clast_chart chart = {
-        .x = {.label = "time (s)"}, .y = {.label = label}, .series = series, .n_series = n};
-    return clast_chart_write(&chart, path);
+    if (status == CLAST_OK) {
+        (void)snprintf(path, sizeof path, "%s/spectrum.%s", folder, end);
+        status = cli_draw_spectra(&r->spectrum, "particles a monomer (-)", path);
+    }
+    return status;
 }
 
 static clast_status write_folder(const clast_agglomeration *r, const char *end, const char *folder)
 {
+    const struct {
+        const char *file;
+        const clast_table *table;
+    } table[3] = {
+        {"history", &r->history}, {"particles", &r->particles}, {"spectrum", &r->spectrum}};
+    clast_status status = CLAST_OK;
     char path[4096];
-    (void)snprintf(path, sizeof path, "%s/history.csv", folder);
-    clast_status status = clast_table_write_csv(&r->history, path);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/particles.csv", folder);
-        status = clast_table_write_csv(&r->particles, path);
+    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s.csv", folder, table[k].file);
+        status = clast_table_write_csv(table[k].table, path);
     }
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/number.%s", folder, end);
-        status = draw(&r->history, path,
-                      (const char *const[]){"n_particle", "exact_n_particle", "fixed_n_particle"},
-                      "particles (-)");
-    }
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/moments.%s", folder, end);
-        status = draw(&r->history, path, (const char *const[]){"M2", "exact_M2", NULL},
-                      "sum of squared monomer numbers (-)");
-    }
-    return status;
+    return status == CLAST_OK ? write_charts(r, end, folder) : status;
 }
 
 static clast_status keep_results(const cli_common *common, const config *c,
@@ -284,6 +307,11 @@ static clast_status keep_results(const cli_common *common, const config *c,
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
+    const clast_status checked = cli_box_check(common, fields, c, &c->box);
+    if (checked != CLAST_OK || c->box.box_model) {
+        const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
+        return checked != CLAST_OK ? checked : cli_box_run(&job, &c->force);
+    }
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};
@@ -302,6 +330,9 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK) {
         json_t *out = summary(c, &result, cli_clock() - begun);
+        cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
+        (void)json_object_set_new(out, "seed",
+                                  json_integer((json_int_t)c->agglomerate.decompose.seed));
         if (folder != NULL) {
             status = keep_results(common, c, &result, out, folder);
         }
@@ -328,11 +359,11 @@ const cli_command cli_agglomerate = {
     .example =
         {"clast agglomerate data/d2sd/points_u3_n50.csv --domain box:0,0,0,1,1,1 --constant 0.01",
          "clast agglomerate t0.vtu t1.vtu --domain cylinder:0.1,1 --duration 0.5s -o run/",
-         "clast agglomerate drops.csv --domain sphere:1 --kernel brownian --monomer-radius 1um"},
+         "clast agglomerate --box-model --concentration 1e12 --constant 1e-12 --duration 5s"},
     .details = details,
     .fields = fields,
     .config_size = sizeof(config),
-    .n_min = 1,
+    .n_min = 0,
     .n_max = 100000,
     .writes_folder = true,
     .run = run,

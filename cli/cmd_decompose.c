@@ -1,6 +1,7 @@
 // clast decompose: uniformity tests, D2SD cells, events.
 #include "command.h"
 #include "decompose_files.h"
+#include "decompose_pairs.h"
 #include "decompose_sizes.h"
 #include "evenness.h"
 #include "json.h"
@@ -58,6 +59,7 @@ __attribute__((constructor)) static void join_fields(void)
 
 /// What the command finds beside the decomposition.
 typedef struct {
+    const char *typed;            ///< the domain as it was
     char domain[CLI_DOMAIN_NAME]; ///< as typed for a mesh, else in m
     int64_t n_repeated;
     cli_evenness evenness;
@@ -131,14 +133,6 @@ static json_t *json_labels(const clast_decomposition *r)
     return labels;
 }
 
-/// "m^3", "1/m^2".
-static void json_unit(json_t *object, const char *key, const char *over, int32_t dimension)
-{
-    char unit[16];
-    (void)snprintf(unit, sizeof unit, "%sm^%d", over, dimension);
-    cli_json_text(object, key, unit);
-}
-
 /// Events with beta dt, else the pair integral; the other is null.
 static void json_events(json_t *out, const clast_decomposition *r)
 {
@@ -151,7 +145,9 @@ static void json_events(json_t *out, const clast_decomposition *r)
         cli_json_number(out, key[given][k], value[k]);
         cli_json_number(out, key[1 - given][k], (double)NAN);
     }
-    json_unit(out, "pair_integral_unit", "1/", r->dimension);
+    char unit[16];
+    (void)snprintf(unit, sizeof unit, "1/m^%d", r->dimension);
+    cli_json_text(out, "pair_integral_unit", unit);
     cli_json_number(out, "n_capped", (double)NAN);
     if (given == 0) {
         cli_json_count(out, "n_capped", r->n_capped);
@@ -159,13 +155,10 @@ static void json_events(json_t *out, const clast_decomposition *r)
 }
 
 /// What the numbers depend on.
-static void json_settings(json_t *out, const cli_decompose_job *j)
+static void json_settings(json_t *out, const cli_decompose_job *j, const char *text)
 {
     const clast_decomposition *r = j->result;
-    cli_json_text(out, "domain", j->name);
-    cli_json_text(out, "length_unit", "m");
-    cli_json_number(out, "volume", r->volume);
-    json_unit(out, "volume_unit", "", r->dimension);
+    cli_domain_json(out, text, j->domain);
     cli_json_number(out, "beta_dt", r->beta_dt > 0.0 ? r->beta_dt : (double)NAN);
     (void)json_object_set_new(out, "seed",
                               j->has_drawn ? json_integer((json_int_t)r->seed) : json_null());
@@ -197,7 +190,11 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
-    json_settings(out, j);
+    if (r->pairs.n > 0) {
+        cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+        (void)json_object_set_new(out, "pairs", cli_decompose_pairs_json(r));
+    }
+    json_settings(out, j, f->typed);
     return out;
 }
 
@@ -276,6 +273,9 @@ static void print_events(const clast_decomposition *r)
                      "taken off\n",
                      100.0 * r->smoothing_bias);
     }
+    if (r->pairs.n > 0) {
+        cli_decompose_pairs_print(r);
+    }
     if (isfinite(r->events_cross) && r->beta_dt > 0.0) {
         (void)printf("events by cross-fitting %.6g\n", r->events_cross);
     } else if (isfinite(r->events_cross)) {
@@ -341,6 +341,9 @@ static clast_status keep_results(const cli_common *common, const config *c,
         status = write_sizes(j, folder);
     }
     status = status == CLAST_OK ? cli_decompose_files(j, folder) : status;
+    if (status == CLAST_OK && j->result->pairs.n > 0) {
+        status = cli_decompose_pairs_write(j, folder);
+    }
     status = status == CLAST_OK ? cli_results_summary(run, summary) : status;
     return clast_run_folder_end(run, status);
 }
@@ -409,7 +412,7 @@ static clast_status run(const cli_common *common, void *values)
     clast_domain domain = {0};
     clast_table sizes = {0};
     clast_run_folder *folder = NULL;
-    found f = {.begun = cli_clock()};
+    found f = {.typed = c->decompose.domain, .begun = cli_clock()};
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
@@ -472,7 +475,8 @@ const cli_command cli_decompose = {
         "bins label and pass), point_cells.csv, summary.json, manifest.json,\ncells.vtu and "
         "points.vtp for ParaView; charts points and events (pair_integral); with passes "
         "thresholds.csv and charts\ndensity and score; with --sizes K events_by_n.csv and its "
-        "chart. Tables begin with a line # of domain, volume, beta_dt, seed.",
+        "chart; with --pairs pairs.csv and the chart pairs. Tables begin with a line # of domain, "
+        "volume, beta_dt, seed.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

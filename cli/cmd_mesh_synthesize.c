@@ -150,7 +150,7 @@ static json_t *table_json(const cli_common *common, const clast_table *table)
     return o;
 }
 
-static void table_words(const cli_common *common, const clast_table *table)
+static clast_status table_words(const cli_common *common, const clast_table *table)
 {
     (void)printf("%s: %lld grain%s\n", cli_name(common->output), (long long)table->n_row,
                  table->n_row > 1 ? "s" : "");
@@ -164,6 +164,7 @@ static void table_words(const cli_common *common, const clast_table *table)
         }
         (void)printf("\n");
     }
+    return CLAST_OK;
 }
 
 /// Takes the file, or the folder of several grains.
@@ -230,10 +231,9 @@ static clast_status run(const cli_common *common, void *config_bytes)
     }
     status = clast_run_folder_end(folder, status);
     clast_run_folder_destroy(folder);
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(table_json(common, &table));
-    } else if (status == CLAST_OK) {
-        table_words(common, &table);
+    if (status == CLAST_OK && table.column != NULL) {
+        status =
+            common->json ? cli_print_json(table_json(common, &table)) : table_words(common, &table);
     }
     clast_table_free(&table);
     return status;

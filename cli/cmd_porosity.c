@@ -180,7 +180,8 @@ static clast_status measure_contacts(subject *s, double gap, findings *f)
         status = clast_assembly_coordination(assembly, &f->coordination);
     }
     if (status == CLAST_OK) {
-        status = clast_fabric(assembly, is_periodic ? period.length : NULL, &f->fabric);
+        status = clast_fabric(assembly, s->contacts.n_column > 0 ? &s->contacts : NULL,
+                              is_periodic ? period.length : NULL, &f->fabric);
     }
     return status;
 }

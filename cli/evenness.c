@@ -70,7 +70,7 @@ void cli_evenness_json(json_t *out, const cli_evenness *evenness)
     cli_json_text(out, "evenness", evenness->is_tested ? word[evenness->kind] : NULL);
     if (evenness->has_spacing) {
         cli_json_number(spacing, "ratio", evenness->spacing.ratio);
-        cli_json_number(spacing, "z", evenness->spacing.z);
+        cli_json_number(spacing, "z_score", evenness->spacing.z);
         cli_json_number(spacing, "p", evenness->spacing.p);
     }
     (void)json_object_set_new(out, "spacing", spacing);

@@ -21,5 +21,5 @@ const char *cli_evenness_text(const cli_evenness *evenness);
 /// The line of the test of spacing.
 void cli_evenness_print(const cli_evenness *evenness);
 
-/// evenness, spacing{ratio, z, p}.
+/// evenness, spacing{ratio, z_score, p}.
 void cli_evenness_json(json_t *out, const cli_evenness *evenness);

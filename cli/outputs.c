@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { MOST_OUTPUTS = 16 };
 
@@ -49,6 +50,42 @@ static bool is_same(const char *a, const char *b)
     struct stat of_b;
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
            of_a.st_ino == of_b.st_ino && (S_ISREG(of_a.st_mode) || S_ISDIR(of_a.st_mode));
+}
+
+/// Follows the links at the end of a path, at most 40, also where the last one dangles.
+static void follow(const char *path, char end[CLAST_RUN_PATH])
+{
+    char next[CLAST_RUN_PATH];
+    (void)snprintf(end, CLAST_RUN_PATH, "%s", path);
+    for (int k = 0; k < 40; ++k) {
+        const ssize_t n = readlink(end, next, sizeof next - 1);
+        if (n < 0) {
+            return;
+        }
+        next[n] = '\0';
+        char *slash = strrchr(end, '/');
+        const size_t kept = next[0] == '/' || slash == NULL ? 0 : (size_t)(slash - end) + 1;
+        (void)snprintf(end + kept, CLAST_RUN_PATH - kept, "%s", next);
+    }
+}
+
+/// Whether two paths are one place, where nothing need be yet.
+static bool is_same_place(const char *a, const char *b)
+{
+    char end[2][CLAST_RUN_PATH];
+    const char *name[2];
+    const char *folder[2];
+    follow(a, end[0]);
+    follow(b, end[1]);
+    for (int k = 0; k < 2; ++k) {
+        char *slash = strrchr(end[k], '/');
+        name[k] = slash != NULL ? slash + 1 : end[k];
+        folder[k] = slash == NULL ? "." : slash == end[k] ? "/" : end[k];
+        if (slash != NULL) {
+            *slash = '\0';
+        }
+    }
+    return is_same(a, b) || (strcmp(name[0], name[1]) == 0 && is_same(folder[0], folder[1]));
 }
 
 /// Whether a file that a run could write lies in this folder; a configuration (YAML) none does.
@@ -118,7 +155,7 @@ static clast_status check_each(const outputs *o)
                             o->option[i], o->path[i]);
         }
         for (int32_t j = 0; j < i; ++j) {
-            if (strcmp(o->path[i], o->path[j]) == 0 || is_same(o->path[i], o->path[j])) {
+            if (strcmp(o->path[i], o->path[j]) == 0 || is_same_place(o->path[i], o->path[j])) {
                 return cli_fail(CLAST_E_USAGE, "%s and %s name the same file, %s", o->option[j],
                                 o->option[i], o->path[i]);
             }

@@ -2,6 +2,7 @@
 #include "points.h"
 
 #include "command.h"
+#include "json.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -81,4 +82,16 @@ const char *cli_domain_file(const char *text)
     static const char prefix[] = "mesh:";
     const size_t n = sizeof prefix - 1;
     return strncmp(text, prefix, n) == 0 ? text + n : NULL;
+}
+
+void cli_domain_json(json_t *out, const char *text, const clast_domain *domain)
+{
+    char name[CLI_DOMAIN_NAME];
+    char unit[16];
+    cli_domain_name(text, domain, name);
+    (void)snprintf(unit, sizeof unit, "m^%d", domain->dimension);
+    cli_json_text(out, "domain", name);
+    cli_json_text(out, "length_unit", "m");
+    cli_json_number(out, "domain_volume", clast_domain_volume(domain));
+    cli_json_text(out, "domain_volume_unit", unit);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Options that say how a file of points is read and which columns hold what.
 #include <clast/clast.h>
+#include <jansson.h>
 
 /// The part of a configuration that cli_point_fields fills.
 typedef struct cli_points {
@@ -24,6 +25,9 @@ clast_status cli_domain_read(const char *text, const cli_points *points, clast_d
 const char *cli_domain_file(const char *text);
 
 enum { CLI_DOMAIN_NAME = 512 };
+
+/// "domain", "length_unit", "domain_volume" and "domain_volume_unit" of a summary.
+void cli_domain_json(json_t *out, const char *text, const clast_domain *domain);
 
 /// The domain in m; one of a file as it was typed.
 void cli_domain_name(const char *text, const clast_domain *domain, char name[CLI_DOMAIN_NAME]);

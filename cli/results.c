@@ -61,7 +61,7 @@ clast_status cli_results_summary(const clast_run_folder *run, const json_t *summ
     if (run == NULL) {
         return CLAST_OK;
     }
-    json_t *kept = summary != NULL ? json_copy((json_t *)(uintptr_t)summary) : NULL;
+    json_t *kept = summary != NULL ? json_deep_copy(summary) : NULL;
     if (kept != NULL) {
         (void)json_object_del(kept, "wall_s"); // equal runs write equal files; the manifest has it
     }

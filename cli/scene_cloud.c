@@ -2,12 +2,14 @@
 #include "scene.h"
 
 #include <clast/decompose.h>
+#include <clast/pairs.h>
 #include <stdint.h>
 
 clast_status cli_scene_d6(cli_lap *b);
 clast_status cli_scene_d7(cli_lap *b);
 clast_status cli_scene_d6_boxes(cli_lap *b);
 clast_status cli_scene_d7_blob(cli_lap *b);
+clast_status cli_scene_pairs6(cli_lap *b);
 
 /// A number in [0, 1): splitmix64 [Steele2014].
 static double draw(uint64_t *state)
@@ -82,4 +84,29 @@ clast_status cli_scene_d6_boxes(cli_lap *b)
 clast_status cli_scene_d7_blob(cli_lap *b)
 {
     return decompose(b, 10000000, true, "auto");
+}
+
+clast_status cli_scene_pairs6(cli_lap *b)
+{
+    const clast_domain cube = {.kind = CLAST_DOMAIN_BOX, .dimension = 3, .high = {1.0, 1.0, 1.0}};
+    uint64_t state = 1;
+    clast_pairs_config config;
+    clast_cloud cloud = {0};
+    clast_status status = clast_fields_default(clast_pairs_fields, &config);
+    if (status == CLAST_OK) {
+        status = clast_cloud_alloc(1000000, 3, &cloud);
+    }
+    for (int64_t i = 0; status == CLAST_OK && i < 3 * cloud.n; ++i) {
+        cloud.x[i] = draw(&state);
+    }
+    while (status == CLAST_OK && cli_lap_again(b)) {
+        clast_pairs pairs = {0};
+        cli_lap_start(b);
+        status = clast_pairs_count(&cube, &cloud, &config, &pairs);
+        cli_lap_stop(b);
+        clast_pairs_free(&pairs);
+    }
+    b->value = b->wall;
+    clast_cloud_free(&cloud);
+    return status;
 }

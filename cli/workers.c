@@ -81,8 +81,8 @@ clast_status cli_workers_start(void *context, const clast_study_item *item)
         spawn(workers->program, argument, out, err, &workers->busy[workers->n].process);
     if (error != 0) {
         // NOLINTBEGIN(concurrency-mt-unsafe): the command's one thread
-        return cli_fail(CLAST_E_MEMORY, "cannot start run %lld: %s", (long long)item->row + 1,
-                        strerror(error));
+        return cli_fail(error == EACCES || error == ENOENT ? CLAST_E_IO : CLAST_E_MEMORY,
+                        "cannot start run %lld: %s", (long long)item->row + 1, strerror(error));
         // NOLINTEND(concurrency-mt-unsafe)
     }
     workers->busy[workers->n].row = item->row;

@@ -100,9 +100,9 @@ int main(void)
         }
         if (status == CLAST_OK && step % EVERY == 0) {
             (void)printf(
-                "step %d: %lld particles, %d cells that hid %.1f %% of the pairs, %lld events\n",
-                step, (long long)mesh->n - n_event, mesh->cells.n, 0.0 - 100.0 * mesh->smoothing_bias,
-                (long long)n_event);
+                "step %d: %lld particles, %d cells, pairs corrected by %+.1f %%, %lld events\n",
+                step, (long long)mesh->n - n_event, mesh->cells.n,
+                100.0 / (1.0 + mesh->smoothing_bias) - 100.0, (long long)n_event);
         }
     }
     (void)fputs(status == CLAST_OK ? "" : clast_error_detail(), stderr);

@@ -160,9 +160,9 @@ void run()
         const std::int64_t n_event = loop.collide(p, {dt, static_cast<std::uint64_t>(step)}, how);
         if (step % every == 0) {
             std::printf(
-                "step %d: %lld particles, %d cells that hid %.1f %% of the pairs, %lld events\n",
+                "step %d: %lld particles, %d cells, pairs corrected by %+.1f %%, %lld events\n",
                 step, static_cast<long long>(loop.mesh->n - n_event), loop.mesh->cells.n,
-                0.0 - 100.0 * loop.mesh->smoothing_bias, static_cast<long long>(n_event));
+                100.0 / (1.0 + loop.mesh->smoothing_bias) - 100.0, static_cast<long long>(n_event));
         }
     }
 }

@@ -44,13 +44,17 @@ typedef struct clast_agglomerate_input {
 
 typedef struct clast_agglomeration {
     /// One row a time: time_s, n_particle, n_particle_sd, M1, M2, M3 (means over repeats of the
-    /// sums of i^k, weighted), events (since the start), n_cell, is_rebuilt; n_parcel with weights;
+    /// sums of i^k, weighted), M2_sd and M3_sd, n_1 .. n_8 (aggregates of k monomers; with several
+    /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt; n_parcel with weights;
     /// fixed_n_particle and
     /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
     clast_table history;
     /// One row a particle, last state of the first repeat: coordinates, monomers, radius_m,
     /// mass_kg, aggregate (the particle it is part of), cell.
     clast_table particles;
+    /// One row a time and class of sizes: time_s, size (its middle), size_low and size_high
+    /// (monomers, both included), n, density (n a monomer), n_sd with several repeats.
+    clast_table spectrum;
     int32_t n_rebuilt; ///< decompositions after the first, first repeat
     int32_t n_cell;    ///< last, first repeat
     bool has_exact, has_fixed;

@@ -54,6 +54,7 @@
 #include <clast/pack_run.h>
 #include <clast/packing_file.h>
 #include <clast/pairs.h>
+#include <clast/pairs_chart.h>
 #include <clast/parallel.h>
 #include <clast/points_file.h>
 #include <clast/pores.h>

@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 #include <clast/domain.h>
 #include <clast/field.h>
+#include <clast/pairs.h>
 #include <clast/table.h>
 #include <clast/uniformity.h>
 
@@ -64,8 +65,11 @@ typedef struct clast_decompose_config {
     double tree_root_level;    ///< of the test of the whole cloud: one cell, or a tree
     double variable_tolerance; ///< standard deviation of cloud->variable that a tree cell may keep
     int32_t tree_least;
-    bool tree_refine; ///< cells below the root are given as the blocks that their last test saw
-    bool extrapolate; ///< add the pairs that tree cells hide by being taken as uniform
+    bool tree_refine;    ///< cells below the root are given as the blocks that their last test saw
+    bool extrapolate;    ///< add the pairs that tree cells hide by being taken as uniform
+    bool pairs;          ///< count pairs by distance too
+    double pairs_radius; ///< greatest distance [m]; 0: see clast_pairs_config
+    int32_t estimator;   ///< clast_estimator: which estimate `events` is
     uint64_t seed;
 } clast_decompose_config;
 
@@ -200,6 +204,11 @@ typedef struct clast_decomposition {
     double volume;      ///< of the domain [m^d]
     uint64_t seed;      ///< of what was drawn
     bool has_drawn;     ///< ghosts, or the part of weighted points that is tested
+    clast_pairs pairs;  ///< with config->pairs or another estimator than cells, else {0}
+    clast_estimate events_by_cells, events_by_pairs; ///< the same of both, beta dt n (n - 1) / 2
+                                                     ///< times the integral; with pairs
+    clast_estimator estimator;                       ///< of the two: which one `events` is
+    bool disagree; ///< both are resolved and their intervals have no number in common
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

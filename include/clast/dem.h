@@ -16,6 +16,13 @@ typedef enum {
     CLAST_DEM_HERTZ   ///< Hertz and Mindlin, restitution independent of speed
 } clast_dem_law;
 
+/// How a step takes springs and dashpots of the linear law.
+typedef enum {
+    CLAST_DEM_EXPLICIT, ///< forces of eq. 6 and 7 at the step's begin, as published
+    CLAST_DEM_EXACT     ///< a lone contact goes its exact way at any step, and dashpots of grains
+                        ///< with many contacts are held stable
+} clast_dem_scheme;
+
 /// Attraction of grains that touch.
 typedef enum {
     CLAST_DEM_DRY,
@@ -24,6 +31,18 @@ typedef enum {
     CLAST_DEM_JKR   ///< Hertz's law: JKR's curve with its neck; linear law: its pull-off force
                     ///< 3/2 pi w R* as a constant
 } clast_dem_cohesion;
+
+/// Drag law of grains that are spheres.
+typedef enum {
+    CLAST_DEM_DRAG_FORM,    ///< that of all forms [Bagheri2016]
+    CLAST_DEM_DRAG_STANDARD ///< the standard curve of spheres (clast_drag_sphere)
+} clast_dem_sphere_drag;
+
+/// Resistance against rolling. [Ai2011]
+typedef enum {
+    CLAST_DEM_ROLL_TORQUE, ///< model A: a constant torque against the roll; nothing rests by it
+    CLAST_DEM_ROLL_SPRING  ///< model C: a spring that gives way at the limit, with a dashpot
+} clast_dem_rolling;
 
 typedef enum {
     CLAST_DEM_CYLINDER, ///< upright, inside diameter `width`, axis x = y = 0
@@ -41,13 +60,15 @@ typedef enum {
 /// Physics of a run. Defaults are the paper's.
 typedef struct clast_dem_config {
     int32_t law;             ///< clast_dem_law
+    int32_t contact_scheme;  ///< clast_dem_scheme
     double restitution;      ///< e_n
     double collision_time;   ///< T_c of the linear law [s]
     double poisson;          ///< nu
     double young;            ///< E of Hertz's law [Pa]
     double friction;         ///< mu between grains
     double wall_friction;    ///< mu at walls; below 0: as between grains
-    double rolling_friction; ///< torque at most this times R* |F_n|
+    double rolling_friction; ///< torque at most this times R* |F_n|, F_n as friction takes it
+    int32_t rolling_model;   ///< clast_dem_rolling
     int32_t cohesion;        ///< clast_dem_cohesion
     double cohesion_energy;  ///< energy density of AREA [J/m3]
     double surface_energy;   ///< w of DMT and JKR [J/m2]
@@ -59,6 +80,10 @@ typedef struct clast_dem_config {
     double gravity;          ///< [m/s2], along -z
     double fluid_density;    ///< buoyancy, eq. 10 [kg/m3]
     double fluid_viscosity;  ///< drag, torque of fluid at rest; 0: none [Pa s]
+    int32_t sphere_drag;     ///< clast_dem_sphere_drag
+    bool hindrance;          ///< drag grows with the grains around (clast_drag_hindrance)
+    double added_mass;       ///< fluid moved along over the grain's volume; 1/2 of a sphere
+    bool wet_restitution;    ///< restitution falls with the impact's Stokes number
     int32_t domain;          ///< clast_dem_domain
     double width, depth;     ///< along x and y; depth 0: as width [m]
     double height;           ///< of the lid, and of generation [m]
@@ -180,9 +205,9 @@ CLAST_API clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *
 CLAST_API uint64_t clast_dem_hash(const clast_dem *dem);
 
 /// Forces of all contacts as they are now: columns a, b (grains; b -1: a wall), centre_z_m (of a),
-/// x_m, y_m, z_m (the
-/// point), branch_x_m .. (from a's centre to b's, or to the point on a wall), force_x_N .. (of a on
-/// b). `table` must be empty. Memories are not renewed.
+/// x_m, y_m, z_m (the point), branch_x_m .. (from a's centre to b's, or to the point on a wall),
+/// force_x_N .. (of a on b), normal_x .. (unit, from a to b). `table` must be empty. Memories are
+/// not renewed.
 CLAST_API clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table);
 
 CLAST_END

@@ -25,7 +25,8 @@ enum { CLAST_RUN_PATH = 4096 };
 ///
 /// @param command  "pack"    @param monitor  its command line goes to the manifest; NULL: none
 /// @return CLAST_E_USAGE when the folder holds a run, ended or not, and force is not set, or when
-///         the run in it cannot be replaced; CLAST_E_DISK when it cannot be made or written into
+///         the run in it cannot be replaced; CLAST_E_DISK when it cannot be made or written into,
+///         or another process is at it (its number, host and start are in the message)
 CLAST_API clast_status clast_run_folder_begin(const char *folder, bool force, const char *command,
                                               const clast_monitor *monitor, clast_run_folder **run);
 CLAST_API void clast_run_folder_destroy(clast_run_folder *run); ///< NULL is allowed

@@ -41,6 +41,20 @@ CLAST_API clast_status clast_drag_of_form(double length, double intermediate, do
 /// fitted for Re < 3e5. Orientation is averaged over.                            [Bagheri2016]
 CLAST_API double clast_drag_coefficient(double reynolds, const clast_drag *drag);
 
+/// Drag coefficient of a sphere: the standard curve of Clift and Gauvin, for Re < 3e5.
+///
+///     C_D = 24 / Re (1 + 0.15 Re^0.687) + 0.42 / (1 + 42500 Re^-1.16)             [Clift1971]
+CLAST_API double clast_drag_sphere(double reynolds);
+
+/// Factor on the drag of a body among others that settle at this local porosity, with no net flow:
+///
+///     e^-(n + 1),  n = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2 / 2)                   [DiFelice1994]
+///
+/// Re by the speed relative to the vessel, which is the superficial slip there. Settling is then
+/// slower by e^4.65 in Stokes' range and e^2.4 in Newton's, as Richardson and Zaki measured.
+/// @param porosity  counts as 0.36 below that, where beds of spheres end; 1: alone
+CLAST_API double clast_drag_hindrance(double reynolds, double porosity);
+
 /// How a body settles.
 typedef struct clast_settling {
     double velocity;         ///< m/s, downwards

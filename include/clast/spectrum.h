@@ -49,13 +49,13 @@ typedef struct clast_spectrum_start {
 } clast_spectrum_start;
 
 typedef struct clast_spectrum {
-    /// One row a time: time_s, M0 [1/m^3], M1, M2, M3 (sums of x^k; with _sd over repeats), n_1 ..
-    /// n_8 [1/m^3] where the start is single particles, gel_fraction, settled_fraction and
-    /// mass_error (sectional; shares of the monomers at the start), exact_M0 and exact_M2 where
-    /// known.
+    /// One row a time: time_s, M0 .. M3 (sums of x^k [1/m^3]), gel_fraction and settled_fraction
+    /// (sectional; shares of the monomers at the start), n_1 .. n_8 [1/m^3] where sizes are whole
+    /// multiples of the smallest one; each with _sd, the standard deviation of the runs, where
+    /// there are several; exact_M0 and exact_M2 where known.
     clast_table history;
-    /// One row a time and section: time_s, size (monomers), n [1/m^3], n_sd, density [1/m^3 a
-    /// monomer], mass_fraction.
+    /// One row a time and section: time_s, size (monomers), n [1/m^3], density [1/m^3 a monomer],
+    /// mass_fraction, n_sd where there are several runs.
     clast_table spectrum;
     double gel_time;       ///< when 1e-3 of the mass had left the grid [s]; NaN: it did not
     bool is_gelation;      ///< then: the kernel gels, the grid is not merely too small

@@ -52,7 +52,7 @@ CLAST_API int clast_status_exit_code(clast_status status);
 CLAST_API const char *clast_error_detail(void);
 
 /// A text as a terminal, a table or a picture may show it: control characters and bytes that are
-/// not UTF-8 become \xNN. Cut at `size` bytes with the end, never inside a character.
+/// not UTF-8 become \\xNN. Cut at `size` bytes with the end, never inside a character.
 ///
 /// @return out
 CLAST_API const char *clast_text_printable(const char *text, size_t size, char *out);

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -148,6 +150,12 @@ clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
                                       const clast_sizes *sizes, const clast_table *history,
                                       clast_table *table)
 {
+    CLX_ARGUMENTS(config, history, table);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_WHOLE(table, history);
+    if (sizes != NULL) {
+        CLX_WHOLE(sizes, sizes);
+    }
     clast_status status = CLAST_OK;
     const double *n = clast_table_numbers(history, "n");
     const double *size = clast_table_numbers(history, "size_m");

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -70,6 +71,8 @@ static void fill(const clast_table *history, const double *n, double confidence,
 
 clast_status clast_aggregate_band(const clast_table *history, double confidence, clast_table *band)
 {
+    CLX_ARGUMENTS(history, band);
+    CLX_WHOLE(table, history);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double *found = NULL;

@@ -324,6 +324,8 @@ done:
 
 clast_status clast_aggregate_config_check(const clast_aggregate_config *config)
 {
+    CLX_ARGUMENTS(config);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_status status = CLAST_OK;
     CLX_TRY(check_shapes(config));
     CLX_TRY(config->size_law == CLAST_SIZE_LIST ? check_list(config) : check_law(config));

@@ -161,7 +161,7 @@ static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
     j.config.rays = packing->rays;
     j.config.orientations = packing->orientations;
     j.config.replicate = replicate;
-    j.config.envelope_every = INT32_MAX;
+    j.config.envelope_every = 1000000000;
     CLX_TRY(clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
     CLX_TRY(run_job(&j));
     summarise(&j, &made);

@@ -327,6 +327,8 @@ clast_status clast_aggregate_fit_run(const clast_aggregate_config *config,
                                      const clast_monitor *monitor, clast_aggregate_fit *fit,
                                      clast_table *nodes)
 {
+    CLX_ARGUMENTS(config, input, fit, nodes);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_status status = CLAST_OK;
     clx_fit f = {.config = config, .input = input, .monitor = monitor};
     clast_aggregate_fit made;

@@ -155,6 +155,8 @@ clast_status clast_aggregate_create(const clast_aggregate_config *config,
                                     const clast_aggregate_input *input, int32_t repeat,
                                     clast_aggregate **aggregate)
 {
+    CLX_ARGUMENTS(config, input, aggregate);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
     const double begun = clx_clock();
@@ -207,6 +209,7 @@ static clast_status step(clast_aggregate *a)
 
 clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_monitor *monitor)
 {
+    CLX_ARGUMENTS(a);
     clast_status status = CLAST_OK;
     clast_status settled = CLAST_OK;
     const double begun = clx_clock();
@@ -226,21 +229,31 @@ done:
 
 bool clast_aggregate_is_done(const clast_aggregate *a)
 {
+    if (a == NULL) {
+        return true;
+    }
     return a->stop != CLAST_STOP_NOT;
 }
 
 int32_t clast_aggregate_n_particle(const clast_aggregate *a)
 {
+    if (a == NULL) {
+        return 0;
+    }
     return a->n_particle;
 }
 
 const clast_assembly *clast_aggregate_assembly(const clast_aggregate *a)
 {
+    if (a == NULL) {
+        return NULL;
+    }
     return &a->assembly;
 }
 
 clast_status clast_aggregate_history(const clast_aggregate *a, clast_table *history)
 {
+    CLX_ARGUMENTS(a, history);
     return clx_history_table(&a->history, history);
 }
 
@@ -279,6 +292,7 @@ static void faults(const clast_aggregate *a, clast_aggregate_result *r)
 
 clast_status clast_aggregate_measure(const clast_aggregate *a, clast_aggregate_result *result)
 {
+    CLX_ARGUMENTS(a, result);
     clast_status status = CLAST_OK;
     clast_aggregate_result r = {.n_particle = a->n_placed,
                                 .stop = a->stop,
@@ -295,5 +309,6 @@ done:
 
 clast_status clast_aggregate_members(const clast_aggregate *a, clast_table *members)
 {
+    CLX_ARGUMENTS(a, members);
     return clx_clusters_members(a, members);
 }

@@ -6,6 +6,9 @@
 
 clast_interval clast_interval_of(int32_t n, const double *value, double confidence)
 {
+    if (value == NULL) {
+        return (clast_interval){0};
+    }
     clast_interval made = {.n = n, .low = -HUGE_VAL, .high = HUGE_VAL};
     double sum = 0.0;
     double squares = 0.0;

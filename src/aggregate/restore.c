@@ -85,6 +85,8 @@ clast_status clast_aggregate_restore(const clast_aggregate_config *config,
                                      const clast_aggregate_saved *saved,
                                      clast_aggregate **aggregate)
 {
+    CLX_ARGUMENTS(config, input, saved, aggregate);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));

@@ -1,12 +1,18 @@
 // Placed shapes: life cycle, totals and exact bounds.
 #include <clast/assembly.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include "shape/whole.h"
+#include <math.h>
 #include <string.h>
 
 void clast_assembly_free(clast_assembly *assembly)
 {
+    if (assembly == NULL) {
+        return;
+    }
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
         clast_shape_free(&assembly->shape[s]);
     }
@@ -92,6 +98,8 @@ done:
 
 clast_status clast_assembly_copy(const clast_assembly *assembly, clast_assembly *copy)
 {
+    CLX_ARGUMENTS(assembly, copy);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_assembly made = {0};
     memcpy(made.unit, assembly->unit, sizeof made.unit);
@@ -109,6 +117,9 @@ done:
 clast_status clast_assembly_add_shape(clast_assembly *assembly, const clast_shape *shape,
                                       int32_t *shape_id)
 {
+    CLX_ARGUMENTS(assembly, shape);
+    CLX_WHOLE(arrays, assembly);
+    CLX_WHOLE(shape, shape);
     clast_status status = CLAST_OK;
     clast_shape made = {0};
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
@@ -154,6 +165,8 @@ clast_status clast_assembly_add_grain(clast_assembly *assembly, int32_t shape_id
                                       const double position[3], const double orientation[4],
                                       double scale, double density)
 {
+    CLX_ARGUMENTS(assembly, position, orientation);
+    CLX_WHOLE(arrays, assembly);
     clast_status status = CLAST_OK;
     const int32_t i = assembly->n_grain;
     CLX_TRY(check_grain(assembly, shape_id, position, orientation, scale, density));
@@ -174,8 +187,15 @@ done:
 clast_status clast_assembly_add_contact(clast_assembly *assembly, int32_t i, int32_t j,
                                         const double point[3])
 {
+    CLX_ARGUMENTS(assembly, point);
+    CLX_ARRAY(assembly->contact, assembly->n_contact); // the grains need not be there yet
+    CLX_ARRAY(assembly->contact_point, assembly->n_contact);
     clast_status status = CLAST_OK;
     const int32_t c = assembly->n_contact;
+    CLX_CHECK(assembly->contact_capacity <= 0 ||
+                  (assembly->contact != NULL && assembly->contact_point != NULL),
+              CLAST_E_ARGUMENT, "%s: room for %d contacts that is NULL", __func__,
+              assembly->contact_capacity);
     CLX_CHECK(i >= 0 && j >= 0 && i < assembly->n_grain && j < assembly->n_grain && i != j,
               CLAST_E_USAGE, "no contact between grains %d and %d of %d", i, j, assembly->n_grain);
     CLX_CHECK(c < INT32_MAX, CLAST_E_LIMIT, "an assembly holds at most 2^31 - 1 contacts");
@@ -198,6 +218,9 @@ static double grain_volume(const clast_assembly *a, int32_t i)
 
 double clast_assembly_volume(const clast_assembly *assembly)
 {
+    if (clx_assembly_fault(assembly) != NULL) {
+        return (double)NAN;
+    }
     double sum = 0.0;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         sum += grain_volume(assembly, i);
@@ -207,6 +230,9 @@ double clast_assembly_volume(const clast_assembly *assembly)
 
 double clast_assembly_mass(const clast_assembly *assembly)
 {
+    if (clx_assembly_fault(assembly) != NULL) {
+        return (double)NAN;
+    }
     double sum = 0.0;
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         sum += assembly->density[i] * grain_volume(assembly, i);
@@ -216,6 +242,9 @@ double clast_assembly_mass(const clast_assembly *assembly)
 
 void clast_assembly_centre(const clast_assembly *assembly, double centre[3])
 {
+    if (clx_assembly_fault(assembly) != NULL || centre == NULL) {
+        return;
+    }
     // relative to the first grain, so that an assembly far from zero keeps its digits
     double sum[3] = {0};
     double mass = 0.0;
@@ -297,6 +326,9 @@ static void widen_grain(const clast_assembly *a, int32_t i, double low[3], doubl
 
 void clast_assembly_bounds(const clast_assembly *assembly, double low[3], double high[3])
 {
+    if (clx_assembly_fault(assembly) != NULL || low == NULL || high == NULL) {
+        return;
+    }
     v3_set(low, INFINITY, INFINITY, INFINITY);
     v3_set(high, -INFINITY, -INFINITY, -INFINITY);
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
@@ -307,6 +339,12 @@ void clast_assembly_bounds(const clast_assembly *assembly, double low[3], double
 clast_status clast_assembly_grain_surface(const clast_assembly *assembly, int32_t i, int level,
                                           clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(assembly, mesh);
+    CLX_WHOLE(arrays, assembly);
+    if (i < 0 || i >= assembly->n_grain || assembly->shape_id[i] < 0 ||
+        assembly->shape_id[i] >= assembly->n_shape) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: grain %d of %d", __func__, i, assembly->n_grain);
+    }
     clast_mesh surface = {0};
     clast_status status =
         clast_shape_surface(&assembly->shape[assembly->shape_id[i]], level, &surface);

@@ -6,6 +6,7 @@
 // the touched grains are known.
 #include <clast/envelope.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "geom/miniball.h"
@@ -123,6 +124,8 @@ static void grain_farthest(const clast_assembly *assembly, int32_t i, const doub
 clast_status clast_assembly_enclosing_sphere(const clast_assembly *assembly, double centre[3],
                                              double *radius)
 {
+    CLX_ARGUMENTS(assembly, centre, radius);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     double(*point)[3] = NULL;
     int32_t *order = NULL;

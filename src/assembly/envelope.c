@@ -4,8 +4,10 @@
 #include "assembly/alpha.h"
 #include "assembly/hull_part.h"
 #include "assembly/sphere_rays.h"
+#include "assembly/whole.h"
 #include "assembly/wrap.h"
 #include "base/status.h"
+#include <math.h>
 #include <string.h>
 
 clast_envelope_options clast_envelope_options_default(void)
@@ -31,6 +33,7 @@ const char *clast_envelope_text(clast_envelope_kind kind)
 
 clast_status clast_envelope_parse(const char *name, clast_envelope_kind *kind)
 {
+    CLX_ARGUMENTS(name, kind);
 #define NAME(kind, name, text) " " name
     static const char all[] = CLAST_ENVELOPE_LIST(NAME);
 #undef NAME
@@ -104,6 +107,9 @@ done:
 
 double clast_assembly_radius_of_gyration(const clast_assembly *assembly)
 {
+    if (clx_assembly_fault(assembly) != NULL) {
+        return (double)NAN;
+    }
     double centre[3];
     double mass = 0.0;
     double sum = 0.0;
@@ -124,6 +130,8 @@ clast_status clast_assembly_envelope(const clast_assembly *assembly, clast_envel
                                      const clast_envelope_options *options,
                                      clast_envelope *envelope)
 {
+    CLX_ARGUMENTS(assembly, options, envelope);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     double centre[3];
     double radius = 0.0;

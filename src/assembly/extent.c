@@ -2,6 +2,7 @@
 #include <clast/structure.h>
 
 #include "assembly/hull_part.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/sym3.h"
@@ -141,6 +142,8 @@ static void sort_widths(clast_extent *e)
 
 clast_status clast_assembly_extent(const clast_assembly *assembly, clast_extent *extent)
 {
+    CLX_ARGUMENTS(assembly, extent);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clx_hull_parts parts = {0};
     clx_smooth_hull hull = {0};

@@ -1,6 +1,7 @@
 // Fractal dimensions of an assembly: from its growth, and from the distances of its grains.
 #include <clast/structure.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/vec3.h"
@@ -93,6 +94,8 @@ static double gyration_radius(const gyration *g)
 clast_status clast_fractal_growth(const clast_assembly *assembly, int32_t n_first,
                                   clast_fractal *fractal)
 {
+    CLX_ARGUMENTS(assembly, fractal);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     line_fit fit = {0};
     gyration g = {0};
@@ -141,6 +144,8 @@ static void count_pairs(const clast_assembly *assembly, int32_t stride, const do
 
 clast_status clast_fractal_correlation(const clast_assembly *assembly, clast_fractal *fractal)
 {
+    CLX_ARGUMENTS(assembly, fractal);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     line_fit fit = {0};
     double radius[N_RADIUS];

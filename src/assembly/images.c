@@ -4,6 +4,7 @@
 
 #include "assembly/touch_set.h"
 #include "assembly/union.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/vec3.h"
@@ -96,6 +97,8 @@ static bool counts(const imaged *m, const int32_t pair[2])
 clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, double gap,
                                                    const clast_period *period)
 {
+    CLX_ARGUMENTS(assembly);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     imaged m = {0};
     clast_assembly made = {.n_grain = assembly->n_grain}; // carries the contacts only
@@ -134,6 +137,8 @@ done:
 clast_status clast_assembly_overlaps(const clast_assembly *assembly, const clast_period *period,
                                      clast_overlaps *overlaps)
 {
+    CLX_ARGUMENTS(assembly, overlaps);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     imaged m = {0};
     clx_touch_set set = {0};

@@ -3,6 +3,7 @@
 #include <clast/printable.h>
 
 #include "assembly/distance_field.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "math/vec3.h"
 
@@ -211,6 +212,8 @@ clast_status clast_assembly_printable_plan(const clast_assembly *assembly,
                                            const clast_printable_config *config,
                                            clast_printable_report *report)
 {
+    CLX_ARGUMENTS(assembly, config, report);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_printable_report made = {.solid_volume = clast_assembly_volume(assembly)};
     double low[3];
@@ -228,6 +231,8 @@ clast_status clast_assembly_printable(const clast_assembly *assembly,
                                       const clast_monitor *monitor, clast_mesh *mesh,
                                       clast_printable_report *report)
 {
+    CLX_ARGUMENTS(assembly, config, mesh, report);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_printable_report made = {0};
     clx_distance_field field = {0};

@@ -2,6 +2,7 @@
 // ellipsoids in closed form, surfaces by their triangles), between lines the midpoint rule.
 #include <clast/structure.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
@@ -274,6 +275,8 @@ clast_status clast_assembly_projected_area(const clast_assembly *assembly,
                                            const double direction[3], int32_t n_line, double *area,
                                            double *error)
 {
+    CLX_ARGUMENTS(assembly, direction, area, error);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     shadow s = {0};
     double half[2] = {0.0, 0.0};
@@ -325,6 +328,8 @@ done:
 clast_status clast_assembly_mean_projection(const clast_assembly *assembly, int32_t n_direction,
                                             int32_t n_line, double *area, double *error)
 {
+    CLX_ARGUMENTS(assembly, area, error);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     many m = {.assembly = assembly, .n = n_direction, .n_line = n_line};
     double sum = 0.0;

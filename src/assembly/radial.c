@@ -5,6 +5,7 @@
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
+#include "assembly/whole.h"
 #include "base/status.h"
 #include "math/rng.h"
 #include "math/vec3.h"
@@ -171,6 +172,8 @@ done:
 clast_status clast_assembly_radial_profile(const clast_assembly *assembly, const double centre[3],
                                            int32_t n_bin, clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     clx_touch_set set = {0};

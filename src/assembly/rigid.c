@@ -7,6 +7,7 @@
 #include <clast/rigid.h>
 
 #include "assembly/line_cut.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/vec3.h"
@@ -276,6 +277,8 @@ clast_status clast_assembly_rigid(const clast_assembly *assembly, const char *na
                                   const clast_rigid_options *options, clast_shape *shape,
                                   double *added)
 {
+    CLX_ARGUMENTS(assembly, name, options, shape);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_shape made = {.kind = CLAST_SHAPE_MESH};
     clast_mass mass = {0};

@@ -15,6 +15,7 @@ clast_fluid clast_fluid_air(void)
 clast_status clast_drag_of_form(double length, double intermediate, double shortest,
                                 double diameter, double density_ratio, clast_drag *drag)
 {
+    CLX_ARGUMENTS(drag);
     clast_status status = CLAST_OK;
     CLX_CHECK(density_ratio > 0.0 && isfinite(density_ratio), CLAST_E_GEOMETRY,
               "drag: density ratio %g must be positive", density_ratio);
@@ -38,10 +39,26 @@ done:
 
 double clast_drag_coefficient(double reynolds, const clast_drag *drag)
 {
+    if (drag == NULL) {
+        return (double)NAN;
+    }
     const double scaled = reynolds * drag->newton / drag->stokes;
     const double root = cbrt(scaled);
     return 24.0 * drag->stokes / reynolds * (1.0 + 0.125 * root * root) +
            0.46 * drag->newton / (1.0 + 5330.0 / scaled);
+}
+
+double clast_drag_sphere(double reynolds)
+{
+    return 24.0 / reynolds * (1.0 + 0.15 * pow(reynolds, 0.687)) +
+           0.42 / (1.0 + 42500.0 * pow(reynolds, -1.16));
+}
+
+double clast_drag_hindrance(double reynolds, double porosity)
+{
+    const double off = 1.5 - log10(reynolds);
+    const double n = 3.7 - 0.65 * exp(-0.5 * off * off);
+    return pow(fmin(1.0, fmax(0.36, porosity)), -(n + 1.0));
 }
 
 /// Root of C_D Re^2 = wanted by halving in log Re between bounds that hold it.
@@ -65,6 +82,7 @@ static double solve_reynolds(double wanted, const clast_drag *drag)
 clast_status clast_terminal_velocity(double diameter, double density, const clast_drag *drag,
                                      const clast_fluid *fluid, clast_settling *settling)
 {
+    CLX_ARGUMENTS(drag, fluid, settling);
     clast_status status = CLAST_OK;
     CLX_CHECK(diameter > 0.0 && isfinite(diameter), CLAST_E_USAGE,
               "settling: diameter %g must be positive", diameter);

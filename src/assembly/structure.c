@@ -1,6 +1,7 @@
 // All measures of an assembly in one table, each with its uncertainty.
 #include <clast/structure.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include <math.h>
@@ -17,6 +18,8 @@ clast_structure_options clast_structure_options_default(void)
 
 clast_status clast_assembly_coordination(const clast_assembly *assembly, clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     int32_t *count = NULL;
@@ -264,6 +267,8 @@ done:
 clast_status clast_structure(const clast_assembly *assembly, const clast_structure_options *options,
                              clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, options, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");

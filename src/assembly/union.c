@@ -11,6 +11,7 @@
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "assembly/union.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
@@ -347,6 +348,8 @@ clast_status clx_union_of_scene(const clast_assembly *assembly, clx_touch_scene 
 clast_status clast_assembly_union(const clast_assembly *assembly,
                                   const clast_union_options *options, clast_union *out)
 {
+    CLX_ARGUMENTS(assembly, options, out);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clx_touch_set set = {0};
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
@@ -359,6 +362,8 @@ done:
 
 clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
 {
+    CLX_ARGUMENTS(assembly);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clx_touch_set set = {0};
     clx_pairs pairs = {0};

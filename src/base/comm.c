@@ -67,8 +67,12 @@ clast_status clast_comm_agree(const clast_comm *comm, clast_status status, const
         int64_t status;
         char text[1000];
     } word = {.status = status};
-    if (comm->n_rank == 1) {
+    if (comm == NULL || comm->n_rank == 1) {
         return status;
+    }
+    if (comm->n_rank < 1 || comm->least == NULL || comm->broadcast == NULL) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: comm has %d ranks, or a function is NULL", __func__,
+                        comm->n_rank);
     }
     // Lowest first: ranks that failed, ranks that were stopped, all is well.
     const int64_t group = status == CLAST_OK ? 2 : status == CLAST_E_STOPPED ? 1 : 0;

@@ -39,6 +39,9 @@ static bool same_name(const char *a, const char *b)
 
 const clast_field *clast_fields_find(const clast_field *fields, const char *name)
 {
+    if (fields == NULL || name == NULL) {
+        return NULL;
+    }
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         if (same_name(f->name, name)) {
             return f;
@@ -76,6 +79,9 @@ static int edit_distance(const char *a, const char *b)
 
 const char *clast_fields_nearest(const clast_field *fields, const char *name)
 {
+    if (fields == NULL || name == NULL) {
+        return NULL;
+    }
     const char *nearest = NULL;
     int best = (int)strlen(name) / 2 + 1;
     for (const clast_field *f = fields; f->name != NULL; ++f) {
@@ -99,6 +105,9 @@ static void free_list(clast_text_list *list)
 
 void clast_field_clear(const clast_field *field, void *config)
 {
+    if (field == NULL || config == NULL) {
+        return;
+    }
     if (field->type == CLAST_FIELD_TEXT_LIST) {
         free_list(member(field, config));
     } else if (field->type == CLAST_FIELD_F64_LIST) {
@@ -110,6 +119,9 @@ void clast_field_clear(const clast_field *field, void *config)
 
 void clast_fields_free(const clast_field *fields, void *config)
 {
+    if (fields == NULL || config == NULL) {
+        return;
+    }
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         if (f->type == CLAST_FIELD_TEXT) {
             char **text = member(f, config);
@@ -157,8 +169,9 @@ static clast_status parse_number(const clast_field *f, const char *text, bool is
 {
     const bool is_none = f->low == -1.0 && strcmp(text, "-1") == 0;
     const char *unit = f->unit != NULL ? f->unit : "-";
-    const clast_status status = is_si || is_none ? clast_unit_parse(text, unit, value)
-                                                 : clx_unit_parse_asked(text, unit, f->value, value);
+    const clast_status status = is_si || is_none
+                                    ? clast_unit_parse(text, unit, value)
+                                    : clx_unit_parse_asked(text, unit, f->value, value);
     if (status != CLAST_OK) {
         clx_fail_prefix("%s", f->name);
         return status;
@@ -296,11 +309,13 @@ static clast_status set_value(const clast_field *f, void *config, const char *te
 
 clast_status clast_field_set(const clast_field *f, void *config, const char *text, bool append)
 {
+    CLX_ARGUMENTS(f, config, text);
     return set_value(f, config, text, append, false);
 }
 
 clast_status clast_field_set_si(const clast_field *f, void *config, const char *text, bool append)
 {
+    CLX_ARGUMENTS(f, config, text);
     return set_value(f, config, text, append, true);
 }
 
@@ -364,6 +379,7 @@ static void blank(const clast_field *f, void *config)
 
 clast_status clast_fields_default(const clast_field *fields, void *config)
 {
+    CLX_ARGUMENTS(fields, config);
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         blank(f, config);
     }
@@ -379,6 +395,9 @@ clast_status clast_fields_default(const clast_field *fields, void *config)
 
 int32_t clast_field_count(const clast_field *f, const void *config)
 {
+    if (f == NULL || config == NULL) {
+        return 0;
+    }
     const void *slot = member_const(f, config);
     if (f->type == CLAST_FIELD_TEXT_LIST) {
         return ((const clast_text_list *)slot)->n;
@@ -399,6 +418,9 @@ static int format_choice(const clast_field *f, int32_t index, char *text, size_t
 int clast_field_format(const clast_field *f, const void *config, int32_t index, char *text,
                        size_t size)
 {
+    if (f == NULL || config == NULL || text == NULL) {
+        return -1;
+    }
     const void *slot = member_const(f, config);
     switch (f->type) {
     case CLAST_FIELD_F64:

@@ -44,20 +44,26 @@ static int try_take(const char *path, int *descriptor)
     return error == EWOULDBLOCK || error == EINTR ? 0 : -1;
 }
 
+void clx_process_name(char name[CLX_PROCESS_NAME])
+{
+    char host[256] = "";
+    (void)gethostname(host, sizeof host - 1);
+    (void)snprintf(name, CLX_PROCESS_NAME, "process %ld on %s", (long)getpid(), host);
+}
+
 /// Writes who holds the lock into it; only for messages, so that failing is fine.
 static void sign(int descriptor)
 {
-    char host[256] = "";
+    char name[CLX_PROCESS_NAME];
     char since[32] = "";
     char text[400];
     struct tm parts;
     const time_t now = time(NULL);
-    (void)gethostname(host, sizeof host - 1);
+    clx_process_name(name);
     if (gmtime_r(&now, &parts) != NULL) {
         (void)strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%SZ", &parts);
     }
-    const int n =
-        snprintf(text, sizeof text, "process %ld on %s since %s", (long)getpid(), host, since);
+    const int n = snprintf(text, sizeof text, "%s since %s", name, since);
     const ssize_t written = ftruncate(descriptor, 0) == 0 ? write(descriptor, text, (size_t)n) : 0;
     (void)written;
 }

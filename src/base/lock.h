@@ -16,5 +16,10 @@ typedef struct clx_lock {
 /// @return CLAST_E_DISK when it cannot be taken; who has it is in the message, and *is_busy is true
 clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy);
 
+enum { CLX_PROCESS_NAME = 300 };
+
+/// This process for messages of others: "process 4711 on node3".
+void clx_process_name(char name[CLX_PROCESS_NAME]);
+
 /// Lets go; does nothing for {0}.
 void clx_lock_release(clx_lock *lock);

@@ -2,6 +2,7 @@
 #include "base/status.h"
 
 #include "base/number.h"
+#include "base/whole.h"
 #include "clast_version.h"
 #include <errno.h>
 #include <stdarg.h>
@@ -56,6 +57,9 @@ static size_t utf8_length(const unsigned char *c)
 
 const char *clast_text_printable(const char *text, size_t size, char *out)
 {
+    if (text == NULL || out == NULL) {
+        return NULL;
+    }
     size_t used = 0;
     const unsigned char *c = (const unsigned char *)text;
     while (*c != '\0' && size > 0) {
@@ -117,4 +121,43 @@ const char *clx_error_text(int error)
 const char *clx_errno_text(void)
 {
     return clx_error_text(errno);
+}
+
+clast_status clx_given(const char *function, const char *names, const void *const *pointer, int n)
+{
+    for (int i = 0; i < n; ++i) {
+        const size_t length = strcspn(names, ",");
+        if (pointer[i] == NULL) {
+            return clx_fail(CLAST_E_ARGUMENT, "%s: %.*s is NULL", function, (int)length, names);
+        }
+        names += length;
+        names += strspn(names, ", ");
+    }
+    return CLAST_OK;
+}
+
+clast_status clx_array_given(const char *function, const char *name, const void *array,
+                             const char *count, int64_t n)
+{
+    return n < 0 ? clx_fail(CLAST_E_ARGUMENT, "%s: %s is %lld", function, count, (long long)n)
+           : n > 0 && array == NULL ? clx_fail(CLAST_E_ARGUMENT, "%s: %s is NULL but %s is %lld",
+                                               function, name, count, (long long)n)
+                                    : CLAST_OK;
+}
+
+clast_status clx_fault_given(const char *function, const char *name, const char *fault)
+{
+    return fault == NULL ? CLAST_OK
+                         : clx_fail(CLAST_E_ARGUMENT, "%s: %s: %s", function, name, fault);
+}
+
+clast_status clx_texts_given(const char *function, const char *name, const clast_text_list *list)
+{
+    bool is_whole = clx_has_array(list->item, list->n);
+    for (int32_t i = 0; is_whole && i < list->n; ++i) {
+        is_whole = list->item[i] != NULL;
+    }
+    return is_whole ? CLAST_OK
+                    : clx_fail(CLAST_E_ARGUMENT, "%s: %s: a list of %d texts, one of them NULL",
+                               function, name, list->n);
 }

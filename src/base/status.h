@@ -28,6 +28,29 @@ const char *clx_error_text(int error);
 #define CLX_NEED(pointer)                                                                          \
     CLX_CHECK((pointer) != NULL, CLAST_E_ARGUMENT, "%s: %s is NULL", __func__, #pointer)
 
+/// Ends the function with the status of a call that fails: at its beginning only, where it holds
+/// nothing yet.
+#define CLX_GUARD(call)                                                                            \
+    do {                                                                                           \
+        const clast_status clx_guarded = (call);                                                   \
+        if (clx_guarded != CLAST_OK) {                                                             \
+            return clx_guarded;                                                                    \
+        }                                                                                          \
+    } while (0)
+
+/// The pointers that a public function needs: its first statement.
+#define CLX_ARGUMENTS(...)                                                                         \
+    CLX_GUARD(clx_given(__func__, #__VA_ARGS__, (const void *const[]){__VA_ARGS__},                \
+                        (int)(sizeof((const void *const[]){__VA_ARGS__}) / sizeof(void *))))
+
+/// The same of an array of n items, n >= 0: NULL where n is 0 only.
+#define CLX_ARRAY(array, n) CLX_GUARD(clx_array_given(__func__, #array, array, #n, (int64_t)(n)))
+
+/// None of n pointers is NULL; `names` are theirs as one text, with commas.
+clast_status clx_given(const char *function, const char *names, const void *const *pointer, int n);
+clast_status clx_array_given(const char *function, const char *name, const void *array,
+                             const char *count, int64_t n);
+
 #define CLX_TRY(call)                                                                              \
     do {                                                                                           \
         status = (call);                                                                           \

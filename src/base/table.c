@@ -2,6 +2,7 @@
 #include <clast/table.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include <string.h>
 
 static void free_column(clast_column *column, int64_t n_row)
@@ -20,6 +21,9 @@ static void free_column(clast_column *column, int64_t n_row)
 
 void clast_table_free(clast_table *table)
 {
+    if (table == NULL) {
+        return;
+    }
     for (int32_t c = 0; c < table->n_column; ++c) {
         free_column(&table->column[c], table->n_row);
     }
@@ -30,6 +34,7 @@ void clast_table_free(clast_table *table)
 
 clast_status clast_table_init(clast_table *table, const char *name, int64_t n_row)
 {
+    CLX_ARGUMENTS(table, name);
     char *copy = NULL;
     const clast_status status = clx_alloc_text(&copy, name);
     if (status == CLAST_OK) {
@@ -62,6 +67,8 @@ done:
 clast_status clast_table_add_number(clast_table *table, const char *name, const char *unit,
                                     double **number)
 {
+    CLX_ARGUMENTS(table, name, unit);
+    CLX_WHOLE(table, table);
     const clast_status status = add(table, name, unit, false);
     if (status == CLAST_OK && number != NULL) {
         *number = table->column[table->n_column - 1].number;
@@ -71,6 +78,8 @@ clast_status clast_table_add_number(clast_table *table, const char *name, const 
 
 clast_status clast_table_add_text(clast_table *table, const char *name)
 {
+    CLX_ARGUMENTS(table, name);
+    CLX_WHOLE(table, table);
     clast_status status = add(table, name, "", true);
     const int32_t column = table->n_column - 1;
     for (int64_t i = 0; i < table->n_row && status == CLAST_OK; ++i) {
@@ -81,12 +90,18 @@ clast_status clast_table_add_text(clast_table *table, const char *name)
 
 clast_status clast_table_set_text(clast_table *table, int32_t column, int64_t row, const char *text)
 {
+    CLX_ARGUMENTS(table, text);
+    CLX_WHOLE(table, table);
+    clast_status status = CLAST_OK;
     char *copy = NULL;
-    const clast_status status = clx_alloc_text(&copy, text);
-    if (status == CLAST_OK) {
-        clx_free(table->column[column].text[row]);
-        table->column[column].text[row] = copy;
-    }
+    CLX_CHECK(column >= 0 && column < table->n_column && row >= 0 && row < table->n_row &&
+                  table->column[column].text != NULL,
+              CLAST_E_ARGUMENT, "table %s has no text in column %d, row %lld", table->name, column,
+              (long long)row);
+    CLX_TRY(clx_alloc_text(&copy, text));
+    clx_free(table->column[column].text[row]);
+    table->column[column].text[row] = copy;
+done:
     return status;
 }
 
@@ -118,6 +133,8 @@ done:
 
 clast_status clast_table_resize(clast_table *table, int64_t n_row)
 {
+    CLX_ARGUMENTS(table);
+    CLX_WHOLE(table, table);
     const int64_t old = table->n_row;
     if (n_row <= old) {
         shorten(table, n_row);
@@ -139,6 +156,9 @@ done:
 
 int32_t clast_table_find(const clast_table *table, const char *name)
 {
+    if (clx_table_fault(table) != NULL || name == NULL) {
+        return -1;
+    }
     for (int32_t c = 0; c < table->n_column; ++c) {
         if (strcmp(table->column[c].name, name) == 0) {
             return c;
@@ -149,6 +169,32 @@ int32_t clast_table_find(const clast_table *table, const char *name)
 
 double *clast_table_numbers(const clast_table *table, const char *name)
 {
+    if (clx_table_fault(table) != NULL || name == NULL) {
+        return NULL;
+    }
     const int32_t c = clast_table_find(table, name);
     return c < 0 ? NULL : table->column[c].number;
+}
+
+const char *clx_table_fault(const clast_table *table)
+{
+    if (table == NULL) {
+        return "is NULL";
+    }
+    if (table->n_row < 0 || !clx_has_array(table->column, table->n_column)) {
+        return "a count is negative, or columns are NULL";
+    }
+    if (table->n_column > 0 && table->name == NULL) {
+        return "it has no name";
+    }
+    for (int32_t c = 0; c < table->n_column; ++c) {
+        const clast_column *column = &table->column[c];
+        if (column->name == NULL || column->unit == NULL) {
+            return "a column has no name or no unit";
+        }
+        if ((column->number == NULL) == (column->text == NULL)) {
+            return "a column has neither numbers nor texts, or both";
+        }
+    }
+    return NULL;
 }

@@ -109,6 +109,7 @@ static clast_status unknown(const char *name, const char *si)
 
 clast_status clast_unit_factor(const char *name, const char *si_unit, double *factor)
 {
+    CLX_ARGUMENTS(name, si_unit, factor);
     for (int i = 0; i < N_UNIT; ++i) {
         if (strcmp(units[i].name, name) == 0 && strcmp(units[i].si, si_unit) == 0) {
             *factor = units[i].factor;
@@ -136,6 +137,7 @@ static bool is_not_finite(const char *text)
 
 clast_status clast_unit_parse(const char *text, const char *si_unit, double *value)
 {
+    CLX_ARGUMENTS(text, si_unit, value);
     char *end = NULL;
     const double number = clx_number_read(text, &end);
     if (end == text && !is_not_finite(text)) {
@@ -210,6 +212,7 @@ static clast_status refuse_bare(const char *si_unit, double value, double typica
 
 clast_status clast_unit_parse_asked(const char *text, const char *si_unit, double *value)
 {
+    CLX_ARGUMENTS(text, si_unit, value);
     return clx_unit_parse_asked(text, si_unit, 0.0, value);
 }
 

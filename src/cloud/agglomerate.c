@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "cloud/contract.h"
+#include "cloud/size_classes.h"
 #include <math.h>
 #include <string.h>
 
@@ -81,12 +82,18 @@ enum { M1, M2, M3, N_MOMENT };
 typedef struct {
     double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt, *n_parcel;
     double *fixed_n, *fixed_events, *exact_n, *exact_m2;
+    double *moment_sd[N_MOMENT]; ///< M1's is 0; sums of squares until the end
+    clx_size_classes classes;
 } columns;
 
 void clast_agglomeration_free(clast_agglomeration *result)
 {
+    if (result == NULL) {
+        return;
+    }
     clast_table_free(&result->history);
     clast_table_free(&result->particles);
+    clast_table_free(&result->spectrum);
     *result = (clast_agglomeration){0};
 }
 
@@ -104,6 +111,8 @@ static clast_status make_history(clast_agglomeration *r, int64_t n_row, bool is_
                 {"M1", "-", offsetof(columns, moment[M1]), 0},
                 {"M2", "-", offsetof(columns, moment[M2]), 0},
                 {"M3", "-", offsetof(columns, moment[M3]), 0},
+                {"M2_sd", "-", offsetof(columns, moment_sd[M2]), 0},
+                {"M3_sd", "-", offsetof(columns, moment_sd[M3]), 0},
                 {"events", "-", offsetof(columns, events), 0},
                 {"n_cell", "-", offsetof(columns, n_cell), 0},
                 {"is_rebuilt", "-", offsetof(columns, rebuilt), 0},
@@ -151,7 +160,11 @@ static void record(const clx_evolution *run, columns *c, int64_t row)
     c->sd[row] += n * n;
     for (int k = 0; k < N_MOMENT; ++k) {
         c->moment[k][row] += moment[k];
+        if (c->moment_sd[k] != NULL) {
+            c->moment_sd[k][row] += moment[k] * moment[k];
+        }
     }
+    clx_size_classes_count(&c->classes, p, row);
     c->events[row] += run->n_event;
     if (c->n_parcel != NULL) {
         c->n_parcel[row] += n_parcel;
@@ -184,6 +197,12 @@ done:
     return status;
 }
 
+/// Standard deviation of n runs from their sum of squares and mean; 0 of one.
+static double deviation(double squares, double mean, double n)
+{
+    return n > 1.0 ? sqrt(fmax(0.0, squares / n - mean * mean) * n / (n - 1.0)) : 0.0;
+}
+
 static void make_means(const clast_agglomerate_config *config, int64_t n_row, columns *c)
 {
     const double n = config->repeats;
@@ -196,8 +215,10 @@ static void make_means(const clast_agglomerate_config *config, int64_t n_row, co
                 sums[k][row] /= n;
             }
         }
-        const double spread = c->sd[row] / n - c->n[row] * c->n[row];
-        c->sd[row] = n > 1.0 ? sqrt(fmax(0.0, spread) * n / (n - 1.0)) : 0.0;
+        c->sd[row] = deviation(c->sd[row], c->n[row], n);
+        for (int k = M2; k < N_MOMENT; ++k) {
+            c->moment_sd[k][row] = deviation(c->moment_sd[k][row], c->moment[k][row], n);
+        }
     }
 }
 
@@ -350,6 +371,7 @@ done:
 clast_status clast_agglomerate(const clast_agglomerate_input *input,
                                const clast_agglomerate_config *config, clast_agglomeration *result)
 {
+    CLX_ARGUMENTS(input, config, result);
     clast_status status = CLAST_OK;
     clast_agglomeration made = {0};
     clx_evolution run = {0};
@@ -361,12 +383,16 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
               "%lld times in each of %d repeats are beyond 2^31", (long long)n_row,
               config->repeats);
     CLX_TRY(make_history(&made, n_row, input->snapshot[0].weight != NULL, &c));
+    CLX_TRY(clx_size_classes_begin(n_row, &c.classes));
     CLX_TRY(all_runs(input, config, &c, &run, &made));
     make_means(config, n_row, &c);
+    CLX_TRY(clx_size_classes_table(&c.classes, config->repeats, c.time, &made.spectrum));
+    CLX_TRY(clx_size_classes_columns(&c.classes, config->repeats, &made.history));
     CLX_TRY(add_exact(&run, &made));
     *result = made;
     made = (clast_agglomeration){0};
 done:
+    clx_size_classes_free(&c.classes);
     clx_evolution_free(&run);
     clast_agglomeration_free(&made);
     return status;

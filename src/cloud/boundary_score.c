@@ -222,6 +222,9 @@ double clx_depth_ideal(const clx_depth_law *law, double n_point)
 
 double clast_boundary_score_ideal(double n, int32_t d, const double *side)
 {
+    if (side == NULL || d < 1 || d > 3) {
+        return (double)NAN;
+    }
     const clx_depth_law law = clx_depth_law_of_box(d, side);
     return clx_depth_ideal(&law, n);
 }
@@ -269,13 +272,12 @@ done:
 clast_status clast_boundary_score_test(const double *u, int64_t n, int32_t d, const double *side,
                                        clast_boundary_score *result)
 {
+    CLX_ARGUMENTS(u, side, result);
     clast_status status = CLAST_OK;
     clast_boundary_score made = {0};
     double *z = NULL;
     const clx_depth_law line = {.d = 1, .c = {1.0}};
-    CLX_NEED(result);
     CLX_TRY(clx_cube_check(u, n, d, 1, "a boundary score"));
-    CLX_NEED(side);
     for (int32_t j = 0; j < d; ++j) {
         CLX_CHECK(side[j] > 0.0 && isfinite(side[j]), CLAST_E_ARGUMENT,
                   "side %d of the domain is %g", j, side[j]);

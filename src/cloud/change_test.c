@@ -52,8 +52,8 @@ done:
 clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n, int32_t d,
                                double *p)
 {
+    CLX_ARGUMENTS(u_old, u_new, p);
     clast_status status = CLAST_OK;
-    CLX_NEED(p);
     CLX_TRY(clx_cube_check(u_old, n, d, 0, "a test of change"));
     CLX_TRY(clx_cube_check(u_new, n, d, 0, "a test of change"));
     CLX_TRY(compare(u_old, u_new, n, d, p));

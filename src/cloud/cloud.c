@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
 #include "math/sort.h"
@@ -10,6 +11,9 @@
 
 void clast_cloud_free(clast_cloud *cloud)
 {
+    if (cloud == NULL) {
+        return;
+    }
     clx_free(cloud->x);
     clx_free(cloud->radius);
     clx_free(cloud->mass);
@@ -21,6 +25,7 @@ void clast_cloud_free(clast_cloud *cloud)
 
 clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud)
 {
+    CLX_ARGUMENTS(cloud);
     if (dimension < 1 || dimension > 3) {
         return clx_fail(CLAST_E_ARGUMENT, "a cloud has 1, 2 or 3 dimensions, not %d", dimension);
     }
@@ -50,6 +55,8 @@ static void join(const clast_text_list *list, char text[NAMES_SIZE])
 
 clast_status clast_cloud_column(const clast_table *table, const char *name, double **column)
 {
+    CLX_ARGUMENTS(table, name, column);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     double *found = NULL;
     if (name != NULL && name[0] != '\0') {
@@ -169,6 +176,10 @@ static bool is_named(const char *name)
 clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_columns *columns,
                                     clast_cloud *cloud)
 {
+    CLX_ARGUMENTS(table, columns, cloud);
+    CLX_WHOLE(table, table);
+    CLX_GUARD(clx_texts_given(__func__, "columns", &columns->columns));
+    CLX_GUARD(clx_texts_given(__func__, "velocity_columns", &columns->velocity_columns));
     clast_status status = CLAST_OK;
     clast_cloud made = {.n = table->n_row};
     double *column[3] = {NULL};

@@ -156,8 +156,7 @@ static void sort_by_cell(step_context *s)
     s->start[0] = 0;
 }
 
-/// Ranges of the members that this configuration uses; a caller may leave the others at 0.
-static clast_status check_config(const clast_collide_config *config)
+clast_status clx_collide_config_check(const clast_collide_config *config)
 {
     clast_status status = CLAST_OK;
     const clast_field *fields = clast_agglomerate_fields;
@@ -255,7 +254,7 @@ static clast_status check_step(const clast_population *population, const clast_c
     CLX_CHECK(step < UINT64_C(1) << 32, CLAST_E_ARGUMENT, "step %llu is beyond 2^32",
               (unsigned long long)step);
     CLX_CHECK(dt >= 0.0 && isfinite(dt), CLAST_E_ARGUMENT, "the time step is %g", dt);
-    CLX_TRY(check_config(config));
+    CLX_TRY(clx_collide_config_check(config));
     CLX_TRY(check_population(population, cells));
     CLX_TRY(check_cells(cells, config));
     CLX_TRY(check_weights(population));
@@ -292,6 +291,7 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
                            double dt, uint64_t step, const clast_collide_config *config,
                            int64_t *n_event)
 {
+    CLX_ARGUMENTS(population, cells, config);
     clast_status status = CLAST_OK;
     step_context s = {
         .population = population, .cells = cells, .config = config, .dt = dt, .step = step};

@@ -69,3 +69,6 @@ int clx_population_stick(clast_population *population, const clast_collide_confi
 /// Lets the particles of one parcel stick to each other, two by two.
 void clx_population_pair_up(clast_population *population, const clast_collide_config *config,
                             int64_t i, double *n_real);
+
+/// Ranges of the members that this configuration uses; a caller may leave the others at 0.
+clast_status clx_collide_config_check(const clast_collide_config *config);

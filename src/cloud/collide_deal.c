@@ -284,14 +284,17 @@ static void meet(deal *d, int64_t c, int64_t m)
     ++b->n_event;
 }
 
-/// Collectors meet the whole cell, next event by next event; returns whether any did.
-static bool evolve_collectors(deal *d, double delta)
+/// Collectors meet the whole cell, next event by next event.
+static void evolve_collectors(deal *d, double delta)
 {
     double time = 0.0;
     int64_t since = 0;
-    bool has_met = false;
     list_all(d);
-    for (double total = collectors_total(d); total > 0.0; total = collectors_total(d)) {
+    for (;;) {
+        const double total = collectors_total(d);
+        if (!(total > 0.0)) {
+            break;
+        }
         time -= log(clx_rng_uniform(d->cell->rng)) / (d->cell->scale * total);
         const int64_t c = time <= delta ? pick_collector(d, total) : -1;
         const int64_t m = c >= 0 ? pick_partner(d, c) : -1;
@@ -299,13 +302,11 @@ static bool evolve_collectors(deal *d, double delta)
             break;
         }
         meet(d, c, m);
-        has_met = true;
         if (++since >= d->n_collector + LEAST_REFRESH) { // rows drift by rounding
             list_all(d);
             since = 0;
         }
     }
-    return has_met;
 }
 
 /// Shortens the time to the next deal so that collectors take a tenth of the cell at most.
@@ -332,7 +333,7 @@ void clx_block_evolve_dealt(clx_block *cell, int64_t *n_kind, double dt)
         // splitting is of second order in delta
         evolve_blocks(&d, d.parity, is_stale, delta);
         if (d.n_collector > 0) {
-            (void)evolve_collectors(&d, delta);
+            evolve_collectors(&d, delta);
         }
         evolve_blocks(&d, 1 - d.parity, is_stale, delta);
         drop_dead(&d);

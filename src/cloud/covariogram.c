@@ -104,7 +104,8 @@ static double over_angles(const clast_domain *d, double r)
     for (int k = 0; k <= n; ++k) {
         const double to = k < n ? kink[k] : 0.5 * CLAST_PI;
         for (int q = 0; q < 2 * CLX_GAUSS_N; ++q) {
-            const double t = CLAST_PI * 0.5 * (q / CLX_GAUSS_N + clx_gauss_point(q % CLX_GAUSS_N));
+            const int panel = q / CLX_GAUSS_N;
+            const double t = CLAST_PI * 0.5 * (panel + clx_gauss_point(q % CLX_GAUSS_N));
             const double angle = from + (to - from) * 0.5 * (1.0 - cos(t));
             sum += 0.5 * CLAST_PI * clx_gauss_weight(q % CLX_GAUSS_N) * 0.5 * (to - from) * sin(t) *
                    sin(angle) * slice(d, r, angle);
@@ -150,7 +151,8 @@ static double piece(const clast_domain *d, double from, double to)
     const double surface[3] = {2.0, 2.0 * CLAST_PI, 4.0 * CLAST_PI};
     double sum = 0.0;
     for (int q = 0; q < 4 * CLX_GAUSS_N; ++q) {
-        const double t = CLAST_PI * 0.25 * (q / CLX_GAUSS_N + clx_gauss_point(q % CLX_GAUSS_N));
+        const int panel = q / CLX_GAUSS_N;
+        const double t = CLAST_PI * 0.25 * (panel + clx_gauss_point(q % CLX_GAUSS_N));
         const double r = from + (to - from) * 0.5 * (1.0 - cos(t));
         sum += 0.25 * CLAST_PI * clx_gauss_weight(q % CLX_GAUSS_N) * 0.5 * (to - from) * sin(t) *
                surface[d->dimension - 1] * pow(r, d->dimension - 1) * clx_covariogram(d, r);

@@ -7,6 +7,7 @@
 #include "cloud/cut_cells.h"
 #include "cloud/decompose_steps.h"
 #include "cloud/events.h"
+#include "cloud/pair_events.h"
 #include "cloud/passes.h"
 #include "cloud/sample.h"
 #include "cloud/surface.h"
@@ -70,6 +71,17 @@ const clast_field clast_decompose_fields[] = {
      "add the pairs that tree cells hide by being taken as uniform, from pairs at two sizes of "
      "cells",
      NULL},
+    {FIELD(CLAST_FIELD_BOOL, pairs), 0, 0, 0, "-",
+     "count pairs by distance: g(r), and events by pairs beside those by cells", NULL,
+     .common = true, .group = "pairs"},
+    {FIELD(CLAST_FIELD_F64, pairs_radius), 0, 0.0, 1e300, "-",
+     "greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three "
+     "mean spacings in 3-D",
+     NULL},
+    {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_CELLS, 0, 0, "-",
+     "what events are counted by; auto: of cells and pairs the one that resolves the cloud and is "
+     "more certain",
+     "cells|pairs|auto"},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
      .group = "random numbers"},
     {0}};
@@ -126,8 +138,12 @@ static void free_cells(clast_cells *cells)
 
 void clast_decomposition_free(clast_decomposition *result)
 {
+    if (result == NULL) {
+        return;
+    }
     free_cells(&result->cells);
     clast_table_free(&result->search);
+    clast_pairs_free(&result->pairs);
     *result = (clast_decomposition){0};
 }
 
@@ -314,6 +330,10 @@ bool clast_cells_are_labelled(const clast_cells *cells)
 
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)
 {
+    if (cells == NULL || x == NULL || clx_domain_check(domain) != CLAST_OK || cells->n < 1 ||
+        cells->low == NULL || cells->high == NULL) {
+        return -1;
+    }
     double u[3] = {0};
     if (!clast_domain_map(domain, x, u)) {
         return -1;
@@ -413,6 +433,8 @@ static clast_status crossfit(const clast_cloud *cloud, const clast_decompose_con
     double found[2] = {0};
     clast_decompose_config plain = *config;
     plain.crossfit = false;
+    plain.pairs = false;
+    plain.estimator = CLAST_ESTIMATOR_CELLS;
     for (int k = 0; k < 2; ++k) {
         CLX_TRY(take_half(cloud, k, &half[k]));
     }
@@ -520,6 +542,7 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
     CLX_TRY(clx_events_count(cloud, config, sample, kept, result));
+    CLX_TRY(clx_pair_events(sample->domain, cloud, config, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;
     if (config->crossfit) {
@@ -532,6 +555,7 @@ done:
 clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                 const clast_decompose_config *config, clast_decomposition *result)
 {
+    CLX_ARGUMENTS(domain, cloud, config, result);
     clast_status status = CLAST_OK;
     clast_decomposition made = {0};
     clx_sample m = {0};
@@ -553,9 +577,9 @@ done:
 clast_status clast_decompose(const clast_cloud *cloud, const clast_decompose_config *config,
                              clast_decomposition *result)
 {
+    CLX_ARGUMENTS(cloud, config, result);
     clast_status status = CLAST_OK;
     clast_domain domain = {0};
-    CLX_NEED(config);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config));
     CLX_TRY(clast_domain_parse(config->domain, &domain));
     CLX_TRY(clast_decompose_in(&domain, cloud, config, result));

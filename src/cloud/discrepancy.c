@@ -127,10 +127,10 @@ static void statistics(const constants *c, int64_t n_point, int32_t d, clast_dis
 clast_status clast_discrepancy_test(const double *u, int64_t n, int32_t d, clast_sums method,
                                     clast_discrepancy *result)
 {
+    CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
     sums total;
     double pair[CLAST_N_DISCREPANCY];
-    CLX_NEED(result);
     CLX_TRY(clx_cube_check(u, n, d, 2, "a discrepancy"));
     CLX_CHECK((unsigned)method <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
               (int)method);

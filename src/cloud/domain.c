@@ -9,8 +9,20 @@ bool clx_domain_is_boxed(const clast_domain *d)
     return d->kind == CLAST_DOMAIN_BOX || d->kind == CLAST_DOMAIN_MESH;
 }
 
+/// A domain that can be mapped at all: clx_domain_check without its messages.
+static bool is_usable(const clast_domain *d)
+{
+    return d != NULL && (unsigned)d->kind <= CLAST_DOMAIN_MESH && d->dimension >= 1 &&
+           d->dimension <= 3 &&
+           (d->kind != CLAST_DOMAIN_MAP || (d->user.map != NULL && d->user.unmap != NULL)) &&
+           (d->kind != CLAST_DOMAIN_MESH || d->surface != NULL);
+}
+
 double clast_domain_volume(const clast_domain *d)
 {
+    if (!is_usable(d)) {
+        return (double)NAN;
+    }
     double volume = 1.0;
     switch (d->kind) {
     case CLAST_DOMAIN_MAP:
@@ -34,6 +46,9 @@ double clast_domain_volume(const clast_domain *d)
 
 void clast_domain_sides(const clast_domain *d, double side[3])
 {
+    if (!is_usable(d) || side == NULL) {
+        return;
+    }
     for (int32_t j = 0; j < 3; ++j) {
         side[j] = clx_domain_is_boxed(d) && j < d->dimension ? d->high[j] - d->low[j] : 1.0;
     }
@@ -79,7 +94,10 @@ static void to_world(const clast_domain *d, double *x)
 
 bool clast_domain_map(const clast_domain *d, const double *x, double *u)
 {
-    double local[3];
+    if (!is_usable(d) || x == NULL || u == NULL) {
+        return false;
+    }
+    double local[3] = {0};
     if (d->is_placed) {
         to_local(d, x, local);
         x = local;
@@ -94,7 +112,7 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
         return map_pipe(d, x, u);
     }
     bool inside = true;
-    for (int32_t j = 0; j < d->dimension; ++j) {
+    for (int32_t j = 0; j < d->dimension && j < 3; ++j) {
         u[j] = (x[j] - d->low[j]) / (d->high[j] - d->low[j]);
         inside = inside && u[j] >= 0.0 && u[j] <= 1.0;
     }
@@ -106,6 +124,9 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
 
 void clast_domain_unmap(const clast_domain *d, const double *u, double *x)
 {
+    if (!is_usable(d) || u == NULL || x == NULL) {
+        return;
+    }
     if (d->kind == CLAST_DOMAIN_MAP) {
         d->user.unmap(d->user.context, u, x);
     } else if (clx_domain_is_boxed(d)) {

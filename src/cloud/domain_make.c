@@ -2,6 +2,7 @@
 #include "cloud/surface.h"
 
 #include "base/alloc.h"
+#include "geom/whole.h"
 #include "math/rng.h"
 #include <clast/mesh_check.h>
 #include <math.h>
@@ -143,6 +144,7 @@ static void free_surface(clast_domain_surface *surface)
 
 clast_status clast_domain_of_mesh(const clast_mesh *mesh, double scale, clast_domain *domain)
 {
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_domain made = {.kind = CLAST_DOMAIN_MESH, .dimension = 3};
     clast_domain_surface *s = NULL;
@@ -173,6 +175,9 @@ done:
 
 void clast_domain_free(clast_domain *domain)
 {
+    if (domain == NULL) {
+        return;
+    }
     free_surface(domain->surface);
     *domain = (clast_domain){0};
 }

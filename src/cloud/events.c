@@ -207,7 +207,9 @@ static void count_pairs(count *n)
 static void share_out(const count *n, double plain, clast_decomposition *r)
 {
     // pairs can only be hidden: below 1 it is noise, and of a handful of points it may be negative
-    const double factor = !n->is_plain && plain > 0.0 ? fmax(0.5, n->pairs / plain) : 1.0;
+    // (all points of every cell at one place: no law extrapolates, and the pairs counted are told)
+    const bool is_extrapolated = !n->is_plain && plain > 0.0 && isfinite(n->pairs);
+    const double factor = is_extrapolated ? fmax(0.5, n->pairs / plain) : 1.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         const double cap = cap_of(n, c);
         const double shared = factor * n->cells->events[c];

@@ -187,12 +187,12 @@ static clast_status statistic(block_context *c, int64_t n_point, clast_sums sums
 clast_status clast_henze_zirkler_test(const double *u, int64_t n, int32_t d, clast_sums sums,
                                       clast_henze_zirkler *result)
 {
+    CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
     clast_henze_zirkler made = {0};
     double l[3][3] = {{0}};
     score_context context = {u, d, NULL};
     block_context blocks = {.d = d, .l = l};
-    CLX_NEED(result);
     CLX_TRY(clx_cube_check(u, n, d, 2, "a Henze-Zirkler test"));
     CLX_CHECK((unsigned)sums <= CLAST_SUMS_BINNED, CLAST_E_ARGUMENT, "%d is no way of summing",
               (int)sums);

@@ -84,6 +84,9 @@ static double shear_turbulent(const clast_medium *m, const clast_collider *a,
 
 double clast_settling_speed(const clast_medium *m, const clast_collider *a)
 {
+    if (m == NULL || a == NULL) {
+        return (double)NAN;
+    }
     return a->mass * (1.0 - m->density / m->particle_density) * m->gravity /
            (6.0 * CLAST_PI * m->viscosity * a->radius);
 }
@@ -178,6 +181,7 @@ static int32_t find(const char *name, size_t length)
 
 clast_status clast_kernel_parse(const char *text, uint32_t *mask)
 {
+    CLX_ARGUMENTS(text, mask);
     uint32_t made = 0;
     const char *at = text;
     if (text == NULL || mask == NULL) {
@@ -217,6 +221,7 @@ uint32_t clast_kernel_needs(uint32_t mask)
 
 clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
 {
+    CLX_ARGUMENTS(m);
     if (m == NULL || mask == 0 || mask >> CLAST_N_KERNEL != 0) {
         return clx_fail(CLAST_E_ARGUMENT, "clast_kernel_check: mask %#x, medium %s", (unsigned)mask,
                         m == NULL ? "NULL" : "given");
@@ -254,6 +259,9 @@ clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
 double clast_kernel_value(uint32_t mask, const clast_medium *medium, const clast_collider *a,
                           const clast_collider *b)
 {
+    if (medium == NULL || a == NULL || b == NULL) {
+        return (double)NAN;
+    }
     double sum = 0.0;
     for (int k = 0; mask != 0; ++k, mask >>= 1) {
         sum += (mask & 1U) != 0 ? value[k](medium, a, b) : 0.0;

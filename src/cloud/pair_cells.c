@@ -18,8 +18,7 @@ enum {
     MOST_DIM = 524288, ///< cells an axis: keys stay below 2^63
     MOST_BLOCK = 256,  ///< blocks of cells that are summed by themselves
     CHUNK = 256,       ///< distances computed together
-    OCTAVE = 64,       ///< entries of the shell table for a factor of two in r^2
-    MOST_TABLE = 4096
+    MOST_TABLE = 2048  ///< 64 for each factor of two in r^2: 32 of them
 };
 
 void clx_pair_cells_free(clx_pair_cells *c)
@@ -116,11 +115,10 @@ typedef struct {
     int32_t n_shell;
     double square[CLAST_MAX_SHELL]; ///< of the radii
     uint64_t first;                 ///< leading bits of the first entry of the table
-    int32_t n_table;
-    uint8_t shell[MOST_TABLE]; ///< of the least r^2 with these leading bits
-    int64_t block;             ///< cells in a block, by their number alone
-    clx_pair_sum *sum;         ///< [n_block][n_shell]
-    int64_t *repeated;         ///< [n_block]
+    uint8_t shell[MOST_TABLE];      ///< of the least r^2 with these leading bits
+    int64_t block;                  ///< cells in a block, by their number alone
+    clx_pair_sum *sum;              ///< [n_block][n_shell]
+    int64_t *repeated;              ///< [n_block]
 } job;
 
 /// Sign, exponent and six bits of the fraction.
@@ -134,9 +132,9 @@ static uint64_t leading(double value)
 static void fill_table(job *w)
 {
     w->first = leading(w->square[0]);
-    const uint64_t last = leading(w->square[w->n_shell - 1]);
-    w->n_table = last - w->first < MOST_TABLE ? (int32_t)(last - w->first) + 1 : 0;
-    for (int32_t t = 0, k = 0; t < w->n_table; ++t) {
+    const int32_t n_table = (int32_t)(leading(w->square[w->n_shell - 1]) - w->first) + 1;
+    CLAST_ASSERT(n_table <= MOST_TABLE);
+    for (int32_t t = 0, k = 0; t < n_table; ++t) {
         const uint64_t bits = (w->first + (uint64_t)t) << 46;
         double least = 0.0;
         memcpy(&least, &bits, sizeof least);
@@ -147,76 +145,89 @@ static void fill_table(job *w)
     }
 }
 
-static int32_t shell_of(const job *w, double r2)
+/// An entry of the table meets one border of shells at most: shells are a sixth of an octave or
+/// wider.
+static inline int32_t shell_of(const job *w, double r2)
 {
-    int32_t k = 0;
-    if (r2 >= w->square[0] && w->n_table > 0) {
-        k = w->shell[leading(r2) - w->first];
-    }
-    while (r2 >= w->square[k]) {
-        ++k;
-    }
-    return k;
+    const int32_t k = r2 < w->square[0] ? 0 : w->shell[leading(r2) - w->first];
+    return k + (r2 >= w->square[k] ? 1 : 0);
 }
 
 /// Sums of one point.
 typedef struct {
     int64_t i;
+    bool is_far; ///< from the border: all edge weights are 1
     double x[3];
     int32_t count[CLAST_MAX_SHELL];
-    double weight[CLAST_MAX_SHELL];
-    double weight2[CLAST_MAX_SHELL];
+    double extra[CLAST_MAX_SHELL];  ///< h - 1
+    double extra2[CLAST_MAX_SHELL]; ///< h^2 - 1
     int64_t repeated;
 } point;
 
-static void add_pair(const job *w, int64_t k, double r2, point *p)
+static void weigh_pair(const job *w, int64_t k, double r2, int32_t shell, point *p)
 {
     const clx_pair_cells *c = w->cells;
-    const int32_t shell = shell_of(w, r2);
-    const double safe = fmin(c->safe[p->i], c->safe[k]);
-    double h = 1.0;
-    if (!(safe > 0.0 && r2 < safe * safe)) {
-        double y[3] = {0};
-        for (int32_t j = 0; j < c->d; ++j) {
-            y[j] = c->x[j][k];
-        }
-        h = 0.5 *
-            (clx_pair_edge_weight(w->domain, p->x, y) + clx_pair_edge_weight(w->domain, y, p->x));
+    const double safe = c->safe[p->i] < c->safe[k] ? c->safe[p->i] : c->safe[k];
+    if (safe > 0.0 && r2 < safe * safe) {
+        return;
     }
-    ++p->count[shell];
-    p->weight[shell] += h;
-    p->weight2[shell] += h * h;
-    p->repeated += r2 == 0.0 ? 1 : 0;
+    double y[3] = {0};
+    for (int32_t j = 0; j < c->d; ++j) {
+        y[j] = c->x[j][k];
+    }
+    const double h =
+        0.5 * (clx_pair_edge_weight(w->domain, p->x, y) + clx_pair_edge_weight(w->domain, y, p->x));
+    p->extra[shell] += h - 1.0;
+    p->extra2[shell] += h * h - 1.0;
+}
+
+/// Squared distances of n points from one, axis by axis.
+static inline void distances(const clx_pair_cells *c, int64_t k, int32_t n, const double *at,
+                             double *r2)
+{
+    const double *x = c->x[0] + k;
+    const double *y = c->d > 1 ? c->x[1] + k : NULL;
+    const double *z = c->d > 2 ? c->x[2] + k : NULL;
+    if (c->d == 3) {
+        for (int32_t i = 0; i < n; ++i) {
+            const double t[3] = {x[i] - at[0], y[i] - at[1], z[i] - at[2]};
+            r2[i] = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+        }
+    } else if (c->d == 2) {
+        for (int32_t i = 0; i < n; ++i) {
+            const double t[2] = {x[i] - at[0], y[i] - at[1]};
+            r2[i] = t[0] * t[0] + t[1] * t[1];
+        }
+    } else {
+        for (int32_t i = 0; i < n; ++i) {
+            r2[i] = (x[i] - at[0]) * (x[i] - at[0]);
+        }
+    }
 }
 
 static void add_range(const job *w, int64_t begin, int64_t end, point *p)
 {
-    const clx_pair_cells *c = w->cells;
     const double most = w->square[w->n_shell - 1];
     double r2[CHUNK];
     int32_t near[CHUNK];
     for (int64_t k = begin; k < end; k += CHUNK) {
         const int32_t n = (int32_t)(end - k < CHUNK ? end - k : CHUNK);
         int32_t n_near = 0;
-        for (int32_t i = 0; i < n; ++i) {
-            const double t = c->x[0][k + i] - p->x[0];
-            r2[i] = t * t;
-        }
-        for (int32_t j = 1; j < c->d; ++j) {
-            const double *x = c->x[j] + k;
-            const double at = p->x[j];
-            for (int32_t i = 0; i < n; ++i) {
-                const double t = x[i] - at;
-                r2[i] += t * t;
-            }
-        }
+        distances(w->cells, k, n, p->x, r2);
         for (int32_t i = 0; i < n; ++i) {
             near[n_near] = i;
             n_near += r2[i] < most ? 1 : 0;
         }
         for (int32_t i = 0; i < n_near; ++i) {
-            if (k + near[i] != p->i) {
-                add_pair(w, k + near[i], r2[near[i]], p);
+            const int32_t shell = shell_of(w, r2[near[i]]);
+            ++p->count[shell];
+            if (r2[near[i]] == 0.0) {
+                const bool is_self = k + near[i] == p->i;
+                p->count[shell] -= is_self ? 1 : 0;
+                p->repeated += is_self ? 0 : 1;
+            }
+            if (!p->is_far) {
+                weigh_pair(w, k + near[i], r2[near[i]], shell, p);
             }
         }
     }
@@ -226,6 +237,7 @@ static void add_range(const job *w, int64_t begin, int64_t end, point *p)
 typedef struct {
     int32_t step[3];
     int64_t offset;
+    int64_t key;       ///< of its middle cell
     int64_t low, high; ///< cells
 } row;
 
@@ -264,47 +276,80 @@ static int64_t find_cell(const clx_pair_cells *c, int64_t from, int64_t key)
 }
 
 /// Least distance of the point to a row, squared, a little less for rounding.
-static double to_row(const clx_pair_cells *c, const row *r, const double *x)
+static double to_row(const clx_pair_cells *c, const row *r, const double *part)
 {
     double sum = 0.0;
     for (int32_t j = 1; j < c->d; ++j) {
-        const double at = (x[j] - c->low[j]) / c->side;
-        const double cell = floor(at) + r->step[j];
-        const double gap = c->side * (fmax(0.0, fmax(cell - at, at - cell - 1.0)) - 1e-6);
-        sum += gap > 0.0 ? gap * gap : 0.0;
+        const double step = r->step[j];
+        const double gap = step > 0.0 ? step - part[j] : step < 0.0 ? part[j] - step - 1.0 : 0.0;
+        const double length = c->side * (gap - 1e-6);
+        sum += length > 0.0 ? length * length : 0.0;
     }
     return sum;
+}
+
+/// The points of a row that may be near: its cells within the distance left along axis 0.
+static void add_row(const job *w, const row *r, double left, const double *part, point *p)
+{
+    const clx_pair_cells *c = w->cells;
+    const double reach = sqrt(left) / c->side + 1e-6;
+    const int64_t middle = r->key;
+    const int64_t from = middle + (int64_t)floor(part[0] - reach);
+    const int64_t to = middle + (int64_t)floor(part[0] + reach);
+    int64_t low = r->low;
+    int64_t high = r->high;
+    while (low < high && c->key[low] < from) {
+        ++low;
+    }
+    while (low < high && c->key[high - 1] > to) {
+        --high;
+    }
+    if (low < high) {
+        add_range(w, c->begin[low], c->begin[high], p);
+    }
+}
+
+static void gather_point(const job *w, const point *p, clx_pair_sum *sum)
+{
+    int32_t met[CLAST_MAX_SHELL];
+    double weight[CLAST_MAX_SHELL];
+    int32_t n_met = 0;
+    for (int32_t k = 0; k < w->n_shell; ++k) {
+        if (p->count[k] == 0) {
+            continue;
+        }
+        weight[n_met] = p->count[k] + p->extra[k];
+        met[n_met++] = k;
+        for (int32_t l = 0; l < n_met; ++l) {
+            sum[k].joint[met[l]] += weight[n_met - 1] * weight[l];
+        }
+        sum[k].pairs += p->count[k];
+        sum[k].squares += (int64_t)p->count[k] * p->count[k];
+        sum[k].weight += weight[n_met - 1];
+        sum[k].weight2 += p->count[k] + p->extra2[k];
+    }
 }
 
 static void add_point(const job *w, const row *rows, int32_t n_row, point *p, clx_pair_sum *sum)
 {
     const clx_pair_cells *c = w->cells;
-    int32_t met[CLAST_MAX_SHELL];
-    int32_t n_met = 0;
+    double part[3] = {0};
     memset(p->count, 0, sizeof p->count);
-    memset(p->weight, 0, sizeof p->weight);
-    memset(p->weight2, 0, sizeof p->weight2);
+    memset(p->extra, 0, sizeof p->extra);
+    memset(p->extra2, 0, sizeof p->extra2);
+    p->is_far = c->safe[p->i] >= 4.0 * c->side;
     for (int32_t j = 0; j < c->d; ++j) {
         p->x[j] = c->x[j][p->i];
+        part[j] = (p->x[j] - c->low[j]) / c->side;
+        part[j] -= floor(part[j]);
     }
     for (int32_t r = 0; r < n_row; ++r) {
-        if (rows[r].low < rows[r].high && to_row(c, &rows[r], p->x) < w->square[w->n_shell - 1]) {
-            add_range(w, c->begin[rows[r].low], c->begin[rows[r].high], p);
+        const double left = w->square[w->n_shell - 1] - to_row(c, &rows[r], part);
+        if (rows[r].low < rows[r].high && left > 0.0) {
+            add_row(w, &rows[r], left, part, p);
         }
     }
-    for (int32_t k = 0; k < w->n_shell; ++k) {
-        if (p->count[k] == 0) {
-            continue;
-        }
-        met[n_met++] = k;
-        for (int32_t l = 0; l < n_met; ++l) {
-            sum[k].joint[met[l]] += p->weight[k] * p->weight[met[l]];
-        }
-        sum[k].pairs += p->count[k];
-        sum[k].squares += (int64_t)p->count[k] * p->count[k];
-        sum[k].weight += p->weight[k];
-        sum[k].weight2 += p->weight2[k];
-    }
+    gather_point(w, p, sum);
 }
 
 static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -317,9 +362,9 @@ static void sum_block(int64_t begin, int64_t end, int32_t worker, void *context)
     (void)worker;
     for (int64_t cell = begin; cell < end; ++cell) {
         for (int32_t r = 0; r < n_row; ++r) {
-            const int64_t at = c->key[cell] + rows[r].offset;
-            rows[r].low = find_cell(c, rows[r].low, at - RANGE);
-            rows[r].high = find_cell(c, rows[r].low, at + RANGE + 1);
+            rows[r].key = c->key[cell] + rows[r].offset;
+            rows[r].low = find_cell(c, rows[r].low, rows[r].key - RANGE);
+            rows[r].high = find_cell(c, rows[r].low, rows[r].key + RANGE + 1);
         }
         for (p.i = c->begin[cell]; p.i < c->begin[cell + 1]; ++p.i) {
             add_point(w, rows, n_row, &p, w->sum + begin / w->block * w->n_shell);
@@ -337,7 +382,7 @@ static void measure_safe(int64_t begin, int64_t end, int32_t worker, void *conte
         for (int32_t j = 0; j < w->cells->d; ++j) {
             x[j] = w->cells->x[j][i];
         }
-        w->cells->safe[i] = clx_pair_edge_safe(w->domain, x, 2.0 * w->cells->side);
+        w->cells->safe[i] = clx_pair_edge_safe(w->domain, x, 4.0 * w->cells->side);
     }
 }
 

@@ -18,8 +18,10 @@
 enum {
     MOST_SHAPE = 81,
     MOST_USED = 24,
-    N_ITERATION = 400,
-    N_BISECT = 20,
+    N_EM = 20,
+    N_NEWTON = 40,
+    N_HALVING = 10,
+    N_BISECT = 12,
     N_STRETCH = 4,
     LEAST_PAIRS = 10, ///< within twice the narrowest width that is looked at
     FINER = 2         ///< levels narrower than the chosen one that the interval allows
@@ -31,6 +33,8 @@ static const double step = 0.70710678118654752; ///< from one s to the next
 static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
 static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
 static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
+static const double most_doubt = 0.25;  ///< half width of the profile's interval, as a logarithm,
+                                        ///< with which a cloud is resolved
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
@@ -124,13 +128,14 @@ static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, f
     }
     add_shape(f, INFINITY, false);
     const double least = least_scale(in);
-    for (double s = widest * in->radius[in->n_shell - 1];
-         s >= least && f->n_shape + 2 <= MOST_SHAPE; s *= step) {
+    double s = widest * in->radius[in->n_shell - 1];
+    while (s >= least && f->n_shape + 2 <= MOST_SHAPE) {
         if (has_kinks) {
             add_shape(f, stretch * s, true);
         }
         add_shape(f, stretch * s, false);
         f->s[++f->n_level] = stretch * s;
+        s *= step;
     }
 }
 
@@ -144,32 +149,207 @@ static void expect(const fit *f, int32_t n_shape, const double *c, double *mean)
     }
 }
 
-/// Maximises the Poisson log-likelihood less tilt times the integral by EM from m->c.
+/// Solves a x = b, a symmetric and positive definite [n][n], by Cholesky; a is lost.
+static void solve(double *a, int n, double *b)
+{
+    for (int j = 0; j < n; ++j) {
+        for (int k = 0; k < j; ++k) {
+            for (int i = j; i < n; ++i) {
+                a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            }
+        }
+        const double root = sqrt(fmax(a[j * n + j], 1e-300));
+        for (int i = j; i < n; ++i) {
+            a[i * n + j] /= root;
+        }
+    }
+    for (int j = 0; j < n; ++j) {
+        for (int k = 0; k < j; ++k) {
+            b[j] -= a[j * n + k] * b[k];
+        }
+        b[j] /= a[j * n + j];
+    }
+    for (int j = n - 1; j >= 0; --j) {
+        for (int k = j + 1; k < n; ++k) {
+            b[j] -= a[k * n + j] * b[k];
+        }
+        b[j] /= a[j * n + j];
+    }
+}
+
+/// A least of x' H x / 2 - b' x over x >= 0, H [n][n] with a unit diagonal.
+typedef struct {
+    const double *h, *b;
+    int32_t n;
+    double scale; ///< greatest |b|
+    double *x;
+    int32_t used[MOST_SHAPE], n_used; ///< x > 0
+} quadratic;
+
+/// The unused coordinate along which the form falls most, -1 where it falls along none.
+static int32_t find_descent(const quadratic *q)
+{
+    double most = 1e-10 * q->scale;
+    int32_t found = -1;
+    for (int32_t j = 0; j < q->n; ++j) {
+        double w = q->b[j];
+        for (int32_t i = 0; i < q->n_used; ++i) {
+            w -= q->h[j * q->n + q->used[i]] * q->x[q->used[i]];
+        }
+        if (q->x[j] == 0.0 && w > most) {
+            most = w;
+            found = j;
+        }
+    }
+    return found;
+}
+
+/// The least over the used coordinates, without bounds.
+static void solve_used(const quadratic *q, double *z)
+{
+    double a[MOST_SHAPE * MOST_SHAPE];
+    for (int32_t i = 0; i < q->n_used; ++i) {
+        z[i] = q->b[q->used[i]];
+        for (int32_t j = 0; j < q->n_used; ++j) {
+            a[i * q->n_used + j] = q->h[q->used[i] * q->n + q->used[j]] + (i == j ? 1e-10 : 0.0);
+        }
+    }
+    solve(a, q->n_used, z);
+}
+
+/// Goes towards the least over the used coordinates as far as the bounds allow, and drops those
+/// that reach 0; true when it got there.
+static bool approach(quadratic *q)
+{
+    double z[MOST_SHAPE];
+    double part = 1.0;
+    int32_t stops = -1; // the first to reach 0: dropped in any case, so that there is an end
+    int32_t kept = 0;
+    solve_used(q, z);
+    for (int32_t i = 0; i < q->n_used; ++i) {
+        const double x = q->x[q->used[i]];
+        if (z[i] <= 0.0 && x <= part * (x - z[i])) {
+            part = x > 0.0 ? x / (x - z[i]) : 0.0;
+            stops = i;
+        }
+    }
+    for (int32_t i = 0; i < q->n_used; ++i) {
+        const int32_t j = q->used[i];
+        const double next = q->x[j] + part * (z[i] - q->x[j]);
+        q->x[j] = next > 1e-14 * q->scale && i != stops ? next : 0.0;
+        if (q->x[j] > 0.0) {
+            q->used[kept++] = j;
+        }
+    }
+    q->n_used = kept;
+    return stops < 0;
+}
+
+/// The active-set method of Lawson and Hanson (1974).
+static void minimise_quadratic(const double *h, const double *b, int32_t n, double *x)
+{
+    quadratic q = {.h = h, .b = b, .n = n, .x = x};
+    for (int32_t j = 0; j < n; ++j) {
+        x[j] = 0.0;
+        q.scale = fmax(q.scale, fabs(b[j]));
+    }
+    for (int32_t turn = 0; turn < 3 * n; ++turn) {
+        const int32_t enters = find_descent(&q);
+        if (enters < 0) {
+            return;
+        }
+        q.used[q.n_used++] = enters;
+        while (q.n_used > 0 && !approach(&q)) {
+        }
+    }
+}
+
+/// Poisson log-likelihood less tilt times the integral.
+static double objective(const fit *f, int32_t n_shape, double tilt, const double *c, double *mean)
+{
+    double sum = 0.0;
+    expect(f, n_shape, c, mean);
+    for (int32_t k = 0; k < f->in->n_shell; ++k) {
+        sum += (f->pairs[k] > 0.0 ? f->pairs[k] * log(mean[k]) : 0.0) - mean[k];
+    }
+    for (int32_t j = 0; j < n_shape; ++j) {
+        sum -= tilt * c[j];
+    }
+    return sum;
+}
+
+/// One Newton step within c >= 0, as long as it gains; returns the gain.
+static double newton(const fit *f, int32_t n_shape, double tilt, mixture *m)
+{
+    double mean[CLAST_MAX_SHELL];
+    double h[MOST_SHAPE * MOST_SHAPE];
+    double b[MOST_SHAPE];
+    double x[MOST_SHAPE];
+    double unit[MOST_SHAPE];
+    const double before = objective(f, n_shape, tilt, m->c, mean);
+    for (int32_t i = 0; i < n_shape; ++i) {
+        b[i] = -tilt - f->total[i];
+        for (int32_t k = 0; k < f->in->n_shell; ++k) {
+            b[i] += mean[k] > 0.0 ? f->mass[i][k] * f->pairs[k] / mean[k] : 0.0;
+        }
+        for (int32_t j = 0; j <= i; ++j) {
+            double sum = 0.0;
+            for (int32_t k = 0; k < f->in->n_shell; ++k) {
+                sum += mean[k] > 0.0
+                           ? f->mass[i][k] * f->mass[j][k] * f->pairs[k] / (mean[k] * mean[k])
+                           : 0.0;
+            }
+            h[i * n_shape + j] = h[j * n_shape + i] = sum;
+        }
+    }
+    for (int32_t i = 0; i < n_shape; ++i) {
+        unit[i] = h[i * n_shape + i] > 0.0 ? 1.0 / sqrt(h[i * n_shape + i]) : 0.0;
+        for (int32_t j = 0; j < n_shape; ++j) {
+            b[i] += h[i * n_shape + j] * m->c[j];
+        }
+    }
+    for (int32_t i = 0; i < n_shape; ++i) {
+        b[i] *= unit[i];
+        for (int32_t j = 0; j < n_shape; ++j) {
+            h[i * n_shape + j] *= unit[i] * unit[j];
+        }
+    }
+    minimise_quadratic(h, b, n_shape, x);
+    double part = 1.0;
+    for (int32_t turn = 0; turn < N_HALVING; ++turn) {
+        mixture next = *m;
+        for (int32_t j = 0; j < n_shape; ++j) {
+            next.c[j] += part * (unit[j] * x[j] - m->c[j]);
+        }
+        const double gain = objective(f, n_shape, tilt, next.c, mean) - before;
+        if (gain > 0.0) {
+            *m = next;
+            return gain;
+        }
+        part *= 0.5;
+    }
+    return 0.0;
+}
+
+/// Maximises the Poisson log-likelihood less tilt times the integral from m->c: a few rounds of EM,
+/// which is slow where shapes are alike, then Newton's method.
 static void maximise(const fit *f, int32_t n_shape, double tilt, mixture *m)
 {
     double mean[CLAST_MAX_SHELL];
-    for (int32_t round = 0; round < N_ITERATION; ++round) {
-        double most = 0.0;
+    for (int32_t round = 0; round < N_EM; ++round) {
         expect(f, n_shape, m->c, mean);
         for (int32_t j = 0; j < n_shape; ++j) {
             double sum = 0.0;
             for (int32_t k = 0; k < f->in->n_shell; ++k) {
                 sum += mean[k] > 0.0 ? f->mass[j][k] * f->pairs[k] / mean[k] : 0.0;
             }
-            const double next = m->c[j] * sum / (f->total[j] + tilt);
-            most = fmax(most, fabs(next - m->c[j]));
-            m->c[j] = next;
-        }
-        if (most < 1e-9 * m->c[0]) {
-            break;
+            m->c[j] *= sum / (f->total[j] + tilt);
         }
     }
-    expect(f, n_shape, m->c, mean);
-    m->likelihood = 0.0;
+    for (int32_t round = 0; round < N_NEWTON && newton(f, n_shape, tilt, m) > 1e-4; ++round) {
+    }
+    m->likelihood = objective(f, n_shape, 0.0, m->c, mean);
     m->integral = 0.0;
-    for (int32_t k = 0; k < f->in->n_shell; ++k) {
-        m->likelihood += (f->pairs[k] > 0.0 ? f->pairs[k] * log(mean[k]) : 0.0) - mean[k];
-    }
     for (int32_t j = 0; j < n_shape; ++j) {
         m->integral += m->c[j];
     }
@@ -208,7 +388,7 @@ static double bound(const fit *f, int32_t n_shape, const mixture *top, double fa
     }
     // the tilt as a share of the least total: -1 .. 0 up, 0 .. infinity down
     double low = 0.0;
-    double high = up ? 1.0 : 1.0;
+    double high = 1.0;
     mixture m = *top;
     const double wanted = top->likelihood - 0.5 * chi2_95 * factor;
     for (int b = 0; b < 60 && !up; ++b) {
@@ -228,34 +408,6 @@ static double bound(const fit *f, int32_t n_shape, const mixture *top, double fa
         }
     }
     return m.integral;
-}
-
-/// Solves a x = b, a symmetric and positive definite [n][n], by Cholesky; a is lost.
-static void solve(double *a, int n, double *b)
-{
-    for (int j = 0; j < n; ++j) {
-        for (int k = 0; k < j; ++k) {
-            for (int i = j; i < n; ++i) {
-                a[i * n + j] -= a[i * n + k] * a[j * n + k];
-            }
-        }
-        const double root = sqrt(fmax(a[j * n + j], 1e-300));
-        for (int i = j; i < n; ++i) {
-            a[i * n + j] /= root;
-        }
-    }
-    for (int j = 0; j < n; ++j) {
-        for (int k = 0; k < j; ++k) {
-            b[j] -= a[j * n + k] * b[k];
-        }
-        b[j] /= a[j * n + j];
-    }
-    for (int j = n - 1; j >= 0; --j) {
-        for (int k = j + 1; k < n; ++k) {
-            b[j] -= a[k * n + j] * b[k];
-        }
-        b[j] /= a[j * n + j];
-    }
 }
 
 /// How the sum of the coefficients (more < 0), or the coefficient of a shape `more` that is added,
@@ -335,7 +487,7 @@ static double fit_p(const fit *f, int32_t n_shape, const mixture *m)
 /// point with many neighbours do not count as so many numbers. At least 1.
 static double overdispersion(const fit *f, const mixture *m, int32_t level)
 {
-    double row[CLAST_MAX_SHELL];
+    double row[CLAST_MAX_SHELL] = {0};
     double full = 0.0;
     double poisson = 0.0;
     const int32_t more = shapes(f, level + FINER) - 1;
@@ -352,6 +504,7 @@ typedef struct {
     int32_t level;
     double likelihood; ///< over the overdispersion
     double value, low, high, s;
+    double least, most; ///< of the profile alone
     double fit_p;
 } answer;
 
@@ -384,15 +537,17 @@ static answer ask(fit *f)
     const mixture top = best(f, finer, 0.0);
     const double low = bound(f, finer, &top, factor, false);
     const double high = bound(f, finer, &top, factor, true);
-    double row[CLAST_MAX_SHELL];
+    double row[CLAST_MAX_SHELL] = {0};
     double full = 0.0;
     double poisson = 0.0;
     response(f, &m, shapes(f, a.level), -1, row);
     variances(f, &m, shapes(f, a.level), row, &full, &poisson);
     const double shared = normal_975 * sqrt(fmax(0.0, full - poisson)) / m.integral;
     a.value = m.integral;
-    a.low = a.value * exp(-hypot(log(a.value / fmin(low, a.value)), shared));
-    a.high = a.value * exp(hypot(log(fmax(high, a.value) / a.value), shared));
+    a.least = fmin(low, a.value);
+    a.most = fmax(high, a.value);
+    a.low = a.value * exp(-hypot(log(a.value / a.least), shared));
+    a.high = a.value * exp(hypot(log(a.most / a.value), shared));
     a.s = f->s[a.level];
     a.likelihood = m.likelihood / factor;
     a.fit_p = fit_p(f, shapes(f, a.level), &m);
@@ -422,8 +577,8 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     if (f->n_level == 0) { // next to no pairs
         made.estimate = (clast_estimate){NAN, 0.0, INFINITY, false};
         made.fit_p = 1.0;
-        made.n_needed = NAN;
         set_window(in, &made);
+        made.n_needed = in->n * sqrt(10.0 * LEAST_PAIRS / fmax(1.0, (double)made.n_pair));
         *result = made;
         goto done;
     }
@@ -436,12 +591,16 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     e->value = exp((1.0 - share) * log(smooth.value) + share * log(kinked.value));
     e->low = fmin(smooth.low, kinked.low);
     e->high = fmax(smooth.high, kinked.high);
-    e->resolved = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
+    const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
+    const double doubt =
+        0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
+    e->resolved = is_seen && doubt <= most_doubt;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
     made.n_needed = in->n;
     set_window(in, &made);
-    if (!e->resolved) {
+    if (!e->resolved) { // the doubt falls as the root of the pairs
+        made.n_needed = is_seen ? in->n * doubt / most_doubt : (double)INFINITY;
         e->high = INFINITY;
     }
     *result = made;

@@ -15,7 +15,9 @@ enum { NEIGHBOURS = 113, BLOCK = 4096, N_COLUMN = 11 };
 
 static const double octave_shells = 6.0; ///< shells for a factor of two in distance
 static const double most_share = 0.3;    ///< of the domain's size: default distances end there
-static const double most_work = 400.0;   ///< pairs in common cells a point for a default distance
+static const double most_work = 1000.0;  ///< candidates a point for a default distance: 280 in an
+                                         ///< even cloud
+static const double free_work = 3e7;     ///< candidates that a default distance may always have
 static const double normal_975 = 1.959963984540054;
 
 const clast_field clast_pairs_fields[] = {
@@ -113,13 +115,13 @@ static clast_status make_cells(const clast_pairs_config *config, job *w)
         radius = fmin(radius, fmin(most_share * pow(volume, 1.0 / d), half_width(w->domain)));
     }
     CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
-    const double most = fmax(most_work * (double)w->n, 2e6);
+    const double most = fmax(most_work * (double)w->n, free_work);
     for (int turn = 0; config->radius == 0.0 && turn < 40; ++turn) {
         const double work = clx_pair_cells_work(&w->cells) * pow(4.0, d);
-        if (work <= 16.0 * most) {
+        if (work <= most) {
             break;
         }
-        radius *= fmin(0.8, fmax(0.25, pow(16.0 * most / work, 1.0 / d)));
+        radius *= fmin(0.8, fmax(0.25, pow(most / work, 1.0 / d)));
         clx_pair_cells_free(&w->cells);
         CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
     }
@@ -257,6 +259,9 @@ static clast_status fill(job *w, int32_t n_shell, clast_pairs *result)
                                     .spread = spread,
                                     .covariance = matrix};
     CLX_TRY(clx_pair_integral(&shells, &result->integral));
+    for (int32_t k = 0; k < n_shell && w->radius[k] <= result->integral.window; ++k) {
+        result->integral.n_pair = (int64_t)column[3][k];
+    }
 done:
     clx_free(matrix);
     return status;

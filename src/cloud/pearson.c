@@ -64,11 +64,11 @@ static void moments(sum_context *c, int64_t n, double product[3][3])
 
 clast_status clast_pearson_test(const double *u, int64_t n, int32_t d, clast_pearson *result)
 {
+    CLX_ARGUMENTS(u, result);
     clast_status status = CLAST_OK;
     clast_pearson made = {.p_bonferroni = 1.0};
     sum_context context = {.u = u, .d = d};
     double product[3][3] = {{0}};
-    CLX_NEED(result);
     CLX_TRY(clx_cube_check(u, n, d, 3, "a correlation"));
     CLX_TRY(clx_alloc(&context.block, (n + POINTS_A_BLOCK - 1) / POINTS_A_BLOCK,
                       sizeof *context.block));

@@ -30,11 +30,13 @@ clast_status clx_sectional_grid(double low, double high, double step, int32_t pe
               "size_max: a grid from %g to %g monomers has no room to grow; give a larger one", low,
               high);
     CLX_TRY(clx_alloc(&s->x, MOST_SECTIONS, sizeof *s->x));
-    for (double x = low; x < high * (1.0 + 1e-12); x = fmax(x + step, x * ratio)) {
+    double x = low;
+    while (x < high * (1.0 + 1e-12)) {
         CLX_CHECK(s->n < MOST_SECTIONS, CLAST_E_LIMIT,
                   "the grid from %g to %g monomers has more than %d sections; take fewer an octave",
                   low, high, MOST_SECTIONS);
         s->x[s->n++] = x;
+        x = fmax(x + step, x * ratio);
     }
 done:
     return status;

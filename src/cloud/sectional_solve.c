@@ -35,6 +35,7 @@ static int slope(realtype t, N_Vector y, N_Vector rate, void *context)
     return 0;
 }
 
+// NOLINTNEXTLINE(readability-function-size): CVODE's own signature
 static int jacobian(realtype t, N_Vector y, N_Vector rate, SUNMatrix matrix, void *context,
                     N_Vector a, N_Vector b, N_Vector c)
 {

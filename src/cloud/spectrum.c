@@ -3,6 +3,7 @@
 #include "cloud/spectrum.h"
 
 #include "base/alloc.h"
+#include "cloud/collide.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -84,6 +85,7 @@ static clast_status check(const clast_spectrum_config *config, const clast_colli
                   config->repeats > 0,
               CLAST_E_CONFIG, "duration: a box needs a time > 0, not %g s in %d steps, %d runs",
               config->duration, config->n_step, config->repeats);
+    CLX_TRY(clx_collide_config_check(collide));
     CLX_TRY(check_kernel(config, collide));
     CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL ||
                   (config->breakage_rate == 0.0 && config->source == 0.0 &&
@@ -191,16 +193,29 @@ static double deviation(double sum, double sum2, int32_t n)
     return n > 1 ? sqrt(fmax(0.0, sum2 / n - mean * mean) * n / (n - 1.0)) : 0.0;
 }
 
-/// Adds a column; `offset` and `stride` say where its sums lie.
-static clast_status add_column(clast_table *table, const char *name, const char *unit,
-                               const double *sum, const double *sum2, int32_t stride, int32_t n_run)
+/// Sums over runs of one quantity: those of row r lie at [r stride].
+typedef struct {
+    const double *sum, *sum2; ///< sum2 NULL: never has a deviation
+    int32_t stride, n_run;
+} series;
+
+/// Adds the runs' mean, and as NAME_sd their standard deviation where there are several.
+static clast_status add_columns(clast_table *table, const char *name, const char *unit, series s)
 {
     clast_status status = CLAST_OK;
+    char name_sd[64];
     double *column = NULL;
     CLX_TRY(clast_table_add_number(table, name, unit, &column));
     for (int64_t row = 0; row < table->n_row; ++row) {
-        const double value = sum[row * stride];
-        column[row] = sum2 != NULL ? deviation(value, sum2[row * stride], n_run) : value / n_run;
+        column[row] = s.sum[row * s.stride] / s.n_run;
+    }
+    if (s.n_run < 2 || s.sum2 == NULL) {
+        return CLAST_OK;
+    }
+    (void)snprintf(name_sd, sizeof name_sd, "%s_sd", name);
+    CLX_TRY(clast_table_add_number(table, name_sd, unit, &column));
+    for (int64_t row = 0; row < table->n_row; ++row) {
+        column[row] = deviation(s.sum[row * s.stride], s.sum2[row * s.stride], s.n_run);
     }
 done:
     return status;
@@ -218,10 +233,8 @@ static clast_status add_clusters(const clx_sectional *g, const clx_spectrum_sums
             break;
         }
         (void)snprintf(name, sizeof name, "n_%d", k + 1);
-        CLX_TRY(add_column(history, name, "1/m^3", sums->number + k, NULL, g->n, sums->n_run));
-        (void)snprintf(name, sizeof name, "n_%d_sd", k + 1);
-        CLX_TRY(add_column(history, name, "1/m^3", sums->number + k, sums->number2 + k, g->n,
-                           sums->n_run));
+        CLX_TRY(add_columns(history, name, "1/m^3",
+                            (series){sums->number + k, sums->number2 + k, g->n, sums->n_run}));
     }
 done:
     return status;
@@ -280,7 +293,6 @@ static clast_status make_history(const clx_start *start, const clx_sectional *g,
                                  const clx_spectrum_sums *sums, clast_table *history)
 {
     static const char *const name[4] = {"M0", "M1", "M2", "M3"};
-    static const char *const name_sd[4] = {"M0_sd", "M1_sd", "M2_sd", "M3_sd"};
     static const char *const beside[CLX_N_BESIDE] = {"gel_fraction", "settled_fraction"};
     clast_status status = CLAST_OK;
     const clast_spectrum_config *config = start->config;
@@ -291,12 +303,12 @@ static clast_status make_history(const clx_start *start, const clx_sectional *g,
         time[row] = config->duration / config->n_step * row;
     }
     for (int k = 0; k < 4; ++k) {
-        CLX_TRY(add_column(history, name[k], "1/m^3", sums->moment + k, NULL, 4, sums->n_run));
-        CLX_TRY(add_column(history, name_sd[k], "1/m^3", sums->moment + k, sums->moment2 + k, 4,
-                           sums->n_run));
+        CLX_TRY(add_columns(history, name[k], "1/m^3",
+                            (series){sums->moment + k, sums->moment2 + k, 4, sums->n_run}));
     }
     for (int k = 0; k < CLX_N_BESIDE && config->solver == CLAST_SOLVER_SECTIONAL; ++k) {
-        CLX_TRY(add_column(history, beside[k], "-", sums->beside + k, NULL, CLX_N_BESIDE, 1));
+        CLX_TRY(add_columns(history, beside[k], "-",
+                            (series){sums->beside + k, NULL, CLX_N_BESIDE, 1}));
     }
     if (start->unit > 0.0) {
         CLX_TRY(add_clusters(g, sums, history));
@@ -305,30 +317,39 @@ done:
     return status;
 }
 
+/// Width of section i, half of the way to both neighbours.
+static double width_of(const clx_sectional *g, int32_t i)
+{
+    const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
+    return 0.5 * (above + (i > 0 ? g->x[i] - g->x[i - 1] : above));
+}
+
 static clast_status make_spectrum(const clast_spectrum_config *config, const clx_sectional *g,
                                   const clx_spectrum_sums *sums, clast_table *table)
 {
-    static const char *const name[6] = {"time_s", "size", "n", "n_sd", "density", "mass_fraction"};
-    static const char *const unit[6] = {"s", "-", "1/m^3", "1/m^3", "1/m^3", "-"};
+    enum { N_COLUMN = 6 };
+    static const char *const name[N_COLUMN] = {"time_s",  "size",          "n",
+                                               "density", "mass_fraction", "n_sd"};
+    static const char *const unit[N_COLUMN] = {"s", "-", "1/m^3", "1/m^3", "-", "1/m^3"};
     clast_status status = CLAST_OK;
     double *column = NULL;
+    const int n_column = sums->n_run > 1 ? N_COLUMN : N_COLUMN - 1;
     CLX_TRY(clast_table_init(table, "spectrum", (int64_t)sums->n_row * g->n));
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < n_column; ++k) {
         CLX_TRY(clast_table_add_number(table, name[k], unit[k], &column));
     }
     for (int64_t at = 0; at < table->n_row; ++at) {
         const int64_t row = at / g->n;
         const int32_t i = (int32_t)(at % g->n);
-        const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
-        const double below = i > 0 ? g->x[i] - g->x[i - 1] : above;
         const double n = sums->number[at] / sums->n_run;
-        const double value[6] = {config->duration / config->n_step * (double)row,
-                                 g->x[i],
-                                 n,
-                                 deviation(sums->number[at], sums->number2[at], sums->n_run),
-                                 n / (0.5 * (above + below)),
-                                 n * g->x[i] * sums->n_run / sums->moment[1]};
-        for (int k = 0; k < 6; ++k) {
+        const double value[N_COLUMN] = {
+            config->duration / config->n_step * (double)row,
+            g->x[i],
+            n,
+            n / width_of(g, i),
+            n * g->x[i] * sums->n_run / sums->moment[1],
+            deviation(sums->number[at], sums->number2[at], sums->n_run)};
+        for (int k = 0; k < n_column; ++k) {
             table->column[k].number[at] = value[k];
         }
     }

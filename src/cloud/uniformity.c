@@ -16,6 +16,7 @@ static const char *const names[CLAST_N_TEST] = {"symmetric", "centred", "star", 
 
 clast_status clast_uniformity_choose(const char *tests, uint32_t *left_out)
 {
+    CLX_ARGUMENTS(tests, left_out);
     uint32_t chosen = 0;
     const char *at = tests;
     if (tests == NULL || left_out == NULL) {
@@ -104,7 +105,7 @@ static clast_status cast_pearson(const double *u, int64_t n, int32_t d,
     if (votes(config, PEARSON) && d > 1) {
         CLX_TRY(clast_pearson_test(u, n, d, &found));
         int least = 0;
-        for (int k = 1; k < found.n_pair; ++k) {
+        for (int k = 1; k < found.n_pair && k < 3; ++k) {
             least = found.p[k] < found.p[least] ? k : least;
         }
         cast(r, PEARSON, found.r[least], config->paper ? found.p[least] : found.p_bonferroni,
@@ -178,10 +179,9 @@ done:
 clast_status clast_uniformity_test(const double *u, int64_t n, int32_t d, const double side[3],
                                    const clast_uniformity_config *config, clast_uniformity *result)
 {
+    CLX_ARGUMENTS(u, side, config, result);
     clast_status status = CLAST_OK;
     clast_uniformity made = {0};
-    CLX_NEED(config);
-    CLX_NEED(result);
     CLX_TRY(check_config(config));
     CLX_TRY(clx_cube_check(u, n, d, 0, "a test of uniformity"));
     CLX_TRY(check_sides(side, d));

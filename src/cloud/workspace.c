@@ -410,11 +410,9 @@ clast_status clast_workspace_decompose(clast_workspace *workspace, const clast_p
                                        const clast_decompose_config *config,
                                        const clast_decomposition **result)
 {
+    CLX_ARGUMENTS(workspace, points, config, result);
     clast_status status = CLAST_OK;
     clast_domain domain = {0};
-    CLX_NEED(workspace);
-    CLX_NEED(config);
-    CLX_NEED(result);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config));
     CLX_TRY(check_points(points));
     CLX_TRY(clast_domain_parse(config->domain, &domain));
@@ -458,11 +456,9 @@ done:
 clast_status clast_workspace_test(clast_workspace *workspace, const clast_points *points,
                                   const clast_decompose_config *config, clast_uniformity *result)
 {
+    CLX_ARGUMENTS(workspace, points, config, result);
     clast_status status = CLAST_OK;
     const clast_decomposition *made = NULL;
-    CLX_NEED(workspace);
-    CLX_NEED(config);
-    CLX_NEED(result);
     CLX_TRY(clast_fields_check(clast_decompose_fields, config)); // before two are set
     const clast_workspace_policy policy = workspace->policy;
     clast_decompose_config alone = *config;
@@ -493,6 +489,7 @@ done:
 
 clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *cell, int64_t stride)
 {
+    CLX_ARGUMENTS(workspace, cell);
     const clast_status status = check_output(workspace, cell, stride);
     for (int64_t i = 0; status == CLAST_OK && i < workspace->n_point; ++i) {
         cell[i * stride] = workspace->last.cells.of_point[i];
@@ -503,6 +500,7 @@ clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *ce
 clast_status clast_workspace_events(const clast_workspace *workspace, double *events,
                                     int64_t stride)
 {
+    CLX_ARGUMENTS(workspace, events);
     const clast_status status = check_output(workspace, events, stride);
     for (int64_t i = 0; status == CLAST_OK && i < workspace->n_point; ++i) {
         const clast_cells *cells = &workspace->last.cells;
@@ -516,11 +514,10 @@ clast_status clast_workspace_collide(clast_workspace *workspace, clast_populatio
                                      const clast_collide_cells *cells, clast_workspace_step step,
                                      const clast_collide_config *config, int64_t *n_event)
 {
-    clast_status status = CLAST_OK;
-    CLX_NEED(workspace);
+    CLX_ARGUMENTS(workspace, particles, cells, config);
     clx_pool *const before = clx_pool_enter(workspace->pool);
-    status = clast_collide(particles, cells, step.dt, step.step, config, n_event);
+    const clast_status status =
+        clast_collide(particles, cells, step.dt, step.step, config, n_event);
     (void)clx_pool_enter(before);
-done:
     return status;
 }

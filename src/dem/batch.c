@@ -57,11 +57,7 @@ static int edges(const clast_dem *dem, clx_batch *p, int from)
 CLX_FOR_EACH_MACHINE
 static void push(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
-    if (has_walls) {
-        push_lanes(dem, p, true);
-    } else {
-        push_lanes(dem, p, false);
-    }
+    push_kind(dem, p, has_walls);
 }
 
 void clx_batch_spheres(const clast_dem *dem, clx_batch *p)

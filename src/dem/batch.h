@@ -36,7 +36,8 @@ void clx_batch_arms(clx_batch *batch);
 /// Whether clx_batch_push can do this law.
 static inline bool clx_batch_has_law(const clx_law *law)
 {
-    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0;
+    return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 &&
+           !law->is_wet;
 }
 
 /// What contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their

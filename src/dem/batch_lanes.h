@@ -53,13 +53,18 @@ CLX_INLINE void read_periods(clx_link *const link[CLX_LANES], clx_lanes period[2
 CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_lanes a[4],
                         clx_lanes b[4], clx_lanes r[3])
 {
-    clx_lanes period[2];
     collect(p->a + from, offsetof(clx_grain, position), a);
     collect(p->b + from, offsetof(clx_grain, position), b);
-    read_periods(p->link + from, period);
     for (int c = 0; c < 3; ++c) {
         r[c] = b[c] - a[c];
     }
+    if (!(dem->period[0] > 0.0 || dem->period[1] > 0.0)) { // most beds: 3 of 4 operations less
+        r[0] = r[0] + 0.0;                                 // -0 is 0, as below
+        r[1] = r[1] + 0.0;
+        return;
+    }
+    clx_lanes period[2];
+    read_periods(p->link + from, period);
     for (int c = 0; c < 2; ++c) {
         const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
         const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
@@ -133,8 +138,10 @@ typedef struct {
     clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
     clx_lanes push, limit, tangential[3];
-    clx_lanes drag[3]; ///< what damping takes off the tangential force
-    clx_lanes inverse; ///< of the tangential stiffness, negative
+    clx_lanes drag[3];               ///< what damping takes off the tangential force
+    clx_lanes inverse;               ///< of the tangential stiffness, negative
+    clx_lanes load[2];               ///< exact steps: what the contact adds to a and b
+    clx_lanes spring[2], damping[2]; ///< exact steps: shares that are taken, normal and tangential
 } meetings;
 
 /// From a to b.
@@ -185,6 +192,68 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
     }
 }
 
+/// clx_mobility
+CLX_INLINE void mobility(clx_lanes mass, clx_lanes radius, const double *point,
+                         const clx_lanes normal[3], clx_lanes out[2])
+{
+    clx_lanes arm[3], lever[3];
+    load3(point, arm);
+    const clx_lanes inverse = 1.0 / mass;
+    const clx_lanes square = lanes_dot(arm, arm);
+    const clx_lanes turning = 8.0 * inverse / (square + 2.2 * (radius * radius));
+    lanes_cross(lever, arm, normal);
+    const clx_lanes whole = turning * square;
+    const clx_lanes least = 2.5 * inverse;
+    out[0] = inverse + turning * lanes_dot(lever, lever);
+    out[1] = inverse + lanes_pick(least > whole, least, whole);
+}
+
+/// clx_law_hold
+CLX_INLINE void limit(const clx_law *law, clx_lanes held, clx_lanes *spring, clx_lanes *damping)
+{
+    const clx_lanes one = lanes_all(1.0);
+    const clx_lanes share = CLX_LAW_STABLE / held;
+    const double rest = 1.0 - law->spring_share;
+    const clx_lanes least = 0.5 * share;
+    const clx_lanes whole = (share - law->spring_share) / rest;
+    const clx_lanes of_damping = lanes_pick(least > whole, least, whole);
+    const clx_lanes of_spring = (share - of_damping * rest) / law->spring_share;
+    const clx_marks is_free = ~(held > CLX_LAW_STABLE);
+    *spring = lanes_pick(is_free, one, lanes_pick(one < of_spring, one, of_spring));
+    *damping = lanes_pick(is_free, one, of_damping);
+}
+
+/// clx_hold_pair and clx_law_hold
+CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
+                     meetings *m)
+{
+    const clx_law *law = &dem->law;
+    clx_lanes va[4], vb[4], ra[4], rb[4], of_a[2], of_b[2], normal[3]; // with masses, with radii
+    collect(p->a + from, offsetof(clx_grain, velocity), va);
+    collect(p->b + from, offsetof(clx_grain, velocity), vb);
+    collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), ra);
+    collect(p->b + from, offsetof(clx_grain, turn) + 8 * sizeof(double), rb);
+    load_normal(p, from, normal);
+    mobility(va[3], ra[1], p->meet.point[0] + from, normal, of_a);
+    mobility(vb[3], rb[1], p->arm_b[0] + from, normal, of_b);
+    for (int k = 0; k < 2 && has_walls; ++k) {
+        of_b[k] = lanes_pick(vb[3] > 0.0, of_b[k], lanes_all(0.0));
+    }
+    const clx_lanes both = of_a[1] + of_b[1];
+    const clx_lanes along = law->load[0] * (of_a[0] + of_b[0]);
+    const clx_lanes across = law->load[1] * both;
+    const clx_lanes all = m->mass * lanes_pick(along > across, along, across);
+    const clx_lanes shared = lanes_root(of_a[1] * of_b[1]);
+    m->load[0] = all * ((of_a[1] + shared) / both);
+    m->load[1] = all * ((of_b[1] + shared) / both);
+    clx_lanes held = lanes_pick(ra[3] > rb[3], ra[3], rb[3]);
+    held = lanes_pick(all > held, all, held);
+    const clx_lanes one = lanes_all(1.0);
+    const clx_lanes head_on = along / across;
+    limit(law, held * lanes_pick(one < head_on, one, head_on), &m->spring[0], &m->damping[0]);
+    limit(law, held, &m->spring[1], &m->damping[1]);
+}
+
 /// clx_law_turn
 CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
 {
@@ -201,20 +270,28 @@ CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes
 }
 
 /// clx_law_force, but for slip.
-CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, meetings *m)
+CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                      meetings *m)
 {
     clx_lanes along[3], normal[3], slide[3];
     const clx_law *law = &dem->law;
     const double dt = dem->config.time_step;
     const clx_lanes overlap = -lanes_load(p->meet.gap + from);
     const clx_lanes k = m->mass * law->stiffness;
-    const clx_lanes normal_damping = m->mass * law->damping;
-    const clx_lanes kt = law->kappa * k;
-    const clx_lanes dt_along = law->root_kappa * normal_damping;
+    clx_lanes normal_damping = m->mass * law->damping;
+    clx_lanes kt = law->kappa * k;
+    clx_lanes dt_along = law->root_kappa * normal_damping;
+    clx_lanes elastic = k * overlap;
+    if (is_exact) {
+        elastic *= m->spring[0];
+        normal_damping *= m->damping[0];
+        kt *= m->spring[1];
+        dt_along *= m->damping[1];
+    }
     load_normal(p, from, normal);
     const clx_lanes apart = lanes_dot(m->velocity, normal);
     lanes_axpy(along, m->velocity, -apart, normal);
-    clx_lanes push = k * overlap - normal_damping * apart;
+    clx_lanes push = elastic - normal_damping * apart;
     if (law->clip) {
         push = lanes_pick(push < 0.0, lanes_all(0.0), push);
     }
@@ -273,7 +350,8 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
 }
 
 /// Slip, and what comes of it all; nothing where contacts are apart.
-CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, const meetings *m)
+CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                         const meetings *m)
 {
     clx_lanes out[4][4]; // force, torque on b and on a, the link's wake and slide
     clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
@@ -293,19 +371,38 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, con
     load3(p->meet.point[0] + from, arm);
     lanes_cross(out[2], arm, turning);
     force[3] = out[1][3] = out[2][3] = lanes_all(0.0);
+    if (is_exact) {
+        out[1][3] = where(touching, m->load[1]);
+        out[2][3] = where(touching, -m->load[0]);
+    }
     write(p->to + from, p->link + from, touching, out);
 }
 
-CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls)
+CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls, bool is_exact)
 {
     meetings m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
         approach(dem, p, h * CLX_LANES, has_walls, &m[h]);
+        if (is_exact) {
+            hold(dem, p, h * CLX_LANES, has_walls, &m[h]);
+        }
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        press(dem, p, h * CLX_LANES, &m[h]);
+        press(dem, p, h * CLX_LANES, is_exact, &m[h]);
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        deal_out(dem, p, h * CLX_LANES, &m[h]);
+        deal_out(dem, p, h * CLX_LANES, is_exact, &m[h]);
+    }
+}
+
+/// The kinds of push_lanes, each compiled for itself.
+CLX_INLINE void push_kind(const clast_dem *dem, const clx_batch *p, bool has_walls)
+{
+    if (dem->law.is_exact) {
+        push_lanes(dem, p, true, true);
+    } else if (has_walls) {
+        push_lanes(dem, p, true, false);
+    } else {
+        push_lanes(dem, p, false, false);
     }
 }

@@ -27,10 +27,6 @@ int clx_wide_edges(const clast_dem *dem, clx_batch *p)
 
 void clx_wide_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
-    if (has_walls) {
-        push_lanes(dem, p, true);
-    } else {
-        push_lanes(dem, p, false);
-    }
+    push_kind(dem, p, has_walls);
 }
 #endif

@@ -1,6 +1,7 @@
 // Shapes as mechanics sees them, and the items that collide for them.
 #include "base/alloc.h"
 #include "dem/dem.h"
+#include "shape/whole.h"
 #include <clast/hull.h>
 #include <clast/mesh_check.h>
 #include <string.h>
@@ -119,6 +120,8 @@ done:
 
 clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id)
 {
+    CLX_ARGUMENTS(dem, shape, id);
+    CLX_WHOLE(shape, shape);
     clast_status status = CLAST_OK;
     const bool is_rigid = shape->parts.n > 0;
     const bool is_clump = shape->kind == CLAST_SHAPE_CLUMP;
@@ -159,6 +162,9 @@ done:
 
 void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
 {
+    if (dem == NULL || measures == NULL) {
+        return;
+    }
     measures[0] = dem->body[shape].reach;
     measures[1] = dem->body[shape].shape.volume;
 }

@@ -7,13 +7,16 @@ static const struct {
     const char *name, *unit;
 } columns[] = {{"a", "-"},          {"b", "-"},         {"centre_z_m", "m"}, {"x_m", "m"},
                {"y_m", "m"},        {"z_m", "m"},       {"branch_x_m", "m"}, {"branch_y_m", "m"},
-               {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"}};
+               {"branch_z_m", "m"}, {"force_x_N", "N"}, {"force_y_N", "N"},  {"force_z_N", "N"},
+               {"normal_x", "-"},   {"normal_y", "-"},  {"normal_z", "-"}};
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
 /// One contact: its numbers, from a copy, so that nothing goes on; false if it is none.
 static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
 {
     clx_link copy = *link;
+    const clx_extra *kept = clx_link_extra(dem, link);
+    clx_extra extra = kept != NULL ? *kept : (clx_extra){0};
     clx_dem_touch t;
     clx_load on_a = {0};
     clx_load on_b = {0};
@@ -21,7 +24,7 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
     if (!clx_link_holds(dem, link, &t)) {
         return false;
     }
-    clx_push_pair(dem, &dem->law, &copy, &t, &on_a, &on_b);
+    clx_push_pair(dem, &copy, &extra, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
         v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link), on_a.force);
     }
@@ -32,12 +35,14 @@ static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COL
         out[3 + k] = dem->grain[a].position[k] + t.arm_a[k];
         out[6 + k] = link->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
         out[9 + k] = -on_a.force[k];
+        out[12 + k] = t.normal[k];
     }
     return true;
 }
 
 clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
 {
+    CLX_ARGUMENTS(dem, table);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     int64_t n = 0;

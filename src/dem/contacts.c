@@ -116,9 +116,13 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
 }
 
-static void part(const clx_batch *p, int k)
+static void part(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_link *link = p->link[k];
+    clx_extra *extra = clx_link_extra(dem, link);
+    if (extra != NULL) {
+        *extra = (clx_extra){0};
+    }
     link->wake = p->travel[k] + p->meet.gap[k];
     link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
@@ -131,11 +135,13 @@ static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch
 {
     clx_load on_a = {0};
     clx_load on_b = {0};
-    clx_push_pair(dem, &dem->law, link, t, &on_a, &on_b);
+    clx_push_pair(dem, link, clx_link_extra(dem, link), t, &on_a, &on_b);
     *out = (clx_pushed){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);
     v3_scale(out->torque_a, -1.0, on_a.torque);
+    out->torque_b[3] = on_b.torque[3];
+    out->torque_a[3] = -on_a.torque[3];
 }
 
 static void push_one(const clast_dem *dem, const clx_batch *p, int k)
@@ -154,7 +160,7 @@ static void push_each(clast_dem *dem, const clx_batch *p)
 {
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
-            part(p, k);
+            part(dem, p, k);
         } else {
             p->link[k]->touches = 1;
             push_one(dem, p, k);
@@ -320,7 +326,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
 /// What the links of the piece do; its awake links, and how many they are.
 static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
 {
-    const bool has_law = clx_batch_has_law(&dem->law);
+    const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
     const int n_awake = sort_awake(dem, n, s, awake);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {

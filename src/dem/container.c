@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "dem/list.h"
+#include "dem/push.h"
+#include "geom/whole.h"
 
 /// Pushes whose normals are closer than this cosine are one (25 degrees, as in
 /// contact/wall_mesh.c).
@@ -10,6 +12,8 @@ static const double SAME_PUSH = 0.9;
 
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(dem, mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     CLX_CHECK(dem->container == NULL && dem->n_grain == 0, CLAST_E_USAGE,
               "a container is given once, before the first grain");
@@ -71,6 +75,7 @@ typedef struct {
     int32_t n;
     double normal[CLX_CONTAINER_TOUCHES][3]; ///< of links that touched before
     double slide[CLX_CONTAINER_TOUCHES][3];
+    clx_extra extra[CLX_CONTAINER_TOUCHES];
     int64_t old[CLX_CONTAINER_TOUCHES];
     int32_t n_old;
 } pushes;
@@ -105,32 +110,39 @@ static void insert(pushes *p, const clx_contact *c, int64_t link)
 }
 
 /// Friction of a link that touched a step ago, for whoever pushes that way now.
-static void remember(pushes *p, clx_link *link, const clx_contact *c, bool is_near, int64_t k)
+static void remember(pushes *p, clx_link *link, clx_extra *extra, const clx_contact *c,
+                     bool is_near, int64_t k)
 {
     if (link->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
         v3_copy(p->normal[p->n_old], c->normal);
         v3_copy(p->slide[p->n_old], link->slide);
+        p->extra[p->n_old] = extra != NULL ? *extra : (clx_extra){0};
         p->old[p->n_old++] = k;
     }
     link->touches = 0;
     v3_set(link->slide, 0.0, 0.0, 0.0);
+    if (extra != NULL) {
+        *extra = (clx_extra){0};
+    }
 }
 
-static void inherit(const pushes *p, const clx_contact *c, int64_t k, double slide[3])
+static void inherit(const pushes *p, const clx_contact *c, int64_t k, double slide[3],
+                    clx_extra *extra)
 {
     double best = SAME_PUSH;
+    int32_t from = -1;
     for (int32_t i = 0; i < p->n_old; ++i) {
-        if (p->old[i] == k) {
-            v3_copy(slide, p->slide[i]);
-            return;
-        }
-    }
-    for (int32_t i = 0; i < p->n_old; ++i) {
-        const double alike = v3_dot(p->normal[i], c->normal);
+        const double alike = p->old[i] == k ? 2.0 : v3_dot(p->normal[i], c->normal);
         if (alike > best) {
             best = alike;
-            v3_copy(slide, p->slide[i]);
+            from = i;
         }
+    }
+    if (from >= 0) {
+        v3_copy(slide, p->slide[from]);
+    }
+    if (from >= 0 && extra != NULL) {
+        *extra = p->extra[from];
     }
 }
 
@@ -153,7 +165,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
         }
         const clx_wall_triangle *t = clx_link_triangle(dem, link);
         const bool is_near = clx_triangle_contact(t, &body, near, clx_link_memory(dem, link), &c);
-        remember(&p, link, &c, is_near, k);
+        remember(&p, link, clx_link_extra(dem, link), &c, is_near, k);
         link->wake = travel + fmax(c.gap, 0.0);
         if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
             insert(&p, &c, k);
@@ -162,7 +174,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     for (int32_t m = 0; m < p.n; ++m) {
         clx_link *link = &dem->list.link[p.link[m]];
         link->touches = 1;
-        inherit(&p, &p.contact[m], p.link[m], link->slide);
+        inherit(&p, &p.contact[m], p.link[m], link->slide, clx_link_extra(dem, link));
         touch[m] = (clx_container_touch){.link = p.link[m]};
         take(&p.contact[m], &touch[m].touch);
         if (dem->item != NULL) {

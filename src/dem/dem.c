@@ -2,12 +2,15 @@
 #include <clast/dem.h>
 
 #include "base/lines.h"
+#include "dem/fluid.h"
 #include "dem/list.h"
 #include <clast/settling.h>
+#include <math.h>
 #include <string.h>
 
 clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
 {
+    CLX_ARGUMENTS(config, dem);
     clast_status status = CLAST_OK;
     clast_dem *made = NULL;
     CLX_TRY(clx_dem_check(config));
@@ -43,6 +46,7 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->convex);
     clx_free(dem->item_turn);
     clx_free(dem->block_flag);
+    clx_free(dem->slabs.solid);
     clx_free(dem);
 }
 
@@ -111,6 +115,7 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
     const double volume = g->scale * g->scale * g->scale * shape->volume;
     CLX_TRY(clx_dem_check_step(&dem->law, dem->config.time_step, g->density * volume,
                                cbrt(3.0 * volume / (4.0 * CLAST_PI))));
+    CLX_TRY(clx_fluid_check(dem, g, number));
 done:
     return status;
 }
@@ -131,19 +136,6 @@ static clast_status reserve(clast_dem *dem, int64_t n)
     dem->grain_capacity = room;
 done:
     return status;
-}
-
-/// Corrections of the drag law; 1 and 1 for spheres, and where there is no fluid.
-static void set_drag(const clast_dem *dem, const clast_shape *shape, clx_motion *m)
-{
-    clast_drag drag = {1.0, 1.0};
-    const double *s = shape->semi_axes;
-    if (shape->kind != CLAST_SHAPE_SPHERE && dem->config.fluid_density > 0.0) {
-        (void)clast_drag_of_form(s[0], s[1], s[2], cbrt(0.75 * shape->volume / CLAST_PI),
-                                 m->density / dem->config.fluid_density, &drag);
-    }
-    m->drag[0] = drag.stokes;
-    m->drag[1] = drag.newton;
 }
 
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
@@ -178,7 +170,9 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
         memset(g->turn, 0, sizeof g->turn);
         g->turn[0][0] = g->turn[1][1] = g->turn[2][2] = 1.0;
     }
-    set_drag(dem, &body->shape, m);
+    const clast_drag drag = clx_fluid_form(dem, &body->shape, m->density);
+    m->drag[0] = drag.stokes;
+    m->drag[1] = drag.newton;
     dem->stride = fmax(dem->stride, clx_law_speed(&dem->law, g->mass, g->round_radius, g->radius) *
                                         dem->config.time_step / g->radius);
     dem->travel[i] = 0.0;
@@ -186,6 +180,8 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
 
 clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
 {
+    CLX_ARGUMENTS(dem);
+    CLX_ARRAY(grain, n);
     clast_status status = CLAST_OK;
     CLX_CHECK(n >= 0 && n <= INT32_MAX - dem->n_grain, CLAST_E_LIMIT, "%d more grains", n);
     for (int32_t i = 0; i < n; ++i) {
@@ -204,6 +200,9 @@ done:
 
 void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 {
+    if (dem == NULL) {
+        return;
+    }
     dem->drive = *drive;
 }
 
@@ -235,6 +234,7 @@ static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
 
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
+    CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
@@ -248,6 +248,7 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         if (dem->n_started < dem->n_grain) {
             CLX_TRY(clx_check_starts(dem));
         }
+        CLX_TRY(clx_fluid_look(dem));
         CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
@@ -262,21 +263,33 @@ done:
 
 int32_t clast_dem_n_grain(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return 0;
+    }
     return dem->n_grain;
 }
 
 int64_t clast_dem_n_step(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return 0;
+    }
     return dem->step;
 }
 
 double clast_dem_time(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return (double)NAN;
+    }
     return (double)dem->step * dem->config.time_step;
 }
 
 void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain)
 {
+    if (dem == NULL || grain == NULL) {
+        return;
+    }
     const clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};

@@ -28,7 +28,7 @@ typedef struct clx_grain {
     double round_radius; ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
-    double spare;
+    double held;  ///< exact steps: sum of the contacts' loads in the last step (clx_law_hold)
 } clx_grain;
 
 /// What only the integration reads.
@@ -70,6 +70,12 @@ typedef struct clx_link {
     double slide[3];      ///< tangential displacement of b over a
 } clx_link;
 
+/// What only some laws remember of a contact.
+typedef struct clx_extra {
+    double roll[3];     ///< torque of the rolling spring on b
+    double restitution; ///< of its impact in a fluid; 0: it has not begun
+} clx_extra;
+
 /// A contact's memory, three cache lines: two hold all of a face with a vertex.
 typedef struct clx_memory_slot {
     clx_contact_memory record;
@@ -92,13 +98,15 @@ static_assert(sizeof(clx_near_pair) == 192, "a pair takes three lines");
 
 /// Force and torque on a grain, in fours.
 typedef struct clx_load {
-    double force[4], torque[4]; ///< the fourth of each is 0
+    double force[4];  ///< the fourth is 0
+    double torque[4]; ///< the fourth is 0; with exact steps the grain's `held`
 } clx_load;
 
 /// What a contact does to its grains: the force on b, and the torques.
 typedef struct clx_pushed {
-    double force[4], torque_b[4]; ///< the fourth of each is 0
-    double torque_a[4];           ///< to be taken off
+    double force[4];    ///< the fourth is 0
+    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's load on b
+    double torque_a[4]; ///< to be taken off
 } clx_pushed;
 
 /// A link that is awake, and its place among those that were asked for.
@@ -167,6 +175,14 @@ typedef struct clx_sweeping {
     int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, late_capacity;
     int64_t push_capacity, awake_capacity, kept_capacity[2];
 } clx_sweeping;
+
+/// Volume of grains by height, for the porosity around one.
+typedef struct clx_slabs {
+    double *solid; ///< [n] [m3]
+    int64_t capacity;
+    int32_t n;
+    double low, thick, volume; ///< of the first slab's bottom; of a slab
+} clx_slabs;
 
 typedef enum { CLX_WALL_PLANE, CLX_WALL_CYLINDER } clx_wall_kind;
 
@@ -244,6 +260,9 @@ typedef struct clx_list {
     clx_link *link;  ///< [n_link] sorted by a, b
     clx_link *other; ///< the buffer that the next refresh fills
     int64_t n_link, capacity, other_capacity;
+    clx_extra *extra;       ///< [n_link] where the law has them (has_extra)
+    clx_extra *other_extra; ///< of the buffer
+    int64_t extra_capacity, other_extra_capacity;
     clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]
@@ -295,6 +314,7 @@ struct clast_dem {
     clx_list list;
     clx_near near;
     clx_sweeping sweeping;
+    clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
 };
 

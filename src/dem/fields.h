@@ -36,6 +36,14 @@
          "contact law",                                                                            \
          "linear|hertz",                                                                           \
          .group = "contacts"},                                                                     \
+        {CLX_DEM_AT(TYPE, IN, contact_scheme, CHOICE),                                             \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "steps of spring and dashpot: explicit as published, or exact, good for a twentieth of "  \
+         "collision_time",                                                                         \
+         "explicit|exact"},                                                                        \
         {CLX_DEM_AT(TYPE, IN, restitution, F64), 0.1,  1e-3,          1.0, "-",                    \
          "coefficient of restitution (e_n)",     NULL, .common = true},                            \
         {CLX_DEM_AT(TYPE, IN, collision_time, F64),   2e-4, 1e-12, 1e3, "s",                       \
@@ -60,6 +68,14 @@
          "-",                                                                                      \
          "rolling torque over R* |F_n|",                                                           \
          NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, rolling_model, CHOICE),                                              \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "rolling friction as a constant torque, or as a spring by which a grain rests on a "      \
+         "slope",                                                                                  \
+         "torque|spring"},                                                                         \
         {CLX_DEM_AT(TYPE, IN, cohesion, CHOICE),                                                   \
          0,                                                                                        \
          0,                                                                                        \
@@ -117,6 +133,34 @@
          1e6,                                                                                      \
          "Pa s",                                                                                   \
          "viscosity for drag and torque of a fluid at rest; 0: none, as published",                \
+         NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, sphere_drag, CHOICE),                                                \
+         0,                                                                                        \
+         0,                                                                                        \
+         0,                                                                                        \
+         "-",                                                                                      \
+         "drag of spheres: the law of all forms, or the standard curve of spheres",                \
+         "form|standard"},                                                                         \
+        {CLX_DEM_AT(TYPE, IN, hindrance, BOOL),                                                    \
+         0,                                                                                        \
+         0,                                                                                        \
+         1,                                                                                        \
+         "-",                                                                                      \
+         "drag grows with the grains around, by the porosity at its height (Di Felice)",           \
+         NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, added_mass, F64),                                                    \
+         0,                                                                                        \
+         0,                                                                                        \
+         10.0,                                                                                     \
+         "-",                                                                                      \
+         "fluid that a grain moves along, over its volume; 0.5 of a sphere",                       \
+         NULL},                                                                                    \
+        {CLX_DEM_AT(TYPE, IN, wet_restitution, BOOL),                                              \
+         0,                                                                                        \
+         0,                                                                                        \
+         1,                                                                                        \
+         "-",                                                                                      \
+         "restitution falls with the impact's Stokes number (Gondret)",                            \
          NULL},                                                                                    \
         {CLX_DEM_AT(TYPE, IN, rounding, F64),                                                      \
          0,                                                                                        \

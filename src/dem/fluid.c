@@ -1,11 +1,115 @@
-// How a fluid at rest slows what turns in it.
+// What a fluid at rest does to grains: drag, by the grains around, and torque.
 //
 // Stokes' torque on a sphere that turns in a fluid at rest, 8 pi mu R^3 w    [Lamb1932 sec. 334],
 // with R that of the sphere of equal volume. Implicit in the spin, so that it never turns a grain
 // round, however small the grain or long the step.
 #include "dem/fluid.h"
 
+#include "base/alloc.h"
 #include <string.h>
+
+enum { MOST_SLABS = 100000 };
+
+double clx_fluid_drag(const clast_dem *dem, const clx_grain *g, double reynolds,
+                      const clast_drag *form)
+{
+    return g->kind == CLAST_SHAPE_SPHERE && dem->config.sphere_drag == CLAST_DEM_DRAG_STANDARD
+               ? clast_drag_sphere(reynolds)
+               : clast_drag_coefficient(reynolds, form);
+}
+
+clast_drag clx_fluid_form(const clast_dem *dem, const clast_shape *shape, double density)
+{
+    clast_drag drag = {1.0, 1.0};
+    const double *s = shape->semi_axes;
+    if (shape->kind != CLAST_SHAPE_SPHERE && dem->config.fluid_density > 0.0) {
+        (void)clast_drag_of_form(s[0], s[1], s[2], cbrt(0.75 * shape->volume / CLAST_PI),
+                                 density / dem->config.fluid_density, &drag);
+    }
+    return drag;
+}
+
+clast_status clx_fluid_check(const clast_dem *dem, const clast_dem_grain *g, int64_t number)
+{
+    clast_status status = CLAST_OK;
+    const clast_dem_config *c = &dem->config;
+    const clast_shape *shape = &dem->body[g->shape].shape;
+    clast_settling fall = {.in_range = true};
+    const clast_fluid fluid = {c->fluid_density, c->fluid_viscosity, fabs(c->gravity)};
+    if (c->fluid_viscosity <= 0.0 || c->fluid_density <= 0.0 || c->gravity == 0.0) {
+        return CLAST_OK;
+    }
+    const clast_drag drag = clx_fluid_form(dem, shape, g->density);
+    const double d = g->scale * cbrt(6.0 * shape->volume / CLAST_PI);
+    CLX_TRY(clast_terminal_velocity(d, g->density, &drag, &fluid, &fall));
+    CLX_CHECK(fall.in_range, CLAST_E_CONFIG,
+              "grain %lld: the Reynolds number of its fall is %.3g, beyond 3e5, to where the drag "
+              "law holds (Bagheri and Bonadonna 2016)",
+              (long long)number, fall.reynolds);
+done:
+    return status;
+}
+
+/// Place of a height among the slabs' middles: the lower one, and the share of the upper.
+static int32_t slab_of(const clx_slabs *s, double z, double *share)
+{
+    const double at = fmin(fmax((z - s->low) / s->thick - 0.5, 0.0), (double)(s->n - 1));
+    const int32_t k = (int32_t)at;
+    *share = at - (double)k;
+    return k;
+}
+
+/// Slabs of two of the largest grain's diameters over all grains' heights.
+static void lay_slabs(const clast_dem *dem, clx_slabs *s)
+{
+    const clast_dem_config *c = &dem->config;
+    const double depth = c->depth > 0.0 ? c->depth : c->width;
+    const double area =
+        c->domain == CLAST_DEM_CYLINDER ? 0.25 * CLAST_PI * c->width * c->width : c->width * depth;
+    double most = 0.0;
+    double high = -INFINITY;
+    s->low = c->floor ? 0.0 : (double)INFINITY;
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        most = fmax(most, dem->grain[i].radius);
+        high = fmax(high, dem->grain[i].position[2]);
+        s->low = fmin(s->low, dem->grain[i].position[2]);
+    }
+    s->thick = fmax(4.0 * most, (high - s->low) / (MOST_SLABS - 1));
+    s->n = (int32_t)((high - s->low) / s->thick) + 1;
+    s->volume = area * s->thick;
+}
+
+clast_status clx_fluid_look(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    clx_slabs *s = &dem->slabs;
+    if (!dem->config.hindrance || dem->n_grain == 0) {
+        return CLAST_OK;
+    }
+    lay_slabs(dem, s);
+    CLX_TRY(clx_grow(&s->solid, &s->capacity, s->n + 1, sizeof *s->solid));
+    memset(s->solid, 0, (size_t)(s->n + 1) * sizeof *s->solid);
+    for (int32_t i = 0; i < dem->n_grain; ++i) {
+        double share = 0.0;
+        const int32_t k = slab_of(s, dem->grain[i].position[2], &share);
+        s->solid[k] += (1.0 - share) * dem->motion[i].volume;
+        s->solid[k + 1] += share * dem->motion[i].volume;
+    }
+done:
+    return status;
+}
+
+double clx_fluid_hindrance(const clast_dem *dem, const clx_grain *g, double reynolds)
+{
+    const clx_slabs *s = &dem->slabs;
+    double share = 0.0;
+    if (!dem->config.hindrance || reynolds <= 0.0) {
+        return 1.0;
+    }
+    const int32_t k = slab_of(s, g->position[2], &share);
+    const double solid = (1.0 - share) * s->solid[k] + share * s->solid[k + 1];
+    return clast_drag_hindrance(reynolds, 1.0 - solid / s->volume);
+}
 
 /// Torque over spin [N m s].
 static double resistance(const clast_dem *dem, const clx_grain *g)

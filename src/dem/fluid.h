@@ -1,6 +1,23 @@
 #pragma once
-// What a fluid at rest does to grains that turn.
+// What a fluid at rest does to grains.
 #include "dem/dem.h"
+#include <clast/settling.h>
+
+/// Drag coefficient of a grain at this Reynolds number.
+double clx_fluid_drag(const clast_dem *dem, const clx_grain *g, double reynolds,
+                      const clast_drag *form);
+
+/// Factor on its drag by the grains at its height; 1 without `hindrance`.
+double clx_fluid_hindrance(const clast_dem *dem, const clx_grain *g, double reynolds);
+
+/// Corrections of the drag law for a shape of this density; 1 and 1 where there is no fluid.
+clast_drag clx_fluid_form(const clast_dem *dem, const clast_shape *shape, double density);
+
+/// Refuses a grain that falls beyond the drag law's range of Reynolds numbers.
+clast_status clx_fluid_check(const clast_dem *dem, const clast_dem_grain *g, int64_t number);
+
+/// Volume of grains by height, where drag asks for it.
+clast_status clx_fluid_look(clast_dem *dem);
 
 /// Share of its spin that a sphere keeps in a step of dt [s].
 double clx_fluid_spin_factor(const clast_dem *dem, const clx_grain *g, double dt);

@@ -1,28 +1,82 @@
 // Constants of the contact laws, and the times and energies that follow from them.
 #include "dem/law.h"
 
+/// Spring k and dashpot d over mass whose semi-implicit Euler steps, v' = v - dt (k x + d v), x' =
+/// x
+/// + dt v', have the multipliers exp(-D dt / 2 +- i W dt) of x'' + D x' + w2 x = 0, W^2 = w2 -
+/// D^2/4: positions are then those of the exact solution.
+static void fit(double w2, double rate, double dt, double *k, double *d)
+{
+    const double swing = w2 - 0.25 * rate * rate;
+    const double turn = swing >= 0.0 ? cos(sqrt(swing) * dt) : cosh(sqrt(-swing) * dt);
+    *d = -expm1(-rate * dt) / dt;
+    *k = (1.0 + exp(-rate * dt) - 2.0 * exp(-0.5 * rate * dt) * turn) / (dt * dt);
+}
+
+/// What a sphere's turning makes of its inverse mass at a sliding contact: 1 + 5/2.
+static const double TURNING = 3.5;
+
+double clx_law_steps(const clx_law *law, int n)
+{
+    const double swing = n * TURNING * law->kappa * law->stiffness * law->time * law->time;
+    const double rate = n * TURNING * law->root_kappa * law->damping * law->time;
+    return (rate + sqrt(rate * rate + 4.0 * swing)) / 4.0;
+}
+
+/// Constants of exact steps: normal of a central contact; tangential of two spheres, whose turning
+/// makes the inverse mass 1 + 5/2 times as great.
+static void make_exact(clx_law *law, double dt)
+{
+    double k[2];
+    double d[2];
+    fit(law->stiffness, law->damping, dt, &k[0], &d[0]);
+    fit(TURNING * law->kappa * law->stiffness, TURNING * law->root_kappa * law->damping, dt, &k[1],
+        &d[1]);
+    law->spring_share = 0.0;
+    for (int i = 0; i < 2; ++i) {
+        const double load = k[i] * dt * dt + 2.0 * d[i] * dt;
+        law->load[i] = i == 0 ? load : load / TURNING;
+        law->spring_share = fmax(law->spring_share, k[i] * dt * dt / load);
+    }
+    law->stiffness = k[0];
+    law->damping = d[0];
+    law->kappa = k[1] / (TURNING * k[0]);
+    law->root_kappa = d[0] > 0.0 ? d[1] / (TURNING * d[0]) : 0.0;
+}
+
 clx_law clx_law_make(const clast_dem_config *c)
 {
     const double ln = log(c->restitution);
     const double root = sqrt(ln * ln + CLAST_PI * CLAST_PI);
-    clx_law law = {.kind = c->law,
-                   .cohesion = c->cohesion,
-                   .clip = c->clip,
-                   .stiffness =
-                       (CLAST_PI * CLAST_PI + ln * ln) / (c->collision_time * c->collision_time),
-                   .damping = -2.0 * ln / c->collision_time,
-                   .kappa = 2.0 * (1.0 - c->poisson) / (2.0 - c->poisson),
-                   .young = c->young / (2.0 * (1.0 - c->poisson * c->poisson)),
-                   .shear = c->young / (4.0 * (2.0 - c->poisson) * (1.0 + c->poisson)),
-                   .alpha = -sqrt(5.0) * ln / root,
-                   .rolling = c->rolling_friction,
-                   .cohesion_energy = c->cohesion_energy};
+    clx_law law = {
+        .kind = c->law,
+        .cohesion = c->cohesion,
+        .clip = c->clip,
+        .stiffness = (CLAST_PI * CLAST_PI + ln * ln) / (c->collision_time * c->collision_time),
+        .damping = -2.0 * ln / c->collision_time,
+        .kappa = 2.0 * (1.0 - c->poisson) / (2.0 - c->poisson),
+        .young = c->young / (2.0 * (1.0 - c->poisson * c->poisson)),
+        .shear = c->young / (4.0 * (2.0 - c->poisson) * (1.0 + c->poisson)),
+        .alpha = -sqrt(5.0) * ln / root,
+        .rolling = c->rolling_friction,
+        .has_roll_spring = c->rolling_friction > 0.0 && c->rolling_model == CLAST_DEM_ROLL_SPRING,
+        .damping_ratio = -ln / root,
+        .is_wet = c->wet_restitution,
+        .restitution = c->restitution,
+        .viscosity = c->fluid_viscosity,
+        .cohesion_energy = c->cohesion_energy};
     law.root_kappa = sqrt(law.kappa);
+    law.time = CLAST_PI / sqrt(law.stiffness - 0.25 * law.damping * law.damping);
     law.friction[0] = c->friction;
     law.friction[1] = c->wall_friction >= 0.0 ? c->wall_friction : c->friction;
     law.pull = (c->cohesion == CLAST_DEM_DMT ? 2.0 : 1.5) * CLAST_PI * c->surface_energy;
+    law.has_extra = law.has_roll_spring || law.is_wet;
     law.has_neck = c->law == CLAST_DEM_HERTZ && c->cohesion == CLAST_DEM_JKR;
     law.adhesion = sqrt(2.0 * CLAST_PI * c->surface_energy / law.young);
+    law.is_exact = c->contact_scheme == CLAST_DEM_EXACT;
+    if (law.is_exact && c->time_step > 0.0 && isfinite(c->time_step)) {
+        make_exact(&law, c->time_step);
+    }
     return law;
 }
 
@@ -47,8 +101,7 @@ static double hertz_time(const clx_law *law, double mass, double radius)
 
 double clx_law_time(const clx_law *law, double mass, double radius)
 {
-    const double linear = CLAST_PI / sqrt(law->stiffness - 0.25 * law->damping * law->damping);
-    return law->kind == CLAST_DEM_LINEAR ? linear : hertz_time(law, mass, radius);
+    return law->kind == CLAST_DEM_LINEAR ? law->time : hertz_time(law, mass, radius);
 }
 
 double clx_law_speed(const clx_law *law, double mass, double radius, double reach)

@@ -5,10 +5,25 @@
 #include "math/vec3.h"
 #include <clast/dem.h>
 
+/// Restitution that fluids leave at least: softer rebounds have less than 0.4 % of their energy,
+/// and stiffer dashpots would ask for shorter steps than the published ones.
+#define CLX_LAW_SOFT 0.06
+
+/// Share of what would stop a roll within a step that resistance may take: several contacts act on
+/// a grain.
+#define CLX_LAW_STOPS 0.1
+
+/// Load of a grain up to which exact steps take springs and dashpots whole.
+#define CLX_LAW_STABLE 3.5
+
 /// Constants of the laws, worked out once.
 typedef struct clx_law {
     int32_t kind, cohesion;
     bool clip;
+    bool is_exact;            ///< contact_scheme: constants below are those of exact steps
+    double time;              ///< T_c of the linear law [s]
+    double load[2];           ///< k dt^2 + 2 d dt over m_eff, normal and tangential
+    double spring_share;      ///< of k dt^2 in that, at most
     double stiffness;         ///< k_n / m_eff, eq. 11 [1/s2]
     double damping;           ///< d_n / m_eff [1/s]
     double kappa, root_kappa; ///< eq. 13, and its root (eq. 12)
@@ -16,10 +31,15 @@ typedef struct clx_law {
     double alpha;             ///< damping of Hertz's law [Antypov2011]
     double friction[2];       ///< between grains, at walls
     double rolling;
-    double cohesion_energy; ///< [J/m3]
-    double pull;            ///< DMT, JKR: force over R* [N/m]
-    bool has_neck;          ///< JKR's whole curve: with Hertz's law
-    double adhesion;        ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
+    bool has_extra;                ///< contacts remember more than their displacement (clx_extra)
+    bool is_wet;                   ///< restitution by the impact's Stokes number
+    double restitution, viscosity; ///< dry; of the fluid [Pa s]
+    bool has_roll_spring;          ///< model C
+    double damping_ratio;          ///< -ln e / sqrt(pi^2 + ln^2 e)
+    double cohesion_energy;        ///< [J/m3]
+    double pull;                   ///< DMT, JKR: force over R* [N/m]
+    bool has_neck;                 ///< JKR's whole curve: with Hertz's law
+    double adhesion;               ///< C = sqrt(2 pi w / E*) of JKR [m^1/2]
 } clx_law;
 
 /// One contact as the law sees it.
@@ -32,11 +52,15 @@ typedef struct clx_meeting {
     double mass;        ///< m_eff
     double radius;      ///< R*, harmonic [m]
     double friction;
+    double restitution; ///< in a fluid, of its impact; else 0
+    double head_on;     ///< exact steps: share of the contact's load that its normal has, at most 1
+    double held;        ///< exact steps: load of the more loaded grain
 } clx_meeting;
 
 /// What acts on b; a gets the opposite.
 typedef struct clx_push {
     double normal;        ///< force along the normal; > 0 pushes apart [N]
+    double pressed;       ///< normal force that limits friction and rolling, >= 0 [N]
     double tangential[3]; ///< [N]
     double rolling[3];    ///< torque against rolling [N m]
 } clx_push;
@@ -48,6 +72,31 @@ clx_law clx_law_make(const clast_dem_config *config);
 ///
 /// @param mass, radius  of the lightest grain; not used by the linear law
 double clx_law_time(const clx_law *law, double mass, double radius);
+
+/// What exact steps take of springs and dashpots where a grain has many contacts.
+typedef struct clx_law_limit {
+    double spring, damping; ///< shares
+} clx_law_limit;
+
+/// A step is stable while k dt^2 + 2 d dt, each times the inverse mass that it meets, is below 4.
+/// Summed over a grain's contacts that is its `held`, of which normals have their share. Dashpots
+/// give way first, down to half of what is left for both.
+static inline clx_law_limit clx_law_hold(const clx_law *law, double held)
+{
+    const double share = CLX_LAW_STABLE / held;
+    const double rest = 1.0 - law->spring_share;
+    clx_law_limit out = {1.0, 1.0};
+    if (held > CLX_LAW_STABLE) {
+        out.damping = fmax(0.5 * share, (share - law->spring_share) / rest);
+        out.spring = fmin(1.0, (share - out.damping * rest) / law->spring_share);
+    }
+    return out;
+}
+
+/// Explicit steps that a collision needs, by the linear law, so that a sphere which n fixed
+/// neighbours hold, with sliding contacts, comes to rest: n (w2 dt^2 + 2 D dt) <= 4 with w2 = 7/2
+/// k_t / m and D = 7/2 d_t / m. With e_n = 0.1 8.9, 16.5, 31.7 for one, two, four.
+double clx_law_steps(const clx_law *law, int n);
 
 /// Speed at which a wall's spring, without its dashpot, stops a grain within half its reach: m v^2
 /// / 2 is the work k d^2 / 2 of the linear law, 8/15 E* sqrt(R) d^(5/2) of Hertz's, d = reach / 2.
@@ -111,9 +160,14 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
 {
     clx_springs s;
     if (law->kind == CLAST_DEM_LINEAR) {
-        const double k = c->mass * law->stiffness;
-        s.elastic = k * c->overlap;
+        double k = c->mass * law->stiffness;
         s.normal_damping = c->mass * law->damping;
+        if (c->restitution > 0.0) {
+            const double ln = log(c->restitution);
+            k = c->mass * (CLAST_PI * CLAST_PI + ln * ln) / (law->time * law->time);
+            s.normal_damping = -2.0 * c->mass * ln / law->time;
+        }
+        s.elastic = k * c->overlap;
         s.tangential = law->kappa * k;
         s.tangential_damping = law->root_kappa * s.normal_damping;
         return s;
@@ -130,6 +184,17 @@ static inline clx_springs clx_law_springs(const clx_law *law, const clx_meeting 
     s.tangential_damping =
         s.normal_damping * sqrt(s.tangential / (2.0 * law->young * root)); // same share of critical
     return s;
+}
+
+/// Restitution of an impact in a fluid: e_dry exp(-35 / St), St = m u / (6 pi mu R*^2), that is
+/// rho d u / (9 mu) of a sphere at a wall. [Gondret2002; Legendre2005] Not below CLX_LAW_SOFT.
+static inline double clx_law_impact(const clx_law *law, const clx_meeting *c)
+{
+    const double speed = -v3_dot(c->velocity, c->normal);
+    const double stokes =
+        c->mass * speed / (6.0 * CLAST_PI * law->viscosity * c->radius * c->radius);
+    const double share = stokes > 0.0 ? exp(-35.0 / stokes) : 0.0;
+    return fmax(fmin(CLX_LAW_SOFT, law->restitution), law->restitution * share);
 }
 
 static inline double clx_law_pull(const clx_law *law, const clx_meeting *c)
@@ -159,7 +224,15 @@ static inline void clx_law_turn(const clx_meeting *c, double dt, double slide[3]
 static inline void clx_law_force(const clx_law *law, const clx_meeting *c, double dt,
                                  double slide[3], clx_push *push)
 {
-    const clx_springs s = clx_law_springs(law, c);
+    clx_springs s = clx_law_springs(law, c);
+    if (law->is_exact) {
+        const clx_law_limit normal = clx_law_hold(law, c->held * c->head_on);
+        const clx_law_limit across = clx_law_hold(law, c->held);
+        s.elastic *= normal.spring;
+        s.normal_damping *= normal.damping;
+        s.tangential *= across.spring;
+        s.tangential_damping *= across.damping;
+    }
     const double apart = v3_dot(c->velocity, c->normal);
     double along[3];
     v3_axpy(along, c->velocity, -apart, c->normal);
@@ -170,7 +243,8 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
     // Coulomb's limit takes the pressed force: attraction presses too, so it is left out of it; for
     // JKR that is F + 2 F_pull-off [Thornton1991]
     const double pressed = law->has_neck ? 2.0 * law->pull * c->radius : 0.0;
-    const double limit = c->friction * fabs(push->normal + pressed);
+    push->pressed = fabs(push->normal + pressed);
+    const double limit = c->friction * push->pressed;
     push->normal -= clx_law_pull(law, c);
     clx_law_turn(c, dt, slide);
     v3_axpy(slide, slide, dt, along);
@@ -196,7 +270,43 @@ static inline void clx_law_roll(const clx_law *law, const clx_meeting *c, double
     double roll[3];
     v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
     const double size = v3_norm(roll);
-    const double most = law->rolling * c->radius * fabs(push->normal);
-    const double stops = 0.1 * inertia * size / dt; // a tenth: several contacts act on a grain
+    const double most = law->rolling * c->radius * push->pressed;
+    const double stops = CLX_LAW_STOPS * inertia * size / dt;
     v3_scale(push->rolling, size > 0.0 ? -fmin(most, stops) / size : 0.0, roll);
+}
+
+/// Slope of the normal force over the overlap [N/m].
+static inline double clx_law_stiffness(const clx_law *law, const clx_meeting *c)
+{
+    return law->kind == CLAST_DEM_LINEAR ? c->mass * law->stiffness
+           : law->has_neck ? 2.0 * law->young * clx_jkr_radius(law, c->overlap, c->radius)
+                           : 2.0 * law->young * sqrt(c->radius * c->overlap);
+}
+
+/// Spring and dashpot against rolling; `torque` is the spring's on b and goes on by dt.
+///
+///     k_r = 9/4 k_n (mu_r R*)^2,  |M| <= mu_r R* F_n,  C_r = 2 zeta sqrt(I_r k_r)
+///                                                                            [Ai2011 model C]
+/// The dashpot rests where the spring gives way, and takes no more than model A may in a step.
+///
+/// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m2]
+static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
+                                       const double inertia[2], double dt, double torque[3],
+                                       clx_push *push)
+{
+    double roll[3];
+    const double lever = law->rolling * c->radius;
+    const double spring = 2.25 * clx_law_stiffness(law, c) * lever * lever;
+    const double most = lever * push->pressed;
+    v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
+    clx_law_turn(c, dt, torque);
+    v3_axpy(torque, torque, -spring * dt, roll);
+    const double size2 = v3_norm2(torque);
+    const bool gives_way = size2 > most * most;
+    if (gives_way) {
+        v3_scale(torque, most / sqrt(size2), torque);
+    }
+    const double dashpot =
+        fmin(2.0 * law->damping_ratio * sqrt(inertia[1] * spring), CLX_LAW_STOPS * inertia[0] / dt);
+    v3_axpy(push->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
 }

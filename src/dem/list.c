@@ -18,6 +18,8 @@ void clx_list_free(clx_list *list)
 {
     clx_free(list->link);
     clx_free(list->other);
+    clx_free(list->extra);
+    clx_free(list->other_extra);
     clx_free(list->memory);
     clx_free(list->free_slot);
     clx_free(list->begin);
@@ -260,6 +262,9 @@ done:
 static void keep(clx_list *l, int64_t old, int64_t n)
 {
     l->other[n] = l->link[old];
+    if (l->other_extra != NULL) {
+        l->other_extra[n] = l->extra[old];
+    }
 }
 
 static void drop(clx_list *l, int64_t old)
@@ -272,6 +277,9 @@ static void drop(clx_list *l, int64_t old)
 static void start(clx_list *l, const clx_found *f, int64_t n)
 {
     l->other[n] = fresh(f);
+    if (l->other_extra != NULL) {
+        l->other_extra[n] = (clx_extra){0};
+    }
 }
 
 /// Old and found pairs of one item, both sorted by b, into the other buffer at n.
@@ -314,6 +322,12 @@ static void swap_buffers(clx_list *l)
     l->capacity = l->other_capacity;
     l->other = link;
     l->other_capacity = capacity;
+    clx_extra *const extra = l->extra;
+    const int64_t extra_capacity = l->extra_capacity;
+    l->extra = l->other_extra;
+    l->extra_capacity = l->other_extra_capacity;
+    l->other_extra = extra;
+    l->other_extra_capacity = extra_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
@@ -323,6 +337,10 @@ static clast_status merge(clast_dem *dem)
     int64_t n = 0;
     CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_link + l->n_found + 1,
                            sizeof *l->other));
+    if (dem->law.has_extra) {
+        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_link + l->n_found + 1,
+                         sizeof *l->other_extra));
+    }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;

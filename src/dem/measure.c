@@ -9,6 +9,9 @@
 
 double clast_dem_mean_height(const clast_dem *dem, double *top)
 {
+    if (dem == NULL) {
+        return (double)NAN;
+    }
     double mass = 0.0;
     double moment = 0.0;
     double highest = -INFINITY;
@@ -26,6 +29,9 @@ double clast_dem_mean_height(const clast_dem *dem, double *top)
 
 double clast_dem_max_speed(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return (double)NAN;
+    }
     double most = 0.0;
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         most = fmax(most, v3_norm2(dem->grain[i].velocity));
@@ -96,6 +102,9 @@ static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measu
 
 void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
 {
+    if (dem == NULL || measures == NULL) {
+        return;
+    }
     clast_dem_measures m = {.step = dem->step,
                             .time = clast_dem_time(dem),
                             .n_grain = dem->n_grain,
@@ -160,6 +169,7 @@ done:
 
 clast_status clast_dem_assembly(const clast_dem *dem, clast_assembly *out)
 {
+    CLX_ARGUMENTS(dem, out);
     clast_status status = CLAST_OK;
     clast_assembly made = {.unit = "m"};
     for (int32_t i = 0; i < dem->n_body; ++i) {
@@ -203,6 +213,9 @@ static uint64_t mix(uint64_t h, const double *x, int n)
 
 uint64_t clast_dem_hash(const clast_dem *dem)
 {
+    if (dem == NULL) {
+        return 0;
+    }
     uint64_t h = UINT64_C(0xCBF29CE484222325) ^ (uint64_t)dem->step;
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         h = mix(h, dem->grain[i].position, 3);
@@ -215,6 +228,7 @@ uint64_t clast_dem_hash(const clast_dem *dem)
             const double who[2] = {dem->list.link[k].a, dem->list.link[k].b};
             h = mix(h, who, 2);
             h = mix(h, dem->list.link[k].slide, 3);
+            h = dem->law.has_extra ? mix(h, dem->list.extra[k].roll, 4) : h;
         }
     }
     return h;

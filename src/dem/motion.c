@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "dem/fluid.h"
+#include "dem/push.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -115,9 +116,10 @@ static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_mo
     const clast_drag form = {m->drag[0], m->drag[1]};
     const double re = dem->config.fluid_density * speed * d / mu;
     const double rate = re > 1e-6 ? 0.125 * CLAST_PI * dem->config.fluid_density * d * d * speed *
-                                        clast_drag_coefficient(re, &form)
+                                        clx_fluid_drag(dem, g, re, &form)
                                   : stokes;
-    return 1.0 / (1.0 + dt * rate / g->mass);
+    return 1.0 /
+           (1.0 + dt * rate * clx_fluid_hindrance(dem, g, re) / (g->mass * clx_heavier(dem, m)));
 }
 
 void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
@@ -138,7 +140,8 @@ static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
     double force[3] = {0.0, 0.0, dem->config.gravity * dem->config.fluid_density * m->volume};
     double turning[3];
     if (dem->config.fluid_viscosity > 0.0) {
-        v3_axpy(force, force, -g->mass * (1.0 / drag_factor(dem, g, m, dt) - 1.0) / dt,
+        v3_axpy(force, force,
+                -g->mass * clx_heavier(dem, m) * (1.0 / drag_factor(dem, g, m, dt) - 1.0) / dt,
                 g->velocity);
     }
     clx_dem_arm(dem, g, arm);
@@ -154,8 +157,9 @@ static double shift(const clx_moving *c, int64_t i, const double f[3])
     const clx_motion *m = &dem->motion[i];
     const double dt = dem->config.time_step;
     const double weight = dem->config.gravity * (g->mass - dem->config.fluid_density * m->volume);
-    const double scale = dt / g->mass;
-    g->velocity[0] += scale * f[0] + dt * c->shake;
+    const double inertia = clx_heavier(dem, m);
+    const double scale = dt / (g->mass * inertia);
+    g->velocity[0] += scale * f[0] + dt * c->shake / inertia;
     g->velocity[1] += scale * f[1];
     g->velocity[2] += scale * (f[2] - weight);
     double factor = c->damping;
@@ -287,6 +291,9 @@ int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load
 {
     clast_dem *dem = c->dem;
     int flag = 0;
+    for (int k = 0; k < n && dem->law.is_exact; ++k) {
+        dem->grain[first + k].held = load[k].torque[3];
+    }
     if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, load, &flag)) {
         const bool is_sure = dem->item == NULL && (flag & CLX_MOVE_DUE) == 0;
         return is_sure ? flag : (flag & CLX_MOVE_LOST) | flag_of(dem, first, n);

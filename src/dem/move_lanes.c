@@ -187,6 +187,7 @@ bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
         n_round += g[k].kind == CLAST_SHAPE_SPHERE ? 1 : 0;
     }
     return n % CLX_LANES == 0 && dem->config.fluid_viscosity <= 0.0 &&
+           dem->config.added_mass <= 0.0 &&
            (n_round == n || (n_round == 0 && dem->config.gyroscopic));
 }
 

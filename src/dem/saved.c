@@ -13,6 +13,8 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->grain);
     clx_free(s->anchor);
     clx_free(s->limit);
+    clx_free(s->held);
+    clx_free(s->extra);
     clx_free(s->id);
     clx_free(s->link);
     clx_free(s->memory);
@@ -80,6 +82,18 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
             if (l->link[k].slot != 0) {
                 memcpy(s.memory + k * MEMORY, &l->memory[l->link[k].slot].record, MEMORY);
             }
+        }
+    }
+    if (dem->law.is_exact) {
+        CLX_TRY(clx_alloc(&s.held, s.n_grain, sizeof *s.held));
+        for (int64_t i = 0; i < s.n_grain; ++i) {
+            s.held[i] = dem->grain[i].held;
+        }
+    }
+    if (dem->law.has_extra) {
+        CLX_TRY(clx_alloc(&s.extra, CLX_SAVED_EXTRA * s.n_link, sizeof *s.extra));
+        if (s.n_link > 0) {
+            memcpy(s.extra, l->extra, (size_t)s.n_link * sizeof *l->extra);
         }
     }
     *saved = s;
@@ -159,6 +173,31 @@ done:
     return status;
 }
 
+/// What only some laws remember: loads of exact steps, what laws with springs against rolling or
+/// a fluid's restitution keep.
+static clast_status take_extras(clast_dem *dem, const clx_dem_saved *s)
+{
+    clast_status status = CLAST_OK;
+    clx_list *l = &dem->list;
+    CLX_CHECK(dem->law.is_exact == (s->held != NULL) && dem->law.has_extra == (s->extra != NULL),
+              CLAST_E_FORMAT, "the checkpoint is of another contact law");
+    for (int64_t i = 0; s->held != NULL && i < s->n_grain; ++i) {
+        CLX_CHECK(s->held[i] >= 0.0 && isfinite(s->held[i]), CLAST_E_FORMAT,
+                  "grain %lld of the checkpoint: its load is not a number", (long long)i);
+        dem->grain[i].held = s->held[i];
+    }
+    if (s->extra != NULL) {
+        CLX_TRY(clx_grow(&l->extra, &l->extra_capacity, s->n_link + 1, sizeof *l->extra));
+        memcpy(l->extra, s->extra, (size_t)s->n_link * sizeof *l->extra);
+    }
+    for (int64_t k = 0; s->extra != NULL && k < CLX_SAVED_EXTRA * s->n_link; ++k) {
+        CLX_CHECK(isfinite(s->extra[k]), CLAST_E_FORMAT,
+                  "link %lld of the checkpoint is not finite", (long long)(k / CLX_SAVED_EXTRA));
+    }
+done:
+    return status;
+}
+
 static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
@@ -195,6 +234,7 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     CLX_CHECK(s->n_known >= 0 && s->n_known <= dem->n_item, CLAST_E_FORMAT,
               "the checkpoint knows %lld items of %d", (long long)s->n_known, dem->n_item);
     CLX_TRY(take_links(dem, s));
+    CLX_TRY(take_extras(dem, s));
     for (int64_t i = 0; i < s->n_known; ++i) {
         memcpy(&dem->list.anchor[i], &s->anchor[i * CLX_SAVED_ANCHOR],
                CLX_SAVED_ANCHOR * sizeof(double));

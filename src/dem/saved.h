@@ -3,7 +3,13 @@
 #include "base/status.h"
 #include <clast/dem.h>
 
-enum { CLX_SAVED_GRAIN = 19, CLX_SAVED_ANCHOR = 8, CLX_SAVED_ID = 5, CLX_SAVED_LINK = 4 };
+enum {
+    CLX_SAVED_GRAIN = 19,
+    CLX_SAVED_ANCHOR = 8,
+    CLX_SAVED_ID = 5,
+    CLX_SAVED_LINK = 4,
+    CLX_SAVED_EXTRA = 4
+};
 
 typedef struct clx_dem_saved {
     int64_t step, n_refresh;
@@ -15,6 +21,8 @@ typedef struct clx_dem_saved {
                         ///< scale, density, travel
     double *anchor;     ///< [n_known][8] of items: position, orientation, margin
     double *limit; ///< [n_known] paths up to which they are not asked; NULL in older checkpoints
+    double *held;  ///< [n_grain] loads of exact steps, or NULL
+    double *extra; ///< [n_link][4] torques of rolling springs, restitutions; or NULL
     int32_t *id;   ///< [n_link][5] a, b, image in x and y, flags
     double *link;  ///< [n_link][4] wake, slide
     int32_t memory_width; ///< bytes of a contact memory

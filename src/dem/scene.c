@@ -84,6 +84,7 @@ static void place(const clast_scene_bed *bed, int32_t i, const double size[N_FOR
 
 clast_status clast_scene_p1(const clast_scene_bed *bed, clast_dem **dem)
 {
+    CLX_ARGUMENTS(bed, dem);
     clast_status status = CLAST_OK;
     clast_dem *made = NULL;
     clast_dem_grain *grain = NULL;
@@ -105,6 +106,7 @@ done:
 
 clast_status clast_scene_e1(const clast_scene_bed *bed, const clast_dem *p1, clast_dem **dem)
 {
+    CLX_ARGUMENTS(bed, p1, dem);
     clast_status status = CLAST_OK;
     clast_dem *made = NULL;
     clast_dem_grain *grain = NULL;
@@ -140,6 +142,7 @@ static clast_dem_grain ball(int32_t i, int32_t side)
 
 clast_status clast_scene_s1(clast_dem **dem)
 {
+    CLX_ARGUMENTS(dem);
     enum { SIDE = 19, TALL = 30, N = SIDE * SIDE * TALL };
     clast_status status = CLAST_OK;
     clast_dem_config config = {0};

@@ -107,6 +107,9 @@ static void fill_corners(clast_bvh *bvh)
 
 clast_status clast_bvh_create(const clast_mesh *mesh, clast_bvh **bvh)
 {
+    CLX_ARGUMENTS(mesh, bvh);
+    CLX_ARRAY(mesh->vert, mesh->n_vert);
+    CLX_ARRAY(mesh->tri, mesh->n_tri);
     clast_status status = CLAST_OK;
     clast_bvh *made = NULL;
     clx_tree_box *box = NULL;

@@ -2,6 +2,7 @@
 #include "geom/bvh.h"
 
 #include "math/vec3.h"
+#include <math.h>
 
 /// Closest point of segment a b; squared distance.
 static double segment_closest(const double a[3], const double b[3], const double point[3],
@@ -130,6 +131,9 @@ static void walk(const clast_bvh *bvh, const double point[3], nearest *best)
 double clast_bvh_closest(const clast_bvh *bvh, const double point[3], double max_distance,
                          double closest[3], int32_t *tri)
 {
+    if (bvh == NULL || point == NULL) {
+        return (double)INFINITY;
+    }
     // Searched a few ulp further, so that a distance equal to the bound survives its rounding.
     const double bound = max_distance * (1.0 + 0x1p-50);
     nearest best = {.d2 = bound * bound, .tri = -1};
@@ -148,6 +152,9 @@ double clast_bvh_closest(const clast_bvh *bvh, const double point[3], double max
 
 double clast_bvh_signed_distance(const clast_bvh *bvh, const double point[3])
 {
+    if (bvh == NULL || point == NULL) {
+        return (double)NAN;
+    }
     const double d = clast_bvh_closest(bvh, point, INFINITY, NULL, NULL);
     return clast_bvh_inside(bvh, point) ? -d : d;
 }

@@ -123,6 +123,9 @@ static int64_t count_crossings(const clast_bvh *bvh, const double point[3], bool
 
 bool clast_bvh_inside(const clast_bvh *bvh, const double point[3])
 {
+    if (bvh == NULL || point == NULL) {
+        return false;
+    }
     if (bvh->rule == CLX_BVH_SOLID_ANGLE) {
         return fabs(clx_bvh_solid_angle(bvh, point)) > 0.5;
     }

@@ -129,6 +129,9 @@ static bool walk(const clast_bvh *bvh, ray_frame *ray, bool any, clast_hit *hit)
 bool clast_bvh_ray(const clast_bvh *bvh, const double origin[3], const double direction[3],
                    double t_low, double t_high, clast_hit *hit)
 {
+    if (bvh == NULL || origin == NULL || direction == NULL || hit == NULL) {
+        return false;
+    }
     ray_frame ray;
     clast_hit best = {.t = INFINITY, .tri = INT32_MAX};
     if (!frame_of(bvh, origin, direction, t_low, t_high, &ray) || !walk(bvh, &ray, false, &best)) {

@@ -233,6 +233,9 @@ static clast_status check_finite(const clast_mesh *mesh)
 
 clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *result)
 {
+    CLX_ARGUMENTS(mesh, result);
+    CLX_ARRAY(mesh->vert, mesh->n_vert);
+    CLX_ARRAY(mesh->tri, mesh->n_tri);
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
     clast_mesh_check_result made = {.n_vertex = mesh->n_vert, .n_triangle = mesh->n_tri};
@@ -259,12 +262,18 @@ done:
 
 void clast_mesh_check_free(clast_mesh_check_result *result)
 {
+    if (result == NULL) {
+        return;
+    }
     clx_free(result->part);
     *result = (clast_mesh_check_result){0};
 }
 
 bool clast_mesh_check_passed(const clast_mesh_check_result *result)
 {
+    if (result == NULL) {
+        return false;
+    }
     bool sound = result->closed && result->oriented && result->manifold;
     for (int32_t i = 0; i < result->n_fault; ++i) {
         sound = sound && !result->fault[i].blocking;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <clast/bvh.h>
 
@@ -107,6 +108,9 @@ done:
 clast_status clast_mesh_distance(const clast_mesh *a, const clast_mesh *b,
                                  clast_mesh_deviation *deviation)
 {
+    CLX_ARGUMENTS(a, b, deviation);
+    CLX_WHOLE(mesh, a);
+    CLX_WHOLE(mesh, b);
     clast_status status = CLAST_OK;
     double forth[3];
     double back[3];

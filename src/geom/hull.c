@@ -10,6 +10,7 @@
 
 #include "base/alloc.h"
 #include "geom/qhull_call.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <stdlib.h>
 
@@ -223,5 +224,7 @@ done:
 
 clast_status clast_mesh_hull(const clast_mesh *mesh, clast_mesh *hull)
 {
+    CLX_ARGUMENTS(mesh, hull);
+    CLX_WHOLE(mesh, mesh);
     return clx_hull_points((const double(*)[3])mesh->vert, mesh->n_vert, hull);
 }

@@ -8,6 +8,7 @@
 #include <clast/mesh.h>
 
 #include "base/alloc.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <string.h>
 
@@ -130,6 +131,8 @@ static void search(length_tree *tree, int32_t number, const double p[3])
 
 clast_status clast_mesh_length(const clast_mesh *mesh, double *length)
 {
+    CLX_ARGUMENTS(mesh, length);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     length_tree tree = {0};
     CLX_CHECK(mesh->n_vert > 0, CLAST_E_GEOMETRY, "length of a surface without vertices");

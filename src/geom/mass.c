@@ -5,10 +5,15 @@
 #include <clast/mesh.h>
 
 #include "base/status.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
+#include <math.h>
 
 double clast_mesh_area(const clast_mesh *mesh)
 {
+    if (clx_mesh_fault(mesh) != NULL) {
+        return (double)NAN;
+    }
     double sum = 0.0;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         double u[3];
@@ -35,6 +40,9 @@ static double corners(const clast_mesh *mesh, int32_t t, const double origin[3],
 
 double clast_mesh_volume(const clast_mesh *mesh)
 {
+    if (clx_mesh_fault(mesh) != NULL) {
+        return (double)NAN;
+    }
     double sum = 0.0;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
         double p[3][3];
@@ -58,6 +66,8 @@ static void add_second(double second[3][3], double det, double p[3][3])
 
 clast_status clast_mesh_mass(const clast_mesh *mesh, clast_mass *mass)
 {
+    CLX_ARGUMENTS(mesh, mass);
+    CLX_WHOLE(mesh, mesh);
     double six = 0.0;
     double first[3] = {0};
     double c[3][3] = {{0}};

@@ -2,11 +2,15 @@
 #include <clast/mesh.h>
 
 #include "base/alloc.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <string.h>
 
 void clast_mesh_free(clast_mesh *mesh)
 {
+    if (mesh == NULL) {
+        return;
+    }
     clx_free(mesh->vert);
     clx_free(mesh->tri);
     *mesh = (clast_mesh){0};
@@ -14,6 +18,7 @@ void clast_mesh_free(clast_mesh *mesh)
 
 clast_status clast_mesh_alloc(int32_t n_vert, int32_t n_tri, clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(mesh);
     clast_status status = CLAST_OK;
     clast_mesh made = {.n_vert = n_vert, .n_tri = n_tri};
     CLX_TRY(clx_alloc(&made.vert, n_vert, sizeof *made.vert));
@@ -27,6 +32,8 @@ done:
 
 clast_status clast_mesh_copy(const clast_mesh *mesh, clast_mesh *copy)
 {
+    CLX_ARGUMENTS(mesh, copy);
+    CLX_WHOLE(mesh, mesh);
     clast_mesh made = {0};
     const clast_status status = clast_mesh_alloc(mesh->n_vert, mesh->n_tri, &made);
     if (status == CLAST_OK) {
@@ -43,6 +50,9 @@ clast_status clast_mesh_copy(const clast_mesh *mesh, clast_mesh *copy)
 
 clast_status clast_mesh_append(clast_mesh *mesh, const clast_mesh *other)
 {
+    CLX_ARGUMENTS(mesh, other);
+    CLX_WHOLE(mesh, mesh);
+    CLX_WHOLE(mesh, other);
     clast_status status = CLAST_OK;
     const int64_t n_vert = (int64_t)mesh->n_vert + other->n_vert;
     const int64_t n_tri = (int64_t)mesh->n_tri + other->n_tri;
@@ -66,6 +76,9 @@ done:
 
 void clast_mesh_bounds(const clast_mesh *mesh, double low[3], double high[3])
 {
+    if (clx_mesh_fault(mesh) != NULL || low == NULL || high == NULL) {
+        return;
+    }
     v3_set(low, INFINITY, INFINITY, INFINITY);
     v3_set(high, -INFINITY, -INFINITY, -INFINITY);
     for (int32_t i = 0; i < mesh->n_vert; ++i) {
@@ -79,6 +92,9 @@ void clast_mesh_bounds(const clast_mesh *mesh, double low[3], double high[3])
 void clast_mesh_transform(clast_mesh *mesh, double scale, const double orientation[4],
                           const double position[3])
 {
+    if (clx_mesh_fault(mesh) != NULL || orientation == NULL || position == NULL) {
+        return;
+    }
     double m[3][3];
     q_matrix(m, orientation);
     for (int32_t i = 0; i < mesh->n_vert; ++i) {

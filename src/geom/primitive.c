@@ -7,6 +7,7 @@
 
 clast_status clast_mesh_box(double x, double y, double z, clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(mesh);
     static const int32_t tri[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
                                        {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
                                        {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
@@ -98,6 +99,7 @@ done:
 
 clast_status clast_mesh_ellipsoid(const double semi_axes[3], int level, clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(semi_axes, mesh);
     clast_status status = CLAST_OK;
     clast_mesh sphere = {0};
     CLX_CHECK(level >= 0 && level <= 9, CLAST_E_USAGE, "icosphere level %d is outside 0..9", level);

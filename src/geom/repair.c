@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "geom/check.h"
 #include "geom/weld.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <string.h>
 
@@ -175,8 +176,9 @@ static clast_status check_input(const clast_mesh *mesh)
 {
     for (int32_t v = 0; v < mesh->n_vert; ++v) {
         for (int k = 0; k < 3; ++k) {
-            if (!isfinite(mesh->vert[v][k])) {
-                return clx_fail(CLAST_E_GEOMETRY, "vertex %d of %d is not finite", v, mesh->n_vert);
+            if (!(fabs(mesh->vert[v][k]) < 1e100)) { // as the readers have it
+                return clx_fail(CLAST_E_GEOMETRY, "vertex %d of %d is not finite, or beyond 1e100",
+                                v, mesh->n_vert);
             }
         }
     }
@@ -291,6 +293,7 @@ done:
 clast_status clast_mesh_repair(const clast_mesh *mesh, const clast_mesh_repair_config *config,
                                clast_mesh *out, clast_mesh_repair_report *report)
 {
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     clast_mesh_repair_config defaults;
@@ -328,6 +331,8 @@ done:
 
 clast_status clast_mesh_weld_auto(clast_mesh *mesh, clast_mesh_repair_report *report)
 {
+    CLX_ARGUMENTS(mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh_repair_report made = {.n_triangle_before = mesh->n_tri};
     const clast_mesh_repair_config config = {.weld = CLAST_WELD_AUTO};

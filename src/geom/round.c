@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "geom/collapse.h"
 #include "geom/repair.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 
 enum { MAX_PASS = 4 };
@@ -49,6 +50,8 @@ static void settle(double *x, double g, double *error)
 
 clast_status clast_mesh_round_float(clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clx_thinning thin = {0};
     const double volume = clx_cone_volume(mesh);

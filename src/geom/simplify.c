@@ -10,6 +10,7 @@
 #include "geom/collapse.h"
 #include "geom/repair.h"
 #include "geom/topology.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 
 typedef struct {
@@ -270,6 +271,8 @@ static double correct_volume(clast_mesh *mesh, double volume)
 clast_status clast_mesh_simplify(const clast_mesh *mesh, int32_t n_face, clast_mesh *out,
                                  clast_mesh_simplify_report *report)
 {
+    CLX_ARGUMENTS(mesh, out);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     simplifier s = {0};
     clast_mesh made = {0};

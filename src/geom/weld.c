@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "geom/topology.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include <clast/mesh_repair.h>
 #include <stdlib.h>
@@ -364,6 +365,8 @@ double clx_mesh_extent(const clast_mesh *mesh)
 clast_status clast_mesh_weld(const clast_mesh *mesh, double tolerance, clast_mesh *out,
                              int32_t *n_merged)
 {
+    CLX_ARGUMENTS(mesh, out);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     int32_t *map = NULL;
     int32_t n_dropped = 0;

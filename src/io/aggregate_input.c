@@ -191,6 +191,9 @@ done:
 
 void clast_aggregate_unload(clast_aggregate_source *source)
 {
+    if (source == NULL) {
+        return;
+    }
     clast_assembly_free(&source->core);
     for (int32_t i = 0; i < source->n_coat; ++i) {
         clast_assembly_free(&source->coat[i]);
@@ -222,6 +225,7 @@ done:
 clast_status clast_aggregate_load(const clast_aggregate_config *config,
                                   clast_aggregate_source *source)
 {
+    CLX_ARGUMENTS(config, source);
     clast_status status = CLAST_OK;
     clast_aggregate_source made = {0};
     CLX_TRY(clast_aggregate_config_check(config));
@@ -243,6 +247,9 @@ done:
 
 const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
 {
+    if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK || role == NULL) {
+        return NULL;
+    }
     const struct {
         const char *role;
         int32_t n;
@@ -265,6 +272,9 @@ const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i
 
 int32_t clast_aggregate_n_file(const clast_aggregate_config *config)
 {
+    if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK) {
+        return 0;
+    }
     int32_t n = 0;
     const char *role = NULL;
     while (clast_aggregate_file(config, n, &role) != NULL) {

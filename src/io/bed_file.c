@@ -70,6 +70,7 @@ done:
 
 clast_status clast_bed_read(const char *path, clast_bed *bed, clast_mesh *surface)
 {
+    CLX_ARGUMENTS(path, bed, surface);
     clast_status status = CLAST_OK;
     clast_table table[3] = {{0}, {0}, {0}};
     clast_bed made = {0};
@@ -114,6 +115,7 @@ done:
 
 clast_status clast_bed_load(const char *text, clast_bed *bed, clast_mesh *surface)
 {
+    CLX_ARGUMENTS(text, bed, surface);
     clast_status status = CLAST_OK;
     clast_mesh raw = {0};
     char path[4096];

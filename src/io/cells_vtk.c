@@ -2,7 +2,9 @@
 #include <clast/decompose_file.h>
 
 #include "base/alloc.h"
+#include "cloud/contract.h"
 #include "cloud/surface.h"
+#include "cloud/whole.h"
 #include "io/vtk_array.h"
 #include <inttypes.h>
 #include <math.h>
@@ -208,6 +210,9 @@ done:
 clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *result,
                                    const clast_domain *domain)
 {
+    CLX_ARGUMENTS(path, result, domain);
+    CLX_WHOLE(decomposition, result);
+    CLX_GUARD(clx_domain_check(domain));
     static const uint8_t type[4] = {1, 3, 9, 12}; // vertex, line, quadrilateral, hexahedron
     clast_status status = CLAST_OK;
     clx_file file = {0};
@@ -307,6 +312,12 @@ done:
 clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
                                     const clast_decomposition *result, const clast_domain *domain)
 {
+    CLX_ARGUMENTS(path, cloud, result);
+    CLX_GUARD(clx_cloud_check(cloud));
+    CLX_WHOLE(decomposition, result);
+    if (result->n + result->n_outside != cloud->n) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: the decomposition is not of this cloud", __func__);
+    }
     clast_status status = CLAST_OK;
     clx_file file = {0};
     clx_vtk_array array = {0};

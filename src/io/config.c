@@ -168,6 +168,7 @@ done:
 
 clast_status clast_config_read(const char *path, const clast_field *fields, void *config)
 {
+    CLX_ARGUMENTS(path, fields, config);
     clast_status status = CLAST_OK;
     char *text = NULL;
     int64_t n = 0;
@@ -181,6 +182,7 @@ done:
 clast_status clast_config_parse(const char *name, const char *text, const clast_field *fields,
                                 void *config)
 {
+    CLX_ARGUMENTS(name, text, fields, config);
     return parse(name, text, strlen(text),
                  &(reader){.is_si = true, .fields = fields, .config = config});
 }

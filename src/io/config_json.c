@@ -90,6 +90,7 @@ done:
 
 clast_status clast_config_json(const clast_field *fields, const void *config, char **text)
 {
+    CLX_ARGUMENTS(fields, config, text);
     clast_status status = CLAST_OK;
     growing_text t = {0};
     CLX_TRY(append(&t, "{", 1));

@@ -472,6 +472,8 @@ clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n
                                    const clast_csv_options *options, clast_table *table,
                                    clast_csv_report *report)
 {
+    CLX_ARGUMENTS(name, table);
+    CLX_ARRAY(bytes, n);
     static const clast_csv_options guess = {0};
     clast_status status = CLAST_OK;
     const clast_csv_options *wish = options != NULL ? options : &guess;
@@ -508,6 +510,7 @@ done:
 clast_status clast_table_read_csv(const char *path, const clast_csv_options *options,
                                   clast_table *table, clast_csv_report *report)
 {
+    CLX_ARGUMENTS(path, table);
     char *bytes = NULL;
     int64_t n = 0;
     clast_status status = clx_file_read_all(path, BYTE_LIMIT, &bytes, &n);

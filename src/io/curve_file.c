@@ -244,6 +244,8 @@ done:
 
 clast_status clast_curve_parse(const char *name, const void *bytes, size_t n, clast_curve *curve)
 {
+    CLX_ARGUMENTS(name, curve);
+    CLX_ARRAY(bytes, n);
     clast_status status = CLAST_OK;
     clast_table table = {0};
     curve_reader r = {.name = name};
@@ -261,6 +263,7 @@ done:
 
 clast_status clast_curve_read(const char *path, clast_curve *curve)
 {
+    CLX_ARGUMENTS(path, curve);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
@@ -367,6 +370,7 @@ clast_status clast_grading_load(const char *text, clast_grading_spread spread,
                                 clast_grading_count count, clast_curve *curve,
                                 clast_grading **grading)
 {
+    CLX_ARGUMENTS(text, curve, grading);
     clast_status status = CLAST_OK;
     double size = 0.0;
     if (strncmp(text, "uniform:", 8) == 0 || strncmp(text, "lognormal:", 10) == 0) {

@@ -28,6 +28,7 @@ done:
 
 clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain)
 {
+    CLX_ARGUMENTS(text, domain);
     clast_status status = CLAST_OK;
     double scale = 1.0;
     if (unit != NULL && unit[0] != '\0') {

@@ -1,6 +1,7 @@
 // Assemblies to the files that other programs read: which writer, and ParaView collections.
 #include "io/export.h"
 
+#include "assembly/whole.h"
 #include "base/number.h"
 #include "base/path.h"
 #include <clast/field.h>
@@ -19,6 +20,9 @@ const char *clast_export_format_name(clast_export_format format)
 
 clast_export_format clast_export_format_of_path(const char *path)
 {
+    if (path == NULL) {
+        return (clast_export_format){0};
+    }
     for (int f = 1; f < N_FORMAT; ++f) {
         if (clx_path_is(path, names[f])) {
             return (clast_export_format)f;
@@ -125,6 +129,8 @@ done:
 clast_status clast_assembly_write(const clast_assembly *assembly, const char *path,
                                   const clast_export_options *options, clast_export_report *report)
 {
+    CLX_ARGUMENTS(assembly, path);
+    CLX_WHOLE(assembly, assembly);
     static const clast_export_options usual = {.level = 3};
     clast_status status = CLAST_OK;
     const clast_export_options *o = options != NULL ? options : &usual;
@@ -179,6 +185,12 @@ static void put_escaped(clx_file *file, const char *text)
 clast_status clast_pvd_write(const char *path, int64_t n, const double *time,
                              const char *const *name)
 {
+    CLX_ARGUMENTS(path);
+    CLX_ARRAY(time, n);
+    CLX_ARRAY(name, n);
+    for (int64_t i = 0; i < n; ++i) {
+        CLX_ARGUMENTS(name[i]);
+    }
     clast_status status = CLAST_OK;
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));

@@ -1,6 +1,7 @@
 // Assemblies as tables: a row a grain, and LAMMPS dumps of the equivalent ellipsoids.
 #include "io/export.h"
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
 #include "math/sym3.h"
@@ -164,6 +165,8 @@ static clast_status add_contacts(const clast_assembly *a, clast_table *table)
 
 clast_status clast_assembly_table(const clast_assembly *assembly, clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double *id = NULL;

@@ -40,6 +40,9 @@ static void faults_free(clast_grain_fault *fault, int64_t n)
 
 void clast_grains_free(clast_grains *grains)
 {
+    if (grains == NULL) {
+        return;
+    }
     for (int64_t i = 0; i < grains->n; ++i) {
         clx_free(grains->record[i].name);
     }
@@ -538,6 +541,11 @@ done:
 clast_status clast_grains_read(int32_t n_file, const char *const *path,
                                const clast_grains_options *options, clast_grains *grains)
 {
+    CLX_ARGUMENTS(options, grains);
+    CLX_ARRAY(path, n_file);
+    for (int32_t i = 0; i < n_file; ++i) {
+        CLX_ARGUMENTS(path[i]);
+    }
     clast_status status = CLAST_OK;
     clx_grains_task *task = NULL;
     clast_grains made = {0};

@@ -62,6 +62,9 @@ done:
 
 void clast_grains_to_metres(clast_grains *grains, double unit_m)
 {
+    if (grains == NULL || grains->record == NULL) {
+        return;
+    }
     for (int64_t i = 0; i < grains->n; ++i) {
         clast_grain_record *record = &grains->record[i];
         if (record->has_size) {
@@ -183,6 +186,11 @@ done:
 clast_status clast_grains_table(const clast_grains *grains, clast_axes_kind axes, bool in_metres,
                                 clast_table *table)
 {
+    CLX_ARGUMENTS(grains, table);
+    CLX_ARRAY(grains->record, grains->n);
+    for (int64_t i = 0; i < grains->n; ++i) {
+        CLX_ARGUMENTS(grains->record[i].name);
+    }
     clast_status status = CLAST_OK;
     clast_table made = {0};
     char prefix[32];

@@ -111,6 +111,8 @@ static void fold(const series_rows *rows, clast_harmonics *series)
 
 clast_status clast_harmonics_parse(const void *bytes, size_t n, clast_harmonics *series)
 {
+    CLX_ARGUMENTS(series);
+    CLX_ARRAY(bytes, n);
     clast_status status = CLAST_OK;
     series_rows rows = {0};
     clast_harmonics made = {0};
@@ -136,6 +138,7 @@ done:
 
 clast_status clast_harmonics_read(const char *path, clast_harmonics *series)
 {
+    CLX_ARGUMENTS(path, series);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/lock.h"
 #include "io/json.h"
 #include "io/sha256.h"
 #include <clast/parallel.h>
@@ -81,6 +82,11 @@ void clast_manifest_destroy(clast_manifest *manifest)
 clast_status clast_manifest_create(const char *command, int argc, char *const *argv,
                                    clast_manifest **manifest)
 {
+    CLX_ARGUMENTS(command, manifest);
+    CLX_ARRAY(argv, argc);
+    for (int i = 0; i < argc; ++i) {
+        CLX_ARGUMENTS(argv[i]);
+    }
     clast_status status = CLAST_OK;
     clast_manifest *made = NULL;
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
@@ -101,6 +107,7 @@ done:
 clast_status clast_manifest_config(clast_manifest *manifest, const clast_field *fields,
                                    const void *config)
 {
+    CLX_ARGUMENTS(manifest, fields, config);
     char *text = NULL;
     const clast_status status = clast_config_json(fields, config, &text);
     if (status == CLAST_OK) {
@@ -112,12 +119,16 @@ clast_status clast_manifest_config(clast_manifest *manifest, const clast_field *
 
 void clast_manifest_seed(clast_manifest *manifest, uint64_t seed)
 {
+    if (manifest == NULL) {
+        return;
+    }
     manifest->has_seed = true;
     manifest->seed = seed;
 }
 
 clast_status clast_sha256_file(const char *path, char hex[65], int64_t *n_byte)
 {
+    CLX_ARGUMENTS(path, hex);
     enum { BLOCK = 1 << 16 };
     clast_status status = CLAST_OK;
     char *block = NULL;
@@ -143,6 +154,7 @@ done:
 
 clast_status clast_manifest_input(clast_manifest *manifest, const char *role, const char *path)
 {
+    CLX_ARGUMENTS(manifest, role, path);
     clast_status status = CLAST_OK;
     input_file made = {0};
     struct stat found;
@@ -162,6 +174,7 @@ done:
 
 clast_status clast_manifest_note(clast_manifest *manifest, const char *key, const char *text)
 {
+    CLX_ARGUMENTS(manifest, key, text);
     clast_status status = CLAST_OK;
     note made = {0};
     for (int32_t i = 0; i < manifest->n_note; ++i) {
@@ -181,6 +194,7 @@ done:
 
 clast_status clast_manifest_output(clast_manifest *manifest, const char *name)
 {
+    CLX_ARGUMENTS(manifest, name);
     clast_status status = CLAST_OK;
     char *made = NULL;
     CLX_TRY(clx_alloc_text(&made, name));
@@ -194,6 +208,9 @@ done:
 
 void clast_manifest_progress(clast_manifest *manifest, double share)
 {
+    if (manifest == NULL) {
+        return;
+    }
     manifest->has_progress = true;
     manifest->progress = share;
 }
@@ -314,6 +331,7 @@ static void put_texts(clx_file *file, const char *key, int32_t n, char *const *t
 clast_status clast_manifest_write(const clast_manifest *manifest, const char *outcome,
                                   const char *path)
 {
+    CLX_ARGUMENTS(manifest, outcome, path);
     clast_status status = CLAST_OK;
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
@@ -322,6 +340,11 @@ clast_status clast_manifest_write(const clast_manifest *manifest, const char *ou
     put_text(&file, "command", manifest->command);
     put_texts(&file, "command_line", manifest->argc, manifest->argv);
     put_text(&file, "outcome", outcome);
+    if (strcmp(outcome, "running") == 0) { // for the messages of whoever finds the folder locked
+        char name[CLX_PROCESS_NAME];
+        clx_process_name(name);
+        put_text(&file, "process", name);
+    }
     if (manifest->has_progress && strcmp(outcome, "done") != 0) {
         put_number(&file, "progress", manifest->progress);
     }

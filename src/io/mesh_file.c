@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "geom/whole.h"
 #include "io/mesh_io.h"
 #include <clast/field.h>
 #include <math.h>
@@ -35,6 +36,9 @@ const char *clast_mesh_format_name(clast_mesh_format format)
 
 clast_mesh_format clast_mesh_format_of_path(const char *path)
 {
+    if (path == NULL) {
+        return (clast_mesh_format){0};
+    }
     for (int i = 0; i < N_NAME; ++i) {
         if (clx_path_is(path, names[i].name)) {
             return names[i].format;
@@ -84,6 +88,8 @@ done:
 clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format format,
                               clast_mesh *mesh, clast_mesh_read_report *report)
 {
+    CLX_ARGUMENTS(mesh);
+    CLX_ARRAY(bytes, n);
     clast_mesh made = {0};
     const clast_mesh_format by_content = clx_mesh_detect(bytes, n);
     clast_mesh_read_report found = {.format = format != CLAST_MESH_ANY ? format : by_content,
@@ -100,6 +106,7 @@ clast_status clast_mesh_parse(const void *bytes, size_t n, clast_mesh_format for
 
 clast_status clast_mesh_read(const char *path, clast_mesh *mesh, clast_mesh_read_report *report)
 {
+    CLX_ARGUMENTS(path, mesh);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
@@ -170,6 +177,8 @@ static clast_status write_format(clast_mesh_format format, const clast_mesh *mes
 clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
                               const clast_mesh_write_options *options)
 {
+    CLX_ARGUMENTS(path, mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clx_file file = {0};
     const clast_mesh_write_options o = options != NULL ? *options : (clast_mesh_write_options){0};

@@ -21,6 +21,9 @@
 
 void clast_pack_unload(clast_pack_source *source)
 {
+    if (source == NULL) {
+        return;
+    }
     for (int32_t i = 0; i < source->n_shape; ++i) {
         clast_shape_free(&source->shape[i]);
     }
@@ -283,6 +286,8 @@ done:
 
 clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source)
 {
+    CLX_ARGUMENTS(config, source);
+    CLX_GUARD(clast_fields_check(clast_pack_fields, config));
     clast_status status = CLAST_OK;
     clast_pack_source made = {0};
     double factor = 1.0;
@@ -338,6 +343,9 @@ static const char *curve_file(const char *text)
 
 int32_t clast_pack_n_file(const clast_pack_config *config)
 {
+    if (clast_fields_check(clast_pack_fields, config) != CLAST_OK) {
+        return 0;
+    }
     int32_t n = curve_file(config->curve) != NULL ? 1 : 0;
     n += config->container[0] != '\0' ? 1 : 0;
     for (int32_t i = 0; i < config->shapes.n; ++i) {
@@ -348,6 +356,9 @@ int32_t clast_pack_n_file(const clast_pack_config *config)
 
 const char *clast_pack_file(const clast_pack_config *config, int32_t i, const char **role)
 {
+    if (clast_fields_check(clast_pack_fields, config) != CLAST_OK || role == NULL) {
+        return NULL;
+    }
     *role = "shapes";
     for (int32_t k = 0; k < config->shapes.n; ++k) {
         if (is_shape_file(config->shapes.item[k]) && i-- == 0) {

@@ -9,7 +9,7 @@
 #include "pack/saved.h"
 #include <string.h>
 
-enum { N_ARRAY = 10 };
+enum { N_ARRAY = 12 };
 
 typedef struct {
     const char *name;
@@ -33,6 +33,12 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_link, CLX_SAVED_LINK, d->link};
     if (d->limit != NULL) {
         a[n++] = (array){"/pack/limit", CLX_H5_F64, d->n_known, 1, d->limit};
+    }
+    if (d->held != NULL) {
+        a[n++] = (array){"/pack/held", CLX_H5_F64, d->n_grain, 1, d->held};
+    }
+    if (d->extra != NULL) {
+        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_link, CLX_SAVED_EXTRA, d->extra};
     }
     if (d->memory != NULL) {
         a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_link, d->memory_width, d->memory};
@@ -185,6 +191,12 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_alloc(&d->link, d->n_link * CLX_SAVED_LINK, sizeof *d->link));
     if (clx_h5_has(h5, "/pack/limit")) {
         CLX_TRY(clx_alloc(&d->limit, d->n_known, sizeof *d->limit));
+    }
+    if (clx_h5_has(h5, "/pack/held")) {
+        CLX_TRY(clx_alloc(&d->held, d->n_grain, sizeof *d->held));
+    }
+    if (clx_h5_has(h5, "/pack/extra")) {
+        CLX_TRY(clx_alloc(&d->extra, CLX_SAVED_EXTRA * d->n_link, sizeof *d->extra));
     }
     if (clx_h5_has(h5, "/pack/memory")) {
         CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));

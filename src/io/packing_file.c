@@ -84,6 +84,7 @@ done:
 clast_status clast_packing_read(const char *path, const clast_packing_options *options,
                                 clast_assembly *assembly)
 {
+    CLX_ARGUMENTS(path, assembly);
     static const clast_packing_options guess = {0};
     clast_status status = CLAST_OK;
     char *bytes = NULL;

@@ -77,6 +77,8 @@ static bool is_vtk_xml(const char *bytes, size_t n)
 clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
                                 const clast_points_options *options, clast_table *table)
 {
+    CLX_ARGUMENTS(name, table);
+    CLX_ARRAY(bytes, n);
     const clast_points_options chosen = options != NULL ? *options : (clast_points_options){0};
     if (begins(bytes, n, "# vtk DataFile")) {
         return clx_points_vtk(name, bytes, n, table);
@@ -99,6 +101,7 @@ clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
 clast_status clast_points_read(const char *path, const clast_points_options *options,
                                clast_table *table)
 {
+    CLX_ARGUMENTS(path, table);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;

@@ -48,8 +48,8 @@ static clast_status skip_list(reader *r, const clx_ply_property *p)
     double n = 0.0;
     double item = 0.0;
     CLX_TRY(next_number(r, p->count_type, &n));
-    CLX_CHECK(n >= 0.0, CLAST_E_FORMAT, "%s: a list of %g items", r->name, n);
-    for (double k = 0.0; k < n; ++k) {
+    CLX_CHECK(n >= 0.0 && n < 0x1p32, CLAST_E_FORMAT, "%s: a list of %g items", r->name, n);
+    for (int64_t k = 0; k < (int64_t)n; ++k) {
         CLX_TRY(next_number(r, p->type, &item));
     }
 done:
@@ -102,7 +102,10 @@ static clast_status read_vertices(reader *r, const clx_ply_element *e, clast_tab
     for (int64_t i = 0; i < e->n_row; ++i) {
         CLX_TRY(read_row(r, e, row));
         for (int32_t k = 0; k < e->n_property; ++k) {
-            value[k][i] = row[k];
+            double *const column = value[k];
+            if (column != NULL) {
+                column[i] = row[k];
+            }
         }
     }
     CLX_TRY(add_columns(r->ply, e, value, table));

@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/status.h"
 #include "porosity/model.h"
+#include "porosity/whole.h"
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
@@ -236,6 +237,8 @@ done:
 clast_status clast_porosity_model_parse(const char *name, const void *bytes, size_t n,
                                         clast_porosity_model *model)
 {
+    CLX_ARGUMENTS(name, model);
+    CLX_ARRAY(bytes, n);
     clast_status status = CLAST_OK;
     json_error_t error;
     json_t *root = NULL;
@@ -253,6 +256,7 @@ done:
 
 clast_status clast_porosity_model_read(const char *path, clast_porosity_model *model)
 {
+    CLX_ARGUMENTS(path, model);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;
@@ -347,6 +351,9 @@ clast_status clast_porosity_model_write(const clast_porosity_model *model,
                                         const char *const (*provenance)[2], int32_t n,
                                         const char *path)
 {
+    CLX_ARGUMENTS(model, path);
+    CLX_ARRAY(provenance, n);
+    CLX_WHOLE(porosity_model, model);
     clast_status status = CLAST_OK;
     json_t *root = NULL;
     char *dump = NULL;

@@ -348,6 +348,7 @@ done:
 clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
                                const char *unit, clast_sizes *sizes)
 {
+    CLX_ARGUMENTS(name, text, column, unit, sizes);
     clast_status status = CLAST_OK;
     reader *r = NULL;
     const bool marked = strncmp(text, "\xef\xbb\xbf", 3) == 0; // byte-order mark of spreadsheets
@@ -369,6 +370,7 @@ done:
 clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
                               clast_sizes *sizes)
 {
+    CLX_ARGUMENTS(path, column, unit, sizes);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;

@@ -6,6 +6,7 @@
 #include "base/path.h"
 #include "base/status.h"
 #include "io/spheres_table.h"
+#include "shape/whole.h"
 #include <clast/state.h>
 #include <clast/table_file.h>
 #include <string.h>
@@ -35,6 +36,7 @@ done:
 
 clast_status clast_spheres_read(const char *path, const char *name, clast_spheres *spheres)
 {
+    CLX_ARGUMENTS(path, spheres);
     if (is_state(path)) {
         return clast_state_read_spheres(path, name, spheres);
     }
@@ -120,6 +122,8 @@ done:
 clast_status clast_spheres_write(const char *path, const char *name, const clast_spheres *spheres,
                                  const char *unit)
 {
+    CLX_ARGUMENTS(path, name, spheres);
+    CLX_WHOLE(spheres, spheres);
     if (is_state(path)) {
         return write_state(path, name, spheres, unit != NULL ? unit : "model");
     }

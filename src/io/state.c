@@ -8,6 +8,9 @@
 
 void clast_state_free(clast_state *state)
 {
+    if (state == NULL) {
+        return;
+    }
     if (state->assembly != NULL) {
         clast_assembly_free(state->assembly);
     }
@@ -27,8 +30,11 @@ void clast_state_free(clast_state *state)
 
 const clast_table *clast_state_table(const clast_state *state, const char *name)
 {
+    if (state == NULL || name == NULL || state->table == NULL) {
+        return NULL;
+    }
     for (int32_t i = 0; i < state->n_table; ++i) {
-        if (strcmp(state->table[i].name, name) == 0) {
+        if (state->table[i].name != NULL && strcmp(state->table[i].name, name) == 0) {
             return &state->table[i];
         }
     }
@@ -124,6 +130,7 @@ done:
 
 clast_status clast_state_read(const char *path, clast_state *state)
 {
+    CLX_ARGUMENTS(path, state);
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     clast_state made = {0};
@@ -143,6 +150,7 @@ done:
 
 clast_status clast_state_read_assembly(const char *path, clast_assembly *assembly)
 {
+    CLX_ARGUMENTS(path, assembly);
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_open(path, &h5));
@@ -238,10 +246,12 @@ done:
 
 clast_status clast_state_read_spheres(const char *path, const char *name, clast_spheres *spheres)
 {
+    CLX_ARGUMENTS(path, spheres);
     return read_part(path, "/spheres", name, take_spheres, spheres);
 }
 
 clast_status clast_state_read_table(const char *path, const char *name, clast_table *table)
 {
+    CLX_ARGUMENTS(path, name, table);
     return read_part(path, "/table", name, take_table, table);
 }

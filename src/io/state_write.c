@@ -1,8 +1,11 @@
 // State files, writing: assemblies, spheres and tables as named arrays (docs/theory/state-file.md).
 #include "io/state.h"
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "io/state_path.h"
+#include "shape/whole.h"
 #include <string.h>
 
 /// One array under a folder.
@@ -247,8 +250,32 @@ done:
     return status;
 }
 
+/// What is wrong with a state that a caller has filled himself, for people, or NULL.
+static const char *state_fault(const clast_state *state)
+{
+    const char *fault = NULL;
+    if (!clx_has_array(state->spheres, state->n_spheres) ||
+        !clx_has_array(state->table, state->n_table)) {
+        return "a count is negative, or spheres or tables are NULL";
+    }
+    if (state->assembly != NULL) {
+        fault = clx_assembly_fault(state->assembly);
+    }
+    for (int32_t i = 0; fault == NULL && i < state->n_spheres; ++i) {
+        fault = state->spheres[i].name == NULL ? "spheres have no name"
+                                               : clx_spheres_fault(&state->spheres[i].spheres);
+    }
+    for (int32_t i = 0; fault == NULL && i < state->n_table; ++i) {
+        fault = state->table[i].name == NULL ? "a table has no name"
+                                             : clx_table_fault(&state->table[i]);
+    }
+    return fault;
+}
+
 clast_status clast_state_write(const clast_state *state, const char *path)
 {
+    CLX_ARGUMENTS(state, path);
+    CLX_GUARD(clx_fault_given(__func__, "state", state_fault(state)));
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_create(&h5));
@@ -262,6 +289,16 @@ done:
 clast_status clast_state_write_assembly(const char *path, const clast_assembly *assembly,
                                         const char *config)
 {
+    CLX_ARGUMENTS(path, assembly);
+    CLX_WHOLE(arrays, assembly);
+    for (int32_t s = 0; s < assembly->n_shape; ++s) { // what is written; its reader judges the rest
+        const clast_shape *shape = &assembly->shape[s];
+        CLX_ARGUMENTS(shape->name);
+        CLX_WHOLE(spheres, &shape->spheres);
+        CLX_ARRAY(shape->mesh.vert, shape->mesh.n_vert);
+        CLX_ARRAY(shape->mesh.tri, shape->mesh.n_tri);
+        CLX_ARRAY(shape->parts.part, shape->parts.n);
+    }
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     CLX_TRY(clx_h5_create(&h5));
@@ -279,6 +316,8 @@ done:
 clast_status clast_state_write_spheres(const char *path, const char *name,
                                        const clast_spheres *spheres, const char *unit)
 {
+    CLX_ARGUMENTS(path, name, spheres, unit);
+    CLX_WHOLE(spheres, spheres);
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     char folder[CLX_H5_NAME_LIMIT];

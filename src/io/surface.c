@@ -1,6 +1,7 @@
 // Surfaces that must bound a solid: one weld, one count, and the command that closes the file.
 #include "base/alloc.h"
 #include "base/path.h"
+#include "geom/whole.h"
 #include <clast/mesh_file.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 clast_status clast_mesh_read_welded(const char *path, clast_mesh *mesh,
                                     clast_mesh_repair_report *weld)
 {
+    CLX_ARGUMENTS(path, mesh);
     clast_status status = CLAST_OK;
     clast_mesh read = {0};
     clast_mesh made = {0};
@@ -85,6 +87,11 @@ done:
 
 clast_status clast_mesh_cure(const char *path, const clast_mesh *mesh, char *command, size_t size)
 {
+    CLX_ARGUMENTS(path, mesh, command);
+    CLX_WHOLE(mesh, mesh);
+    if (size == 0) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: no room for a command", __func__);
+    }
     enum { ROOM = 4200 };
     clast_status status = CLAST_OK;
     clast_mesh repaired = {0};
@@ -137,6 +144,8 @@ static void list_faults(const clast_mesh_check_result *found, char *text, size_t
 clast_status clast_mesh_require_solid(const char *path, const clast_mesh *mesh,
                                       const char *otherwise)
 {
+    CLX_ARGUMENTS(path, mesh);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
     char cure[400];

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "base/whole.h"
 #include "io/json.h"
 #include <inttypes.h>
 #include <math.h>
@@ -89,6 +90,8 @@ clast_status clast_table_write_csv(const clast_table *table, const char *path)
 clast_status clast_table_write_csv_note(const clast_table *table, const char *note,
                                         const char *path)
 {
+    CLX_ARGUMENTS(table, path);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));
@@ -134,6 +137,8 @@ static void put_values(clx_file *file, const clast_table *table, const clast_col
 
 clast_status clast_table_write_json(const clast_table *table, const char *path)
 {
+    CLX_ARGUMENTS(table, path);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clx_file file = {0};
     CLX_TRY(clx_file_begin(path, &file));

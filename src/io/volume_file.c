@@ -38,6 +38,9 @@ clast_status clx_inflate(const uint8_t *bytes, size_t n, uint8_t *out, size_t n_
 
 bool clast_volume_is_known(const void *bytes, size_t n)
 {
+    if (bytes == NULL) {
+        return false;
+    }
     return clx_nrrd_is(bytes, n) || clx_tiff_is(bytes, n);
 }
 
@@ -63,6 +66,8 @@ done:
 clast_status clast_volume_parse(const void *bytes, size_t n, const clast_volume_options *options,
                                 clast_volume *volume)
 {
+    CLX_ARGUMENTS(options, volume);
+    CLX_ARRAY(bytes, n);
     clast_status status = CLAST_OK;
     clast_volume made = {0};
     if (clx_nrrd_is(bytes, n)) {

@@ -61,6 +61,7 @@ done:
 clast_status clast_volume_read_h5(const char *path, const char *dataset,
                                   const clast_volume_options *options, clast_volume *volume)
 {
+    CLX_ARGUMENTS(path, dataset, options, volume);
     clast_status status = CLAST_OK;
     clx_h5 *h5 = NULL;
     clast_volume made = {0};

@@ -70,6 +70,8 @@ done:
 
 clast_status clast_voxels_parse(const void *bytes, size_t n, clast_voxels *voxels)
 {
+    CLX_ARGUMENTS(voxels);
+    CLX_ARRAY(bytes, n);
     clast_status status = CLAST_OK;
     clast_voxels made = {0};
     voxel_header header;
@@ -106,6 +108,7 @@ done:
 
 clast_status clast_voxels_read(const char *path, clast_voxels *voxels)
 {
+    CLX_ARGUMENTS(path, voxels);
     clast_status status = CLAST_OK;
     char *bytes = NULL;
     int64_t n = 0;

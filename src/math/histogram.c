@@ -6,6 +6,7 @@
 #include "math/sample.h"
 #include "math/sort.h"
 #include "math/special.h"
+#include "math/whole.h"
 #include <math.h>
 
 enum { MAX_BIN = 200 };
@@ -51,6 +52,8 @@ static void count_all(const double *sorted, int64_t n, double low, double width,
 
 clast_status clast_histogram_of(const double *x, int64_t n, clast_histogram *histogram)
 {
+    CLX_ARGUMENTS(histogram);
+    CLX_ARRAY(x, n);
     clast_status status = CLAST_OK;
     clast_histogram h = {.n_bin = 1};
     double *sorted = NULL;
@@ -86,6 +89,9 @@ done:
 
 void clast_histogram_free(clast_histogram *histogram)
 {
+    if (histogram == NULL) {
+        return;
+    }
     clx_free(histogram->edge);
     clx_free(histogram->count);
     clx_free(histogram->density);
@@ -95,6 +101,8 @@ void clast_histogram_free(clast_histogram *histogram)
 clast_status clast_histogram_table(const clast_histogram *histogram, const char *name,
                                    clast_table *table)
 {
+    CLX_ARGUMENTS(histogram, name, table);
+    CLX_WHOLE(histogram, histogram);
     static const char *const column[5] = {"low", "high", "count", "density", "normal"};
     clast_status status = CLAST_OK;
     const clast_histogram *h = histogram;

@@ -108,6 +108,8 @@ static double one_minus_w(const double *x, int64_t n, const double *a, const clx
 
 clast_status clast_shapiro_wilk(const double *x, int64_t n, double *w, double *p)
 {
+    CLX_ARGUMENTS(w, p);
+    CLX_ARRAY(x, n);
     clast_status status = CLAST_OK;
     double *sorted = NULL;
     double *a = NULL;

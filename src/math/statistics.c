@@ -2,16 +2,18 @@
 #include <clast/statistics.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "math/bootstrap.h"
 #include "math/pca.h"
 #include "math/sample.h"
 #include "math/sort.h"
+#include "math/whole.h"
 #include <math.h>
 
 double clast_quantile_share(int32_t k)
 {
     static const double share[CLAST_N_QUANTILE] = {0.05, 0.10, 0.25, 0.50, 0.75, 0.90, 0.95};
-    return share[k];
+    return k >= 0 && k < CLAST_N_QUANTILE ? share[k] : (double)NAN;
 }
 
 static const clast_sample_summary EMPTY = {
@@ -81,6 +83,9 @@ done:
 
 void clast_statistics_free(clast_statistics *statistics)
 {
+    if (statistics == NULL) {
+        return;
+    }
     for (int32_t k = 0; statistics->name != NULL && k < statistics->n; ++k) {
         clx_free(statistics->name[k]);
     }
@@ -156,6 +161,8 @@ done:
 clast_status clast_statistics_of(const clast_table *table, const clast_bootstrap *bootstrap,
                                  clast_statistics *statistics)
 {
+    CLX_ARGUMENTS(table, statistics);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_statistics s = {0};
     const clast_bootstrap usual = clast_bootstrap_default();
@@ -189,6 +196,9 @@ done:
 
 int32_t clast_statistics_n_component(const clast_statistics *statistics, double share)
 {
+    if (clx_statistics_fault(statistics) != NULL) {
+        return 0;
+    }
     for (int32_t k = 0; k < statistics->n_pca; ++k) {
         if (statistics->explained[k] >= share) {
             return k + 1;
@@ -199,5 +209,7 @@ int32_t clast_statistics_n_component(const clast_statistics *statistics, double 
 
 clast_status clast_statistics_limit_pca(clast_statistics *statistics, int32_t n_column)
 {
+    CLX_ARGUMENTS(statistics);
+    CLX_WHOLE(statistics, statistics);
     return components(n_column < statistics->n ? n_column : statistics->n, statistics);
 }

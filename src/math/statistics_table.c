@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "math/whole.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -44,6 +45,8 @@ static clast_status add_cells(const clast_statistics *s, const char *name, size_
 
 clast_status clast_statistics_summary_table(const clast_statistics *statistics, clast_table *table)
 {
+    CLX_ARGUMENTS(statistics, table);
+    CLX_WHOLE(statistics, statistics);
     clast_status status = CLAST_OK;
     const clast_statistics *s = statistics;
     clast_table t = {0};
@@ -73,6 +76,8 @@ done:
 clast_status clast_statistics_correlation_table(const clast_statistics *statistics,
                                                 clast_table *table)
 {
+    CLX_ARGUMENTS(statistics, table);
+    CLX_WHOLE(statistics, statistics);
     clast_status status = CLAST_OK;
     const clast_statistics *s = statistics;
     clast_table t = {0};
@@ -100,6 +105,8 @@ done:
 
 clast_status clast_statistics_pca_table(const clast_statistics *statistics, clast_table *table)
 {
+    CLX_ARGUMENTS(statistics, table);
+    CLX_WHOLE(statistics, statistics);
     static const char *const name[4] = {"component", "variance", "share", "explained"};
     clast_status status = CLAST_OK;
     const clast_statistics *s = statistics;

@@ -74,6 +74,9 @@ done:
 
 const clast_table *clast_pack_series(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return NULL;
+    }
     return &pack->series;
 }
 
@@ -178,12 +181,16 @@ static void measure_motion(const clast_pack *p, clast_pack_result *r)
 
 void clast_pack_result_free(clast_pack_result *result)
 {
+    if (result == NULL) {
+        return;
+    }
     clx_free(result->hull);
     *result = (clast_pack_result){0};
 }
 
 clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result)
 {
+    CLX_ARGUMENTS(pack, result);
     clast_status status = CLAST_OK;
     clast_pack_result r = {.phase = pack->phase,
                            .converged = pack->converged,
@@ -207,6 +214,7 @@ done:
 
 clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
 {
+    CLX_ARGUMENTS(p, table);
     clast_status status = CLAST_OK;
     const int32_t n = clast_dem_n_grain(p->dem);
     double *size = NULL;

@@ -14,11 +14,14 @@ static const char *const names[] = {"generate", "shake", "damp", "done"};
 
 const char *clast_pack_phase_name(clast_pack_phase phase)
 {
-    return names[phase];
+    return (unsigned)phase < sizeof names / sizeof names[0] ? names[phase] : "unknown";
 }
 
 clast_bed clast_pack_bed(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return (clast_bed){0};
+    }
     const clast_dem_config *d = &pack->config.dem;
     if (pack->input.container_closed != NULL) {
         clast_bed bed = clast_bed_of_surface(pack->input.container_closed);
@@ -36,6 +39,9 @@ clast_bed clast_pack_bed(const clast_pack *pack)
 
 clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
 {
+    if (config == NULL) {
+        return (clast_porosity_options){0};
+    }
     clast_porosity_options o = clast_porosity_options_default();
     o.method = CLAST_POROSITY_SPHERES;
     o.layer = config->layer;
@@ -76,6 +82,8 @@ done:
 clast_status clast_pack_create(const clast_pack_config *config, const clast_pack_input *input,
                                clast_pack **pack)
 {
+    CLX_ARGUMENTS(config, input, pack);
+    CLX_GUARD(clast_fields_check(clast_pack_fields, config));
     clast_status status = CLAST_OK;
     clast_pack *made = NULL;
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
@@ -293,6 +301,7 @@ static int64_t quiet_steps(const clast_pack *p)
 
 clast_status clast_pack_advance(clast_pack *pack, int64_t n_step)
 {
+    CLX_ARGUMENTS(pack);
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     const int64_t most = pack->config.max_steps;
@@ -323,27 +332,42 @@ done:
 
 bool clast_pack_is_over(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return true;
+    }
     return pack->phase == CLAST_PACK_DONE ||
            (pack->config.max_steps > 0 && clast_dem_n_step(pack->dem) >= pack->config.max_steps);
 }
 
 clast_pack_phase clast_pack_phase_of(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return (clast_pack_phase){0};
+    }
     return pack->phase;
 }
 
 const clast_dem *clast_pack_dem(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return NULL;
+    }
     return pack->dem;
 }
 
 double clast_pack_mass(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return (double)NAN;
+    }
     return pack->mass;
 }
 
 int64_t clast_pack_expected_steps(const clast_pack *pack)
 {
+    if (pack == NULL) {
+        return 0;
+    }
     const clast_pack_config *c = &pack->config;
     const double dt = c->dem.time_step;
     double time = (double)clast_dem_n_step(pack->dem) * dt;

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/sort.h"
 #include <clast/chart.h>
 #include <math.h>
@@ -46,12 +47,12 @@ typedef struct {
 
 const char *clast_aggregate_chart_name(clast_aggregate_chart chart)
 {
-    return kinds[chart].name;
+    return (unsigned)chart < CLAST_N_AGGREGATE_CHART ? kinds[chart].name : "unknown";
 }
 
 const char *clast_aggregate_chart_title(clast_aggregate_chart chart)
 {
-    return kinds[chart].title;
+    return (unsigned)chart < CLAST_N_AGGREGATE_CHART ? kinds[chart].title : "unknown";
 }
 
 static const char *x_column(clast_aggregate_chart chart)
@@ -81,6 +82,9 @@ static int64_t count_finite(const double *x, const double *y, int64_t n)
 
 bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const clast_table *table)
 {
+    if (clx_table_fault(table) != NULL) {
+        return false;
+    }
     const double *x = clast_table_numbers(table, x_column(chart));
     if (x == NULL) {
         return false;
@@ -416,6 +420,11 @@ done:
 clast_status clast_aggregate_chart_write(clast_aggregate_chart chart, const clast_table *table,
                                          const clast_table *wanted, const char *path)
 {
+    CLX_ARGUMENTS(table, path);
+    CLX_WHOLE(table, table);
+    if (wanted != NULL) {
+        CLX_WHOLE(table, wanted);
+    }
     drawing d = {0};
     clast_status status = draw(chart, table, wanted, &d);
     if (status == CLAST_OK) {
@@ -428,6 +437,11 @@ clast_status clast_aggregate_chart_write(clast_aggregate_chart chart, const clas
 clast_status clast_aggregate_chart_svg(clast_aggregate_chart chart, const clast_table *table,
                                        const clast_table *wanted, unsigned char **bytes, size_t *n)
 {
+    CLX_ARGUMENTS(table, bytes, n);
+    CLX_WHOLE(table, table);
+    if (wanted != NULL) {
+        CLX_WHOLE(table, wanted);
+    }
     drawing d = {0};
     clast_status status = draw(chart, table, wanted, &d);
     if (status == CLAST_OK) {
@@ -441,6 +455,11 @@ clast_status clast_aggregate_chart_svg(clast_aggregate_chart chart, const clast_
 clast_status clast_aggregate_charts_write(const clast_table *history, const clast_table *wanted,
                                           const char *folder)
 {
+    CLX_ARGUMENTS(history, folder);
+    CLX_WHOLE(table, history);
+    if (wanted != NULL) {
+        CLX_WHOLE(table, wanted);
+    }
     clast_status status = CLAST_OK;
     char path[4096];
     for (int32_t k = 0; k < CLAST_AGGREGATE_CHART_RADIAL; ++k) {

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/whole.h"
 #include "plot/figure.h"
 
 static void draw_marks(clx_figure *f)
@@ -74,10 +75,56 @@ static void draw(clx_figure *f)
     (void)clx_figure_legend(f, true);
 }
 
+static const char *series_fault(const clast_series *s)
+{
+    if ((unsigned)s->kind > CLAST_SERIES_BARS || s->n < 0) {
+        return "a series' kind or number of points cannot be";
+    }
+    const bool is_band = s->kind == CLAST_SERIES_BAND;
+    return s->n > 0 && (s->x == NULL || (s->y == NULL && !is_band) ||
+                        (is_band && (s->low == NULL || s->high == NULL)))
+               ? "a series has no x, y, low or high"
+               : NULL;
+}
+
+/// What is wrong with a chart that a caller has filled himself, for people, or NULL.
+static const char *chart_fault(const clast_chart *chart)
+{
+    const clast_heat *heat = chart->heat;
+    const char *fault = NULL;
+    if (!clx_has_array(chart->series, chart->n_series) ||
+        !clx_has_array(chart->note, chart->n_note) ||
+        !clx_has_array(chart->mark_y, chart->n_mark)) {
+        return "a count is negative, or series, notes or marks are NULL";
+    }
+    if (heat != NULL && (heat->n_x < 0 || heat->n_y < 0 ||
+                         !clx_has_array(heat->value, (int64_t)heat->n_x * heat->n_y))) {
+        return "its heat map has no values";
+    }
+    for (int32_t i = 0; fault == NULL && i < chart->n_series; ++i) {
+        fault = series_fault(&chart->series[i]);
+    }
+    for (int32_t i = 0; fault == NULL && i < chart->n_note; ++i) {
+        fault = chart->note[i].text == NULL ? "a note has no text" : NULL;
+    }
+    for (int32_t i = 0; fault == NULL && heat != NULL && heat->x_name != NULL && i < heat->n_x;
+         ++i) {
+        fault = heat->x_name[i] == NULL ? "a column of its heat map has no name" : NULL;
+    }
+    for (int32_t i = 0; fault == NULL && heat != NULL && heat->y_name != NULL && i < heat->n_y;
+         ++i) {
+        fault = heat->y_name[i] == NULL ? "a row of its heat map has no name" : NULL;
+    }
+    return fault != NULL || (chart->width <= 14400.0 && chart->height <= 14400.0)
+               ? fault
+               : "it is wider or higher than 14400 points (5 m)";
+}
+
 static clast_status draw_to(const clast_chart *chart, clx_canvas_format format, clx_canvas *canvas)
 {
     clast_status status = CLAST_OK;
     clx_figure f = {.canvas = canvas, .chart = chart};
+    CLX_TRY(clx_fault_given("clast_chart", "chart", chart_fault(chart)));
     CLX_TRY(clx_figure_measure(&f));
     CLX_TRY(clx_canvas_begin(canvas, format, chart->width > 0.0 ? chart->width : 480.0,
                              chart->height > 0.0 ? chart->height : 340.0));
@@ -89,6 +136,7 @@ done:
 
 clast_status clast_chart_write(const clast_chart *chart, const char *path)
 {
+    CLX_ARGUMENTS(chart, path);
     clast_status status = CLAST_OK;
     clx_canvas canvas = {0};
     clx_canvas_format format = CLX_CANVAS_SVG;
@@ -102,6 +150,7 @@ done:
 
 clast_status clast_chart_svg(const clast_chart *chart, unsigned char **bytes, size_t *n)
 {
+    CLX_ARGUMENTS(chart, bytes, n);
     clx_canvas canvas = {0};
     const clast_status status = draw_to(chart, CLX_CANVAS_SVG, &canvas);
     if (status == CLAST_OK) {

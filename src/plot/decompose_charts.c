@@ -2,6 +2,8 @@
 #include <clast/decompose_charts.h>
 
 #include "base/alloc.h"
+#include "cloud/contract.h"
+#include "cloud/whole.h"
 #include "math/sort.h"
 #include <clast/chart.h>
 #include <math.h>
@@ -16,13 +18,17 @@ const char *clast_decompose_chart_name(clast_decompose_chart chart,
 {
     static const char *const name[CLAST_N_DECOMPOSE_CHART] = {"points", "density", "score",
                                                               "events"};
-    return chart == CLAST_DECOMPOSE_CHART_EVENTS && result != NULL && result->beta_dt == 0.0
-               ? "pair_integral"
-               : name[chart];
+    if (chart == CLAST_DECOMPOSE_CHART_EVENTS && result != NULL && result->beta_dt == 0.0) {
+        return "pair_integral";
+    }
+    return (unsigned)chart < CLAST_N_DECOMPOSE_CHART ? name[chart] : "unknown";
 }
 
 bool clast_decompose_chart_fits(clast_decompose_chart chart, const clast_decomposition *result)
 {
+    if (clx_decomposition_fault(result) != NULL) {
+        return false;
+    }
     if (chart == CLAST_DECOMPOSE_CHART_POINTS) {
         return result->n > 0 && result->dimension > 1;
     }
@@ -310,6 +316,12 @@ done:
 clast_status clast_decompose_chart_write(clast_decompose_chart chart, const clast_cloud *cloud,
                                          const clast_decomposition *result, const char *path)
 {
+    CLX_ARGUMENTS(cloud, result, path);
+    CLX_GUARD(clx_cloud_check(cloud));
+    CLX_WHOLE(decomposition, result);
+    if (result->n + result->n_outside != cloud->n || result->dimension != cloud->dimension) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: the decomposition is not of this cloud", __func__);
+    }
     if (!clast_decompose_chart_fits(chart, result)) {
         return clx_fail(CLAST_E_USAGE, "there is nothing to draw in chart %s",
                         clast_decompose_chart_name(chart, result));

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/status.h"
 #include "math/least_squares.h"
+#include "porosity/whole.h"
 #include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@ const char *clast_fit_chart_name(clast_fit_chart chart)
 {
     static const char *const name[CLAST_N_FIT_CHART] = {"feature", "predicted", "residuals",
                                                         "leverage"};
-    return name[chart];
+    return (unsigned)chart < CLAST_N_FIT_CHART ? name[chart] : "unknown";
 }
 
 static void bounds(const double *x, int64_t n, double span[2])
@@ -146,6 +147,10 @@ static clast_status draw_residuals(const clast_porosity_fit *fit, bool is_levera
 clast_status clast_chart_fit(clast_fit_chart chart, const clast_fit_data *data,
                              const clast_porosity_fit *fit, const char *path)
 {
+    CLX_ARGUMENTS(data, fit, path);
+    CLX_WHOLE(table, &data->beds);
+    CLX_WHOLE(porosity_model, &fit->model);
+    CLX_WHOLE(table, &fit->rows);
     switch (chart) {
     case CLAST_FIT_CHART_FEATURE:
         return draw_feature(data, fit, path);

@@ -2,6 +2,7 @@
 #include <clast/grading_chart.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include <clast/chart.h>
 #include <math.h>
 
@@ -18,6 +19,8 @@ static void sum_passing(const double *share, int64_t n_sieve, double *passing)
 
 clast_status clast_grading_chart_write(const clast_table *classes, const char *path)
 {
+    CLX_ARGUMENTS(classes, path);
+    CLX_WHOLE(table, classes);
     static const char *const column[4] = {"wanted_mass", "achieved_mass", "wanted_number",
                                           "achieved_number"};
     static const char *const label[4] = {"wanted, by mass", "achieved, by mass",

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/whole.h"
 #include <clast/chart.h>
 #include <stdio.h>
 #include <string.h>
@@ -53,6 +54,8 @@ static const clast_axis porosity_axis = {.label = "porosity (-)", .low = 0.0, .h
 clast_status clast_porosity_chart_write(const clast_table *profile, const clast_porosity_bulk *bulk,
                                         const char *unit, const char *path)
 {
+    CLX_ARGUMENTS(profile, bulk, unit, path);
+    CLX_WHOLE(table, profile);
     clast_status status = CLAST_OK;
     over o = {0};
     char bulk_label[64];
@@ -93,6 +96,8 @@ done:
 clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
                                              const char *path)
 {
+    CLX_ARGUMENTS(band, unit, path);
+    CLX_WHOLE(table, band);
     clast_status status = CLAST_OK;
     over o = {0};
     const double *mean = clast_table_numbers(band, "porosity");
@@ -127,6 +132,8 @@ done:
 clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
                                       const char *path)
 {
+    CLX_ARGUMENTS(profile, unit, path);
+    CLX_WHOLE(table, profile);
     static const char *const name[3] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa"};
     static const char *const label[3] = {"xx", "yy", "zz"};
     const clast_axis axis = {.label = "stress, compression positive (Pa)"};
@@ -151,6 +158,8 @@ done:
 
 clast_status clast_radial_chart_write(const clast_table *radial, const char *unit, const char *path)
 {
+    CLX_ARGUMENTS(radial, unit, path);
+    CLX_WHOLE(table, radial);
     clast_status status = CLAST_OK;
     over o = {0};
     double *bar = NULL;
@@ -183,6 +192,8 @@ done:
 
 clast_status clast_pore_chart_write(const clast_table *pores, const char *unit, const char *path)
 {
+    CLX_ARGUMENTS(pores, unit, path);
+    CLX_WHOLE(table, pores);
     const clast_axis axis = {
         .label = "share of the pore space nearer (-)", .low = 0.0, .high = 1.0};
     clast_status status = CLAST_OK;

@@ -5,6 +5,8 @@
 #include "base/number.h"
 #include "base/status.h"
 #include "math/sort.h"
+#include "math/whole.h"
+#include "shape/whole.h"
 #include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,6 +49,8 @@ static double length_axis(const char *label, double most, char text[LABEL_SIZE])
 
 clast_status clast_chart_zingg(const clast_form_set *set, const char *path)
 {
+    CLX_ARGUMENTS(set, path);
+    CLX_WHOLE(form_set, set);
     static const double border[4] = {2.0 / 3.0, 2.0 / 3.0, 0.0, 1.0};
     static const clast_note notes[4] = {{0.83, 0.03, "rods"},
                                         {0.34, 0.03, "blades"},
@@ -184,6 +188,8 @@ done:
 
 clast_status clast_chart_histogram(const double *x, int64_t n, const char *label, const char *path)
 {
+    CLX_ARGUMENTS(label, path);
+    CLX_ARRAY(x, n);
     clast_status status = CLAST_OK;
     clast_histogram h = {0};
     char title[LABEL_SIZE];
@@ -213,6 +219,8 @@ static const char *short_name(const char *name)
 
 clast_status clast_chart_correlation(const clast_statistics *statistics, const char *path)
 {
+    CLX_ARGUMENTS(statistics, path);
+    CLX_WHOLE(statistics, statistics);
     clast_status status = CLAST_OK;
     const int32_t n = statistics->n;
     const char **name = NULL; // of the columns, then of the rows from below
@@ -252,6 +260,8 @@ done:
 
 clast_status clast_chart_pca(const clast_statistics *statistics, const char *path)
 {
+    CLX_ARGUMENTS(statistics, path);
+    CLX_WHOLE(statistics, statistics);
     clast_status status = CLAST_OK;
     const int32_t n = statistics->n_pca;
     double *v = NULL; // edges, shares, places, sums

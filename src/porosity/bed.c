@@ -1,8 +1,11 @@
 // The container that a porosity refers to.
 #include <clast/porosity.h>
 
+#include "assembly/whole.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "porosity/whole.h"
 #include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
@@ -33,6 +36,7 @@ static int lengths(const char *text, int most, double *out)
 
 clast_status clast_bed_parse(const char *text, clast_bed *bed)
 {
+    CLX_ARGUMENTS(text, bed);
     clast_status status = CLAST_OK;
     clast_bed made = {0};
     double number[6] = {0};
@@ -74,6 +78,9 @@ done:
 
 int clast_bed_format(const clast_bed *bed, char *text, size_t size)
 {
+    if (clx_bed_fault(bed) != NULL || text == NULL) {
+        return -1;
+    }
     int n = 0;
     if (bed->kind == CLAST_BED_CYLINDER) {
         n = clx_number_print(text, size, "cylinder:%.17g,%.17g,%.17g", bed->radius, bed->centre[0],
@@ -94,6 +101,9 @@ int clast_bed_format(const clast_bed *bed, char *text, size_t size)
 
 bool clast_bed_period(const clast_bed *bed, double period[3])
 {
+    if (clx_bed_fault(bed) != NULL || period == NULL) {
+        return false;
+    }
     const bool is_3d = bed->kind == CLAST_BED_PERIODIC_3D;
     const bool is_periodic = is_3d || bed->kind == CLAST_BED_PERIODIC;
     period[0] = is_periodic ? bed->high[0] - bed->low[0] : 0.0;
@@ -104,6 +114,9 @@ bool clast_bed_period(const clast_bed *bed, double period[3])
 
 void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
 {
+    if (clx_bed_fault(bed) != NULL || clx_assembly_fault(assembly) != NULL) {
+        return;
+    }
     const double low[3] = {bed->low[0], bed->low[1], bed->floor};
     double period[3];
     (void)clast_bed_period(bed, period);
@@ -117,6 +130,9 @@ void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
 
 double clast_bed_area(const clast_bed *bed)
 {
+    if (clx_bed_fault(bed) != NULL) {
+        return (double)NAN;
+    }
     if (bed->kind == CLAST_BED_CYLINDER) {
         return bed->radius > 0.0 ? CLAST_PI * bed->radius * bed->radius : 0.0;
     }
@@ -133,6 +149,8 @@ double clast_bed_area(const clast_bed *bed)
 
 clast_status clast_bed_table(const clast_bed *bed, clast_table *table)
 {
+    CLX_ARGUMENTS(bed, table);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     char text[256];
@@ -153,6 +171,8 @@ done:
 
 clast_status clast_bed_from_table(const clast_table *table, clast_bed *bed)
 {
+    CLX_ARGUMENTS(table, bed);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_bed made;
     const int32_t text = clast_table_find(table, "bed");

@@ -2,12 +2,16 @@
 #include <clast/porosity.h>
 
 #include "base/status.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"
+#include "porosity/whole.h"
 #include <clast/mesh_repair.h>
 
 clast_status clast_bed_close(const clast_mesh *container, clast_mesh *closed)
 {
+    CLX_ARGUMENTS(container, closed);
+    CLX_WHOLE(mesh, container);
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     clast_mesh_check_result found = {0};
@@ -32,6 +36,9 @@ done:
 
 clast_bed clast_bed_of_surface(const clast_mesh *closed)
 {
+    if (clx_mesh_fault(closed) != NULL) {
+        return (clast_bed){0};
+    }
     double low[3];
     double high[3];
     clast_mesh_bounds(closed, low, high);
@@ -44,6 +51,9 @@ clast_bed clast_bed_of_surface(const clast_mesh *closed)
 
 void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *edge, double *volume)
 {
+    if (clx_bed_fault(bed) != NULL || edge == NULL || volume == NULL) {
+        return;
+    }
     for (int32_t k = 0; k < n; ++k) {
         volume[k] =
             bed->kind == CLAST_BED_MESH ? 0.0 : clast_bed_area(bed) * (edge[k + 1] - edge[k]);

@@ -1,6 +1,7 @@
 // Directions of contacts and grains.
 #include <clast/fabric.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
 #include "math/sym3.h"
@@ -31,12 +32,12 @@ static void add(rows *r, const char *prefix, const char *name, double value, con
 }
 
 /// Eigenvalues, falling, and the vertical entry of a direction tensor of trace 1.
-static void add_tensor(rows *r, const char *prefix, double tensor[3][3])
+static void add_tensor(rows *r, const char *prefix, double tensor[3][3], const char *of)
 {
     double value[3];
     double axes[3][3];
     clx_sym3_eigen(tensor, value, axes);
-    add(r, prefix, "_1", value[0], "-", "greatest eigenvalue of the direction tensor");
+    add(r, prefix, "_1", value[0], "-", of);
     add(r, prefix, "_2", value[1], "-", "middle eigenvalue");
     add(r, prefix, "_3", value[2], "-", "least eigenvalue");
     add(r, prefix, "_anisotropy", value[0] - value[2], "-", "0 for random directions, 1 for one");
@@ -79,7 +80,36 @@ static void add_counts(rows *r, const clast_assembly *a, const int32_t *count)
     }
 }
 
-static clast_status contacts(rows *r, const clast_assembly *a, const double period[3])
+/// Contact normals: true where they are known, from the table or because all grains are spheres.
+static bool sum_normals(const clast_assembly *a, const clast_table *contacts, double branches[3][3],
+                        double tensor[3][3])
+{
+    const double *b = contacts != NULL ? clast_table_numbers(contacts, "b") : NULL;
+    const double *x = contacts != NULL ? clast_table_numbers(contacts, "normal_x") : NULL;
+    const double *y = contacts != NULL ? clast_table_numbers(contacts, "normal_y") : NULL;
+    const double *z = contacts != NULL ? clast_table_numbers(contacts, "normal_z") : NULL;
+    bool is_known = true;
+    if (b != NULL && x != NULL && y != NULL && z != NULL) {
+        int64_t n = 0;
+        for (int64_t c = 0; c < contacts->n_row; ++c) {
+            const double normal[3] = {x[c], y[c], z[c]};
+            if (b[c] >= 0.0) {
+                add_outer(tensor, 1.0, normal);
+                ++n;
+            }
+        }
+        scale_tensor(tensor, n > 0 ? 1.0 / (double)n : 0.0);
+        return n > 0;
+    }
+    for (int32_t i = 0; i < a->n_grain && is_known; ++i) {
+        is_known = a->shape[a->shape_id[i]].kind == CLAST_SHAPE_SPHERE;
+    }
+    memcpy(tensor, branches, 9 * sizeof(double));
+    return is_known;
+}
+
+static clast_status contacts(rows *r, const clast_assembly *a, const clast_table *known,
+                             const double period[3])
 {
     clast_status status = CLAST_OK;
     double tensor[3][3] = {{0.0}};
@@ -101,8 +131,14 @@ static clast_status contacts(rows *r, const clast_assembly *a, const double peri
     }
     add_counts(r, a, count);
     if (n > 0) {
+        double normals[3][3] = {{0.0}};
         scale_tensor(tensor, 1.0 / (double)n);
-        add_tensor(r, "branch", tensor);
+        if (sum_normals(a, known, tensor, normals)) {
+            add_tensor(r, "normal", normals,
+                       "greatest eigenvalue of Satake's fabric tensor of contact normals");
+        }
+        add_tensor(r, "branch", tensor,
+                   "greatest eigenvalue of the tensor of branch vectors (centre to centre)");
     }
 done:
     clx_free(count);
@@ -147,23 +183,25 @@ static void grains(rows *r, const clast_assembly *a)
     if (sum > 0.0) {
         scale_tensor(longest, 1.0 / sum);
         scale_tensor(shortest, 1.0 / sum);
-        add_tensor(r, "long_axis", longest);
-        add_tensor(r, "short_axis", shortest);
+        add_tensor(r, "long_axis", longest, "greatest eigenvalue of the direction tensor");
+        add_tensor(r, "short_axis", shortest, "greatest eigenvalue of the direction tensor");
         add(r, "", "long_axis_dip", angle / sum, "rad",
             "mean angle of the longest axis to the horizontal; 0.571 for random directions");
     }
 }
 
-clast_status clast_fabric(const clast_assembly *assembly, const double period[3],
-                          clast_table *table)
+clast_status clast_fabric(const clast_assembly *assembly, const clast_table *known,
+                          const double period[3], clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, table);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     rows r = {.n = 0};
     double *value = NULL;
     CLX_CHECK(assembly->n_grain > 0, CLAST_E_USAGE, "no grain to measure");
     if (assembly->contact != NULL) {
-        CLX_TRY(contacts(&r, assembly, period));
+        CLX_TRY(contacts(&r, assembly, known, period));
     }
     grains(&r, assembly);
     CLX_TRY(clast_table_init(&made, "fabric", r.n));

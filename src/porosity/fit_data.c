@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,6 +46,9 @@ const clast_field clast_porosity_fit_fields[] = {
 
 void clast_fit_data_free(clast_fit_data *data)
 {
+    if (data == NULL) {
+        return;
+    }
     clast_table_free(&data->beds);
     clast_table_free(&data->left_out);
     *data = (clast_fit_data){0};
@@ -151,6 +155,9 @@ done:
 clast_status clast_fit_data_single(const clast_table *beds, const clast_porosity_fit_config *config,
                                    clast_fit_data *data)
 {
+    CLX_ARGUMENTS(beds, config, data);
+    CLX_GUARD(clast_fields_check(clast_porosity_fit_fields, config));
+    CLX_WHOLE(table, beds);
     clast_status status = CLAST_OK;
     clast_fit_data d = {0};
     clast_form_set set = {0};
@@ -241,6 +248,10 @@ done:
 clast_status clast_fit_data_mixture(const clast_table *beds, const clast_table *grains,
                                     const clast_porosity_fit_config *config, clast_fit_data *data)
 {
+    CLX_ARGUMENTS(beds, grains, config, data);
+    CLX_GUARD(clast_fields_check(clast_porosity_fit_fields, config));
+    CLX_WHOLE(table, beds);
+    CLX_WHOLE(table, grains);
     clast_status status = CLAST_OK;
     clast_fit_data d = {0};
     mixture m = {.beds = beds, .grains = grains};
@@ -334,6 +345,9 @@ static bool is_candidate(const clast_table *beds, int32_t c,
 clast_status clast_fit_data_columns(const clast_table *beds,
                                     const clast_porosity_fit_config *config, clast_fit_data *data)
 {
+    CLX_ARGUMENTS(beds, config, data);
+    CLX_GUARD(clast_fields_check(clast_porosity_fit_fields, config));
+    CLX_WHOLE(table, beds);
     clast_status status = CLAST_OK;
     clast_fit_data d = {0};
     const double *porosity = NULL;

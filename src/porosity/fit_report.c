@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/least_squares.h"
 #include "math/special.h"
 #include "porosity/model.h"
@@ -14,6 +15,9 @@ enum { N_OWN = 2 }; // columns row and porosity before the candidates
 
 void clast_porosity_fit_free(clast_porosity_fit *fit)
 {
+    if (fit == NULL) {
+        return;
+    }
     clast_porosity_model_free(&fit->model);
     clast_table_free(&fit->ranking);
     clast_table_free(&fit->trials);
@@ -255,6 +259,16 @@ clast_status clast_porosity_fit_data(const clast_fit_data *data,
                                      const clast_porosity_fit_config *config, const char *name,
                                      const char *source, clast_porosity_fit *fit)
 {
+    CLX_ARGUMENTS(data, config, name, source, fit);
+    CLX_WHOLE(table, &data->beds);
+    if ((unsigned)data->kind > CLAST_MODEL_COLUMNS || data->beds.n_column < 2) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: data of an unknown kind, or without porosities",
+                        __func__);
+    }
+    for (int32_t c = 0; c < data->beds.n_column; ++c) {
+        CLX_ARRAY(data->beds.column[c].number, data->beds.n_row);
+    }
+    CLX_GUARD(clast_fields_check(clast_porosity_fit_fields, config));
     static const char *const number[] = {"step", "cv_mean_error", "cv_median_error", "r2"};
     clast_status status = CLAST_OK;
     clast_porosity_fit out = {0};

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,6 +13,9 @@ static const char *const statistic[4] = {"mean_", "deviation_", "inverse_mean_",
 
 bool clast_mixture_feature_name(int32_t feature, char *text, size_t size)
 {
+    if (text == NULL) {
+        return false;
+    }
     if (feature < 0 || feature >= CLAST_N_MIXTURE_FEATURE) {
         return false;
     }
@@ -22,6 +26,9 @@ bool clast_mixture_feature_name(int32_t feature, char *text, size_t size)
 
 int32_t clast_form_feature_find(const char *name)
 {
+    if (name == NULL) {
+        return -1;
+    }
     for (int32_t f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
         if (strcmp(clast_form_feature_name(f), name) == 0) {
             return f;
@@ -32,6 +39,9 @@ int32_t clast_form_feature_find(const char *name)
 
 int32_t clast_mixture_feature_find(const char *name)
 {
+    if (name == NULL) {
+        return -1;
+    }
     for (int32_t s = 0; s < 4; ++s) {
         const size_t n = strlen(statistic[s]);
         if (strncmp(name, statistic[s], n) == 0) {
@@ -127,10 +137,16 @@ void clx_form_inputs_from_rows(const double *row, const int64_t *pick, int64_t n
 clast_status clast_form_inputs_of(const clast_form_set *set, const int64_t *pick, int64_t n_pick,
                                   clast_form_inputs *inputs)
 {
+    CLX_ARGUMENTS(set, inputs);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     double *row = NULL;
     const int64_t n = pick != NULL ? n_pick : set->n;
     CLX_CHECK(n > 0, CLAST_E_FORMAT, "form of a bed: no grains");
+    for (int64_t i = 0; pick != NULL && i < n; ++i) {
+        CLX_CHECK(pick[i] >= 0 && pick[i] < set->n, CLAST_E_ARGUMENT,
+                  "form of a bed: grain %lld of %lld", (long long)pick[i], (long long)set->n);
+    }
     CLX_TRY(clx_alloc(&row, set->n * CLAST_N_FORM_FEATURE, sizeof *row));
     clx_form_features_rows(set, row);
     clx_form_inputs_from_rows(row, pick, n, inputs);
@@ -142,6 +158,7 @@ done:
 clast_status clast_form_inputs_from_moments(const double mean[2], const double deviation[2],
                                             int64_t n_grain, clast_form_inputs *inputs)
 {
+    CLX_ARGUMENTS(mean, inputs);
     static const char *const name[2] = {"flatness", "elongation"};
     clast_status status = CLAST_OK;
     clast_form_inputs in = unknown();

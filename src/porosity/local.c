@@ -5,10 +5,12 @@
 // cell's farthest corner once d is large enough for the largest r_j.
 #include <clast/local_porosity.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "geom/convex_cell.h"
 #include "math/vec3.h"
+#include "porosity/whole.h"
 #include <stdlib.h>
 
 enum { SIDES = 96, BLOCK = 32 };
@@ -341,6 +343,9 @@ done:
 clast_status clast_local_porosity(const clast_assembly *assembly, const clast_bed *bed,
                                   double z_low, double z_high, clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, bed, table);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     diagram d = {.bed = bed, .z_low = z_low, .z_high = z_high};

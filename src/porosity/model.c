@@ -54,11 +54,14 @@ enum { N_BED_SINGLE = 63, N_BED_MIXTURE = 52 };
 const char *clast_model_kind_name(clast_model_kind kind)
 {
     static const char *const name[3] = {"single_form", "form_mixture", "columns"};
-    return name[kind];
+    return (unsigned)kind < 3 ? name[kind] : "unknown";
 }
 
 void clast_porosity_model_free(clast_porosity_model *model)
 {
+    if (model == NULL) {
+        return;
+    }
     for (int32_t k = 0; model->term != NULL && k < model->n_term; ++k) {
         clx_free(model->term[k].feature);
     }
@@ -100,6 +103,9 @@ done:
 
 int32_t clast_porosity_model_find(const char *name)
 {
+    if (name == NULL) {
+        return -1;
+    }
     for (int32_t k = 0; k < CLAST_N_PUBLISHED_MODEL; ++k) {
         if (strcmp(models[k].name, name) == 0) {
             return k;
@@ -110,6 +116,7 @@ int32_t clast_porosity_model_find(const char *name)
 
 clast_status clast_porosity_model_published(int32_t number, clast_porosity_model *model)
 {
+    CLX_ARGUMENTS(model);
     clast_status status = CLAST_OK;
     clast_porosity_model m = {0};
     CLX_CHECK(number >= 0 && number < CLAST_N_PUBLISHED_MODEL, CLAST_E_USAGE,

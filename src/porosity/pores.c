@@ -3,11 +3,13 @@
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "contact/touch_gap.h"
 #include "math/sort.h"
 #include "math/vec3.h"
+#include "porosity/whole.h"
 #include <clast/bvh.h>
 
 enum { BLOCK = 256, POINT_LIMIT = 100000000 };
@@ -146,6 +148,9 @@ done:
 
 void clast_pores_free(clast_pores *pores)
 {
+    if (pores == NULL) {
+        return;
+    }
     clast_table_free(&pores->sizes);
     *pores = (clast_pores){0};
 }
@@ -154,6 +159,9 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
                                  const double z[2], const clast_pore_options *options,
                                  clast_pores *pores)
 {
+    CLX_ARGUMENTS(assembly, bed, z, options, pores);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_pores made = {0};
     clx_touch_set set = {0};

@@ -6,6 +6,8 @@
 #include "math/bootstrap.h"
 #include "math/sample.h"
 #include "porosity/form_inputs.h"
+#include "porosity/whole.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <string.h>
 
@@ -49,16 +51,23 @@ clast_status clast_porosity_model_values(const clast_porosity_model *model,
                                          const clast_form_inputs *inputs, double *value,
                                          double *range_value)
 {
+    CLX_ARGUMENTS(model, inputs, value, range_value);
+    CLX_WHOLE(porosity_model, model);
     clast_status status = CLAST_OK;
+    double *found = NULL; // of the terms, then of the ranges
     CLX_CHECK(model->kind != CLAST_MODEL_COLUMNS, CLAST_E_USAGE,
               "model %s takes columns of a table, not forms", model->name);
+    CLX_TRY(clx_alloc(&found, (int64_t)model->n_term + model->n_range, sizeof *found));
     for (int32_t k = 0; k < model->n_term; ++k) {
-        CLX_TRY(take(model, inputs, model->term[k].feature, &value[k]));
+        CLX_TRY(take(model, inputs, model->term[k].feature, &found[k]));
     }
     for (int32_t k = 0; k < model->n_range; ++k) {
-        CLX_TRY(take(model, inputs, model->range[k].feature, &range_value[k]));
+        CLX_TRY(take(model, inputs, model->range[k].feature, &found[model->n_term + k]));
     }
+    memcpy(value, found, (size_t)model->n_term * sizeof *found);
+    memcpy(range_value, found + model->n_term, (size_t)model->n_range * sizeof *found);
 done:
+    clx_free(found);
     return status;
 }
 
@@ -97,6 +106,8 @@ static double leverage(const clast_porosity_model *m, const double *value)
 clast_status clast_porosity_model_apply(const clast_porosity_model *model, const double *value,
                                         const double *range_value, clast_prediction *prediction)
 {
+    CLX_ARGUMENTS(model, value, range_value, prediction);
+    CLX_WHOLE(porosity_model, model);
     clast_status status = CLAST_OK;
     clast_prediction p = {.porosity = model->intercept, .model_error = model->deviation};
     for (int32_t k = 0; k < model->n_term; ++k) {
@@ -181,6 +192,9 @@ clast_status clast_porosity_predict_set(const clast_porosity_model *model,
                                         const clast_form_set *set, const clast_bootstrap *bootstrap,
                                         clast_form_inputs *inputs, clast_prediction *prediction)
 {
+    CLX_ARGUMENTS(model, set, inputs, prediction);
+    CLX_WHOLE(porosity_model, model);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     clast_form_inputs in = {0};
     clast_prediction p = {0};
@@ -227,6 +241,8 @@ clast_status clast_porosity_predict_moments(const clast_porosity_model *model,
                                             const clast_form_inputs *inputs,
                                             clast_prediction *prediction)
 {
+    CLX_ARGUMENTS(model, inputs, prediction);
+    CLX_WHOLE(porosity_model, model);
     clast_status status = CLAST_OK;
     clast_prediction p = {0};
     double sum = 0.0;
@@ -257,6 +273,9 @@ static clast_status one_grain(const clast_form_set *set, int64_t i, clast_form_i
 clast_status clast_porosity_predict_each(const clast_porosity_model *model,
                                          const clast_form_set *set, clast_table *beds)
 {
+    CLX_ARGUMENTS(model, set, beds);
+    CLX_WHOLE(porosity_model, model);
+    CLX_WHOLE(form_set, set);
     static const char *const name[4] = {"row", "porosity", "standard_error", "in_range"};
     clast_status status = CLAST_OK;
     clast_table t = {0};
@@ -294,6 +313,8 @@ clast_status clast_porosity_prediction_table(const clast_porosity_model *model,
                                              const clast_form_inputs *inputs,
                                              const clast_prediction *prediction, clast_table *table)
 {
+    CLX_ARGUMENTS(model, inputs, prediction, table);
+    CLX_WHOLE(porosity_model, model);
     static const char *const name[] = {
         "porosity",          "standard_error",       "model_error",
         "coefficient_error", "sampling_error",       "in_range",

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "porosity/whole.h"
 #include <math.h>
 
 static clast_status find_columns(const clast_porosity_model *model, const clast_table *table,
@@ -35,6 +37,9 @@ static clast_status start(int64_t n_row, clast_table *t)
 clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
                                             const clast_table *table, clast_table *beds)
 {
+    CLX_ARGUMENTS(model, table, beds);
+    CLX_WHOLE(porosity_model, model);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_table t = {0};
     const double **column = NULL;

@@ -1,9 +1,12 @@
 // Porosity by height and in bulk.                               [Rettinger et al. sec. 4.4, eq. 16]
 #include <clast/porosity.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "base/whole.h"
 #include "math/vec3.h"
+#include "porosity/whole.h"
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
 
@@ -153,6 +156,9 @@ done:
 clast_status clast_porosity_profile(const clast_assembly *assembly, const clast_bed *bed,
                                     const clast_porosity_options *options, clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, bed, options, table);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double low[3];
@@ -219,6 +225,10 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
                                     const clast_porosity_options *options,
                                     const clast_table *profile, clast_porosity_bulk *bulk)
 {
+    CLX_ARGUMENTS(assembly, bed, options, profile, bulk);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
+    CLX_WHOLE(table, profile);
     clast_status status = CLAST_OK;
     clast_porosity_bulk made = {0};
     const bool is_endless = bed->kind == CLAST_BED_PERIODIC_3D;

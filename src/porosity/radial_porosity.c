@@ -3,8 +3,10 @@
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
+#include "assembly/whole.h"
 #include "base/status.h"
 #include "math/vec3.h"
+#include "porosity/whole.h"
 
 enum { POINTS = 512, RING_LIMIT = 1000000 };
 
@@ -85,6 +87,9 @@ clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_b
                                    const double z[2], const clast_radial_options *options,
                                    clast_table *table)
 {
+    CLX_ARGUMENTS(assembly, bed, z, options, table);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     clx_touch_set set = {0};

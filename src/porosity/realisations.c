@@ -2,11 +2,15 @@
 #include <clast/realisations.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "math/special.h"
 #include <math.h>
 
 clast_mean clast_mean_of(int32_t n, const double *value)
 {
+    if (value == NULL) {
+        return (clast_mean){0};
+    }
     clast_mean m = {.n = n, .deviation = (double)NAN, .low = (double)NAN, .high = (double)NAN};
     double square = 0.0;
     for (int32_t i = 0; i < n; ++i) {
@@ -49,6 +53,11 @@ done:
 
 clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile, clast_table *band)
 {
+    CLX_ARGUMENTS(band);
+    CLX_ARRAY(profile, n);
+    for (int32_t i = 0; i < n; ++i) {
+        CLX_WHOLE(table, &profile[i]);
+    }
     clast_status status = CLAST_OK;
     clast_table made = {0};
     double *value = NULL;

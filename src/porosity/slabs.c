@@ -9,6 +9,7 @@
 // and that integral, cumulated from the triangle's lowest corner, has a closed form.
 #include <clast/porosity.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "math/quadrature.h"
 #include "math/vec3.h"
@@ -299,6 +300,13 @@ clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
                                clast_porosity_method method, int32_t n, const double *edge,
                                double *solid)
 {
+    CLX_ARGUMENTS(assembly, edge, solid);
+    CLX_WHOLE(arrays, assembly);
+    if (n < 0 || i < 0 || i >= assembly->n_grain || assembly->shape_id[i] < 0 ||
+        assembly->shape_id[i] >= assembly->n_shape) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: %d slabs of grain %d of %d", __func__, n, i,
+                        assembly->n_grain);
+    }
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double volume = scale * scale * scale * shape->volume;

@@ -3,7 +3,9 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
+#include "porosity/whole.h"
 #include <math.h>
 
 /// Columns of a contact table.
@@ -92,6 +94,9 @@ done:
 clast_status clast_stress(const clast_table *table, const clast_bed *bed, const double z[2],
                           clast_table *out)
 {
+    CLX_ARGUMENTS(table, bed, z, out);
+    CLX_WHOLE(table, table);
+    CLX_WHOLE(bed, bed);
     clast_status status = CLAST_OK;
     clast_table made = {0};
     contacts c = {0};
@@ -145,6 +150,10 @@ static void gather(const contacts *c, const double *edge, int64_t n, double (*su
 clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed,
                                   const clast_table *profile, clast_table *out)
 {
+    CLX_ARGUMENTS(table, bed, profile, out);
+    CLX_WHOLE(table, table);
+    CLX_WHOLE(bed, bed);
+    CLX_WHOLE(table, profile);
     static const char *const name[6] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa",
                                         "stress_xy_Pa", "stress_xz_Pa", "stress_yz_Pa"};
     clast_status status = CLAST_OK;

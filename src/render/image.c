@@ -12,6 +12,7 @@ enum { LIMIT = 1 << 15, LEVEL = 6 };
 
 clast_status clast_image_alloc(int32_t width, int32_t height, clast_image *image)
 {
+    CLX_ARGUMENTS(image);
     clast_status status = CLAST_OK;
     clast_image made = {.width = width, .height = height};
     CLX_CHECK(width >= 1 && height >= 1 && width <= LIMIT && height <= LIMIT, CLAST_E_LIMIT,
@@ -24,6 +25,9 @@ done:
 
 void clast_image_free(clast_image *image)
 {
+    if (image == NULL) {
+        return;
+    }
     clx_free(image->rgba);
     *image = (clast_image){0};
 }
@@ -163,6 +167,12 @@ done:
 
 clast_status clast_image_write_png(const clast_image *image, const char *path)
 {
+    CLX_ARGUMENTS(image, path);
+    CLX_ARGUMENTS(image->rgba);
+    if (image->width < 1 || image->height < 1) {
+        return clx_fail(CLAST_E_ARGUMENT, "%s: a picture of %d x %d pixels", __func__, image->width,
+                        image->height);
+    }
     clast_status status = CLAST_OK;
     const int step = is_opaque(image) ? 3 : 4;
     uint8_t header[13] = {[8] = 8, [9] = step == 3 ? 2 : 6};

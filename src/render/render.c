@@ -1,6 +1,7 @@
 // From an assembly to an image: scene, colours, layout, camera, tiles, labels.
 #include <clast/render.h>
 
+#include "assembly/whole.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
 #include "render/label.h"
@@ -174,6 +175,12 @@ clast_status clast_render_assembly(const clast_assembly *assembly,
                                    const clast_render_config *config, const clast_monitor *monitor,
                                    clast_image *image)
 {
+    CLX_ARGUMENTS(assembly, config, image);
+    CLX_GUARD(clast_fields_check(clast_render_fields, config));
+    if (clx_assembly_fault(assembly) != NULL) {
+        return clx_fail(CLAST_E_GEOMETRY, "%s: assembly: %s", __func__,
+                        clx_assembly_fault(assembly));
+    }
     clast_status status = CLAST_OK;
     clx_scene scene = {0};
     clx_legend legend = {0};

@@ -209,6 +209,11 @@ done:
 clast_status clast_report_write(const char *const *runs, int32_t n_run,
                                 const clast_report_config *config, const char *path)
 {
+    CLX_ARGUMENTS(path);
+    CLX_ARRAY(runs, n_run);
+    for (int32_t i = 0; i < n_run; ++i) {
+        CLX_ARGUMENTS(runs[i]);
+    }
     clast_status status = CLAST_OK;
     clast_report_config own = {0};
     if (config != NULL) {
@@ -223,6 +228,7 @@ done:
 
 clast_status clast_report_write_run(const char *folder)
 {
+    CLX_ARGUMENTS(folder);
     char path[PATH_SIZE];
     const int n = snprintf(path, sizeof path, "%s/report.html", folder);
     if (n < 0 || n >= (int)sizeof path) {

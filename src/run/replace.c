@@ -261,7 +261,7 @@ clast_status clx_run_replace_recover(const char *made, const char *old)
     CLX_CHECK(is_empty || strcmp(state.replaces, clx_path_name(old)) == 0, CLAST_E_USAGE,
               "%s is in the way: a run that replaces %s is made there; move it", made, old);
     clx_run_state_line(made, &state, line);
-    CLX_CHECK(!state.is_running, CLAST_E_USAGE, "%s; it will replace %s", line, old);
+    CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; it will replace %s", line, old);
     CLX_CHECK(!state.can_resume, CLAST_E_USAGE, "%s; or remove %s", line, made);
     if (state.is_whole) {
         CLX_TRY(clx_run_replace(made, old));

@@ -12,8 +12,9 @@ typedef struct clx_run_state {
     bool can_resume; ///< it has a checkpoint
     double share;    ///< done of the whole, or NAN
     const char *command, *outcome;
-    const char *replaces; ///< name of the folder beside whose place it takes at its end
-    json_t *manifest;     ///< or NULL
+    const char *process, *started; ///< of the process that is at it
+    const char *replaces;          ///< name of the folder beside whose place it takes at its end
+    json_t *manifest;              ///< or NULL
 } clx_run_state;
 
 /// What cannot be read is not there; CLAST_E_MEMORY alone is a failure.
@@ -29,7 +30,7 @@ void clx_run_state_line(const char *folder, const clx_run_state *state, char lin
 bool clx_run_owns(const clx_run_state *state, const char *name);
 
 /// Goes on in a folder: as clast_run_folder_begin and open, for a run that left a checkpoint or a
-/// state. CLAST_E_USAGE while another process is at it.
+/// state. CLAST_E_DISK while another process is at it.
 clast_status clx_run_folder_resume(const char *folder, const char *command,
                                    const clast_monitor *monitor, clast_run_folder **run);
 

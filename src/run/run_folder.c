@@ -51,17 +51,24 @@ void clast_run_folder_destroy(clast_run_folder *run)
 
 clast_manifest *clast_run_folder_manifest(clast_run_folder *run)
 {
+    if (run == NULL) {
+        return NULL;
+    }
     return run->manifest;
 }
 
 const char *clast_run_folder_path(const clast_run_folder *run)
 {
+    if (run == NULL) {
+        return NULL;
+    }
     return run->path;
 }
 
 clast_status clast_run_folder_file(const clast_run_folder *run, const char *name,
                                    char path[CLAST_RUN_PATH])
 {
+    CLX_ARGUMENTS(run, name, path);
     return clx_path_join(path, run->path, name);
 }
 
@@ -202,7 +209,7 @@ static clast_status take(clast_run_folder *run, bool force)
     CLX_TRY(clx_run_state_read(run->folder, &state));
     clx_run_state_line(run->folder, &state, line);
     CLX_CHECK(!state.is_study, CLAST_E_USAGE, "%s holds a study; take another folder", run->folder);
-    CLX_CHECK(!state.is_running, CLAST_E_USAGE, "%s; take another folder", line);
+    CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; take another folder", line);
     if (state.is_run && force) {
         CLX_TRY(prepare_beside(run));
     } else if (state.is_run) {
@@ -221,6 +228,7 @@ done:
 clast_status clast_run_folder_begin(const char *folder, bool force, const char *command,
                                     const clast_monitor *monitor, clast_run_folder **run)
 {
+    CLX_ARGUMENTS(folder, command, run);
     clast_status status = CLAST_OK;
     clast_run_folder *made = NULL;
     CLX_CHECK(folder[0] != '\0', CLAST_E_USAGE, "the output folder has no name");
@@ -235,6 +243,7 @@ done:
 
 clast_status clast_run_folder_input(clast_run_folder *run, const char *role, const char *path)
 {
+    CLX_ARGUMENTS(run, role, path);
     clast_status status = CLAST_OK;
     clx_run_state state = {0};
     char *file = realpath(path, NULL);
@@ -275,8 +284,8 @@ static clast_status lock_folder(clast_run_folder *run)
             (void)nanosleep(&pause, NULL);
         }
     }
-    CLX_CHECK(run->lock < 0 || !is_busy, CLAST_E_USAGE, "%s: another process is at this run",
-              run->path);
+    CLX_CHECK(run->lock < 0 || !is_busy, CLAST_E_DISK,
+              "%s: another process has begun a run there; take another folder", run->path);
 done:
     return status;
 }
@@ -303,6 +312,7 @@ done:
 
 clast_status clast_run_folder_open(clast_run_folder *run)
 {
+    CLX_ARGUMENTS(run);
     clast_status status = CLAST_OK;
     struct stat old;
     CLX_TRY(clx_folder_make(run->path));
@@ -329,9 +339,11 @@ clast_status clx_run_folder_resume(const char *folder, const char *command,
     clast_status status = CLAST_OK;
     clx_run_state state = {0};
     clast_run_folder *made = NULL;
+    char line[CLX_RUN_LINE];
     char target[CLX_PATH_LIMIT];
     CLX_TRY(clx_run_state_read(folder, &state));
-    CLX_CHECK(!state.is_running, CLAST_E_USAGE, "%s: another process is at this run", folder);
+    clx_run_state_line(folder, &state, line);
+    CLX_CHECK(!state.is_running, CLAST_E_DISK, "%s; go on with it when that has ended", line);
     CLX_CHECK(state.command[0] == '\0' || strcmp(state.command, command) == 0, CLAST_E_USAGE,
               "%s is a run of clast %s, not of %s", folder, state.command, command);
     CLX_TRY(create(folder, command, monitor, &made));

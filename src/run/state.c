@@ -61,7 +61,8 @@ clast_status clx_run_state_read(const char *folder, clx_run_state *state)
 {
     clast_status status = CLAST_OK;
     json_t *manifest = NULL;
-    *state = (clx_run_state){.share = NAN, .command = "", .outcome = "", .replaces = ""};
+    *state = (clx_run_state){
+        .share = NAN, .command = "", .outcome = "", .process = "", .started = "", .replaces = ""};
     CLX_TRY(read_manifest(folder, &manifest));
     const bool has_summary = has_file(folder, "summary.json");
     const bool has_state = has_file(folder, "state.h5");
@@ -73,6 +74,8 @@ clast_status clx_run_state_read(const char *folder, clx_run_state *state)
                         .share = json_is_number(share) ? json_number_value(share) : (double)NAN,
                         .command = text_of(manifest, "command"),
                         .outcome = text_of(manifest, "outcome"),
+                        .process = text_of(manifest, "process"),
+                        .started = text_of(manifest, "started"),
                         .replaces = text_of(manifest, "replaces"),
                         .manifest = manifest};
     state->is_run =
@@ -106,7 +109,10 @@ void clx_run_state_line(const char *folder, const clx_run_state *state, char lin
                        : strcmp(state->outcome, "failed") == 0 ? "failed"
                                                                : "stopped";
     if (state->is_running) {
-        (void)snprintf(line, CLX_RUN_LINE, "%s: %s%s", folder, verb, at);
+        const bool is_known = state->process[0] != '\0';
+        (void)snprintf(line, CLX_RUN_LINE, "%s: %s%s%s%s%s%s%s", folder, verb, at,
+                       is_known ? " (" : "", state->process, is_known ? " since " : "",
+                       is_known ? state->started : "", is_known ? ")" : "");
     } else if (state->can_resume) {
         const bool is_known = state->command[0] != '\0';
         (void)snprintf(line, CLX_RUN_LINE, "%s: %s%s, go on with %s%s%s--resume %s%s", folder, verb,
@@ -121,6 +127,7 @@ void clx_run_state_line(const char *folder, const clx_run_state *state, char lin
 
 clast_status clast_run_folder_check(const char *folder)
 {
+    CLX_ARGUMENTS(folder);
     clast_status status = CLAST_OK;
     clx_run_state state = {0};
     struct stat found;
@@ -163,6 +170,7 @@ done:
 
 clast_status clast_run_folder_state(const char *argument, char path[CLAST_RUN_PATH])
 {
+    CLX_ARGUMENTS(argument, path);
     clast_status status = CLAST_OK;
     clx_run_state state = {0};
     struct stat found;

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "shape/curve.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <string.h>
 
@@ -79,6 +80,9 @@ done:
 clast_status clast_curve_make(int32_t n_class, const double *sieve, const double *mass,
                               clast_curve *curve)
 {
+    CLX_ARGUMENTS(curve);
+    CLX_ARRAY(sieve, n_class);
+    CLX_ARRAY(mass, n_class);
     clast_status status = CLAST_OK;
     clast_curve made = {.n_class = n_class};
     double sum = 0.0;
@@ -99,6 +103,9 @@ done:
 
 void clast_curve_free(clast_curve *curve)
 {
+    if (curve == NULL) {
+        return;
+    }
     clx_free(curve->sieve);
     clx_free(curve->mass);
     *curve = (clast_curve){0};
@@ -106,6 +113,7 @@ void clast_curve_free(clast_curve *curve)
 
 clast_status clast_curve_named(const char *name, clast_curve *curve)
 {
+    CLX_ARGUMENTS(name, curve);
     for (int32_t i = 0; i < N_CASE; ++i) {
         if (strcmp(name, cases[i].name) == 0) {
             return clast_curve_make(N_CASE_CLASS, clast_curve_case_sieve, cases[i].mass, curve);
@@ -119,6 +127,9 @@ clast_status clast_curve_named(const char *name, clast_curve *curve)
 
 double clast_curve_passing(const clast_curve *curve, double size)
 {
+    if (clx_curve_fault(curve) != NULL) {
+        return (double)NAN;
+    }
     double below = 0.0;
     if (curve->n_class < 1) {
         return NAN;
@@ -139,6 +150,9 @@ double clast_curve_passing(const clast_curve *curve, double size)
 
 double clast_curve_size(const clast_curve *curve, double share)
 {
+    if (clx_curve_fault(curve) != NULL) {
+        return (double)NAN;
+    }
     double below = 0.0;
     int32_t last = -1;
     for (int32_t i = 0; i < curve->n_class; ++i) {
@@ -156,12 +170,18 @@ double clast_curve_size(const clast_curve *curve, double share)
 
 double clast_curve_class_size(const clast_curve *curve, int32_t i)
 {
+    if (clx_curve_fault(curve) != NULL) {
+        return (double)NAN;
+    }
     return sqrt(curve->sieve[i] * curve->sieve[i + 1]);
 }
 
 double clast_curve_count(const clast_curve *curve, int32_t i, double mass, double density,
                          double grain_volume)
 {
+    if (clx_curve_fault(curve) != NULL) {
+        return (double)NAN;
+    }
     const double d = clast_curve_class_size(curve, i);
     return curve->mass[i] * mass / (density * grain_volume * d * d * d);
 }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/number.h"
+#include "geom/whole.h"
 #include "shape/shape.h"
 #include <float.h>
 #include <stdio.h>
@@ -344,6 +345,7 @@ clast_status clast_fill(const clast_mesh *mesh, const clast_fill_config *config,
                         const clast_monitor *monitor, clast_spheres *spheres,
                         clast_fill_report *report)
 {
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     CLX_NEED(mesh);
     CLX_NEED(config);

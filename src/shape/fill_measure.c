@@ -4,7 +4,9 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "geom/whole.h"
 #include "shape/shape.h"
+#include "shape/whole.h"
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -300,6 +302,9 @@ done:
 clast_status clast_fill_measure(const clast_mesh *mesh, const clast_spheres *spheres,
                                 clast_fill_report *report)
 {
+    CLX_ARGUMENTS(mesh, spheres, report);
+    CLX_WHOLE(mesh, mesh);
+    CLX_WHOLE(spheres, spheres);
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     clx_fill fill = {0};
@@ -314,6 +319,9 @@ done:
 clast_status clast_fill_history(const clast_mesh *mesh, const clast_spheres *spheres,
                                 clast_table *table)
 {
+    CLX_ARGUMENTS(mesh, spheres, table);
+    CLX_WHOLE(mesh, mesh);
+    CLX_WHOLE(spheres, spheres);
     static const char *const names[6] = {"n_sphere",     "radius",         "filled_fraction",
                                          "volume_error", "centroid_error", "inertia_error"};
     clast_status status = CLAST_OK;

@@ -41,6 +41,9 @@ static bool same_word(const char *a, const char *b)
 
 int32_t clast_form_factor_find(const char *text)
 {
+    if (text == NULL) {
+        return -1;
+    }
     for (int32_t f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
         if (same_word(text, ENTRIES[f].name) || same_word(text, ENTRIES[f].symbol)) {
             return f;
@@ -74,6 +77,9 @@ double clast_form_factor_value(clast_form_factor factor, double l, double i, dou
 
 void clast_form_factors(double l, double i, double s, double value[CLAST_N_FORM_FACTOR])
 {
+    if (value == NULL) {
+        return;
+    }
     for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
         value[f] = clast_form_factor_value((clast_form_factor)f, l, i, s);
     }
@@ -81,6 +87,9 @@ void clast_form_factors(double l, double i, double s, double value[CLAST_N_FORM_
 
 void clast_form_features(double l, double i, double s, double value[CLAST_N_FORM_FEATURE])
 {
+    if (value == NULL) {
+        return;
+    }
     clast_form_factors(l, i, s, value);
     for (int f = 0; f < CLAST_N_FORM_FACTOR; ++f) {
         const double inverse = 1.0 / value[f];
@@ -106,6 +115,9 @@ double clast_form_sieve_size(double i, double s)
 
 void clast_form_lengths(double flatness, double elongation, double sieve_size, double lis[3])
 {
+    if (lis == NULL) {
+        return;
+    }
     const double i = sieve_size * sqrt(2.0 / (1.0 + flatness * flatness));
     lis[0] = i / elongation;
     lis[1] = i;

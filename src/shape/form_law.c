@@ -61,6 +61,7 @@ done:
 
 clast_status clast_form_law_check(const clast_form_law *law)
 {
+    CLX_ARGUMENTS(law);
     clast_status status = CLAST_OK;
     const cut_normal flatness = flatness_of(law);
     const cut_normal elongation = elongation_of(law);
@@ -89,6 +90,9 @@ static double cut_quantile(const cut_normal *x, double share)
 void clast_form_law_draw(const clast_form_law *law, uint64_t seed, uint64_t index, double *flatness,
                          double *elongation)
 {
+    if (law == NULL || flatness == NULL || elongation == NULL) {
+        return;
+    }
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_FORM, index);
     const cut_normal f = flatness_of(law);
     const cut_normal e = elongation_of(law);
@@ -119,6 +123,9 @@ static void cut_moments(const cut_normal *x, double *mean, double *deviation)
 
 clast_form_law_moments clast_form_law_cut(const clast_form_law *law)
 {
+    if (law == NULL) {
+        return (clast_form_law_moments){0};
+    }
     clast_form_law_moments m;
     const cut_normal f = flatness_of(law);
     const cut_normal e = elongation_of(law);

@@ -4,6 +4,8 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "shape/whole.h"
 #include <clast/field.h>
 #include <ctype.h>
 #include <stdio.h>
@@ -35,7 +37,7 @@ const char *clast_row_fault_text(clast_row_fault fault)
 {
     static const char *const text[CLAST_N_ROW_FAULT] = {
         "missing", "not a number", "infinite", "not positive", "above 1", "not L >= I >= S"};
-    return text[fault];
+    return (unsigned)fault < CLAST_N_ROW_FAULT ? text[fault] : "unknown";
 }
 
 /// "Minor Axis Length (um)" -> "minor_axis_length", "L_mm" -> "l".
@@ -227,6 +229,9 @@ done:
 
 void clast_form_set_free(clast_form_set *set)
 {
+    if (set == NULL) {
+        return;
+    }
     clx_free(set->row);
     clx_free(set->flatness);
     clx_free(set->elongation);
@@ -271,6 +276,8 @@ static void size_name(const clast_form_set *set, char name[NAME_SIZE])
 
 clast_status clast_form_set_of(const clast_table *table, const char *columns, clast_form_set *set)
 {
+    CLX_ARGUMENTS(table, set);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_form_set s = {0};
     roles r;
@@ -326,6 +333,9 @@ static void put_rows(const clast_form_set *set, char *text, size_t size, size_t 
 
 void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
 {
+    if (clx_form_set_fault(set) != NULL || text == NULL || size == 0) {
+        return;
+    }
     int64_t count[CLAST_N_ROW_FAULT] = {0};
     size_t used = 0;
     text[0] = '\0';
@@ -350,6 +360,8 @@ void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size
 
 clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table)
 {
+    CLX_ARGUMENTS(set, table);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     clast_table t = {0};
     double *column = NULL;
@@ -377,6 +389,8 @@ done:
 
 clast_status clast_form_set_left_out(const clast_form_set *set, clast_table *table)
 {
+    CLX_ARGUMENTS(set, table);
+    CLX_WHOLE(form_set, set);
     clast_status status = CLAST_OK;
     clast_table t = {0};
     double *row = NULL;

@@ -10,6 +10,7 @@
 #include "math/rng.h"
 #include "math/special.h"
 #include "shape/curve.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -220,6 +221,9 @@ static void linear_pieces(const spreading *s, clast_grading *g)
 clast_status clast_grading_of_curve(const clast_curve *curve, clast_grading_spread spread,
                                     clast_grading_count count, clast_grading **grading)
 {
+    CLX_ARGUMENTS(curve, grading);
+    CLX_ARRAY(curve->sieve, curve->n_class);
+    CLX_ARRAY(curve->mass, curve->n_class);
     clast_status status = CLAST_OK;
     clast_grading *made = NULL;
     spreading s = {
@@ -291,6 +295,8 @@ static int by_size(const void *a, const void *b)
 
 clast_status clast_grading_of_sizes(const clast_sizes *sizes, bool by_mass, clast_grading **grading)
 {
+    CLX_ARGUMENTS(sizes, grading);
+    CLX_WHOLE(sizes, sizes);
     clast_status status = CLAST_OK;
     clast_grading *made = NULL;
     CLX_CHECK(sizes->n > 0, CLAST_E_CONFIG, "list: no sizes in it");
@@ -314,6 +320,7 @@ done:
 
 clast_status clast_grading_uniform(double low, double high, clast_grading **grading)
 {
+    CLX_ARGUMENTS(grading);
     clast_status status = CLAST_OK;
     clast_grading *made = NULL;
     CLX_TRY(check_size(low, "uniform sizes"));
@@ -357,6 +364,7 @@ done:
 clast_status clast_grading_lognormal(double mean, double deviation, double low, double high,
                                      clast_grading **grading)
 {
+    CLX_ARGUMENTS(grading);
     clast_status status = CLAST_OK;
     clast_grading *made = NULL;
     CLX_TRY(check_lognormal(mean, deviation, low, high));
@@ -382,18 +390,27 @@ done:
 
 double clast_grading_draw(const clast_grading *grading, uint64_t seed, uint64_t index)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_GRADING, index);
     return clast_grading_size(grading, clx_rng_uniform(&rng));
 }
 
 void clast_grading_range(const clast_grading *grading, double *low, double *high)
 {
+    if (grading == NULL || low == NULL || high == NULL) {
+        return;
+    }
     *low = grading->low;
     *high = grading->high;
 }
 
 double clast_grading_mean_cube(const clast_grading *grading)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     return grading->mean_cube;
 }
 
@@ -426,6 +443,9 @@ static double pieces_size(const clast_grading *g, bool by_mass, double share)
 
 double clast_grading_draw_density(const clast_grading *grading, uint64_t seed, uint64_t index)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_GRADING, index);
     return grading->kind == LAW_PIECES
                ? grading->item[find_piece(grading, false, clx_rng_uniform(&rng))].density
@@ -434,6 +454,9 @@ double clast_grading_draw_density(const clast_grading *grading, uint64_t seed, u
 
 void clast_grading_densities(const clast_grading *grading, double *low, double *high)
 {
+    if (grading == NULL || low == NULL || high == NULL) {
+        return;
+    }
     *low = *high = grading->n_piece > 0 ? grading->item[0].density : 0.0;
     for (int64_t i = 1; i < grading->n_piece; ++i) {
         *low = fmin(*low, grading->item[i].density);
@@ -528,24 +551,36 @@ static double law_size(const clast_grading *g, bool by_mass, double share)
 
 double clast_grading_share(const clast_grading *grading, double size)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     return grading->kind == LAW_PIECES ? pieces_share(grading, false, size)
                                        : law_share(grading, false, size);
 }
 
 double clast_grading_mass_share(const clast_grading *grading, double size)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     return grading->kind == LAW_PIECES ? pieces_share(grading, true, size)
                                        : law_share(grading, true, size);
 }
 
 double clast_grading_size(const clast_grading *grading, double share)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     return grading->kind == LAW_PIECES ? pieces_size(grading, false, share)
                                        : law_size(grading, false, share);
 }
 
 double clast_grading_mass_size(const clast_grading *grading, double share)
 {
+    if (grading == NULL) {
+        return (double)NAN;
+    }
     return grading->kind == LAW_PIECES ? pieces_size(grading, true, share)
                                        : law_size(grading, true, share);
 }

@@ -162,6 +162,10 @@ clast_status clast_grading_compare(const clast_curve *curve, const clast_grading
                                    const clast_grading_sample *sample, clast_table *table,
                                    clast_grading_match *match)
 {
+    CLX_ARGUMENTS(curve, sample, table, match);
+    CLX_ARRAY(curve->sieve, curve->n_class);
+    CLX_ARRAY(curve->mass, curve->n_class);
+    CLX_ARRAY(sample->size, sample->n);
     const int64_t n = sample->n;
     clast_status status = CLAST_OK;
     grain *sorted = NULL;

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "geom/hull.h"
 #include "geom/topology.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
 #include "shape/roundness.h"
 #include "shape/shape.h"
@@ -34,6 +35,9 @@ const char *clast_axes_source(int32_t axes)
 
 void clast_grain_scale(clast_grain *grain, double factor)
 {
+    if (grain == NULL) {
+        return;
+    }
     const double square = factor * factor;
     const double cube = square * factor;
     grain->volume *= cube;
@@ -265,6 +269,8 @@ done:
 
 clast_status clast_grain_measure(const clast_mesh *mesh, clast_grain *grain)
 {
+    CLX_ARGUMENTS(mesh, grain);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_grain made = {0};
     CLX_TRY(check_finite(mesh));
@@ -278,6 +284,8 @@ done:
 
 clast_status clast_grain_measure_hull(const clast_mesh *mesh, clast_grain *grain)
 {
+    CLX_ARGUMENTS(mesh, grain);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_grain made = {0};
     clx_hull_body body = {0};

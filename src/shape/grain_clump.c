@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "geom/smooth_hull.h"
 #include "shape/shape.h"
+#include "shape/whole.h"
 
 /// Width of the union along a unit direction.
 static double width_along(const clast_spheres *s, const double axis[3])
@@ -63,6 +64,8 @@ static void leave_out(clast_grain *grain)
 
 clast_status clast_grain_measure_clump(const clast_spheres *spheres, clast_grain *grain)
 {
+    CLX_ARGUMENTS(spheres, grain);
+    CLX_WHOLE(spheres, spheres);
     clast_status status = CLAST_OK;
     clast_grain made = {0};
     clast_mass mass = {0};

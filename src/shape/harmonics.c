@@ -11,11 +11,14 @@
 #include "math/vec3.h"
 #include "shape/grain.h"
 #include "shape/roundness.h"
+#include "shape/whole.h"
+#include <math.h>
 
 enum { LEAST_NODES = 120, MAX_LEVEL = 8 };
 
 clast_status clast_harmonics_alloc(int32_t degree, clast_harmonics *series)
 {
+    CLX_ARGUMENTS(series);
     clast_status status = CLAST_OK;
     CLX_CHECK(degree >= 0 && degree <= CLAST_HARMONICS_MAX_DEGREE, CLAST_E_LIMIT,
               "a series of degree %d; 0 to %d is possible", degree, CLAST_HARMONICS_MAX_DEGREE);
@@ -27,12 +30,18 @@ done:
 
 void clast_harmonics_free(clast_harmonics *series)
 {
+    if (series == NULL) {
+        return;
+    }
     clx_free(series->coefficient);
     *series = (clast_harmonics){0};
 }
 
 double clast_harmonics_power(const clast_harmonics *series, int32_t low, int32_t high)
 {
+    if (clx_harmonics_fault(series) != NULL) {
+        return (double)NAN;
+    }
     double power = 0.0;
     for (int32_t n = low < 0 ? 0 : low; n <= high && n <= series->degree; ++n) {
         for (int32_t m = 0; m <= n; ++m) {
@@ -137,6 +146,11 @@ static clast_status not_positive(double r, const double direction[3])
 clast_status clast_harmonics_mesh(const clast_harmonics *series, int32_t degree, int level,
                                   clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(series, mesh);
+    CLX_GUARD(
+        clx_harmonics_fault(series) == NULL
+            ? CLAST_OK
+            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     evaluator e = {0};
@@ -214,6 +228,11 @@ static clast_status integrate(evaluator *e, star_sums *sums)
 clast_status clast_harmonics_mass(const clast_harmonics *series, int32_t degree, clast_mass *mass,
                                   double *area)
 {
+    CLX_ARGUMENTS(series, mass);
+    CLX_GUARD(
+        clx_harmonics_fault(series) == NULL
+            ? CLAST_OK
+            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
     clast_status status = CLAST_OK;
     evaluator e = {0};
     star_sums sums = {0};
@@ -246,6 +265,11 @@ done:
 clast_status clast_harmonics_measure(const clast_harmonics *series, int32_t degree, int level,
                                      clast_grain *grain)
 {
+    CLX_ARGUMENTS(series, grain);
+    CLX_GUARD(
+        clx_harmonics_fault(series) == NULL
+            ? CLAST_OK
+            : clx_fail(CLAST_E_GEOMETRY, "%s: series: %s", __func__, clx_harmonics_fault(series)));
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     clast_grain made = {0};

@@ -6,6 +6,7 @@
 #include <clast/reform.h>
 
 #include "base/status.h"
+#include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <clast/hull.h>
@@ -81,6 +82,8 @@ static void settle_signs(clast_mesh *mesh)
 
 clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh *out, double lis[3])
 {
+    CLX_ARGUMENTS(mesh, out, lis);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     clast_mass mass = {0};
@@ -126,6 +129,8 @@ static clast_status polish(clast_mesh *mesh, const double lis[3])
 
 clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3], clast_mesh *out)
 {
+    CLX_ARGUMENTS(mesh, lis, out);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh made = {0};
     double was[3];
@@ -144,6 +149,8 @@ done:
 
 clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out)
 {
+    CLX_ARGUMENTS(mesh, out);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_mesh hull = {0};
     clast_mesh simple = {0};

@@ -5,12 +5,17 @@
 #include "shape/shape.h"
 
 #include "base/alloc.h"
+#include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
+#include "shape/whole.h"
 #include <string.h>
 
 void clast_shape_free(clast_shape *shape)
 {
+    if (shape == NULL) {
+        return;
+    }
     clx_free(shape->name);
     clast_mesh_free(&shape->mesh);
     clast_spheres_free(&shape->spheres);
@@ -20,6 +25,8 @@ void clast_shape_free(clast_shape *shape)
 
 clast_status clast_shape_copy(const clast_shape *shape, clast_shape *copy)
 {
+    CLX_ARGUMENTS(shape, copy);
+    CLX_WHOLE(shape, shape);
     clast_status status = CLAST_OK;
     clast_shape made = *shape;
     made.name = NULL;
@@ -121,11 +128,13 @@ done:
 
 clast_status clast_shape_sphere(const char *name, double radius, clast_shape *shape)
 {
+    CLX_ARGUMENTS(name, shape);
     return make_ellipsoid(name, (double[3]){radius, radius, radius}, CLAST_SHAPE_SPHERE, shape);
 }
 
 clast_status clast_shape_ellipsoid(const char *name, const double semi_axes[3], clast_shape *shape)
 {
+    CLX_ARGUMENTS(name, semi_axes, shape);
     return make_ellipsoid(name, semi_axes, CLAST_SHAPE_ELLIPSOID, shape);
 }
 
@@ -166,6 +175,8 @@ static clast_status finish(clast_status status, const char *name, clast_shape *m
 
 clast_status clast_shape_mesh(const char *name, const clast_mesh *mesh, clast_shape *shape)
 {
+    CLX_ARGUMENTS(name, mesh, shape);
+    CLX_WHOLE(mesh, mesh);
     clast_status status = CLAST_OK;
     clast_shape made = {.kind = CLAST_SHAPE_MESH};
     clast_mass mass = {0};
@@ -192,6 +203,8 @@ done:
 
 clast_status clast_shape_clump(const char *name, const clast_spheres *spheres, clast_shape *shape)
 {
+    CLX_ARGUMENTS(name, spheres, shape);
+    CLX_WHOLE(spheres, spheres);
     clast_status status = CLAST_OK;
     clast_shape made = {.kind = CLAST_SHAPE_CLUMP};
     clast_mass mass = {0};
@@ -234,6 +247,8 @@ done:
 
 clast_status clast_shape_surface(const clast_shape *shape, int level, clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(shape, mesh);
+    CLX_WHOLE(shape, shape);
     if (shape->mesh.n_tri > 0) {
         return clast_mesh_copy(&shape->mesh, mesh);
     }

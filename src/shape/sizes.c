@@ -5,6 +5,7 @@
 
 clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes)
 {
+    CLX_ARGUMENTS(sizes);
     clast_status status = CLAST_OK;
     clast_sizes got = {.n = n};
     CLX_TRY(clx_alloc(&got.low, n, sizeof *got.low));
@@ -19,6 +20,9 @@ done:
 
 void clast_sizes_free(clast_sizes *sizes)
 {
+    if (sizes == NULL) {
+        return;
+    }
     clx_free(sizes->low);
     clx_free(sizes->high);
     clx_free(sizes->count);

@@ -2,10 +2,14 @@
 #include <clast/shape.h>
 
 #include "base/alloc.h"
+#include "shape/whole.h"
 #include <string.h>
 
 void clast_spheres_free(clast_spheres *spheres)
 {
+    if (spheres == NULL) {
+        return;
+    }
     clx_free(spheres->centre);
     clx_free(spheres->radius);
     *spheres = (clast_spheres){0};
@@ -13,6 +17,7 @@ void clast_spheres_free(clast_spheres *spheres)
 
 clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres)
 {
+    CLX_ARGUMENTS(spheres);
     clast_status status = CLAST_OK;
     clast_spheres made = {.n = n};
     CLX_TRY(clx_alloc(&made.centre, n, sizeof *made.centre));
@@ -26,6 +31,8 @@ done:
 
 clast_status clast_spheres_copy(const clast_spheres *spheres, clast_spheres *copy)
 {
+    CLX_ARGUMENTS(spheres, copy);
+    CLX_WHOLE(spheres, spheres);
     clast_spheres made = {0};
     const clast_status status = clast_spheres_alloc(spheres->n, &made);
     if (status == CLAST_OK) {

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "shape/whole.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@ int32_t clast_volume_type_size(clast_volume_type type)
 
 clast_status clast_volume_alloc(const int32_t n[3], clast_volume *volume)
 {
+    CLX_ARGUMENTS(n, volume);
     clast_status status = CLAST_OK;
     CLX_CHECK(n[0] > 0 && n[1] > 0 && n[2] > 0, CLAST_E_FORMAT,
               "a volume of %d x %d x %d voxels; each must be positive", n[0], n[1], n[2]);
@@ -32,6 +34,9 @@ done:
 
 void clast_volume_free(clast_volume *volume)
 {
+    if (volume == NULL) {
+        return;
+    }
     clx_free(volume->value);
     *volume = (clast_volume){0};
 }
@@ -63,7 +68,14 @@ static float value_of(clast_volume_type type, uint64_t raw)
 void clast_volume_fill(clast_volume *volume, int64_t first, int64_t n, clast_volume_type type,
                        bool is_big_endian, const void *bytes)
 {
+    if (clx_volume_fault(volume) != NULL || bytes == NULL) {
+        return;
+    }
     const int32_t size = clast_volume_type_size(type);
+    const int64_t room = (int64_t)volume->n[0] * volume->n[1] * volume->n[2];
+    if (size == 0 || first < 0 || n > room - first) {
+        return;
+    }
     const uint8_t *at = bytes;
     for (int64_t i = 0; i < n; ++i, at += size) {
         uint64_t raw = 0;
@@ -96,6 +108,8 @@ done:
 
 clast_status clast_volume_labels(const clast_volume *volume, clast_voxels *voxels)
 {
+    CLX_ARGUMENTS(volume, voxels);
+    CLX_WHOLE(volume, volume);
     clast_status status = CLAST_OK;
     clast_voxels made = {0};
     const int64_t n = count(volume);
@@ -145,6 +159,8 @@ static void flood(const clast_volume *volume, float threshold, int32_t label, in
 
 clast_status clast_volume_parts(clast_volume *volume, double threshold, clast_voxels *voxels)
 {
+    CLX_ARGUMENTS(volume, voxels);
+    CLX_WHOLE(volume, volume);
     clast_status status = CLAST_OK;
     clast_voxels made = {0};
     int32_t *stack = NULL;

@@ -3,11 +3,16 @@
 
 #include "base/alloc.h"
 #include "geom/isosurface.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
+#include "shape/whole.h"
 #include <stdlib.h>
 
 void clast_voxels_free(clast_voxels *voxels)
 {
+    if (voxels == NULL) {
+        return;
+    }
     clx_free(voxels->label);
     clx_free(voxels->grey);
     *voxels = (clast_voxels){0};
@@ -15,6 +20,7 @@ void clast_voxels_free(clast_voxels *voxels)
 
 clast_status clast_voxels_alloc(const int32_t n[3], double edge, clast_voxels *voxels)
 {
+    CLX_ARGUMENTS(n, voxels);
     clast_status status = CLAST_OK;
     CLX_CHECK(n[0] > 0 && n[1] > 0 && n[2] > 0, CLAST_E_FORMAT,
               "a volume of %d x %d x %d voxels; each must be positive", n[0], n[1], n[2]);
@@ -86,6 +92,8 @@ static void add_voxel(clast_voxel_label *slot, int32_t label, const int32_t at[3
 clast_status clast_voxels_labels(const clast_voxels *voxels, clast_voxel_label **labels,
                                  int32_t *n_label)
 {
+    CLX_ARGUMENTS(voxels, labels, n_label);
+    CLX_WHOLE(voxels, voxels);
     enum { FIRST_ROOM = 64 };
     clast_status status = CLAST_OK;
     clast_voxel_label *slot = NULL;
@@ -204,9 +212,26 @@ static void fill_grid(const clast_voxels *voxels, const clast_voxel_label *label
     }
 }
 
+/// A label's bounds lie in the volume.
+static clast_status check_label(const clast_voxels *voxels, const clast_voxel_label *label)
+{
+    clast_status status = CLAST_OK;
+    for (int j = 0; j < 3; ++j) {
+        CLX_CHECK(label->low[j] >= 0 && label->low[j] <= label->high[j] &&
+                      label->high[j] < voxels->n[j],
+                  CLAST_E_ARGUMENT, "label %d from voxel %d to %d of %d", label->label,
+                  label->low[j], label->high[j], voxels->n[j]);
+    }
+done:
+    return status;
+}
+
 clast_status clast_voxels_surface(const clast_voxels *voxels, const clast_voxel_label *label,
                                   clast_mesh *mesh)
 {
+    CLX_ARGUMENTS(voxels, label, mesh);
+    CLX_WHOLE(voxels, voxels);
+    CLX_GUARD(check_label(voxels, label));
     clast_status status = CLAST_OK;
     clx_grid grid = {.h = 1.0};
     int64_t n_node = 1;
@@ -276,6 +301,9 @@ static int64_t all_points(const clast_voxels *v, const clast_voxel_label *label,
 clast_status clast_voxels_points(const clast_voxels *voxels, const clast_voxel_label *label,
                                  clast_mesh *points)
 {
+    CLX_ARGUMENTS(voxels, label, points);
+    CLX_WHOLE(voxels, voxels);
+    CLX_GUARD(check_label(voxels, label));
     clast_status status = CLAST_OK;
     const int64_t n = all_points(voxels, label, NULL);
     CLX_CHECK(n < INT32_MAX, CLAST_E_LIMIT, "label %d has %lld outer voxels, beyond 2^31",
@@ -309,6 +337,8 @@ static bool set_cubes(const clast_mesh *points, const double from[3], double spa
 clast_status clast_voxels_of_points(const clast_mesh *points, double spacing, clast_voxels *voxels,
                                     double low[3])
 {
+    CLX_ARGUMENTS(points, voxels, low);
+    CLX_WHOLE(mesh, points);
     clast_status status = CLAST_OK;
     clast_voxels made = {0};
     double from[3];

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void set(json_t *object, const char *key, double value)
 {
@@ -62,6 +63,12 @@ static json_t *edge_json(const clast_aggregate_fit *fit)
 
 clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text)
 {
+    CLX_ARGUMENTS(fit, text);
+    if (fit->packing_edge < -1 || fit->packing_edge > 1 || fit->replicate_edge < -1 ||
+        fit->replicate_edge > 1 || memchr(fit->words, '\0', sizeof fit->words) == NULL) {
+        return clx_fail(CLAST_E_ARGUMENT,
+                        "%s: fit: an edge is not -1, 0 or 1, or its words do not end", __func__);
+    }
     clast_status status = CLAST_OK;
     json_t *root = json_object();
     json_t *best = json_object();
@@ -136,6 +143,8 @@ done:
 clast_status clast_aggregate_fit_study(const clast_aggregate_config *config, const char *folder,
                                        const clast_monitor *monitor, clast_aggregate_fit *fit)
 {
+    CLX_ARGUMENTS(config, fit);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_status status = CLAST_OK;
     clast_aggregate_source source = {0};
     clast_run_folder *run = NULL;

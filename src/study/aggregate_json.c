@@ -9,6 +9,9 @@
 
 void clast_aggregate_report_free(clast_aggregate_report *report)
 {
+    if (report == NULL) {
+        return;
+    }
     clx_free(report->result);
     clx_free(report->folder);
     *report = (clast_aggregate_report){0};
@@ -111,7 +114,7 @@ static json_t *intervals(const clast_aggregate_report *report, double *value)
 static const char *stop_name(clast_aggregate_stop stop)
 {
     static const char *const names[] = {"not", "list", "mass", "size", "porosity"};
-    return names[stop];
+    return (unsigned)stop < sizeof names / sizeof names[0] ? names[stop] : "unknown";
 }
 
 static json_t *one_repeat(const clast_aggregate_result *r)
@@ -189,6 +192,14 @@ static json_t *whole(const clast_aggregate_report *report, bool times, double *v
 clast_status clast_aggregate_report_json(const clast_aggregate_report *report, bool times,
                                          char **text)
 {
+    CLX_ARGUMENTS(report, text);
+    CLX_ARRAY(report->result, report->n);
+    for (int32_t i = 0; i < report->n; ++i) {
+        if (report->result[i].n_envelope < 0 || report->result[i].n_envelope > CLAST_N_ENVELOPE) {
+            return clx_fail(CLAST_E_ARGUMENT, "%s: result %d has %d envelopes", __func__, i,
+                            report->result[i].n_envelope);
+        }
+    }
     clast_status status = CLAST_OK;
     double *value = NULL;
     json_t *object = NULL;

@@ -319,6 +319,8 @@ clast_status clast_aggregate_run(const clast_aggregate_config *config, const cha
                                  const clast_comm *comm, const clast_monitor *monitor,
                                  clast_aggregate_report *report)
 {
+    CLX_ARGUMENTS(config, report);
+    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
     clast_aggregate_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own,
              .has_folder = folder != NULL,
@@ -347,6 +349,7 @@ done:
 clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
                                     const clast_monitor *monitor, clast_aggregate_report *report)
 {
+    CLX_ARGUMENTS(folder, report);
     clast_status status = CLAST_OK;
     clast_aggregate_config config = {0};
     run r = {.config = &config,

@@ -3,6 +3,9 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include "math/whole.h"
+#include "shape/whole.h"
 #include <clast/statistics_charts.h>
 #include <clast/table_file.h>
 #include <stdio.h>
@@ -12,6 +15,9 @@ enum { PATH_SIZE = 4096 };
 
 void clast_grain_statistics_free(clast_grain_statistics *statistics)
 {
+    if (statistics == NULL) {
+        return;
+    }
     clast_form_set_free(&statistics->set);
     clast_statistics_free(&statistics->statistics);
     *statistics = (clast_grain_statistics){0};
@@ -21,6 +27,8 @@ clast_status clast_grain_statistics_of(const clast_table *table, const char *col
                                        const clast_bootstrap *bootstrap,
                                        clast_grain_statistics *statistics)
 {
+    CLX_ARGUMENTS(table, statistics);
+    CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     clast_grain_statistics g = {0};
     clast_table factors = {0};
@@ -131,6 +139,9 @@ done:
 clast_status clast_grain_statistics_write(const clast_grain_statistics *statistics,
                                           const char *folder, const char *extension)
 {
+    CLX_ARGUMENTS(statistics, folder, extension);
+    CLX_WHOLE(form_set, &statistics->set);
+    CLX_WHOLE(statistics, &statistics->statistics);
     clast_status status = CLAST_OK;
     const clast_form_set *set = &statistics->set;
     char path[PATH_SIZE];
@@ -142,7 +153,7 @@ clast_status clast_grain_statistics_write(const clast_grain_statistics *statisti
     CLX_TRY(write_histogram(set->elongation, set->n, "elongation", "elongation I/L (-)", folder,
                             extension));
     const int32_t last = statistics->statistics.n - 1;
-    if (set->size != NULL && statistics->statistics.summary[last].n > 0) {
+    if (set->size != NULL && last >= 0 && statistics->statistics.summary[last].n > 0) {
         CLX_TRY(write_histogram(set->size, set->n, statistics->statistics.name[last],
                                 set->size_label, folder, extension));
     }

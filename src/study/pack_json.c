@@ -46,6 +46,8 @@ static json_t *verified(const clast_dem_verification *v)
 
 clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char **text)
 {
+    CLX_ARGUMENTS(r, text);
+    CLX_ARRAY(r->hull, r->n_hull);
     clast_status status = CLAST_OK;
     char hash[32];
     char *dumped = NULL;

@@ -195,6 +195,8 @@ done:
 clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
                             const clast_monitor *monitor, clast_pack_result *result)
 {
+    CLX_ARGUMENTS(config, result);
+    CLX_GUARD(clast_fields_check(clast_pack_fields, config));
     clast_status status = CLAST_OK;
     clast_pack_config own = *config; // borrowed texts; force is no property of the result
     run r = {.config = &own, .monitor = monitor};
@@ -239,6 +241,7 @@ done:
 clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clast_monitor *monitor,
                                clast_pack_result *result)
 {
+    CLX_ARGUMENTS(folder, result);
     clast_status status = CLAST_OK;
     clast_pack_config config = {0};
     clx_pack_checkpoint found = {0};

@@ -214,6 +214,8 @@ done:
 
 clast_status clast_study_plan(const clast_study_config *config, clast_table *plan)
 {
+    CLX_ARGUMENTS(config, plan);
+    CLX_GUARD(clast_fields_check(clast_study_fields, config));
     clast_status status = CLAST_OK;
     axes all = {0};
     clast_table made = {0};

@@ -306,6 +306,8 @@ clast_status clast_study_run(const clast_study_config *config, const char *folde
                              const clast_study_worker *worker, const clast_comm *comm,
                              const clast_monitor *monitor, clast_study_report *report)
 {
+    CLX_ARGUMENTS(config, folder, worker, report);
+    CLX_GUARD(clast_fields_check(clast_study_fields, config));
     clast_status status = CLAST_OK;
     clast_table plan = {0};
     clast_study_report made = {0};

@@ -11,7 +11,7 @@ ROWS = [[float(c) for c in line.split(",")] for line in CSV.read_text().split()[
 CUBE = "box:0,0,0,1,1,1"
 N = len(ROWS)
 # what a file's format or place cannot change
-SAME = ("n", "tests", "score", "passes", "n_cell", "pair_integral", "pair_integral_low", "volume", "spacing")
+SAME = ("n", "tests", "score", "passes", "n_cell", "pair_integral", "pair_integral_low", "domain_volume", "spacing")
 
 
 def ply(kind):

@@ -317,5 +317,61 @@ class Decompose(Case):
             self.assertTrue(equal.json["reject"])
 
 
+class Pairs(Case):
+    def sheet(self):
+        """1000 points in a sheet of sd 0.02: the integral is 1 / (2 sd sqrt(pi)) = 14.1 / m^3."""
+        rng = random.Random(3)
+        path = self.folder / "sheet.csv"
+        write_points(path, [(rng.random(), rng.random(), rng.gauss(0.5, 0.02)) for _ in range(1000)])
+        return path
+
+    def test_pairs_are_printed_beside_cells_and_written(self):
+        out = self.folder / "out"
+        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--pairs")
+        words = clast(*command, "-o", out)
+        self.assertEqual(words.code, 0, words.err)
+        self.assertRegex(words.out, r"pairs within .* m; integral of the squared density .* 1/m\^3")
+        self.assertRegex(words.out, r"events by pairs .*, by cells .*; events are those by cells")
+        self.assertTrue((out / "pairs.svg").exists())
+        note, *rows = (out / "pairs.csv").read_text().splitlines()
+        self.assertEqual(note, "# domain box:0,0,0,1,1,1 (m), volume 1 m^3, beta_dt 1e-06 m^3")
+        self.assertTrue(rows[0].startswith("r_low_m,r_high_m,pairs,pairs_within,expected,g,g_low,g_high,integral"))
+        self.assertEqual(len(rows), 49)
+        r = json.loads((out / "summary.json").read_text())
+        pairs = r["pairs"]
+        self.assertTrue(pairs["resolved"])
+        self.assertLess(pairs["integral_low"], 1 / (0.04 * math.sqrt(math.pi)))
+        self.assertGreater(pairs["integral_high"], 1 / (0.04 * math.sqrt(math.pi)))
+        self.assertAlmostEqual(pairs["events"], 1e-6 * 1000 * 999 / 2 * pairs["integral"], places=9)
+        self.assertEqual(sum(pairs["count"]), pairs["n_pair"])
+        self.assertTrue(pairs["g_low"][-1] <= pairs["g"][-1] <= pairs["g_high"][-1])
+
+    def test_estimator_says_which_events_count(self):
+        command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--json", "--estimator")
+        cells, pairs, auto = (clast(*command, e).json for e in ("cells", "pairs", "auto"))
+        self.assertNotIn("pairs", cells)
+        self.assertEqual(pairs["estimator"], "pairs")
+        self.assertEqual(pairs["events"], pairs["pairs"]["events"])
+        self.assertAlmostEqual(pairs["pairs"]["events_by_cells"], cells["events"])
+        self.assertIn(auto["events"], (pairs["events"], cells["events"]))
+        plain = clast("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--estimator", "pairs").json
+        self.assertEqual(plain["pair_integral"], plain["pairs"]["pair_integral"])
+        self.assertNotIn("events", plain["pairs"])
+        refused = clast(*command, "pairs", "--paper")
+        self.assertEqual(refused.code, 2)
+        self.assertIn("estimator", refused.err)
+
+    def test_radius_is_in_the_unit_of_the_points_and_weights_are_refused(self):
+        command = ["decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--json", "--pairs"]
+        r = clast(*command, "--pairs-radius", "0.05").json
+        self.assertEqual(r["pairs"]["radius"], 0.05)
+        self.assertLessEqual(r["pairs"]["window"], 0.05)
+        table = self.folder / "weights.csv"
+        table.write_text("x,y,z,w\n0.1,0.1,0.1,1\n0.2,0.2,0.2,2\n0.3,0.3,0.3,3\n")
+        refused = clast("decompose", table, "--domain", "box:0,0,0,1,1,1", "--pairs", "--weight-column", "w")
+        self.assertEqual(refused.code, 2)
+        self.assertIn("weights", refused.err)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -93,7 +93,7 @@ class Fill(Case):
 
     def test_words_without_json(self):
         result = clast("fill", self.cube, "--spheres", 1)
-        self.assertIn("1 spheres, as many as asked for", result.out)
+        self.assertIn("1 sphere, as many as asked for", result.out)
         self.assertIn("0.523599 of the volume 1", result.out)
 
     def test_bad_input_ends_in_one_line(self):

@@ -80,7 +80,7 @@ class Help(Case):
         self.assertEqual([scene["name"] for scene in listed], [row.split()[0] for row in clast("bench", "--list").out.splitlines()])
         for command in COMMANDS:
             page = clast(*command.split(), "--help-all").out
-            self.assertEqual("[CONFIG.yaml]" in page or "CONFIG" in page.splitlines()[0], "is a key of the YAML file" in page, command)
+            self.assertEqual("[CONFIG.yaml]" in page or "CONFIG" in page.splitlines()[0], "is a key of CONFIG.yaml" in page, command)
 
     def test_examples_are_three_and_their_options_exist(self):
         for command in COMMANDS:

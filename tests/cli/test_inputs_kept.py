@@ -79,8 +79,13 @@ class InputsKept(Case):
             self.assertEqual(done.code, 0, done.err)
 
     def test_two_outputs_are_two_files(self):
-        self.assert_fails(2, "fill", "g.ply", "--spheres", "2", "-o", "x.csv", "--history", "x.csv", says=["the same file", "x.csv"],
-                          cwd=self.folder)
+        os.symlink("x.csv", self.folder / "to-x.csv")  # dangles, as x.csv is not there yet
+        os.symlink(self.folder, self.folder / "here")
+        for other in ("x.csv", "./x.csv", str(self.folder / "x.csv"), "here/x.csv", "to-x.csv", "here/to-x.csv"):
+            with self.subTest(other):
+                self.assert_fails(2, "fill", "g.ply", "--spheres", "2", "-o", "x.csv", "--history", other, says=["the same file", "x.csv"],
+                                  cwd=self.folder)
+        self.assertFalse((self.folder / "x.csv").exists())
 
     def test_an_empty_output_is_wrong_use_everywhere(self):
         listing = clast("--help").out.split("commands:\n")[1].split("\n\n")[0]

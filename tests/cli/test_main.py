@@ -3,7 +3,7 @@ import re
 import subprocess
 import unittest
 
-from clitest import CLAST, Case, clast
+from clitest import CLAST, ROOT, Case, clast
 
 
 def commands():
@@ -12,6 +12,14 @@ def commands():
 
 
 class Frame(Case):
+    def test_readme_is_one_screen(self):
+        lines = (ROOT / "README.md").read_text().splitlines()
+        self.assertLessEqual(len(lines), 50)
+        rows = [line for line in lines if line.startswith("| ")][1:]
+        self.assertTrue(all("](docs/" in row for row in rows if "---" not in row))  # each claim names its page
+        for page in re.findall(r"\]\(((?:docs|examples)/[^)#]*)", "\n".join(lines)):
+            self.assertTrue((ROOT / page).exists(), page)
+
     def test_version_names_the_build(self):
         self.assertRegex(clast("--version").out, r"^clast \d+\.\d+\.\d+")
 

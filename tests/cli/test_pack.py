@@ -187,7 +187,7 @@ class Pack(Case):
                           "--height", "0.5m", "--quiet", says=("reaches 0.03 m across", "half the period", "seed"))
 
     def test_bad_input_is_one_line(self):
-        self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "2e-05 s or less"))
+        self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.319e-06 s or less", "contact_scheme exact"))
         self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
         self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "11mm", "--mass", "1g", says=("half the period",))
         self.assert_fails(2, *SMALL, "--shape-weight", "1", "--shape-weight", "2", says=("2 weights for 1 shapes",))
@@ -443,6 +443,17 @@ class Pack(Case):
         again = clast("pack", "--resume", run, "--max-steps", "3000", "--quiet")
         self.assertEqual(again.code, 0, again.err)
         self.assertEqual(sorted(p.name for p in run.glob("checkpoint-*")), [])
+
+    def test_exact_steps_and_rolling_springs_go_on(self):
+        options = ("--contact-scheme", "exact", "--time-step", "10us", "--rolling-friction", "0.1", "--rolling-model", "spring")
+        for more in (options[:4], options):  # in lanes, and one by one
+            far, run = self.folder / "far", self.folder / "run"
+            self.assertEqual(self.run_small(*more, "--max-steps", "9000", "-o", far, "--force").code, 0)
+            self.assertEqual(self.run_small(*more, "--max-steps", "8500", "-o", run, "--force").code, 0)
+            again = clast("pack", "--resume", run, "--max-steps", "9000", "--quiet", "-j", "1")
+            self.assertEqual(again.code, 0, again.err)
+            self.assertEqual((run / "summary.json").read_bytes(), (far / "summary.json").read_bytes())
+            self.assertGreater(json.loads((far / "summary.json").read_text())["n_wall_contact"], 0)
 
     def test_results_that_cannot_be_written_come_when_gone_on_with(self):
         far, run = self.folder / "far", self.folder / "run"

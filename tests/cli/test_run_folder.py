@@ -2,6 +2,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import time
 import unittest
@@ -173,9 +174,10 @@ class RunFolder(Case):
             while not list(run.glob("checkpoint-*")) and process.poll() is None:
                 time.sleep(0.01)
             for reader in self.readers(run):
-                self.assert_fails(2 if reader[0] == "predict" else 3, *reader, says=(f"{run}: still running",))
-            self.assert_fails(2, "pack", "--resume", run, says=("another process",))
-            self.assert_fails(2, *PACK, "--force", "-o", run, says=("still running",))
+                self.assert_fails(4 if reader[0] == "predict" else 3, *reader, says=(f"{run}: still running",))
+            who = f"process {process.pid} on {socket.gethostname()} since 20"
+            for words in (("pack", "--resume", run), (*PACK, "-o", run), (*PACK, "--force", "-o", run)):
+                self.assert_fails(4, *words, says=("still running", who))
         finally:
             process.kill()
             process.wait()

@@ -42,10 +42,10 @@ class TrueWords(Case):
             timed = self.decompose(path, domain, "--beta-dt", "1e-9")
             self.assertEqual(timed["beta_dt"], 1e-9)
             self.assertIsNone(timed["pair_integral"])
-            for end in ("", "_low", "_high"):
+            for end in ("", "_low", "_high") if plain["resolved"] else ("", "_low"):
                 self.assertAlmostEqual(plain["pair_integral" + end] * 1e-9 / timed["events" + end], 1.0, places=12)
             words = clast("decompose", path, "--domain", domain).out
-            self.assertRegex(words, rf"pair integral [\d.e+]+ \[[\d.e+]+, [\d.e+]+\] 1/m\^{d}, events per beta dt")
+            self.assertRegex(words, rf"pair integral [\d.e+]+ \[[\d.e+]+, [\d.e+-]+\] 1/m\^{d}, events per beta dt")
             self.assertNotRegex(words, r"\bcap\b")
         self.assertAlmostEqual(self.decompose(U2, SQUARE)["pair_integral"], 0.5 * 50 * 49, places=9)
         out = self.folder / "out"
@@ -59,7 +59,9 @@ class TrueWords(Case):
         self.assertIn('Name="pair_integral"', (out / "cells.vtu").read_text())
         page = self.folder / "page.html"
         self.assertEqual(clast("report", out, "-o", page).code, 0)
-        self.assertIn("Pair integral", page.read_text())
+        text = re.sub(r"<[^>]+>", " ", page.read_text())
+        self.assertRegex(text, r"Pair integral, events per beta dt \(1/m\^d\)")
+        self.assertRegex(text, r"Standard score\s+-?[\d.]+\s+p-value")  # "z" is no length here
 
     def test_a_tree_has_no_labels(self):
         out = self.folder / "out"
@@ -104,11 +106,17 @@ class TrueWords(Case):
         self.assertTrue(set(next(t for t in flat["tests"] if t["name"] == "pearson")["axes"]) < {"u", "v", "w"})
 
     def test_intervals_end_at_the_cap(self):
-        for beta_dt in ("1e-3", "1e-2", "1"):
-            r = self.decompose(B3, CUBE, "--beta-dt", beta_dt)
-            self.assertLessEqual(r["events_high"], 250.0)
+        random.seed(8)
+        path = self.write("even.csv", [[random.random(), random.random()] for _ in range(2000)])
+        highest = []
+        for beta_dt in ("1e-6", "4.99e-4", "1"):  # one cell of 2000 points: 1000 events at the most
+            r = self.decompose(path, SQUARE, "--beta-dt", beta_dt)
+            self.assertTrue(r["resolved"])
             self.assertLessEqual(r["events_low"], r["events"])
             self.assertLessEqual(r["events"], r["events_high"])
+            highest.append(r["events_high"])
+        self.assertLess(highest[0], 3.0)
+        self.assertEqual(highest[1:], [1000.0, 1000.0])
 
     def test_an_empty_file_is_bad_input(self):
         path = self.folder / "none.csv"
@@ -157,9 +165,9 @@ class TrueWords(Case):
 
     def test_files_hold_what_the_numbers_depend_on(self):
         out = self.folder / "out"
-        r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "-o", out)
+        r = self.decompose(S2, SQUARE, "--beta-dt", "1e-6", "--mesh", "boxes", "-o", out)
         summary = json.loads((out / "summary.json").read_text())
-        wanted = {"domain": "box:0,0,1,1", "volume": 1.0, "volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
+        wanted = {"domain": "box:0,0,1,1", "domain_volume": 1.0, "domain_volume_unit": "m^2", "length_unit": "m", "beta_dt": 1e-6, "seed": None}
         for key, value in wanted.items():
             self.assertEqual(r[key], value, key)
             self.assertEqual(summary[key], value, key)
@@ -175,10 +183,16 @@ class TrueWords(Case):
             self.assertEqual(found, {"unit": "m", "domain": "box:0,0,1,1"}, name)
             numbers = dict(re.findall(r'<DataArray type="Float64" Name="(\w+)" NumberOfTuples="1" format="ascii">([^<]+)</DataArray>', text))
             self.assertEqual({key: float(value) for key, value in numbers.items()}, {"volume": 1.0, "beta_dt": 1e-6}, name)
-        drawn = self.decompose(S2, SQUARE, "--ghost-samples", "20", "--seed", "7", "-o", self.folder / "drawn")
+        drawn = self.decompose(S2, SQUARE, "--ghost-samples", "20", "--mesh", "boxes", "--seed", "7", "-o", self.folder / "drawn")
         self.assertEqual(drawn["seed"], 7)
         self.assertEqual(json.loads((self.folder / "drawn/manifest.json").read_text())["seed"], 7)
         self.assertIn("seed 7", table(self.folder / "drawn/cells.csv")[0][0])
+
+    def test_agglomerate_names_its_domain_and_seed_too(self):
+        r = clast("agglomerate", B3, "--domain", "box:0,0,0,1m,1m,100cm", "--constant", "1e-3", "--n-step", "1", "--seed", "5", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual([r.json[key] for key in ("domain", "domain_volume", "domain_volume_unit", "length_unit", "seed")],
+                         [CUBE, 1.0, "m^3", "m", 5])
 
     def test_equal_runs_write_equal_summaries(self):
         for command, options in (("decompose", ["--domain", CUBE]),

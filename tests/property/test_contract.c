@@ -415,6 +415,32 @@ static void bad_agglomerations_are_refused(void **state)
     clast_fields_free(clast_decompose_fields, &c.decompose);
 }
 
+static void try_spectrum(const void *config, void *context)
+{
+    clast_spectrum r;
+    REFUSED_INTO(r, clast_spectrum_evolve(config, context, NULL, &r));
+}
+
+static void spectra_are_refused(void **state)
+{
+    (void)state;
+    clast_spectrum_config c = {0};
+    clast_spectrum r;
+    clast_collide_config good = {.kernel = 1, .alpha = 1.0, .medium.constant = 1e-3, .block = 1024};
+    CHECK_OK(clast_fields_default(clast_spectrum_fields, &c));
+    c.concentration = c.duration = 1.0;
+    c.n_step = c.repeats = 1;
+    spoil_fields(clast_spectrum_fields, &c, sizeof c, try_spectrum, &good);
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &good, NULL, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(&c, NULL, NULL, &r));
+    REFUSED(clast_spectrum_evolve(&c, &good, NULL, NULL));
+    good.alpha = (double)NAN;
+    REFUSED_INTO(r, clast_spectrum_evolve(&c, &good, NULL, &r));
+    c.duration = (double)NAN;
+    good.alpha = 1.0;
+    REFUSED_INTO(r, clast_spectrum_evolve(&c, &good, NULL, &r));
+}
+
 /* --- surfaces --- */
 
 static void try_fill(const void *config, void *context)
@@ -475,6 +501,7 @@ int main(void)
         cmocka_unit_test(bad_domains_are_refused),
         cmocka_unit_test(bad_collisions_are_refused),
         cmocka_unit_test(bad_agglomerations_are_refused),
+        cmocka_unit_test(spectra_are_refused),
         cmocka_unit_test(bad_work_on_surfaces_is_refused),
     };
     return cmocka_run_group_tests(tests, make_points, NULL);

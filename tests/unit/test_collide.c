@@ -357,25 +357,33 @@ static void collectors_meet_the_whole_cell(void **state)
     }
 }
 
+/* 40 cells of 100 particles: equal ones, and such of 1 to 3 um with a core of 30 um each, dealt
+ * into blocks of 16 beside their collectors. */
 static void any_thread_count_gives_the_same_aggregates(void **state)
 {
     (void)state;
     static int64_t first[MOST];
     static double volume[40];
-    const clast_collide_config c = kernel("additive");
-    for (int32_t threads = 1; threads <= 4; threads *= 2) {
-        clast_population p = singles(MOST);
-        for (int64_t i = 0; i < MOST; ++i) {
-            cell[i] = (int32_t)(i % 40);
-            volume[i % 40] = 100.0;
+    for (int pass = 0; pass < 2; ++pass) {
+        clast_collide_config c = kernel(pass == 0 ? "additive" : "shear_laminar");
+        c.block = pass == 0 ? 1024 : 16;
+        for (int32_t threads = 1; threads <= 4; threads *= 2) {
+            clast_population p = singles(MOST);
+            int64_t n_event = 0;
+            for (int64_t i = 0; i < MOST; ++i) {
+                cell[i] = (int32_t)(i % 40);
+                volume[i % 40] = pass == 0 ? 100.0 : 1e-14;
+                radius[i] = i < 40 ? 3e-5 : 1e-6 * (1.0 + 2.0 * (double)i / MOST);
+            }
+            const clast_collide_cells cells = {.n = 40, .of_particle = cell, .volume = volume};
+            clast_parallel_set_threads(threads);
+            CHECK_OK(clast_collide(&p, &cells, 0.3, 3, &c, &n_event));
+            assert_true(n_event > 600 && n_event < 3900);
+            if (threads == 1) {
+                memcpy(first, owner, sizeof first);
+            }
+            assert_memory_equal(first, owner, sizeof first);
         }
-        const clast_collide_cells cells = {.n = 40, .of_particle = cell, .volume = volume};
-        clast_parallel_set_threads(threads);
-        CHECK_OK(clast_collide(&p, &cells, 0.5, 3, &c, NULL));
-        if (threads == 1) {
-            memcpy(first, owner, sizeof first);
-        }
-        assert_memory_equal(first, owner, sizeof first);
     }
     clast_parallel_set_threads(0);
 }

@@ -545,9 +545,20 @@ static clast_status decompose_once(void *context)
     return status;
 }
 
+static clast_status measure_spacing_once(void *context)
+{
+    const clast_cloud *cloud = context;
+    clast_spacing spacing;
+    int64_t n_repeated = 0;
+    const clast_status status = clast_spacing_test(cloud->x, cloud->n, cloud->dimension, &spacing);
+    return status == CLAST_OK ? clast_cloud_repeated(cloud, &n_repeated) : status;
+}
+
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
+    clast_cloud cloud = cloud_of("f2_n500");
+    support_refuse_each_allocation(measure_spacing_once, &cloud);
     clast_decompose_config c = config_of(square);
     set(&c, "ghost_samples", "2");
     set(&c, "variant", "fast");

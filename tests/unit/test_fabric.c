@@ -39,16 +39,17 @@ static void column_of_spheres_points_up(void **state)
         const double p[3] = {0.0, 0.0, k};
         CHECK_OK(clast_assembly_add_grain(&a, 0, p, upright, 1.0, 1.0));
     }
-    CHECK_OK(clast_fabric(&a, NULL, &fabric));
+    CHECK_OK(clast_fabric(&a, NULL, NULL, &fabric));
     assert_false(has(&fabric, "coordination")); // contacts are not known, spheres have no axes
     assert_int_equal(fabric.n_row, 0);
     clast_table_free(&fabric);
     CHECK_OK(clast_assembly_find_contacts(&a, 1e-9));
-    CHECK_OK(clast_fabric(&a, NULL, &fabric));
+    CHECK_OK(clast_fabric(&a, NULL, NULL, &fabric));
     CHECK_REL(value_of(&fabric, "coordination"), 8.0 / 5.0, 1e-15);
     CHECK_REL(value_of(&fabric, "branch_1"), 1.0, 1e-15);
     CHECK_ABS(value_of(&fabric, "branch_3"), 0.0, 1e-15);
     CHECK_REL(value_of(&fabric, "branch_vertical"), 1.0, 1e-15);
+    CHECK_REL(value_of(&fabric, "normal_vertical"), 1.0, 1e-15); // of spheres they are the branches
     CHECK_REL(value_of(&fabric, "share_rattler"), 1.0, 1e-15);
     clast_table_free(&fabric);
     clast_assembly_free(&a);
@@ -69,7 +70,7 @@ static void branches_take_the_short_way_round(void **state)
     CHECK_OK(clast_assembly_add_grain(&a, 0, p[0], upright, 1.0, 1.0));
     CHECK_OK(clast_assembly_add_grain(&a, 0, p[1], upright, 1.0, 1.0));
     CHECK_OK(clast_assembly_add_contact(&a, 0, 1, middle));
-    CHECK_OK(clast_fabric(&a, period, &fabric));
+    CHECK_OK(clast_fabric(&a, NULL, period, &fabric));
     // branch (-0.5, 0.5, 0)
     CHECK_REL(value_of(&fabric, "branch_anisotropy"), 1.0, 1e-14);
     CHECK_ABS(value_of(&fabric, "branch_vertical"), 0.0, 1e-15);
@@ -94,7 +95,7 @@ static void flat_ellipsoids_are_layered(void **state)
         const double p[3] = {10.0 * k, 0.0, 0.0};
         CHECK_OK(clast_assembly_add_grain(&a, 0, p, q, 1.0, 1.0));
     }
-    CHECK_OK(clast_fabric(&a, NULL, &fabric));
+    CHECK_OK(clast_fabric(&a, NULL, NULL, &fabric));
     CHECK_ABS(value_of(&fabric, "long_axis_1"), 0.5, 1e-14);
     CHECK_ABS(value_of(&fabric, "long_axis_2"), 0.5, 1e-14);
     CHECK_ABS(value_of(&fabric, "long_axis_3"), 0.0, 1e-14);
@@ -105,12 +106,54 @@ static void flat_ellipsoids_are_layered(void **state)
     clast_shape_free(&shape);
 }
 
+/* A brick half on another, beside it: the branch leans, the normal of the contact is upright.
+ * Satake's tensor is of normals; before, only that of branches was there under his name. */
+static void normals_are_not_branches(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_shape brick = {0};
+    clast_mesh box = {0};
+    clast_table fabric = {0};
+    clast_table contacts = {0};
+    const double p[2][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}};
+    const double point[3] = {0.5, 0.0, 0.5};
+    const char *name[4] = {"b", "normal_x", "normal_y", "normal_z"};
+    const double row[2][4] = {{1.0, 0.0, 0.0, 1.0}, {-1.0, 1.0, 0.0, 0.0}}; /* b; a wall */
+    CHECK_OK(clast_mesh_box(2.0, 1.0, 1.0, &box));
+    CHECK_OK(clast_shape_mesh("brick", &box, &brick));
+    CHECK_OK(clast_assembly_add_shape(&a, &brick, NULL));
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_assembly_add_grain(&a, 0, p[k], upright, 1.0, 1.0));
+    }
+    CHECK_OK(clast_assembly_add_contact(&a, 0, 1, point));
+    CHECK_OK(clast_fabric(&a, NULL, NULL, &fabric));
+    assert_false(has(&fabric, "normal_1")); // not known
+    clast_table_free(&fabric);
+    CHECK_OK(clast_table_init(&contacts, "contacts", 2));
+    for (int c = 0; c < 4; ++c) {
+        double *value = NULL;
+        CHECK_OK(clast_table_add_number(&contacts, name[c], "-", &value));
+        value[0] = row[0][c];
+        value[1] = row[1][c];
+    }
+    CHECK_OK(clast_fabric(&a, &contacts, NULL, &fabric));
+    CHECK_REL(value_of(&fabric, "branch_vertical"), 0.5, 1e-14);
+    CHECK_REL(value_of(&fabric, "normal_vertical"), 1.0, 1e-14);
+    clast_table_free(&fabric);
+    clast_table_free(&contacts);
+    clast_assembly_free(&a);
+    clast_shape_free(&brick);
+    clast_mesh_free(&box);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(column_of_spheres_points_up),
         cmocka_unit_test(branches_take_the_short_way_round),
         cmocka_unit_test(flat_ellipsoids_are_layered),
+        cmocka_unit_test(normals_are_not_branches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

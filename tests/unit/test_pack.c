@@ -584,6 +584,7 @@ static void bed_without_room_for_the_next_grain_ends(void **state)
     b.config.mass = 0.04; /* two of 37 g */
     b.config.dem.collision_time = 2e-3;
     b.config.dem.time_step = 1e-4;
+    b.config.dem.contact_scheme = CLAST_DEM_EXACT;
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     CHECK_STATUS(clast_pack_advance(pack, 200000), CLAST_E_CONVERGE);
     assert_non_null(strstr(clast_error_detail(), "grown into the place"));
@@ -608,8 +609,9 @@ static void pour_slowly(double gravity, double viscosity)
     b.config.shake_amplitude = 0.0;
     b.config.dem.gravity = gravity;
     b.config.dem.fluid_viscosity = viscosity;
-    b.config.dem.collision_time = 4e-3;
+    b.config.dem.collision_time = 8e-3;
     b.config.dem.time_step = 4e-4;
+    b.config.dem.contact_scheme = CLAST_DEM_EXACT;
     CHECK_OK(clast_pack_create(&b.config, &b.input, &pack));
     while (clast_pack_phase_of(pack) == CLAST_PACK_GENERATE) {
         CHECK_OK(clast_pack_advance(pack, 1000));

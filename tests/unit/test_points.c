@@ -156,6 +156,40 @@ static clast_status read_h5_once(void *context)
     return status;
 }
 
+static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                          "property list uchar int near\nproperty float y\nproperty float z\n"
+                          "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                          "0.5 2 7 8 1 2\n3 0 4 -0.5\n2 0 1\n";
+static const char xyz[] = "2\n at t = 3 s\nHe 0.5 1 2 10\nFe\t3 4 -0.5 20\n3\nnext frame\n";
+
+static void surfaces_and_xyz_give_points(void **state)
+{
+    (void)state;
+    const char *const text[2] = {ply, xyz};
+    const size_t n[2] = {sizeof ply - 1, sizeof xyz - 1};
+    for (int k = 0; k < 2; ++k) {
+        clast_table table = {0};
+        CHECK_OK(clast_points_parse("a", text[k], n[k], NULL, &table));
+        assert_int_equal(table.n_row, 2);
+        assert_int_equal(table.n_column, k == 0 ? 3 : 5);
+        check_row(&table, "x", 0.5, 3.0);
+        check_row(&table, "y", 1.0, 4.0);
+        check_row(&table, "z", 2.0, -0.5);
+        clast_table_free(&table);
+        CHECK_STATUS(clast_points_parse("a", text[k], n[k] - 30, NULL, &table), CLAST_E_FORMAT);
+        assert_null(table.column);
+    }
+}
+
+static clast_status read_text_once(void *context)
+{
+    const char *text = context;
+    clast_table table = {0};
+    const clast_status status = clast_points_parse("a", text, strlen(text), NULL, &table);
+    clast_table_free(&table);
+    return status;
+}
+
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
@@ -163,6 +197,11 @@ static void every_refused_allocation_is_told(void **state)
     (void)snprintf(path, sizeof path, "%s", h5_file());
     support_refuse_each_allocation(read_once, NULL);
     support_refuse_each_allocation(read_h5_once, path);
+    static char copy[2][sizeof ply + sizeof xyz];
+    (void)snprintf(copy[0], sizeof copy[0], "%s", ply);
+    (void)snprintf(copy[1], sizeof copy[1], "%s", xyz);
+    support_refuse_each_allocation(read_text_once, copy[0]);
+    support_refuse_each_allocation(read_text_once, copy[1]);
 }
 
 int main(void)
@@ -172,6 +211,7 @@ int main(void)
         cmocka_unit_test(binary_numbers_of_every_type_are_read),
         cmocka_unit_test(names_that_repeat_are_told_apart),
         cmocka_unit_test(hdf5_arrays_and_folders_are_columns),
+        cmocka_unit_test(surfaces_and_xyz_give_points),
         cmocka_unit_test(every_refused_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

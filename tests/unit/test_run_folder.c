@@ -119,8 +119,8 @@ static void a_folder_under_way_is_refused(void **state)
     CHECK_OK(clx_run_remove_tree(folder));
     CHECK_OK(clast_run_folder_begin(folder, false, "test", NULL, &first));
     CHECK_OK(clast_run_folder_open(first));
-    CHECK_STATUS(clast_run_folder_begin(folder, true, "test", NULL, &second), CLAST_E_USAGE);
-    CHECK_STATUS(clx_run_folder_resume(folder, "test", NULL, &second), CLAST_E_USAGE);
+    CHECK_STATUS(clast_run_folder_begin(folder, true, "test", NULL, &second), CLAST_E_DISK);
+    CHECK_STATUS(clx_run_folder_resume(folder, "test", NULL, &second), CLAST_E_DISK);
     CHECK_STATUS(clast_run_folder_check(folder), CLAST_E_IO);
     assert_non_null(strstr(clast_error_detail(), "still running"));
     (void)clast_run_folder_end(first, CLAST_E_CONVERGE);

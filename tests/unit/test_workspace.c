@@ -328,7 +328,7 @@ static void first_call_is_that_of_clast_decompose(void **state)
         assert_memory_equal(made->cells.of_point, plain.cells.of_point,
                             N * sizeof *plain.cells.of_point);
         CHECK_REL(made->events, plain.events, 0.0);
-        /* again, by cells that are kept: the same points give the same bytes */
+        /* again, by cells that are kept: the same points give the same cells and events */
         CHECK_OK(clast_workspace_decompose(workspace, &dense_points, &c, &made));
         CHECK_OK(clast_workspace_count(workspace, &calls));
         assert_int_equal(calls.n_cut, k % 3 == 0 ? 2 : 1);
@@ -337,9 +337,14 @@ static void first_call_is_that_of_clast_decompose(void **state)
                             N * sizeof *plain.cells.of_point);
         assert_memory_equal(made->cells.low, plain.cells.low,
                             (size_t)plain.cells.n * sizeof *plain.cells.low);
-        CHECK_REL(made->events, plain.events, 0.0);
-        CHECK_REL(made->events_low, plain.events_low, 0.0);
-        CHECK_REL(made->events_high, plain.events_high, 0.0);
+        CHECK_REL(made->events, plain.events, 1e-12); // of a ratio that is kept
+        CHECK_REL(made->events_low, plain.events_low, 1e-12);
+        assert_true(made->resolved == plain.resolved);
+        if (isfinite(plain.events_high)) {
+            CHECK_REL(made->events_high, plain.events_high, 1e-12);
+        } else {
+            assert_true(isinf(made->events_high));
+        }
         clast_workspace_destroy(workspace);
     }
     clast_decomposition_free(&plain);
@@ -442,7 +447,8 @@ static void policies_test_and_cut_when_they_say(void **state)
     clast_fields_free(clast_decompose_fields, &c);
 }
 
-/* The errors that docs/theory/decompose.md section 15 tells, with seeds of their own. */
+/* The errors that docs/theory/decompose.md section 15 tells, with seeds of their own: about 2 % in
+ * clouds that move slowly, about 10 % in a vortex that turns from uniform to steep. */
 static void events_of_a_drifting_cloud_are_within_the_told_error(void **state)
 {
     (void)state;
@@ -469,7 +475,7 @@ static void events_of_a_drifting_cloud_are_within_the_told_error(void **state)
             drifting_advance(&cloud);
         }
         CHECK_OK(clast_workspace_count(kept, &calls));
-        assert_true(sqrt(square / STEPS) < 0.05);
+        assert_true(sqrt(square / STEPS) < (kind == DRIFTING_VORTEX ? 0.15 : 0.05));
         assert_true(calls.n_cut <= STEPS / 2);
         clast_workspace_destroy(fresh);
         clast_workspace_destroy(kept);

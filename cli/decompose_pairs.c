@@ -1,0 +1,123 @@
+// Pairs by distance of clast decompose.
+#include "decompose_pairs.h"
+
+#include <clast/pairs_chart.h>
+#include <clast/table_file.h>
+#include <math.h>
+#include <stdio.h>
+
+static void add_column(json_t *out, const char *key, const clast_pairs *p, const char *column)
+{
+    json_t *list = json_array();
+    const double *number = clast_table_numbers(&p->shells, column);
+    for (int64_t k = 0; k < p->shells.n_row; ++k) {
+        (void)json_array_append_new(list, isfinite(number[k]) ? json_real(number[k]) : json_null());
+    }
+    (void)json_object_set_new(out, key, list);
+}
+
+/// Events with beta dt, else the pair integral: value, low and high.
+static void add_estimate(json_t *out, const clast_decomposition *r, const char *by,
+                         const clast_estimate *e)
+{
+    static const char *const end[3] = {"", "_low", "_high"};
+    const double value[3] = {e->value, e->low, e->high};
+    for (int k = 0; k < 3; ++k) {
+        char key[64];
+        (void)snprintf(key, sizeof key, "%s%s%s", r->beta_dt > 0.0 ? "events" : "pair_integral", by,
+                       end[k]);
+        cli_json_number(out, key, value[k]);
+    }
+}
+
+json_t *cli_decompose_pairs_json(const clast_decomposition *r)
+{
+    const clast_pairs *p = &r->pairs;
+    const clast_pair_integral *i = &p->integral;
+    json_t *out = json_object();
+    add_column(out, "r_low", p, "r_low_m");
+    add_column(out, "r", p, "r_high_m");
+    add_column(out, "count", p, "pairs");
+    add_column(out, "g", p, "g");
+    add_column(out, "g_low", p, "g_low");
+    add_column(out, "g_high", p, "g_high");
+    cli_json_number(out, "radius", p->radius);
+    cli_json_count(out, "n_pair", p->n_pair);
+    cli_json_count(out, "n_repeated", p->n_repeated);
+    cli_json_number(out, "edge_error", p->edge_error);
+    cli_json_number(out, "integral", i->estimate.value);
+    cli_json_number(out, "integral_low", i->estimate.low);
+    cli_json_number(out, "integral_high", i->estimate.high);
+    cli_json_bool(out, "resolved", i->estimate.resolved);
+    cli_json_number(out, "points_needed", i->n_needed);
+    cli_json_number(out, "scale", i->scale);
+    cli_json_number(out, "window", i->window);
+    cli_json_count(out, "n_window", i->n_pair);
+    cli_json_number(out, "fit_p", i->fit_p);
+    add_estimate(out, r, "", &r->events_by_pairs);
+    add_estimate(out, r, "_by_cells", &r->events_by_cells);
+    cli_json_bool(out, "disagree", r->disagree);
+    return out;
+}
+
+static void print_interval(const clast_estimate *e)
+{
+    if (e->resolved) {
+        (void)printf("%.6g [%.6g, %.6g]", e->value, e->low, e->high);
+    } else {
+        (void)printf("at least %.6g", e->low);
+    }
+}
+
+void cli_decompose_pairs_print(const clast_decomposition *r)
+{
+    const clast_pairs *p = &r->pairs;
+    const clast_pair_integral *i = &p->integral;
+    (void)printf("%lld pairs within %.4g m; ", (long long)p->n_pair, p->radius);
+    if (p->n_repeated > 0) {
+        (void)printf("%lld of them at one place; ", (long long)p->n_repeated);
+    }
+    (void)printf("integral of the squared density ");
+    print_interval(&i->estimate);
+    (void)printf(" 1/m^%d", p->dimension);
+    if (i->scale <= p->radius) {
+        (void)printf(", narrowest structure of sd %.3g m by %lld pairs within %.3g m", i->scale,
+                     (long long)i->n_pair, i->window);
+    }
+    const char *what = r->beta_dt > 0.0 ? "events" : "pair integral";
+    (void)printf("\n%s by pairs ", what);
+    print_interval(&r->events_by_pairs);
+    (void)printf(", by cells ");
+    print_interval(&r->events_by_cells);
+    (void)printf("; %s by %s\n",
+                 r->beta_dt > 0.0 ? "events are those" : "the pair integral is that",
+                 r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+    if (!i->estimate.resolved) {
+        (void)printf("pairs do not resolve the cloud: ");
+        (void)printf(isfinite(i->n_needed)
+                         ? "about %.2g points would do\n"
+                         : "g rises down to the nearest pairs there are; how many "
+                           "points would do cannot be told\n",
+                     i->n_needed);
+    }
+    if (r->disagree) {
+        (void)printf("warning: events by pairs and by cells have no number in common; the cells "
+                     "hide structure, or points keep apart: look at g(r)\n");
+    } else if (i->fit_p < 1e-3) {
+        (void)printf("warning: g(r) is not that of points drawn from a density (p = %.2g): it does "
+                     "not fall smoothly from r = 0\n",
+                     i->fit_p);
+    }
+}
+
+clast_status cli_decompose_pairs_write(const cli_decompose_job *j, const char *folder)
+{
+    const clast_decomposition *r = j->result;
+    char path[4096];
+    char note[CLI_DECOMPOSE_NOTE];
+    cli_decompose_note(j, note);
+    (void)snprintf(path, sizeof path, "%s/pairs.csv", folder);
+    const clast_status status = clast_table_write_csv_note(&r->pairs.shells, note, path);
+    (void)snprintf(path, sizeof path, "%s/pairs.%s", folder, j->chart_end);
+    return status == CLAST_OK ? clast_pairs_chart_write(&r->pairs, path) : status;
+}

@@ -1,0 +1,11 @@
+#pragma once
+// Whether an assembly that a caller has filled himself holds together. Both say what is wrong, for
+// people, or give NULL.
+#include "base/whole.h"
+#include <clast/assembly.h>
+
+/// Counts and arrays alone: for calls that are made once a grain.
+const char *clx_arrays_fault(const clast_assembly *assembly);
+
+/// Shapes, grains and contacts as well.
+const char *clx_assembly_fault(const clast_assembly *assembly);

@@ -1,0 +1,10 @@
+#pragma once
+// Events by pairs beside events by cells.
+#include "base/status.h"
+
+#include <clast/decompose.h>
+
+/// Counts pairs where config asks for them, and takes their estimate of the events where its
+/// estimator says so: all cells' events by one factor, the cap kept.
+clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *cloud,
+                             const clast_decompose_config *config, clast_decomposition *result);

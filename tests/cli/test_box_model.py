@@ -1,0 +1,125 @@
+"""CLI: agglomerate --box-model evolves a size spectrum without positions; clouds have spectra too."""
+import csv
+import math
+import re
+import unittest
+
+from clitest import ROOT, Case, clast
+
+UNIFORM = ROOT / "data/d2sd/points_u3_n50.csv"
+BOX = ("agglomerate", "--box-model", "--concentration", "2")
+CHARTS = ["clusters.svg", "moments.svg", "number.svg", "spectrum.svg"]
+
+
+def rows(path):
+    with open(path, encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+class BoxModel(Case):
+    def need_sectional(self):
+        if "without SUNDIALS" in clast(*BOX, "--solver", "sectional", "--per-octave", "1").err:
+            print("SKIPPED: this build has no SUNDIALS (tools/setup.sh sundials)")
+            self.skipTest("no SUNDIALS")
+
+    def test_monte_carlo_meets_the_exact_number_in_tables_charts_and_json(self):
+        run = self.folder / "run"
+        r = clast(*BOX, "--kernel", "constant", "--constant", "1", "--duration", "1", "--n-step", "2", "--repeats", "10",
+                  "--particles", "2000", "--json", "-o", run)
+        self.assertEqual(r.code, 0, r.err)
+        sd = r.json["n_particle_sd"][-1] / math.sqrt(10)
+        self.assertAlmostEqual(r.json["n_particle"][-1], 1.0, delta=4 * sd + 2e-3)
+        self.assertAlmostEqual(r.json["exact"]["n_particle"][-1], 1.0, places=12)
+        self.assertEqual(r.json["moments"]["M1"], [2.0] * 3)
+        self.assertEqual(r.json["events"][-1], 2.0 - r.json["n_particle"][-1])
+        self.assertAlmostEqual(r.json["clusters"]["n_1"][-1], 0.5, delta=0.02)
+        self.assertEqual(sorted(p.name for p in run.glob("*.svg")), CHARTS)
+        spectrum = [row for row in rows(run / "spectrum.csv") if row["time_s"] == 1.0]
+        self.assertAlmostEqual(sum(row["n"] for row in spectrum), r.json["n_particle"][-1], places=9)
+        self.assertAlmostEqual(sum(row["mass_fraction"] for row in spectrum), 1.0, places=9)
+        self.assertEqual(clast("report", run).code, 0)
+        page = (run / "report.html").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r"<(?:th|h4|summary)[^>]*><code>([^<]*)", page), [])
+        for name in CHARTS:
+            self.assertIn(name, page)
+
+    def test_sectional_solver_with_breakage_and_gelation(self):
+        self.need_sectional()
+        sectional = (*BOX, "--solver", "sectional", "--per-octave", "8", "--n-step", "2", "--json")
+        r = clast(*sectional, "--kernel", "additive", "--additive", "0.5", "--duration", "1", "--size-max", "1e4").json
+        self.assertAlmostEqual(r["n_particle"][-1], 2 * math.exp(-1), places=6)
+        self.assertLess(r["mass_error"], 1e-12)
+        self.assertIsNone(r["gel_time"])
+        self.assertNotIn("n_particle_sd", r)
+        run = self.folder / "gel"
+        r = clast(*sectional, "--kernel", "product", "--product", "0.5", "--duration", "1.2", "-o", run)
+        self.assertEqual(r.code, 0, r.err)
+        self.assertAlmostEqual(r.json["gel_time"], 1.0, delta=0.01)
+        self.assertEqual((r.json["is_gelation"], r.json["exact_gel_time"]), (True, 1.0))
+        self.assertIsNone(r.json["exact"]["n_particle"][-1])
+        words = clast(*sectional[:-1], "--kernel", "product", "--product", "0.5", "--duration", "1.2")
+        self.assertRegex(words.out, r"gelation at (0\.99|1\.00)\d* s")
+        words = clast(*sectional[:-1], "--constant", "1", "--duration", "20", "--size-max", "20")
+        self.assertIn("the grid is too small (--size-max)", words.out)
+        r = clast(*sectional, "--constant", "1", "--breakage-rate", "1", "--initial", "exponential", "--size-min", "1e-4",
+                  "--size-max", "100", "--duration", "5").json
+        self.assertAlmostEqual(r["n_particle"][-1], 2.0, delta=0.01)  # sqrt(2 S1 M1 / K)
+        self.assertEqual(r["events"], [])
+
+    def test_a_table_of_sizes_is_a_start(self):
+        table = self.folder / "sizes.csv"
+        table.write_text("size,number\n1,3\n4,1\n")
+        r = clast("agglomerate", "--box-model", "--initial", "table", "--initial-file", table, "--constant", "1e-9", "--n-step",
+                  "1", "--json").json
+        self.assertEqual(r["moments"]["M0"], [4.0] * 2)
+        self.assertAlmostEqual(r["moments"]["M2"][0], 19.0, delta=1e-2)
+        table.write_text("size,count\n1,3\n")
+        self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
+                          says=["sizes.csv", "columns size and number"])
+        table.write_text("size,number\n1,3\n-4,1\n")
+        self.assert_fails(3, "agglomerate", "--box-model", "--initial", "table", "--initial-file", table,
+                          says=["sizes.csv", "row 2", "-4"])
+
+    def test_what_does_not_go_together_is_refused(self):
+        wanted = [(("agglomerate",), "missing POINTS... (or --box-model"),
+                  (("agglomerate", UNIFORM, "--domain", "box:0,0,0,1,1,1", "--solver", "sectional"), "--solver is an option of a box"),
+                  ((*BOX, UNIFORM), "a box has no positions"),
+                  ((*BOX, "--mesh", "boxes"), "--mesh is an option of clouds"),
+                  ((*BOX, "--breakage-rate", "1"), "monte-carlo knows no breakage"),
+                  ((*BOX, "--tolerance", "1e-3"), "--tolerance does nothing with this --solver"),
+                  ((*BOX, "--initial", "table"), "--initial table and --initial-file go together"),
+                  ((*BOX, "--kernel", "ballistic"), "which a box does not have"),
+                  ((*BOX, "--kernel", "brownian"), "--monomer-radius"),
+                  (("agglomerate", "--box-model"), "--concentration")]
+        for words, says in wanted:
+            self.assert_fails(2, *words, says=[says])
+
+    def test_any_thread_count_gives_the_same_spectrum(self):
+        runs = []
+        for threads, seed in (("1", 3), ("4", 3), ("1", 4)):
+            r = clast(*BOX, "--constant", "1", "--particles", "500", "-j", threads, "--seed", seed, "--json").json
+            del r["wall_s"]
+            runs.append(r)
+        self.assertEqual(runs[0], runs[1])
+        self.assertNotEqual(runs[0], runs[2])
+
+
+class CloudSpectra(Case):
+    def test_spectra_of_a_cloud_count_its_aggregates(self):
+        run = self.folder / "run"
+        r = clast("agglomerate", UNIFORM, "--domain", "box:0,0,0,1,1,1", "--constant", "0.05", "--n-step", "3", "--repeats", "6",
+                  "-o", run, "--json")
+        self.assertEqual(r.code, 0, r.err)
+        last = [row for row in rows(run / "spectrum.csv") if row["time_s"] == 1.0]
+        self.assertAlmostEqual(sum(row["n"] for row in last), r.json["n_particle"][-1], places=9)
+        for k in range(1, 9):
+            self.assertEqual(last[k - 1]["size"], k)
+            self.assertEqual(last[k - 1]["n"], r.json["clusters"][f"n_{k}"][-1])
+        self.assertLessEqual(sum(row["n"] * row["size_low"] for row in last), 50 + 1e-9)
+        self.assertGreaterEqual(sum(row["n"] * row["size_high"] for row in last), 50 - 1e-9)
+        self.assertGreater(r.json["moments_sd"]["M2"][-1], 0)
+        self.assertEqual(sorted(p.name for p in run.glob("*.svg")), CHARTS)
+
+
+if __name__ == "__main__":
+    unittest.main()
