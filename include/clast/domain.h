@@ -55,8 +55,8 @@ CLAST_API clast_status clast_domain_parse_in(const char *text, double factor, cl
 
 enum { CLAST_DOMAIN_TEXT = 256 };
 
-/// The domain as clast_domain_parse reads it, in m; "map" for a caller's map, "mesh:" and the
-/// bounding box of a surface.
+/// The domain as clast_domain_parse reads it, in m; "no domain" of another, "map" for a map,
+/// "mesh:" and the bounding box of a surface.
 CLAST_API void clast_domain_format(const clast_domain *domain, char text[CLAST_DOMAIN_TEXT]);
 
 /// A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the

@@ -84,7 +84,7 @@ typedef enum {
                          ///< resolved one of two; else the higher lower bound
 } clast_estimator;
 
-/// One of two estimates of the same integral.
+/// One of two estimates of the same integral; NAN where one is NULL.
 ///
 /// @param disagree  whether both are resolved and their intervals have no number in common, or
 /// NULL

@@ -325,7 +325,7 @@ done:
 
 bool clast_cells_are_labelled(const clast_cells *cells)
 {
-    return cells->of_bin != NULL;
+    return cells != NULL && cells->of_bin != NULL;
 }
 
 int32_t clast_cells_locate(const clast_cells *cells, const clast_domain *domain, const double *x)

@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "base/status.h"
+#include "cloud/contract.h"
 #include <clast/field.h>
 #include <math.h>
 #include <stdio.h>
@@ -196,6 +197,13 @@ void clast_domain_format(const clast_domain *domain, char text[CLAST_DOMAIN_TEXT
 {
     static const char *const name[] = {
         "box:", "cylinder:", "half-pipe:", "sphere:", "map:", "mesh:"};
+    if (text == NULL) {
+        return;
+    }
+    if (clx_domain_check(domain) != CLAST_OK) {
+        (void)snprintf(text, CLAST_DOMAIN_TEXT, "no domain");
+        return;
+    }
     (void)snprintf(text, CLAST_DOMAIN_TEXT, "%s", name[domain->kind]);
     if (domain->kind == CLAST_DOMAIN_MAP) {
         (void)snprintf(text, CLAST_DOMAIN_TEXT, "map");

@@ -263,6 +263,9 @@ double clast_kernel_value(uint32_t mask, const clast_medium *medium, const clast
         return (double)NAN;
     }
     double sum = 0.0;
+    if (mask >> (sizeof value / sizeof value[0]) != 0) {
+        return (double)NAN; // a kernel that there is not
+    }
     for (int k = 0; mask != 0; ++k, mask >>= 1) {
         sum += (mask & 1U) != 0 ? value[k](medium, a, b) : 0.0;
     }

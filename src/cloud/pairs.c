@@ -32,6 +32,9 @@ const clast_field clast_pairs_fields[] = {
 
 void clast_pairs_free(clast_pairs *pairs)
 {
+    if (pairs == NULL) {
+        return;
+    }
     clast_table_free(&pairs->shells);
     *pairs = (clast_pairs){0};
 }
@@ -319,6 +322,9 @@ done:
 clast_estimate clast_estimate_choose(clast_estimator estimator, const clast_estimate *cells,
                                      const clast_estimate *pairs, bool *disagree)
 {
+    if (cells == NULL || pairs == NULL) {
+        return (clast_estimate){(double)NAN, (double)NAN, (double)NAN, false};
+    }
     const bool both = cells->resolved && pairs->resolved;
     const bool apart = both && (cells->high < pairs->low || pairs->high < cells->low);
     if (disagree != NULL) {

@@ -47,6 +47,9 @@ const clast_field clast_spectrum_fields[] = {
 
 void clast_spectrum_free(clast_spectrum *result)
 {
+    if (result == NULL) {
+        return;
+    }
     clast_table_free(&result->history);
     clast_table_free(&result->spectrum);
     *result = (clast_spectrum){0};

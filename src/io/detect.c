@@ -45,7 +45,7 @@ static bool looks_like_obj(const void *bytes, size_t n)
 
 static bool has_zero(const void *bytes, size_t n)
 {
-    return memchr(bytes, 0, n < 1024 ? n : 1024) != NULL;
+    return n > 0 && memchr(bytes, 0, n < 1024 ? n : 1024) != NULL;
 }
 
 clast_mesh_format clx_mesh_detect(const void *bytes, size_t n)

@@ -170,7 +170,7 @@ double clast_curve_size(const clast_curve *curve, double share)
 
 double clast_curve_class_size(const clast_curve *curve, int32_t i)
 {
-    if (clx_curve_fault(curve) != NULL) {
+    if (clx_curve_fault(curve) != NULL || i < 0 || i >= curve->n_class) {
         return (double)NAN;
     }
     return sqrt(curve->sieve[i] * curve->sieve[i + 1]);
@@ -179,7 +179,7 @@ double clast_curve_class_size(const clast_curve *curve, int32_t i)
 double clast_curve_count(const clast_curve *curve, int32_t i, double mass, double density,
                          double grain_volume)
 {
-    if (clx_curve_fault(curve) != NULL) {
+    if (clx_curve_fault(curve) != NULL || i < 0 || i >= curve->n_class) {
         return (double)NAN;
     }
     const double d = clast_curve_class_size(curve, i);

@@ -190,6 +190,7 @@ static void decompose_block(outcome *o, const char *mesh)
                              "box:0,0,0,1,1,1", false));
     CHECK_OK(
         clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &config, mesh, false));
+    config.beta_dt = 1e-6; // m^3
     CHECK_OK(clast_cloud_alloc(N, 3, &cloud));
     for (int i = 0; i < 3 * N; ++i) { // half of the points in an eighth of the cube
         const double x = clx_rng_uniform(&rng);
