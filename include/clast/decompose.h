@@ -176,6 +176,7 @@ typedef struct clast_decomposition {
     int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
                     ///< fill the box of a mesh domain
     int32_t dimension;
+    int32_t n_capped; ///< cells at n/2
     clast_uniformity before;
     int32_t n_pass;
     clast_pass pass[CLAST_MAX_PASS];
@@ -184,13 +185,10 @@ typedef struct clast_decomposition {
     double events, events_low,
         events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap; not
                            ///< resolved: events_low alone holds, and events_high is INFINITY
-    bool resolved;         ///< the points show all of their own structure that counts: the bias of
-                           ///< events is at most 2 %
     double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
                            ///< where that cannot be told
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
                            ///< else NAN
-    int32_t n_capped;      ///< cells at n/2
     double points_per_bin; ///< below 10 the published estimate is biased
     clast_table search;    ///< every threshold searched: pass, lambda, lower, score, ideal_score,
                            ///< is_lower_search
@@ -203,12 +201,14 @@ typedef struct clast_decomposition {
     double beta_dt;     ///< as asked for; 0: events are the pair integral [1/m^d]
     double volume;      ///< of the domain [m^d]
     uint64_t seed;      ///< of what was drawn
-    bool has_drawn;     ///< ghosts, or the part of weighted points that is tested
     clast_pairs pairs;  ///< with config->pairs or another estimator than cells, else {0}
     clast_estimate events_by_cells, events_by_pairs; ///< the same of both, beta dt n (n - 1) / 2
                                                      ///< times the integral; with pairs
     clast_estimator estimator;                       ///< of the two: which one `events` is
-    bool disagree; ///< both are resolved and their intervals have no number in common
+    bool disagree;  ///< both are resolved and their intervals have no number in common
+    bool resolved;  ///< the points show all of their own structure that counts: the bias of events
+                    ///< is at most 2 %
+    bool has_drawn; ///< ghosts, or the part of weighted points that is tested
 } clast_decomposition;
 
 /// Splits the cloud's domain into cells of uniform concentration and counts events.

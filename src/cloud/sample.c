@@ -195,7 +195,8 @@ clast_status clx_sample_complete(const clast_cloud *cloud, const clast_decompose
     if (cloud->weight != NULL) {
         thin(cloud, config->seed, sample);
     }
-    return sample->domain->kind == CLAST_DOMAIN_MESH ? extend(config->seed, sample) : CLAST_OK;
+    const bool is_mesh = sample->domain != NULL && sample->domain->kind == CLAST_DOMAIN_MESH;
+    return is_mesh ? extend(config->seed, sample) : CLAST_OK;
 }
 
 clast_status clx_sample_make(const clast_cloud *cloud, const clast_decompose_config *config,

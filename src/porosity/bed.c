@@ -118,7 +118,7 @@ void clast_bed_wrap(const clast_bed *bed, clast_assembly *assembly)
         return;
     }
     const double low[3] = {bed->low[0], bed->low[1], bed->floor};
-    double period[3];
+    double period[3] = {0};
     (void)clast_bed_period(bed, period);
     for (int k = 0; k < 3; ++k) {
         for (int32_t i = 0; i < assembly->n_grain && period[k] > 0.0; ++i) {
