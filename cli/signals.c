@@ -123,6 +123,9 @@ void cli_signals_begin(const char *command, const clast_comm *comm)
     (void)snprintf(last_words, sizeof last_words,
                    "clast %s: ended by a signal; the files that it had finished are whole\n",
                    command);
+    if (comm->rank != 0) {
+        last_words[0] = '\0'; // the first rank speaks for all that mpirun ends
+    }
     for (size_t k = 0; k < sizeof number / sizeof number[0]; ++k) {
         struct sigaction before;
         if (sigaction(number[k], NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // nohup
