@@ -51,7 +51,8 @@ clast_status clast_mesh_copy(const clast_mesh *mesh, clast_mesh *copy)
 clast_status clast_mesh_append(clast_mesh *mesh, const clast_mesh *other)
 {
     CLX_ARGUMENTS(mesh, other);
-    CLX_WHOLE(mesh, mesh);
+    CLX_ARRAY(mesh->vert, mesh->n_vert); // what is there is not looked at: n grains cost O(n)
+    CLX_ARRAY(mesh->tri, mesh->n_tri);
     CLX_WHOLE(mesh, other);
     clast_status status = CLAST_OK;
     const int64_t n_vert = (int64_t)mesh->n_vert + other->n_vert;

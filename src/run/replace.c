@@ -86,6 +86,19 @@ static int remove_entry(const char *path, const struct stat *found, int kind, st
     return remove(path);
 }
 
+static int remove_temporary(const char *path, const struct stat *found, int kind, struct FTW *place)
+{
+    (void)found;
+    const bool is_one = kind == FTW_F && strncmp(path + place->base, ".clast-", 7) == 0;
+    return is_one ? remove(path) : 0;
+}
+
+void clx_run_remove_temporaries(const char *folder)
+{
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread is at a run's folder
+    (void)nftw(folder, remove_temporary, 16, FTW_PHYS);
+}
+
 clast_status clx_run_remove_tree(const char *folder)
 {
     clast_status status = CLAST_OK;

@@ -51,5 +51,9 @@ clast_status clx_run_put_back(const char *folder);
 /// @return CLAST_E_USAGE when a folder or a run that must not be lost is in the way
 clast_status clx_run_replace_recover(const char *made, const char *old);
 
+/// Removes the files that a killed process was still writing; its lock is held. What cannot be
+/// removed stays.
+void clx_run_remove_temporaries(const char *folder);
+
 /// A folder with all that is in it, without following links; fine when it is not there.
 clast_status clx_run_remove_tree(const char *folder);

@@ -323,6 +323,9 @@ clast_status clast_run_folder_open(clast_run_folder *run)
         CLX_TRY(clast_manifest_note(run->manifest, "replaces", clx_path_name(run->folder)));
     }
     CLX_TRY(lock_folder(run));
+    if (run->is_resumed && run->lock >= 0) {
+        clx_run_remove_temporaries(run->path);
+    }
     CLX_TRY(note_others(run));
     CLX_TRY(write_manifest(run, "running"));
     run->is_open = true;
