@@ -20,4 +20,5 @@ if [ -x build/release/clast ]; then # the smoke share of `make fuzz-commands`
     python3 tests/fuzz/fuzz_commands.py --runs 2000 --seconds "$FUZZ_SECONDS"
     [ "$(uname)" != Linux ] || python3 tests/fuzz/fault_commands.py --each 2 --kills 20 # of `make faults`
 fi
-find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' | sort | xargs -r -P "$(nproc)" -I{} bash -c 'one {}'
+# fuzz_calls keeps what the calls made, so it is run by hand, with -detect_leaks=0; property.test_calls runs the same calls apart
+find build/fuzz/fuzz -maxdepth 1 -type f -executable -name 'fuzz_*' ! -name fuzz_calls | sort | xargs -r -P "$(nproc)" -I{} bash -c 'one {}'
