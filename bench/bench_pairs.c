@@ -129,12 +129,12 @@ static clast_status run(const scene *s, int64_t n, int repeats, uint64_t first)
         wall += now() - begun;
         const clast_estimate e = pairs.integral.estimate;
         const double error = e.value / truth - 1.0;
-        double luck = 0.0;
+        double sampling_error = 0.0;
         for (int64_t i = 0; i < cloud.n; ++i) {
-            luck += 2.0 * (density(s, cloud.x + i * s->d) / truth - 1.0) / (double)n;
+            sampling_error += 2.0 * (density(s, cloud.x + i * s->d) / truth - 1.0) / (double)n;
         }
-        left += (error - luck) / repeats;
-        left2 += (error - luck) * (error - luck) / repeats;
+        left += (error - sampling_error) / repeats;
+        left2 += (error - sampling_error) * (error - sampling_error) / repeats;
         sum += error / repeats;
         squares += error * error / repeats;
         resolved += e.resolved;

@@ -261,12 +261,12 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
     }
 }
 
-/// Values and band of a column over time; `room` [2 n_row] keeps the band's limits.
+/// Values and band of a column over time; `scratch` [2 n_row] keeps the band's limits.
 static int32_t add_series(const clast_table *h, const char *name, const char *label, int32_t colour,
-                          double *room, clast_series *series)
+                          double *scratch, clast_series *series)
 {
-    double *low = room;
-    double *high = room + h->n_row;
+    double *low = scratch;
+    double *high = scratch + h->n_row;
     char deviation[64];
     const double *value = clast_table_numbers(h, name);
     if (value == NULL) {
@@ -302,17 +302,17 @@ clast_status cli_draw_columns(const clast_table *h, const char *const *name,
 {
     clast_series series[N_SERIES];
     int32_t n = 0;
-    double *room = calloc((size_t)(2 * N_CURVE * h->n_row), sizeof *room);
-    if (room == NULL) {
+    double *scratch = calloc((size_t)(2 * N_CURVE * h->n_row), sizeof *scratch);
+    if (scratch == NULL) {
         return cli_fail(CLAST_E_MEMORY, "not enough memory for a chart");
     }
     for (int k = 0; k < N_CURVE && name[k] != NULL; ++k) {
-        n += add_series(h, name[k], label[k], k, room + 2 * k * h->n_row, series + n);
+        n += add_series(h, name[k], label[k], k, scratch + 2 * k * h->n_row, series + n);
     }
     const clast_chart chart = {
         .x = {.label = "time (s)"}, .y = {.label = axis}, .series = series, .n_series = n};
     const clast_status status = n > 0 ? clast_chart_write(&chart, path) : CLAST_OK;
-    free(room);
+    free(scratch);
     return status;
 }
 
@@ -348,11 +348,11 @@ clast_status cli_draw_spectra(const clast_table *s, const char *axis, const char
     char label[N_TIME][32];
     int32_t n_series = 0;
     clast_axis x = {.label = "size (monomers)", .log = true};
-    double *room = calloc((size_t)(3 * s->n_row), sizeof *room);
-    if (room == NULL) {
+    double *scratch = calloc((size_t)(3 * s->n_row), sizeof *scratch);
+    if (scratch == NULL) {
         return cli_fail(CLAST_E_MEMORY, "not enough memory for a chart");
     }
-    fill_spectra(s, room, room + s->n_row, room + 2 * s->n_row, &x);
+    fill_spectra(s, scratch, scratch + s->n_row, scratch + 2 * s->n_row, &x);
     while (n < s->n_row && time[n] == time[0]) {
         ++n;
     }
@@ -362,8 +362,8 @@ clast_status cli_draw_spectra(const clast_table *s, const char *axis, const char
         (void)snprintf(label[k], sizeof label[k], "%.3g s", time[at]);
         clast_series one = {.kind = CLAST_SERIES_BAND,
                             .x = clast_table_numbers(s, "size") + at,
-                            .low = room + s->n_row + at,
-                            .high = room + 2 * s->n_row + at,
+                            .low = scratch + s->n_row + at,
+                            .high = scratch + 2 * s->n_row + at,
                             .n = n,
                             .colour = (int32_t)k};
         if (clast_table_numbers(s, "n_sd") != NULL) {
@@ -372,13 +372,13 @@ clast_status cli_draw_spectra(const clast_table *s, const char *axis, const char
         one.kind = CLAST_SERIES_LINE;
         one.label = label[k];
         one.low = one.high = NULL;
-        one.y = room + at;
+        one.y = scratch + at;
         series[n_series++] = one;
     }
     const clast_chart chart = {
         .x = x, .y = {.label = axis, .log = true}, .series = series, .n_series = n_series};
     const clast_status status = clast_chart_write(&chart, path);
-    free(room);
+    free(scratch);
     return status;
 }
 
@@ -413,8 +413,8 @@ static clast_status write_files(const clast_spectrum *r, const char *folder, con
     return status;
 }
 
-static clast_status keep(const cli_box_job *job, const clast_spectrum *r, const json_t *out,
-                         clast_run_folder *folder)
+static clast_status write_results(const cli_box_job *job, const clast_spectrum *r,
+                                  const json_t *out, clast_run_folder *folder)
 {
     const bool draws = job->box->spectrum.solver == CLAST_SOLVER_MONTE_CARLO;
     const cli_input inputs[] = {{"sizes", job->box->initial_file}, {NULL, NULL}};
@@ -469,7 +469,7 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     if (status == CLAST_OK) {
         json_t *out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
         if (folder != NULL) {
-            status = keep(job, &r, out, folder);
+            status = write_results(job, &r, out, folder);
         }
         if (status == CLAST_OK && common->json) {
             status = cli_print_json(out);

@@ -133,11 +133,11 @@ static void drop_dead(deal *d)
     const int64_t *monomers = d->cell->population->monomers;
     int64_t *member = d->cell->member;
     int64_t part[2] = {0, 0};
-    int64_t kept = 0;
+    int64_t n_member_left = 0;
     for (int64_t m = 0; m < d->n + d->n_collector; ++m) {
         if (monomers[member[m]] > 0) {
             ++part[m < d->n ? 0 : 1];
-            member[kept++] = member[m];
+            member[n_member_left++] = member[m];
         }
     }
     d->n = part[0];

@@ -170,8 +170,8 @@ static double half_pipe_chord(const clast_domain *d, const double x[3], const do
     return fmax(chord, 0.0);
 }
 
-/// Crossings of a line behind its entry, out, in, out ..: as far as pairs within `reach` need.
-static int crossings(const sampler *s, const double x[3], const double u[3], double reach,
+/// Crossings of a line behind its entry, out, in, out ..: as far as pairs within `distance` need.
+static int crossings(const sampler *s, const double x[3], const double u[3], double distance,
                      double *t)
 {
     const clast_domain *d = s->domain;
@@ -185,8 +185,8 @@ static int crossings(const sampler *s, const double x[3], const double u[3], dou
     double from = 1e-9 * size;
     int n = 0;
     clast_hit hit;
-    while (n < MOST_CROSSING &&
-           clast_bvh_ray(d->surface->bvh, x, u, from, n == 0 ? 4.0 * size : t[0] + reach, &hit)) {
+    while (n < MOST_CROSSING && clast_bvh_ray(d->surface->bvh, x, u, from,
+                                              n == 0 ? 4.0 * size : t[0] + distance, &hit)) {
         double inward[3];
         (void)triangle_area(m, hit.tri, inward);
         const bool enters = u[0] * inward[0] + u[1] * inward[1] + u[2] * inward[2] > 0.0;

@@ -532,7 +532,7 @@ done:
 }
 
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
-                                  const clast_decompose_config *config, clx_shown *kept,
+                                  const clast_decompose_config *config, clx_shown *cached,
                                   clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
@@ -541,7 +541,7 @@ clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sa
     result->seed = config->seed;
     result->has_drawn =
         result->has_drawn || cloud->weight != NULL || sample->domain->kind == CLAST_DOMAIN_MESH;
-    CLX_TRY(clx_events_count(cloud, config, sample, kept, result));
+    CLX_TRY(clx_events_count(cloud, config, sample, cached, result));
     CLX_TRY(clx_pair_events(sample->domain, cloud, config, result));
     to_domain(sample->domain, &result->cells);
     result->events_cross = (double)NAN;

@@ -14,9 +14,9 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
 clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sample,
                                  const clast_decompose_config *config, clast_decomposition *result);
 
-/// Step 3: events of the cells, which are carried to the domain. `kept` as for clx_events_count.
+/// Step 3: events of the cells, which are carried to the domain. `cached` as for clx_events_count.
 clast_status clx_decompose_events(const clast_cloud *cloud, const clx_sample *sample,
-                                  const clast_decompose_config *config, clx_shown *kept,
+                                  const clast_decompose_config *config, clx_shown *cached,
                                   clast_decomposition *result);
 
 /// Whether cells are those of the uniformity tree, which needs no vote.

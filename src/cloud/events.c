@@ -314,20 +314,20 @@ static clx_resolution scaled(clx_resolution shown, double factor)
     return shown;
 }
 
-/// What the pairs of all points show: counted, or as kept.
-static clast_status find_shown(const count *n, clx_shown *kept, clx_resolution *shown)
+/// What the pairs of all points show: counted, or as cached.
+static clast_status find_shown(const count *n, clx_shown *cached, clx_resolution *shown)
 {
     clast_status status = CLAST_OK;
     clx_ladder ladder;
     const double all = count_all(n);
-    if (kept != NULL && kept->is_known) {
-        *shown = scaled(kept->relative, all);
+    if (cached != NULL && cached->is_known) {
+        *shown = scaled(cached->relative, all);
         return CLAST_OK;
     }
     CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
     *shown = clx_resolution_of(&ladder);
-    if (kept != NULL && all > 0.0) {
-        *kept = (clx_shown){true, scaled(*shown, 1.0 / all)};
+    if (cached != NULL && all > 0.0) {
+        *cached = (clx_shown){true, scaled(*shown, 1.0 / all)};
     }
 done:
     return status;
@@ -350,7 +350,7 @@ done:
 }
 
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *kept,
+                              const clx_sample *sample, clx_shown *cached,
                               clast_decomposition *result)
 {
     clast_status status = CLAST_OK;
@@ -367,7 +367,7 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     CLX_TRY(alloc_parts(&n));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
-    CLX_TRY(find_shown(&n, kept, &shown));
+    CLX_TRY(find_shown(&n, cached, &shown));
     const double plain = count_plain(&n);
     count_pairs(&n);
     certify(&n, &shown, plain, result);

@@ -11,8 +11,8 @@ typedef struct clx_shown {
 /// Fills weight and events of the cells, and the result's events, interval and biases. Cells and
 /// their volumes are those of the unit cube; of a mesh domain the volumes are real ones.
 ///
-/// @param kept  NULL: what the pairs show is counted. Else it is taken from there where it is
+/// @param cached  NULL: what the pairs show is counted. Else it is taken from there where it is
 /// known, and left there where it was not: cells that stay keep their resolution
 clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_config *config,
-                              const clx_sample *sample, clx_shown *kept,
+                              const clx_sample *sample, clx_shown *cached,
                               clast_decomposition *result);

@@ -292,10 +292,10 @@ static double to_row(const clx_pair_cells *c, const row *r, const double *part)
 static void add_row(const job *w, const row *r, double left, const double *part, point *p)
 {
     const clx_pair_cells *c = w->cells;
-    const double reach = sqrt(left) / c->side + 1e-6;
+    const double extent = sqrt(left) / c->side + 1e-6;
     const int64_t middle = r->key;
-    const int64_t from = middle + (int64_t)floor(part[0] - reach);
-    const int64_t to = middle + (int64_t)floor(part[0] + reach);
+    const int64_t from = middle + (int64_t)floor(part[0] - extent);
+    const int64_t to = middle + (int64_t)floor(part[0] + extent);
     int64_t low = r->low;
     int64_t high = r->high;
     while (low < high && c->key[low] < from) {

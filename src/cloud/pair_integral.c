@@ -224,7 +224,7 @@ static bool approach(quadratic *q)
     double z[MOST_SHAPE];
     double part = 1.0;
     int32_t stops = -1; // the first to reach 0: dropped in any case, so that there is an end
-    int32_t kept = 0;
+    int32_t n_active = 0;
     solve_used(q, z);
     for (int32_t i = 0; i < q->n_used; ++i) {
         const double x = q->x[q->used[i]];
@@ -238,10 +238,10 @@ static bool approach(quadratic *q)
         const double next = q->x[j] + part * (z[i] - q->x[j]);
         q->x[j] = next > 1e-14 * q->scale && i != stops ? next : 0.0;
         if (q->x[j] > 0.0) {
-            q->used[kept++] = j;
+            q->used[n_active++] = j;
         }
     }
-    q->n_used = kept;
+    q->n_used = n_active;
     return stops < 0;
 }
 
@@ -253,7 +253,7 @@ static void minimise_quadratic(const double *h, const double *b, int32_t n, doub
         x[j] = 0.0;
         q.scale = fmax(q.scale, fabs(b[j]));
     }
-    for (int32_t turn = 0; turn < 3 * n; ++turn) {
+    for (int32_t round = 0; round < 3 * n; ++round) {
         const int32_t enters = find_descent(&q);
         if (enters < 0) {
             return;
@@ -316,7 +316,7 @@ static double newton(const fit *f, int32_t n_shape, double tilt, mixture *m)
     }
     minimise_quadratic(h, b, n_shape, x);
     double part = 1.0;
-    for (int32_t turn = 0; turn < N_HALVING; ++turn) {
+    for (int32_t round = 0; round < N_HALVING; ++round) {
         mixture next = *m;
         for (int32_t j = 0; j < n_shape; ++j) {
             next.c[j] += part * (unit[j] * x[j] - m->c[j]);

@@ -87,7 +87,7 @@ done:
     return status;
 }
 
-/// Half of the domain's least width, where it is known: mirror images further out find no room.
+/// Half of the domain's least width, where it is known: mirror images further out lie outside.
 static double half_width(const clast_domain *d)
 {
     double half = INFINITY;
@@ -119,7 +119,7 @@ static clast_status make_cells(const clast_pairs_config *config, job *w)
     }
     CLX_TRY(clx_pair_cells_make(w->x, w->n, d, radius, &w->cells));
     const double most = fmax(most_work * (double)w->n, free_work);
-    for (int turn = 0; config->radius == 0.0 && turn < 40; ++turn) {
+    for (int round = 0; config->radius == 0.0 && round < 40; ++round) {
         const double work = clx_pair_cells_work(&w->cells) * pow(4.0, d);
         if (work <= most) {
             break;

@@ -14,7 +14,7 @@ static const double most_error = 0.01;   ///< most systematic error of a resolve
 static const double most_share = 0.5;    ///< the same over its standard error
 static const double witness = 2.5;       ///< finer cells may lie so many standard errors higher
 static const double least_ratio = 1.1, smooth = 4.0, jump = 2.0, expected_ratio = 2.5;
-static const double bound_reach = 2.3;  ///< standard errors, for the greatest of some bounds
+static const double bound_errors = 2.3; ///< standard errors, for the greatest of some bounds
 static const double bound_pairs = 50.0; ///< a lower bound needs so many
 
 /// What one rung says.
@@ -104,8 +104,8 @@ static double lower_bound(const clx_ladder *l)
 {
     double most = 0.0;
     for (int32_t r = 0; r < l->n && l->n_pair[r] >= bound_pairs; ++r) {
-        const double reach = bound_reach * sqrt(fmax(0.0, l->covariance[r][r])) / l->pairs[r];
-        most = fmax(most, l->pairs[r] * exp(-reach));
+        const double half_width = bound_errors * sqrt(fmax(0.0, l->covariance[r][r])) / l->pairs[r];
+        most = fmax(most, l->pairs[r] * exp(-half_width));
     }
     return most;
 }

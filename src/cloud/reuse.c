@@ -156,33 +156,33 @@ static int32_t last_until(const uint64_t *key, int32_t low, int32_t high, uint64
 }
 
 /// About 4 boxes a cell, so that few cells are left to search in each.
-static clast_status make_table(const clast_cells *cells, int32_t d, clx_kept_cells *kept)
+static clast_status make_table(const clast_cells *cells, int32_t d, clx_cell_cache *cache)
 {
     clast_status status = CLAST_OK;
-    while (d * (kept->levels + 1) <= MOST_TABLE_BITS &&
-           INT64_C(1) << (d * kept->levels) < INT64_C(4) * cells->n) {
-        ++kept->levels;
+    while (d * (cache->levels + 1) <= MOST_TABLE_BITS &&
+           INT64_C(1) << (d * cache->levels) < INT64_C(4) * cells->n) {
+        ++cache->levels;
     }
-    const int shift = d * (CLX_MORTON_LEVELS - kept->levels);
-    kept->n_box = INT64_C(1) << (d * kept->levels);
-    CLX_TRY(clx_alloc(&kept->first, kept->n_box + 1, sizeof *kept->first));
+    const int shift = d * (CLX_MORTON_LEVELS - cache->levels);
+    cache->n_box = INT64_C(1) << (d * cache->levels);
+    CLX_TRY(clx_alloc(&cache->first, cache->n_box + 1, sizeof *cache->first));
     int32_t c = 0;
-    for (int64_t b = 0; b < kept->n_box; ++b) {
+    for (int64_t b = 0; b < cache->n_box; ++b) {
         while (c + 1 < cells->n && cells->key[c + 1] <= (uint64_t)b << shift) {
             ++c;
         }
-        kept->first[b] = c;
+        cache->first[b] = c;
     }
-    kept->first[kept->n_box] = cells->n - 1;
+    cache->first[cache->n_box] = cells->n - 1;
 done:
     return status;
 }
 
-clast_status clx_kept_cells_take(const clast_cells *cells, int32_t d, clx_kept_cells *kept)
+clast_status clx_cell_cache_copy(const clast_cells *cells, int32_t d, clx_cell_cache *cache)
 {
     clast_status status = CLAST_OK;
     const size_t n = (size_t)cells->n;
-    clx_kept_cells made = {.n = cells->n};
+    clx_cell_cache made = {.n = cells->n};
     CLX_TRY(clx_alloc(&made.low, cells->n, sizeof *made.low));
     CLX_TRY(clx_alloc(&made.high, cells->n, sizeof *made.high));
     CLX_TRY(clx_alloc(&made.volume, cells->n, sizeof *made.volume));
@@ -192,25 +192,25 @@ clast_status clx_kept_cells_take(const clast_cells *cells, int32_t d, clx_kept_c
     if (cells->key != NULL && cells->n > 0) {
         CLX_TRY(make_table(cells, d, &made));
     }
-    clx_kept_cells_free(kept);
-    *kept = made;
-    made = (clx_kept_cells){0};
+    clx_cell_cache_free(cache);
+    *cache = made;
+    made = (clx_cell_cache){0};
 done:
-    clx_kept_cells_free(&made);
+    clx_cell_cache_free(&made);
     return status;
 }
 
-void clx_kept_cells_free(clx_kept_cells *kept)
+void clx_cell_cache_free(clx_cell_cache *cache)
 {
-    clx_free(kept->low);
-    clx_free(kept->high);
-    clx_free(kept->volume);
-    clx_free(kept->first);
-    *kept = (clx_kept_cells){0};
+    clx_free(cache->low);
+    clx_free(cache->high);
+    clx_free(cache->volume);
+    clx_free(cache->first);
+    *cache = (clx_cell_cache){0};
 }
 
 typedef struct {
-    const clx_kept_cells *kept;
+    const clx_cell_cache *cache;
     const clx_sample *sample;
     clast_cells *cells;
 } refill;
@@ -218,24 +218,24 @@ typedef struct {
 static int32_t cell_at(const refill *r, const double *u)
 {
     const clast_cells *cells = r->cells;
-    const clx_kept_cells *kept = r->kept;
+    const clx_cell_cache *cache = r->cache;
     const int32_t d = r->sample->domain->dimension;
     if (cells->of_bin != NULL) {
         const clx_bins bins = {.d = d, .nb = {cells->nb[0], cells->nb[1], cells->nb[2]}};
         return cells->of_bin[clx_bins_of(&bins, u)];
     }
-    if (kept->first == NULL) {
+    if (cache->first == NULL) {
         return cells->n > 0 ? 0 : -1;
     }
     const uint64_t at = clx_morton_of(u, d);
-    const uint64_t box = at >> (d * (CLX_MORTON_LEVELS - kept->levels));
-    const int32_t c = last_until(cells->key, kept->first[box], kept->first[box + 1] + 1, at);
+    const uint64_t box = at >> (d * (CLX_MORTON_LEVELS - cache->levels));
+    const int32_t c = last_until(cells->key, cache->first[box], cache->first[box + 1] + 1, at);
     if (r->sample->domain->kind != CLAST_DOMAIN_MESH) {
         return c;
     }
     bool inside = true; // not so in a void of a mesh domain, whose cell was left out
     for (int32_t j = 0; j < d; ++j) {
-        inside = inside && u[j] >= kept->low[c][j] && u[j] <= kept->high[c][j];
+        inside = inside && u[j] >= cache->low[c][j] && u[j] <= cache->high[c][j];
     }
     return inside ? c : -1;
 }
@@ -252,12 +252,12 @@ static void locate(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-clast_status clx_kept_cells_refill(const clx_kept_cells *kept, const clx_sample *sample,
+clast_status clx_cell_cache_refill(const clx_cell_cache *cache, const clx_sample *sample,
                                    int64_t n_point, clast_cells *cells, bool *has_all)
 {
     clast_status status = CLAST_OK;
-    refill r = {kept, sample, cells};
-    const size_t n = (size_t)kept->n;
+    refill r = {cache, sample, cells};
+    const size_t n = (size_t)cache->n;
     clx_free(cells->of_point);
     cells->of_point = NULL;
     CLX_TRY(clx_alloc(&cells->of_point, n_point, sizeof *cells->of_point));
@@ -272,9 +272,9 @@ clast_status clx_kept_cells_refill(const clx_kept_cells *kept, const clx_sample 
             ++cells->count[c];
         }
     }
-    memcpy(cells->low, kept->low, n * sizeof *cells->low);
-    memcpy(cells->high, kept->high, n * sizeof *cells->high);
-    memcpy(cells->volume, kept->volume, n * sizeof *cells->volume);
+    memcpy(cells->low, cache->low, n * sizeof *cells->low);
+    memcpy(cells->high, cache->high, n * sizeof *cells->high);
+    memcpy(cells->volume, cache->volume, n * sizeof *cells->volume);
 done:
     return status;
 }

@@ -36,22 +36,22 @@ void clx_blocks_free(clx_blocks *blocks);
 double clx_blocks_change(const clx_blocks *before, const clx_blocks *now);
 
 /// The geometry of cells in the unit cube, where results are in the domain.
-typedef struct clx_kept_cells {
+typedef struct clx_cell_cache {
     int32_t n;
     double (*low)[3], (*high)[3], *volume; ///< [n]
     int levels;                            ///< of the table
     int64_t n_box;                         ///< 2^(d levels)
     int32_t *first; ///< [n_box + 1] tree cell that holds the low corner of each dyadic box
-} clx_kept_cells;
+} clx_cell_cache;
 
 /// @param cells  in the unit cube: before clx_decompose_events
-clast_status clx_kept_cells_take(const clast_cells *cells, int32_t d, clx_kept_cells *kept);
+clast_status clx_cell_cache_copy(const clast_cells *cells, int32_t d, clx_cell_cache *cache);
 
 /// The same cells with the points of the sample: of_point, counts, and the geometry in the unit
 /// cube. *has_all is false when some point lies in no cell (a void of a mesh domain): cut anew.
-clast_status clx_kept_cells_refill(const clx_kept_cells *kept, const clx_sample *sample,
+clast_status clx_cell_cache_refill(const clx_cell_cache *cache, const clx_sample *sample,
                                    int64_t n_point, clast_cells *cells, bool *has_all);
-void clx_kept_cells_free(clx_kept_cells *kept);
+void clx_cell_cache_free(clx_cell_cache *cache);
 
 /// A number for all that decides how points are cut: the configuration's fields and the domain.
 uint64_t clx_setup_of(const clast_domain *domain, const clast_decompose_config *config);

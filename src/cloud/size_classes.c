@@ -12,11 +12,11 @@ clast_status clx_size_classes_begin(int64_t n_row, clx_size_classes *c)
     enum { MOST_SPECTRA = 1000 };
     c->n_row = n_row;
     c->stride = 1 + (n_row - 1) / MOST_SPECTRA;
-    c->n_kept = 1 + (n_row - 2 + c->stride) / c->stride;
+    c->n_snapshot = 1 + (n_row - 2 + c->stride) / c->stride;
     CLX_TRY(clx_alloc(&c->single, n_row * CLX_N_SINGLE, sizeof *c->single));
     CLX_TRY(clx_alloc(&c->single2, n_row * CLX_N_SINGLE, sizeof *c->single2));
-    CLX_TRY(clx_alloc(&c->number, c->n_kept * CLX_N_CLASS, sizeof *c->number));
-    CLX_TRY(clx_alloc(&c->number2, c->n_kept * CLX_N_CLASS, sizeof *c->number2));
+    CLX_TRY(clx_alloc(&c->number, c->n_snapshot * CLX_N_CLASS, sizeof *c->number));
+    CLX_TRY(clx_alloc(&c->number2, c->n_snapshot * CLX_N_CLASS, sizeof *c->number2));
 done:
     return status;
 }
@@ -65,10 +65,10 @@ void clx_size_classes_count(clx_size_classes *c, const clast_population *p, int6
     if (row % c->stride != 0 && row != c->n_row - 1) {
         return;
     }
-    const int64_t kept = (row + c->stride - 1) / c->stride;
+    const int64_t snapshot = (row + c->stride - 1) / c->stride;
     for (int32_t k = 0; k < CLX_N_CLASS; ++k) {
-        c->number[kept * CLX_N_CLASS + k] += number[k];
-        c->number2[kept * CLX_N_CLASS + k] += number[k] * number[k];
+        c->number[snapshot * CLX_N_CLASS + k] += number[k];
+        c->number2[snapshot * CLX_N_CLASS + k] += number[k] * number[k];
     }
 }
 
@@ -114,11 +114,11 @@ clast_status clx_size_classes_table(const clx_size_classes *c, int32_t n_run, co
     const int n_column = n_run > 1 ? N_COLUMN : N_COLUMN - 1;
     int32_t n_class = 1;
     double *column = NULL;
-    for (int64_t at = 0; at < c->n_kept * CLX_N_CLASS; ++at) {
+    for (int64_t at = 0; at < c->n_snapshot * CLX_N_CLASS; ++at) {
         const int32_t k = (int32_t)(at % CLX_N_CLASS);
         n_class = c->number[at] > 0.0 && k >= n_class ? k + 1 : n_class;
     }
-    CLX_TRY(clast_table_init(spectrum, "spectrum", c->n_kept * n_class));
+    CLX_TRY(clast_table_init(spectrum, "spectrum", c->n_snapshot * n_class));
     for (int k = 0; k < n_column; ++k) {
         CLX_TRY(clast_table_add_number(spectrum, name[k], unit[k], &column));
     }

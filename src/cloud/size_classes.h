@@ -6,10 +6,10 @@
 enum { CLX_N_SINGLE = 8, CLX_N_CLASS = 112 }; ///< classes of one number; all
 
 typedef struct clx_size_classes {
-    int64_t n_row;            ///< times
-    int64_t stride, n_kept;   ///< every stride-th has a spectrum, and the last; 1000 or so
-    double *single, *single2; ///< [n_row][CLX_N_SINGLE] sums over runs, and of squares
-    double *number, *number2; ///< [n_kept][CLX_N_CLASS]
+    int64_t n_row;              ///< times
+    int64_t stride, n_snapshot; ///< every stride-th row has a spectrum, and the last; 1000 or so
+    double *single, *single2;   ///< [n_row][CLX_N_SINGLE] sums over runs, and of squares
+    double *number, *number2;   ///< [n_snapshot][CLX_N_CLASS]
 } clx_size_classes;
 
 clast_status clx_size_classes_begin(int64_t n_row, clx_size_classes *classes);

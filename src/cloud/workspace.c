@@ -42,7 +42,7 @@ struct clast_workspace {
     clx_shown shown;         ///< by the pairs of the last cut
     int64_t n_cut;           ///< points at the last cut
     clast_uniformity cut_by; ///< vote at the last cut
-    clx_kept_cells kept;
+    clx_cell_cache cache;
 };
 
 clast_status clast_workspace_create(clast_workspace **workspace)
@@ -257,7 +257,7 @@ static clast_status refill(call *c)
     c->made.n_outside = c->cloud.n - c->sample.n_real;
     c->made.events = c->made.events_low = c->made.events_high = 0.0;
     c->made.n_capped = 0;
-    CLX_TRY(clx_kept_cells_refill(&w->kept, &c->sample, c->cloud.n, &c->made.cells, &has_all));
+    CLX_TRY(clx_cell_cache_refill(&w->cache, &c->sample, c->cloud.n, &c->made.cells, &has_all));
     if (!has_all) {
         clast_decomposition_free(&c->made);
         c->made.before = before;
@@ -278,7 +278,7 @@ static clast_status cut(call *c)
         c->made.stop = CLAST_STOP_SPARED;
     }
     if (w->policy.cells != CLAST_CUT_EACH) {
-        CLX_TRY(clx_kept_cells_take(&c->made.cells, c->cloud.dimension, &w->kept));
+        CLX_TRY(clx_cell_cache_copy(&c->made.cells, c->cloud.dimension, &w->cache));
     }
 done:
     return status;
