@@ -241,7 +241,8 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
         (void)printf(", %lld sections, mass to %.1g\n\n", (long long)(r->spectrum.n_row / h->n_row),
                      r->mass_error);
     } else {
-        (void)printf(" of %d particles, mean of %d runs\n\n", box->spectrum.particles, repeats);
+        (void)printf(" of %d particles, %s%d run%s\n\n", box->spectrum.particles,
+                     repeats > 1 ? "mean of " : "", repeats, cli_plural(repeats));
     }
     for (int64_t i = -1; i < h->n_row; ++i) {
         for (int k = 0; k < N_COLUMN; ++k) {
@@ -255,7 +256,8 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
         (void)putchar('\n');
     }
     if (isfinite(r->gel_time)) {
-        (void)printf("\n%s at %.4g s: by then 0.1 %% of the mass had left the grid above\n",
+        (void)printf("\n%s at %.4g s: by then 0.1 %% of the mass had left the grid above; later "
+                     "moments are of the sizes on the grid\n",
                      r->is_gelation ? "gelation" : "the grid is too small (--size-max), seen",
                      r->gel_time);
     }
@@ -319,24 +321,31 @@ clast_status cli_draw_columns(const clast_table *h, const char *const *name,
 enum { N_TIME = 5 };
 
 /// What a logarithmic axis shows of a density: below 1e-9 of the highest nothing.
-static void fill_spectra(const clast_table *s, double *y, double *low, double *high, clast_axis *x)
+static void fill_spectra(const clast_table *s, double *y, double *low, double *high,
+                         clast_axis axis[2])
 {
     const double *size = clast_table_numbers(s, "size");
     const double *density = clast_table_numbers(s, "density");
     const double *n = clast_table_numbers(s, "n");
     const double *sd = clast_table_numbers(s, "n_sd");
     double highest = 0.0;
+    double lowest = INFINITY;
     for (int64_t i = 0; i < s->n_row; ++i) {
         highest = fmax(highest, density[i]);
     }
-    x->low = size[0];
+    axis[0].low = size[0] / 1.2;
     for (int64_t i = 0; i < s->n_row; ++i) {
         const double part = sd != NULL && n[i] > 0.0 ? sd[i] / n[i] : 0.0;
         const bool is_seen = density[i] > 1e-9 * highest;
         y[i] = is_seen ? density[i] : (double)NAN;
         low[i] = is_seen ? density[i] * fmax(0.1, 1.0 - part) : (double)NAN;
         high[i] = is_seen ? density[i] * (1.0 + part) : (double)NAN;
-        x->high = is_seen ? fmax(x->high, 1.2 * size[i]) : x->high;
+        axis[0].high = is_seen ? fmax(axis[0].high, 1.2 * size[i]) : axis[0].high;
+        lowest = is_seen ? fmin(lowest, low[i]) : lowest;
+    }
+    if (highest > 0.0) {
+        axis[1].low = 0.7 * lowest;
+        axis[1].high = 1.5 * highest;
     }
 }
 
@@ -347,12 +356,12 @@ clast_status cli_draw_spectra(const clast_table *s, const char *axis, const char
     clast_series series[2 * N_TIME];
     char label[N_TIME][32];
     int32_t n_series = 0;
-    clast_axis x = {.label = "size (monomers)", .log = true};
+    clast_axis axes[2] = {{.label = "size (monomers)", .log = true}, {.label = axis, .log = true}};
     double *scratch = calloc((size_t)(3 * s->n_row), sizeof *scratch);
     if (scratch == NULL) {
         return cli_fail(CLAST_E_MEMORY, "not enough memory for a chart");
     }
-    fill_spectra(s, scratch, scratch + s->n_row, scratch + 2 * s->n_row, &x);
+    fill_spectra(s, scratch, scratch + s->n_row, scratch + 2 * s->n_row, axes);
     while (n < s->n_row && time[n] == time[0]) {
         ++n;
     }
@@ -375,8 +384,7 @@ clast_status cli_draw_spectra(const clast_table *s, const char *axis, const char
         one.y = scratch + at;
         series[n_series++] = one;
     }
-    const clast_chart chart = {
-        .x = x, .y = {.label = axis, .log = true}, .series = series, .n_series = n_series};
+    const clast_chart chart = {.x = axes[0], .y = axes[1], .series = series, .n_series = n_series};
     const clast_status status = clast_chart_write(&chart, path);
     free(scratch);
     return status;

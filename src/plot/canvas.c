@@ -5,6 +5,7 @@
 #include "base/path.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
+#include <ctype.h>
 #include <string.h>
 
 static const double PNG_SCALE = 2.0;
@@ -141,13 +142,29 @@ void clx_canvas_free(clx_canvas *canvas)
     *canvas = (clx_canvas){0};
 }
 
+enum { TEXT_SIZE = 512 };
+
+/// A text as it is drawn: printable (cairo draws nothing more after bytes that are not UTF-8),
+/// powers of units raised.
+static const char *typeset(const char *text, char shown[TEXT_SIZE])
+{
+    (void)clast_text_printable(text, TEXT_SIZE, shown);
+    for (char *at = strchr(shown, '^'); at != NULL; at = strchr(at + 1, '^')) {
+        const bool is_power = (at[1] == '2' || at[1] == '3') && !isdigit((unsigned char)at[2]);
+        if (is_power) { // two bytes for two
+            memcpy(at, at[1] == '2' ? "\302\262" : "\302\263", 2);
+        }
+    }
+    return shown;
+}
+
 void clx_canvas_text(clx_canvas *canvas, double x, double y, const double anchor[2], double size,
                      const char *text)
 {
     cairo_text_extents_t box;
     cairo_font_extents_t font;
-    char shown[512]; // cairo draws nothing more after bytes that are not UTF-8
-    (void)clast_text_printable(text, sizeof shown, shown);
+    char shown[TEXT_SIZE];
+    (void)typeset(text, shown);
     cairo_set_font_size(canvas->cr, size);
     cairo_text_extents(canvas->cr, shown, &box);
     cairo_font_extents(canvas->cr, &font);
@@ -170,8 +187,9 @@ void clx_canvas_text_up(clx_canvas *canvas, double x, double y, double size, con
 double clx_canvas_text_width(clx_canvas *canvas, double size, const char *text)
 {
     cairo_text_extents_t box;
+    char shown[TEXT_SIZE];
     cairo_set_font_size(canvas->cr, size);
-    cairo_text_extents(canvas->cr, text, &box);
+    cairo_text_extents(canvas->cr, typeset(text, shown), &box);
     return box.x_advance;
 }
 

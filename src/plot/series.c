@@ -6,17 +6,28 @@
 #include <math.h>
 #include <stdio.h>
 
+static bool is_there(const clast_series *e, int64_t i)
+{
+    return i >= 0 && i < e->n && isfinite(e->x[i]) && isfinite(e->y[i]);
+}
+
+/// A line; a value without neighbours, which a line does not show, is a dot.
 static void draw_path(clx_figure *f, const clast_series *e)
 {
     const double dash[2] = {5.0, 3.0};
     cairo_t *cr = f->canvas->cr;
     bool pen_down = false;
     for (int64_t i = 0; i < e->n; ++i) {
-        if (!isfinite(e->x[i]) || !isfinite(e->y[i])) {
+        if (!is_there(e, i)) {
             pen_down = false;
             continue;
         }
         const double x = clx_figure_x(f, e->x[i]);
+        if (!is_there(e, i - 1) && !is_there(e, i + 1)) {
+            cairo_new_sub_path(cr);
+            cairo_arc(cr, x, clx_figure_y(f, e->y[i]), 0.8, 0.0, 2.0 * CLAST_PI);
+            continue;
+        }
         if (pen_down && e->kind == CLAST_SERIES_STEP) {
             cairo_line_to(cr, x, clx_figure_y(f, e->y[i - 1]));
         }
