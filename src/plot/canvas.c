@@ -152,7 +152,8 @@ static const char *typeset(const char *text, char shown[TEXT_SIZE])
     for (char *at = strchr(shown, '^'); at != NULL; at = strchr(at + 1, '^')) {
         const bool is_power = (at[1] == '2' || at[1] == '3') && !isdigit((unsigned char)at[2]);
         if (is_power) { // two bytes for two
-            memcpy(at, at[1] == '2' ? "\302\262" : "\302\263", 2);
+            at[1] = at[1] == '2' ? '\262' : '\263';
+            at[0] = '\302';
         }
     }
     return shown;

@@ -85,9 +85,7 @@ static void events_of_a_plume_are_right_within_two_per_cent(void **state)
 }
 
 /* Clouds of 1000 uniform points: exact in one cell, but for the few (measured: 3 of 200, by 2.7 to
- * 7
- * %) whose pairs in small cells lie so far above those of the whole that the cell is not believed.
- */
+ * 7 %) whose pairs in small cells tell the integral to no better than 2 %: they are then told. */
 static void events_of_uniform_clouds_are_right_within_two_per_cent(void **state)
 {
     (void)state;
