@@ -31,7 +31,7 @@ EXTREMES = ["0", "-1", "1", "2", "nan", "inf", "-inf", "1e-320", "1e-300", "1e-3
             "", "x", "0x10", "1e", "5mm", "1e-9m", "1e9m"]
 FLOATS = [0.0, -0.0, 1.0, -1.0, float("nan"), float("inf"), 1e-45, 1e-38, 1e-30, 1e-10, 1e5, 1e6, 1e15, 3e38, -3e38]
 NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-WORK = ("repeats", "max-steps", "replicate", "max-memory")  # asks for work, and gets it
+WORK = ("repeats", "n-repeat", "n-permutation", "max-steps", "replicate", "max-memory")  # asks for work, and gets it
 
 
 def mutate_number(random_, data):
