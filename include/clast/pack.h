@@ -143,12 +143,13 @@ typedef struct clast_pack_result {
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
-    double top;         ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
-    double untrimmed;   ///< bulk porosity with nothing left out at the ends
-    double trim;        ///< left out at both ends [m]
-    double mass_wanted; ///< [kg]
-    int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
-    bool is_moving;     ///< some grain is as fast as still_speed or faster
+    double top;       ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
+    double untrimmed; ///< bulk porosity with nothing left out at the ends
+    double trim;      ///< left out at both ends [m]
+    clast_bed_walls walls; ///< how far the bed's side walls are, in grain sizes
+    double mass_wanted;    ///< [kg]
+    int32_t n_loose;       ///< grains with fewer than four contacts, those with walls counted
+    bool is_moving;        ///< some grain is as fast as still_speed or faster
     double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
     bool fell;   ///< it was still falling then: it sank by more than two mean diameters
     double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none

@@ -113,6 +113,7 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     clast_porosity_options whole = o;
     r->porosity = r->z_low = r->z_high = r->top = r->untrimmed = (double)NAN;
     r->trim = o.trim;
+    r->walls = (clast_bed_walls){(double)NAN, (double)NAN, (double)NAN};
     r->mass_wanted = p->config.mass;
     for (int k = 0; k < 2; ++k) {
         r->flatness[k] = r->elongation[k] = (double)NAN;
@@ -121,6 +122,7 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         return CLAST_OK;
     }
     CLX_TRY(clast_dem_assembly(p->dem, &a));
+    r->walls = clast_bed_side_walls(&bed, &a);
     measure_ratio(&a, 1, r->flatness);
     measure_ratio(&a, 0, r->elongation);
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
