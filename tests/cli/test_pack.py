@@ -190,6 +190,7 @@ class Pack(Case):
     def test_bad_input_is_one_line(self):
         self.assert_fails(2, *SMALL, "--time-step", "1e-4s", says=("time_step", "6.319e-06 s or less", "contact_scheme exact"))
         self.assert_fails(2, *SMALL, "--mass", "5kg", says=("cannot fit",))
+        self.assert_fails(2, *SMALL, "--layer", "10nm", says=("1e+07 slices", "layer"))  # known before the run, not after it
         self.assert_fails(3, *SMALL, "--domain", "periodic", "--width", "11mm", "--mass", "1g", says=("half the period",))
         self.assert_fails(2, *SMALL, "--shape-weight", "1", "--shape-weight", "2", says=("2 weights for 1 shapes",))
         self.assert_fails(3, *SMALL, "--shapes", str(self.folder / "none.stl"), says=("shapes",))
