@@ -4,8 +4,8 @@
 //     bench_resolution [n = 1000] [repeats = 100] [first seed = 1] [density, or all]
 //
 // Clouds have a Poisson number of points, as the interval supposes; the truth is the squared mean
-// number times the integral of the squared density. `tests` votes do not move the numbers, so
-// Pearson's alone runs.
+// number times the integral of the squared density; the bias is that for the number drawn. `tests`
+// votes do not move the numbers, so Pearson's alone runs.
 #include "densities.h"
 
 #include <clast/decompose.h>
@@ -19,9 +19,10 @@ typedef struct {
     double sum, squares, half, low, per_needed;
 } tally;
 
-static void add(const clast_decomposition *r, double truth, tally *t)
+static void add(const clast_decomposition *r, double mean_n, double truth, tally *t)
 {
-    const double ratio = r->events / truth;
+    const double n = (double)r->n;
+    const double ratio = r->events / (truth * n * (n - 1.0) / (mean_n * mean_n)); // n given
     const bool covers = r->events_low <= truth && truth <= r->events_high;
     ++t->n;
     if (r->resolved) {
@@ -72,7 +73,7 @@ static clast_status run(const density_scene *s, double mean_n, int n_repeat, uin
             status = clast_decompose_in(&s->domain, &cloud, &c, &r);
         }
         if (status == CLAST_OK) {
-            add(&r, truth, &t);
+            add(&r, mean_n, truth, &t);
         }
         clast_decomposition_free(&r);
         clast_cloud_free(&cloud);

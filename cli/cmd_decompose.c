@@ -190,8 +190,8 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
                     r->points_per_bin > 0.0 ? r->points_per_bin : (double)NAN);
     cli_json_number(out, "bias_estimate", r->bias_estimate);
     cli_json_number(out, "smoothing_bias", r->smoothing_bias);
+    cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
     if (r->pairs.n > 0) {
-        cli_json_text(out, "estimator", r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
         (void)json_object_set_new(out, "pairs", cli_decompose_pairs_json(r));
     }
     json_settings(out, j, f->typed);
@@ -202,6 +202,11 @@ static json_t *summary_of(const cli_decompose_job *j, const found *f)
 static void print_resolved(const clast_decomposition *r)
 {
     if (r->resolved) {
+        return;
+    }
+    if (isnan(r->events_low)) {
+        (void)printf("not resolved, and no bound: so many points repeat the place of another, and "
+                     "there is no density at such a place; leave copies out\n");
         return;
     }
     (void)printf("not resolved: the points do not show their own structure, the lower bound alone "
@@ -253,21 +258,29 @@ static void print_passes(const clast_decomposition *r)
 
 static void print_events(const clast_decomposition *r)
 {
+    char low[32] = "-";
     char high[32] = "-";
+    if (!isnan(r->events_low)) {
+        (void)snprintf(low, sizeof low, "%.6g", r->events_low);
+    }
     if (r->resolved) {
         (void)snprintf(high, sizeof high, "%.6g", r->events_high);
     }
     (void)printf("%d cell%s, ", r->cells.n, cli_plural(r->cells.n));
     if (r->beta_dt > 0.0) {
-        (void)printf("events %.6g [%.6g, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
-                     r->events, r->events_low, high, r->beta_dt, r->dimension, r->n_capped,
+        (void)printf("events %.6g [%s, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
+                     r->events, low, high, r->beta_dt, r->dimension, r->n_capped,
                      cli_plural(r->n_capped));
     } else {
-        (void)printf("pair integral %.6g [%.6g, %s] 1/m^%d, events per beta dt (none is given: "
+        (void)printf("pair integral %.6g [%s, %s] 1/m^%d, events per beta dt (none is given: "
                      "--beta-dt)\n",
-                     r->events, r->events_low, high, r->dimension);
+                     r->events, low, high, r->dimension);
     }
     print_resolved(r);
+    if (r->estimator == CLAST_ESTIMATOR_PAIRS && r->pairs.n == 0) {
+        (void)printf("counted by pairs of all distances (--pairs shows them): cells of no size "
+                     "resolve the cloud\n");
+    }
     if (r->smoothing_bias != 0.0 && r->resolved) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",

@@ -64,6 +64,8 @@ static void print_interval(const clast_estimate *e)
 {
     if (e->resolved) {
         (void)printf("%.6g [%.6g, %.6g]", e->value, e->low, e->high);
+    } else if (isnan(e->low)) {
+        (void)printf("without bound: repeated points");
     } else {
         (void)printf("at least %.6g", e->low);
     }

@@ -285,7 +285,7 @@ def table_clouds(_, share):
                     "2 (mean of f at its points / integral of f^2 - 1), is taken off in the bias alone. Intervals are of Poisson clouds.", ""]
 
 
-MATRIX = ((300, 20), (1000, 30), (3000, 20), (10000, 6))
+MATRIX = ((100, 16), (300, 20), (1000, 24), (3000, 12), (10000, 6), (100000, 2))
 PLACES = (("2", "box"), ("3", "box"), ("3", "cylinder"), ("3", "surface"))
 MATRIX_CSV = pathlib.Path("docs/validation/d2sd_matrix.csv")
 
@@ -316,7 +316,7 @@ def table_matrix(_, share):
     """Densities by places by numbers of points: bench_resolution."""
     rows = []
     for k, (n, clouds) in enumerate(MATRIX):
-        rows += bench("bench_resolution", n, max(2, round(clouds * share)), (6 + k) * 100000000, "all")
+        rows += bench("bench_resolution", n, max(2, round(clouds * share)), (16 + k) * 100000000, "all")
     return matrix_lines(rows)
 
 

@@ -468,7 +468,7 @@ def known(command):
     voro = [[tuple(map(float, line.split()[1:])) for line in text] for text in lines]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "spheres.csv"
+        path, cells = pathlib.Path(folder) / "spheres.csv", pathlib.Path(folder) / "cells"
 
         def profile(spheres, *arguments):
             path.write_text("x,y,z,radius\n" + "".join(f"{x!r},{y!r},{z!r},0.5\n" for x, y, z in spheres), encoding="ascii")
@@ -482,9 +482,9 @@ def known(command):
         for name, spheres, bed, low, high, counted in (
                 ("1000 spheres in a box (voro++), -3..3, -3..3, 2..7", voro[0], "box:-5,-5,5,5", 2, 7, .631),
                 ("2300 spheres in a cylinder (voro++), -3..3, -3..3, 3..14", voro[1], "cylinder:6", 3, 14, .632)):
-            profile(spheres, "--bed", bed, "--layer", 0.1, "--cut", 0.9, "--local", "-o", folder)
+            profile(spheres, "--bed", bed, "--layer", 0.1, "--cut", 0.9, "--local", "--force", "-o", cells)
             inside = []
-            for cell in read_csv(pathlib.Path(folder) / "local.csv"):
+            for cell in read_csv(cells / "local.csv"):
                 x, y, z = spheres[int(cell["grain"])]
                 inside += [cell] if max(abs(x), abs(y)) < 3 and low < z < high else []
             rows.append((name + f": {len(inside)} radical Voronoi cells", f"{1 - counted:.3f} (cut at the sides)",

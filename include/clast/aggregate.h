@@ -53,6 +53,13 @@ typedef enum {
 
 typedef enum { CLAST_TARGET_CORE, CLAST_TARGET_MASS } clast_search_target;
 
+/// How a particle or cluster comes to what is there.
+typedef enum {
+    CLAST_APPROACH_CENTRAL,   ///< along rays to the origin, as published: impact parameter 0
+    CLAST_APPROACH_BALLISTIC, ///< along lines whose impact parameter is even over the cross-section
+    CLAST_APPROACH_DIFFUSIVE  ///< by Brownian motion from far away (DLA, DLCA)
+} clast_approach;
+
 typedef enum { CLAST_PICK_RANDOM, CLAST_PICK_MASS, CLAST_PICK_BROWNIAN } clast_cluster_pick;
 
 /// All of one run. Texts and lists are owned; start from clast_fields_default.
@@ -95,6 +102,8 @@ typedef struct clast_aggregate_config {
     int32_t target;
     double start; ///< particle sizes beyond the outermost hit of the ray; 0: from outside of all
     int32_t max_tries;
+    int32_t approach; ///< clast_approach
+    double walk_step; ///< diffusive: least step, by the radius of the smallest thrown grain
 
     int32_t contact;
     int32_t flavour;

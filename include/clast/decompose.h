@@ -184,7 +184,8 @@ typedef struct clast_decomposition {
     clast_cells cells;
     double events, events_low,
         events_high;       ///< with the 95 % interval of Poisson points, which ends at the cap; not
-                           ///< resolved: events_low alone holds, and events_high is INFINITY
+                           ///< resolved: events_low alone holds (NAN where repeated points leave no
+                           ///< bound), and events_high is INFINITY
     double points_needed;  ///< so many would resolve it, about; n where it is resolved; INFINITY
                            ///< where that cannot be told
     double events_cross;   ///< with crossfit: free of the bias of choosing cells by their counts;
@@ -201,7 +202,7 @@ typedef struct clast_decomposition {
     double beta_dt;     ///< as asked for; 0: events are the pair integral [1/m^d]
     double volume;      ///< of the domain [m^d]
     uint64_t seed;      ///< of what was drawn
-    clast_pairs pairs;  ///< with config->pairs or another estimator than cells, else {0}
+    clast_pairs pairs;  ///< with config->pairs or the estimator pairs, else {0}
     clast_estimate events_by_cells, events_by_pairs; ///< the same of both, beta dt n (n - 1) / 2
                                                      ///< times the integral; with pairs
     clast_estimator estimator;                       ///< of the two: which one `events` is

@@ -79,9 +79,7 @@ CLAST_API clast_status clast_pairs_uniform(const clast_domain *domain, int32_t n
 typedef enum {
     CLAST_ESTIMATOR_CELLS,
     CLAST_ESTIMATOR_PAIRS,
-    CLAST_ESTIMATOR_AUTO ///< of two resolved ones that agree the one with the narrower interval; of
-                         ///< two that do not the pairs' one, for cells are only ever too low; the
-                         ///< resolved one of two; else the higher lower bound
+    CLAST_ESTIMATOR_AUTO ///< the cells' one where it is resolved, else the pairs' one
 } clast_estimator;
 
 /// One of two estimates of the same integral; NAN where one is NULL.

@@ -25,11 +25,15 @@ typedef struct clast_fractal {
 CLAST_API clast_status clast_fractal_growth(const clast_assembly *assembly, int32_t n_first,
                                             clast_fractal *fractal);
 
-/// From the pair correlation: volume-weighted share of pairs of centres closer than r, between two
-/// mean diameters and the radius of gyration; k is then the count about a mean grain.
+/// From the pair correlation: solid volume within r of a grain's centre, mean over the grains by
+/// volume, in units of the mean grain, between two mean diameters and the solid's radius of
+/// gyration.
 ///
-/// Of more than 4000 grains every so-manyth is taken. @return as above, when the assembly is less
-/// than four mean diameters across
+/// Corrected for the edge: each count is divided by the share of the sphere that lies inside of a
+/// ball of D dimensions with the same radius of gyration, exact for a ball (3), a disc (2) and a
+/// rod (1).                                                        [docs/theory/structure.md, eq.
+/// 3] About more than 4000 grains the mean is over fewer centres, spread over the order of growth.
+/// @return as above, when the radius of gyration is less than six mean radii
 CLAST_API clast_status clast_fractal_correlation(const clast_assembly *assembly,
                                                  clast_fractal *fractal);
 
@@ -76,7 +80,8 @@ typedef struct clast_structure_options {
     clast_union_options solid;
     clast_fluid fluid;
     int32_t n_line, n_direction; ///< of projected areas
-    int32_t n_first;             ///< first grain of the growth fit; 0: a tenth of them, 5 at least
+    int32_t n_first;             ///< first grain of the growth fit; 0: a tenth of them, 5 at least;
+                                 ///< -1: none, the grains are in no order of growth
     bool alpha;                  ///< the alpha shape too, which takes a length and time
 } clast_structure_options;
 

@@ -7,6 +7,7 @@
 #include "aggregate/grow.h"
 #include "aggregate/pick.h"
 #include "aggregate/trial.h"
+#include "aggregate/walk.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "math/vec3.h"
@@ -207,13 +208,21 @@ static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_la
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
-    do {
-        CLX_TRY(clx_search_run(search, landing));
-    } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    const int32_t tries = clx_search_tries(a->config);
+    if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
+        clx_walk_run(search, tries, landing);
+    } else {
+        do {
+            CLX_TRY(clx_search_run(search, landing));
+        } while (!landing->found && ++search->aim.attempt < tries);
+    }
+    CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
+              "merger %d: all of %d %s miss the larger cluster; raise max_tries", a->n_placed + 1,
+              tries, clx_search_paths(search));
     CLX_CHECK(landing->found, CLAST_E_CONVERGE,
               "merger %d: all rays of %d axes miss the larger cluster; let rays start at a grain "
               "(origin: grain)",
-              a->n_placed + 1, a->config->max_tries);
+              a->n_placed + 1, tries);
 done:
     a->contact_s += clx_clock() - begun;
     return status;
@@ -298,6 +307,18 @@ done:
     return status;
 }
 
+static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
+{
+    double reach = 0.0;
+    for (int32_t i = 0; i < cluster->n; ++i) {
+        const int32_t grain = cluster->grain[i];
+        const clast_shape *shape = &a->assembly.shape[a->assembly.shape_id[grain]];
+        reach = fmax(reach, v3_distance(a->assembly.position[grain], cluster->centre) +
+                                a->assembly.scale[grain] * shape->bounding_radius);
+    }
+    return reach;
+}
+
 static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                            const clx_kit_group *group, clx_search *search)
 {
@@ -312,7 +333,10 @@ static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                                                                      : CLAST_ORIGIN_MASS,
                            .aim = clx_aggregate_aim(a),
                            .n_orientation = c->orientations,
-                           .start = c->start};
+                           .start = c->start,
+                           .approach = c->approach,
+                           .reach = reach_of(a, large),
+                           .walk_step = c->walk_step};
     v3_copy(search->centre, large->centre);
     v3_copy(search->target, large->centre);
 }
@@ -357,18 +381,6 @@ const clx_cluster *clx_clusters_largest(const clx_clusters *clusters)
         best = clusters->cluster[i].n > best->n ? &clusters->cluster[i] : best;
     }
     return best;
-}
-
-static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
-{
-    double reach = 0.0;
-    for (int32_t i = 0; i < cluster->n; ++i) {
-        const int32_t grain = cluster->grain[i];
-        const clast_shape *shape = &a->assembly.shape[a->assembly.shape_id[grain]];
-        reach = fmax(reach, v3_distance(a->assembly.position[grain], cluster->centre) +
-                                a->assembly.scale[grain] * shape->bounding_radius);
-    }
-    return reach;
 }
 
 void clx_clusters_spread(clast_aggregate *a)

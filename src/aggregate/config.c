@@ -93,7 +93,13 @@ const clast_field clast_aggregate_fields[] = {
            "centre of mass"),
     NUMBER(start, 0, 0, 1e6, "-",
            "start, in particle sizes beyond the ray's last hit; 0: from outside of everything"),
-    COUNT(max_tries, 100, 1, 1e6, "new axes tried when every ray misses the aggregate"),
+    COUNT(max_tries, 100, 1, 1e6,
+          "new axes tried when every ray misses the aggregate (ballistic: 1000 lines for each)"),
+    CHOICE(approach, 0, "central|ballistic|diffusive",
+           "along rays to the origin (published), on lines over the cross-section, by random walk",
+           .common = true),
+    NUMBER(walk_step, 0.1, 1e-4, 1, "-",
+           "diffusive: least step of the walk, in radii of the smallest thrown grain"),
 
     CHOICE(contact, 0, "exact|spheres|march",
            "first touch of true surfaces, of sphere composites, "
@@ -304,12 +310,37 @@ static clast_status check_law(const clast_aggregate_config *c)
     return status != CLAST_OK ? status : check_moments(c);
 }
 
+/// What an approach does not ask must stand at its default, so that no option is passed over.
+static clast_status check_approach(const clast_aggregate_config *c)
+{
+    clast_status status = CLAST_OK;
+    const bool walks = c->approach == CLAST_APPROACH_DIFFUSIVE;
+    const char *name = walks ? "diffusive" : "ballistic";
+    if (c->approach == CLAST_APPROACH_CENTRAL) {
+        return CLAST_OK;
+    }
+    CLX_CHECK(c->contact != CLAST_CONTACT_MARCH, CLAST_E_CONFIG,
+              "approach: the published march is central only; use contact: exact or spheres");
+    CLX_CHECK(c->origin == CLAST_ORIGIN_AUTO && c->start == 0.0, CLAST_E_CONFIG,
+              "approach: %s comes from outside of everything and aims at no origin; leave out "
+              "origin and start",
+              name);
+    CLX_CHECK(!walks || (c->rays == 1 && c->orientations == 1 && strcmp(c->axis, "random") == 0 &&
+                         c->cone == CLAST_PI / 180.0 && c->target == CLAST_TARGET_CORE && !c->fit),
+              CLAST_E_CONFIG,
+              "approach: diffusive makes one walk a particle; leave out rays, orientations, cone, "
+              "axis, target and fit");
+done:
+    return status;
+}
+
 static clast_status check_search(const clast_aggregate_config *c)
 {
     clast_status status = CLAST_OK;
     bool is_random = false;
     double axis[3];
     CLX_TRY(clx_aggregate_axis(c, &is_random, axis));
+    CLX_TRY(check_approach(c));
     CLX_CHECK((int64_t)c->rays * c->orientations <= 100000000, CLAST_E_CONFIG,
               "rays x orientations: %d x %d trials for each particle are more than 1e8", c->rays,
               c->orientations);

@@ -54,6 +54,7 @@ static clast_status account(clast_aggregate *a, int32_t grain)
     if (a->march.n_shape > 0) {
         CLX_TRY(enter_march(a, grain));
     }
+    a->reach = fmax(a->reach, v3_norm(all->position[grain]) + s * shape->shape->bounding_radius);
     a->volume += volume;
     a->mass += mass;
     a->second += mass * (v3_norm2(all->position[grain]) + own);

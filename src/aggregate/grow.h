@@ -56,6 +56,7 @@ struct clast_aggregate {
     clx_envelope_tracker *tracker; ///< NULL in cluster mode
 
     double mass, volume;
+    double reach;     ///< every grain lies within this distance of the origin (core mode)
     double moment[3]; ///< sum of mass times position
     double second;    ///< sum of mass times (position squared + own mean square radius)
     clast_aggregate_stop stop;

@@ -2,6 +2,7 @@
 #include "aggregate/grow.h"
 
 #include "aggregate/trial.h"
+#include "aggregate/walk.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "math/vec3.h"
@@ -39,6 +40,9 @@ static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *
                      .aim = clx_aggregate_aim(a),
                      .n_orientation = c->orientations,
                      .start = c->start,
+                     .approach = c->approach,
+                     .reach = a->reach,
+                     .walk_step = c->walk_step,
                      .on_one_thread = a->n_placed % PROBE == PROBE - 1 || a->alone_s < SHARED_FROM};
     if (a->origin == CLAST_ORIGIN_MASS) {
         v3_scale(search->centre, 1.0 / a->mass, a->moment);
@@ -94,7 +98,8 @@ static void bring_beside(clast_aggregate *a, clx_search *search)
     if (!a->arrival.is_due) {
         return;
     }
-    if (search->on_one_thread || clx_parallel_workers() == 1) {
+    if (search->on_one_thread || search->approach == CLAST_APPROACH_DIFFUSIVE ||
+        clx_parallel_workers() == 1) {
         arrive(0, N_PIECE, 0, a);
     } else {
         search->beside = (clx_beside){N_PIECE, arrive, a};
@@ -109,14 +114,22 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
     bring_beside(a, search);
     const double begun = clx_clock();
     const double worked = clx_clock_thread();
-    do {
-        CLX_TRY(clx_search_run(search, landing));
-        search->beside = (clx_beside){0};
-    } while (!landing->found && ++search->aim.attempt < a->config->max_tries);
+    const int32_t tries = clx_search_tries(a->config);
+    if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
+        clx_walk_run(search, tries, landing);
+    } else {
+        do {
+            CLX_TRY(clx_search_run(search, landing));
+            search->beside = (clx_beside){0};
+        } while (!landing->found && ++search->aim.attempt < tries);
+    }
+    CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
+              "particle %d of %d: all of %d %s miss the aggregate; raise max_tries",
+              a->n_placed + 1, a->n_particle, tries, clx_search_paths(search));
     CLX_CHECK(landing->found, CLAST_E_CONVERGE,
               "particle %d of %d: all rays of %d axes miss the aggregate; widen the cone or let "
               "rays start at a grain (origin: grain)",
-              a->n_placed + 1, a->n_particle, a->config->max_tries);
+              a->n_placed + 1, a->n_particle, tries);
 done:
     a->contact_s += clx_clock() - begun;
     a->alone_s =

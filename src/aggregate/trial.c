@@ -23,6 +23,9 @@
 /// Margin of the bound, in units of the numbers it is made of.
 static const double ROUNDING = 1e-9;
 
+/// Lines over the cross-section, or walks from far away, for each of max_tries: most of them miss.
+enum { LINES_A_TRY = 1000 };
+
 typedef struct {
     int64_t number;
     double origin[3], direction[3];
@@ -78,6 +81,22 @@ static void draw_origin(const clx_search *s, int64_t number, double origin[3])
     }
 }
 
+/// A point of the disc across the ray that holds everything there and half the particle around it:
+/// impact parameters are even over the cross-section once lines that meet nothing are drawn again.
+static void draw_impact(const clx_search *s, int64_t number, const double direction[3],
+                        double origin[3])
+{
+    double side[2][3];
+    clx_rng rng = clx_rng_at(s->aim.seed, CLX_STREAM_AGGREGATE_OFFSET,
+                             clx_aim_index(&s->aim, number, s->aim.n_ray));
+    const double reach = s->reach + s->scale * s->group->radius;
+    const double b = reach * sqrt(clx_rng_uniform(&rng));
+    const double turn = 2.0 * CLAST_PI * clx_rng_uniform(&rng);
+    v3_frame(direction, side[0], side[1]);
+    v3_axpy(origin, s->centre, b * cos(turn), side[0]);
+    v3_axpy(origin, origin, b * sin(turn), side[1]);
+}
+
 /// Start of the move: at `start` sizes beyond the last hit of the ray, or from outside of all.
 static double start_of(const clx_search *s, const clx_touch_path *path, const double origin[3])
 {
@@ -129,7 +148,11 @@ static void make_ray(const clx_search *s, int64_t number, ray *r)
     double back[3];
     *r = (ray){.number = number};
     clx_aim_direction(&s->aim, number, r->direction);
-    draw_origin(s, number, r->origin);
+    if (s->approach == CLAST_APPROACH_BALLISTIC) {
+        draw_impact(s, number, r->direction, r->origin);
+    } else {
+        draw_origin(s, number, r->origin);
+    }
     v3_scale(back, -1.0, r->direction);
     clx_touch_path path = clx_touch_path_along(back);
     path.t_low = r->t_low = start_of(s, &path, r->origin);
@@ -172,9 +195,8 @@ static double losing_place(const clx_search *s, const ray *r, double best)
     return isfinite(best) ? b + sqrt(fmax(0.0, reach * reach - h2)) + margin : HUGE_VAL;
 }
 
-/// First touch of all parts of the group; false if none touches or the trial is beaten.
-static bool fly(const clx_search *s, const double origin[3], const double orientation[4],
-                const clx_touch_path *path, clx_landing *landing)
+bool clx_search_fly(const clx_search *s, const double origin[3], const double orientation[4],
+                    const clx_touch_path *path, clx_landing *landing)
 {
     clx_touch_path rest = *path;
     bool found = false;
@@ -213,10 +235,10 @@ static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, doub
     q_unit(landing->orientation);
     path.t_low = r->t_low;
     path.t_enough = -losing_place(s, r, bound);
-    bool found = fly(s, r->origin, landing->orientation, &path, landing);
+    bool found = clx_search_fly(s, r->origin, landing->orientation, &path, landing);
     if (found && landing->touch.overlap) {
         path.t_low = -HUGE_VAL; // the start lies inside a side branch: come from outside of all
-        found = fly(s, r->origin, landing->orientation, &path, landing);
+        found = clx_search_fly(s, r->origin, landing->orientation, &path, landing);
     }
     landing->found = found;
     landing->trial = trial;
@@ -277,6 +299,19 @@ static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context
     }
 }
 
+int32_t clx_search_tries(const clast_aggregate_config *config)
+{
+    return config->approach == CLAST_APPROACH_CENTRAL ? config->max_tries
+                                                      : LINES_A_TRY * config->max_tries;
+}
+
+const char *clx_search_paths(const clx_search *search)
+{
+    return search->approach == CLAST_APPROACH_DIFFUSIVE   ? "walks"
+           : search->approach == CLAST_APPROACH_BALLISTIC ? "lines over the cross-section"
+                                                          : "axes";
+}
+
 clast_status clx_search_run(const clx_search *search, clx_landing *best)
 {
     clast_status status = CLAST_OK;
@@ -310,7 +345,7 @@ double clx_search_overlap(const clx_search *search, const clx_landing *landing)
     while (step < 4.0 * size) {
         path.t_low = -(landing->along + step);
         path.t_high = path.t_low;
-        if (!fly(search, landing->origin, landing->orientation, &path, &again) ||
+        if (!clx_search_fly(search, landing->origin, landing->orientation, &path, &again) ||
             !again.touch.overlap) {
             return step;
         }

@@ -26,6 +26,9 @@ typedef struct clx_search {
     int32_t origin;            ///< clast_ray_origin, but never AUTO
     double centre[3];          ///< rays' origin for CORE and MASS
     double target[3];
+    int32_t approach; ///< clast_approach
+    double reach;     ///< everything lies within this distance of `centre`, unless CENTRAL
+    double walk_step; ///< least step of a walk, by the radius of the smallest part
 
     clx_aim aim;
     int32_t n_orientation; ///< on each of aim.n_ray rays
@@ -46,6 +49,17 @@ typedef struct clx_landing {
     int32_t part; ///< of the group, that touches
     clx_touch touch;
 } clx_landing;
+
+/// First touch of all parts of the group that moves along the path; false if none touches or the
+/// trial is beaten. Fills touch and part of the landing.
+bool clx_search_fly(const clx_search *search, const double origin[3], const double orientation[4],
+                    const clx_touch_path *path, clx_landing *landing);
+
+/// Attempts, a new axis or walk each, before a search is given up.
+int32_t clx_search_tries(const clast_aggregate_config *config);
+
+/// What those are, for messages: axes, lines or walks.
+const char *clx_search_paths(const clx_search *search);
 
 /// The best of all trials; ties go to the lower trial number, so threads do not matter.
 ///

@@ -3,6 +3,7 @@
 // centre of a core), where few of its points would lie, in the shell.
 #include <clast/structure.h>
 
+#include "assembly/ball_cut.h"
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
@@ -11,25 +12,6 @@
 #include "math/vec3.h"
 
 enum { POINTS_A_GRAIN = 512 };
-
-/// Volume of a ball of radius r within distance R of a point d from its centre:
-///     pi (R + r - d)^2 (d^2 + 2 d (R + r) - 3 (R - r)^2) / (12 d)   where the surfaces cross
-static double ball_within(double r, double d, double limit)
-{
-    if (limit >= d + r) {
-        return 4.0 / 3.0 * CLAST_PI * r * r * r;
-    }
-    if (limit <= d - r) {
-        return 0.0;
-    }
-    if (limit <= r - d) {
-        return 4.0 / 3.0 * CLAST_PI * limit * limit * limit;
-    }
-    const double reach = limit + r - d;
-    const double skew = limit - r;
-    return CLAST_PI * reach * reach * (d * d + 2.0 * d * (limit + r) - 3.0 * skew * skew) /
-           (12.0 * d);
-}
 
 typedef struct profile {
     int32_t n_bin;
@@ -41,7 +23,7 @@ static void add_ball(profile *p, double r, double d, double density)
 {
     double inner = 0.0;
     for (int32_t k = 0; k < p->n_bin; ++k) {
-        const double outer = ball_within(r, d, (k + 1) * p->step);
+        const double outer = clx_ball_within(r, d, (k + 1) * p->step);
         p->solid[k] += outer - inner;
         p->mass[k] += density * (outer - inner);
         inner = outer;

@@ -159,10 +159,14 @@ done:
     return status;
 }
 
+/// How far above 3 the correlation dimension of a solid body may come out (docs/theory).
+static const double CORRELATION_ERROR = 0.05;
+
 /// What a fitted slope is: mass fills space at most with the third power of the radius.
-static const char *say_slope(const clast_fractal *f, const char *meaning)
+static const char *say_slope(const clast_fractal *f, double error, const char *meaning)
 {
-    return f->dimension > 3.0 ? "fitted slope; above 3, so no fractal over this range" : meaning;
+    return f->dimension > 3.0 + error ? "fitted slope; above 3, so no fractal over this range"
+                                      : meaning;
 }
 
 static clast_status add_fractal(const clast_assembly *a, const clast_structure_options *options,
@@ -172,18 +176,21 @@ static clast_status add_fractal(const clast_assembly *a, const clast_structure_o
     clast_fractal f;
     const int32_t tenth = a->n_grain / 10;
     const int32_t first = options->n_first > 0 ? options->n_first : tenth > 5 ? tenth : 5;
-    if (first < a->n_grain && clast_fractal_growth(a, first, &f) == CLAST_OK) {
-        CLX_TRY(
-            add_row(table, &(row){"fractal_growth", f.dimension, f.dimension_error, "-",
-                                  say_slope(&f, "dimension by radius of gyration during growth")}));
+    if (options->n_first >= 0 && first < a->n_grain &&
+        clast_fractal_growth(a, first, &f) == CLAST_OK) {
+        CLX_TRY(add_row(
+            table, &(row){"fractal_growth", f.dimension, f.dimension_error, "-",
+                          say_slope(&f, 0.0, "dimension by radius of gyration during growth")}));
         CLX_TRY(add_row(table, &(row){"fractal_growth_prefactor", f.prefactor, f.prefactor_error,
                                       "-", "k in N = k (R_g / a)^D"}));
     }
     if (clast_fractal_correlation(a, &f) == CLAST_OK) {
         CLX_TRY(add_row(table, &(row){"fractal_correlation", f.dimension, f.dimension_error, "-",
-                                      say_slope(&f, "dimension by distances of grains")}));
-        CLX_TRY(add_row(table, &(row){"fractal_correlation_prefactor", f.prefactor,
-                                      f.prefactor_error, "-", "k in n(r) = k (r / a)^D"}));
+                                      say_slope(&f, CORRELATION_ERROR,
+                                                "dimension by the solid about a grain")}));
+        CLX_TRY(
+            add_row(table, &(row){"fractal_correlation_prefactor", f.prefactor, f.prefactor_error,
+                                  "-", "k in n(r) = k (r / a)^D, edges corrected"}));
     }
 done:
     return status;

@@ -245,7 +245,8 @@ static clast_status make_mesh(clx_evolution *r)
     int64_t *number = NULL;
     clast_decomposition made = {0};
     clast_decompose_config config = r->config->decompose;
-    config.beta_dt = 0.0; // cells alone: no cap binds
+    config.estimator = CLAST_ESTIMATOR_CELLS; // their events are not looked at
+    config.beta_dt = 0.0;                     // cells alone: no cap binds
     CLX_TRY(clx_alloc(&number, r->population.n, sizeof *number));
     CLX_TRY(gather_live(r, &live, number));
     CLX_TRY(clast_decompose_in(&r->domain, &live, &config, &made));

@@ -78,9 +78,9 @@ const clast_field clast_decompose_fields[] = {
      "greatest distance of pairs, in the unit of the points; 0: some 110 neighbours a point, three "
      "mean spacings in 3-D",
      NULL},
-    {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_CELLS, 0, 0, "-",
-     "what events are counted by; auto: of cells and pairs the one that resolves the cloud and is "
-     "more certain",
+    {FIELD(CLAST_FIELD_CHOICE, estimator), CLAST_ESTIMATOR_AUTO, 0, 0, "-",
+     "what events are counted by; auto: tree cells, and pairs by distance where cells do not "
+     "resolve the cloud",
      "cells|pairs|auto"},
     {FIELD(CLAST_FIELD_U64, seed), 1, 0, 0, "-", "seed of the ghost points", NULL, .common = true,
      .group = "random numbers"},

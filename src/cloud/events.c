@@ -3,6 +3,8 @@
 #include "cloud/events.h"
 
 #include "base/alloc.h"
+#include "cloud/pair_count.h"
+#include "cloud/pair_events.h"
 #include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
@@ -30,6 +32,7 @@ typedef struct {
     bool *capped;      ///< [cells->n]
     double pairs;      ///< sum of K_ij w_i w_j over i != j where no cell is capped
     double variance;   ///< of that sum, and where is_certified of its systematic error too
+    double below;      ///< the same for the lower end of the interval
     bool is_certified; ///< by the resolution: no error is added for what was extrapolated
 } count;
 
@@ -260,14 +263,16 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
     } else if (shown->resolved) {
         n->pairs = shown->value * share;
+    } else if (shown->is_by_pairs) {
+        n->pairs = shown->value * share; // a guess
     } else {
-        n->pairs = fmax(n->pairs, shown->low * share);
+        n->pairs = fmax(n->pairs, shown->low * share); // of repeated points there is no bound
     }
     n->is_certified = r->resolved;
     if (n->is_certified) {
-        const double error =
-            log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value * share;
-        n->variance = error * error;
+        const double unit = shown->value * share / CLX_NORMAL_975;
+        n->variance = pow(log(shown->high / shown->value) * unit, 2.0);
+        n->below = pow(log(shown->value / shown->low) * unit, 2.0);
     }
 }
 
@@ -277,15 +282,17 @@ static void set_interval(const count *n, clast_decomposition *r)
 {
     const double rate = n->is_printed ? n->rate : 0.5 * n->rate;
     const double added = n->is_certified ? 0.0 : r->events * r->smoothing_bias;
-    double variance = rate * rate * fmax(0.0, n->variance) + added * added / 9.0;
+    double variance = added * added / 9.0;
     double cap = 0.0;
     for (int32_t c = 0; c < n->cells->n; ++c) {
         cap += cap_of(n, c);
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
-    const double reach = r->events > 0.0 ? CLX_NORMAL_975 * sqrt(variance) / r->events : 0.0;
-    r->events_low = r->events * exp(-reach);
-    r->events_high = fmin(cap, r->events * exp(reach));
+    const double above = variance + rate * rate * fmax(0.0, n->variance);
+    const double below = variance + rate * rate * fmax(0.0, n->below);
+    const double unit = r->events > 0.0 ? CLX_NORMAL_975 / r->events : 0.0;
+    r->events_low = r->events * exp(-unit * sqrt(below));
+    r->events_high = fmin(cap, r->events * exp(unit * sqrt(above)));
 }
 
 /// The interval of a sample that is not resolved: nothing is known above.
@@ -300,8 +307,9 @@ static void open_interval(const count *n, const clx_resolution *shown, double pl
         capped += n->capped[c] ? n->cells->events[c] : 0.0;
         variance += n->capped[c] ? 0.25 * n->cell[c].power[1] : 0.0;
     }
-    const double low = all > 0.0 ? rate * shown->low * plain / all : 0.0;
-    r->events_low = fmin(r->events - capped, low) +
+    const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
+    const double low = share > 0.0 ? rate * shown->low * share : 0.0;
+    r->events_low = (isnan(low) ? low : fmin(r->events - capped, low)) +
                     (capped > 0.0 ? capped * exp(-CLX_NORMAL_975 * sqrt(variance) / capped) : 0.0);
     r->events_high = INFINITY;
 }
@@ -314,23 +322,81 @@ static clx_resolution scaled(clx_resolution shown, double factor)
     return shown;
 }
 
-/// What the pairs of all points show: counted, or as cached.
-static clast_status find_shown(const count *n, clx_shown *cached, clx_resolution *shown)
+/// Puts what pairs of all distances show in the place of cells that do not resolve the cloud. The
+/// interval is of Poisson points, whose number is one more thing that varies.
+static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_resolution *shown,
+                              clast_decomposition *r)
+{
+    clast_status status = CLAST_OK;
+    clast_pairs pairs = {0};
+    clast_pairs_config how;
+    const double own = (double)r->n;
+    const double factor = own * (own - 1.0);
+    CLX_TRY(clast_fields_default(clast_pairs_fields, &how));
+    how.radius = n->config->pairs_radius;
+    how.outside = n->config->outside;
+    CLX_TRY(clx_pairs_count(n->sample->domain, n->cloud, &how, ladder, &pairs));
+    const clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
+    if (isfinite(e.value)) {
+        *shown = (clx_resolution){.value = factor * e.value,
+                                  .low = factor * e.low,
+                                  .high = factor * e.high,
+                                  .resolved = e.resolved,
+                                  .n_factor = fmin(shown->n_factor, pairs.integral.n_needed / own),
+                                  .halvings = shown->halvings,
+                                  .is_by_pairs = true};
+    }
+    if (n->config->pairs) {
+        clast_pairs_free(&r->pairs);
+        r->pairs = pairs;
+        pairs = (clast_pairs){0};
+    }
+done:
+    clast_pairs_free(&pairs);
+    return status;
+}
+
+/// What the pairs of all points show, and by cells alone: counted, or as cached.
+static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *found,
+                               clast_decomposition *r)
 {
     clast_status status = CLAST_OK;
     clx_ladder ladder;
     const double all = count_all(n);
     if (cached != NULL && cached->is_known) {
-        *shown = scaled(cached->relative, all);
+        *found = (clx_shown){true, scaled(cached->relative, all), scaled(cached->cells, all)};
         return CLAST_OK;
     }
     CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
-    *shown = clx_resolution_of(&ladder);
+    found->relative = found->cells = clx_resolution_of(&ladder);
+    if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
+        !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {
+        CLX_TRY(ask_pairs(n, &ladder, &found->relative, r));
+    }
     if (cached != NULL && all > 0.0) {
-        *cached = (clx_shown){true, scaled(*shown, 1.0 / all)};
+        *cached =
+            (clx_shown){true, scaled(found->relative, 1.0 / all), scaled(found->cells, 1.0 / all)};
     }
 done:
     return status;
+}
+
+/// Events of all cells and their interval by what was shown.
+static void settle(count *n, const clx_resolution *shown, clast_decomposition *r)
+{
+    r->events = 0.0;
+    r->n_capped = 0;
+    n->pairs = n->variance = 0.0;
+    const double plain = count_plain(n);
+    count_pairs(n);
+    n->below = n->variance;
+    certify(n, shown, plain, r);
+    share_out(n, plain, r);
+    set_interval(n, r);
+    if (!r->resolved) {
+        open_interval(n, shown, plain, r);
+    }
+    r->estimator = shown->is_by_pairs ? CLAST_ESTIMATOR_PAIRS : CLAST_ESTIMATOR_CELLS;
 }
 
 static clast_status alloc_parts(count *n)
@@ -355,7 +421,7 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
 {
     clast_status status = CLAST_OK;
     const clast_domain *domain = sample->domain;
-    clx_resolution shown = {0};
+    clx_shown shown = {0};
     count n = {.cloud = cloud,
                .config = config,
                .sample = sample,
@@ -367,14 +433,12 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     CLX_TRY(alloc_parts(&n));
     CLX_TRY(fill_parts(&n));
     measure_halves(&n);
-    CLX_TRY(find_shown(&n, cached, &shown));
-    const double plain = count_plain(&n);
-    count_pairs(&n);
-    certify(&n, &shown, plain, result);
-    share_out(&n, plain, result);
-    set_interval(&n, result);
-    if (!result->resolved) {
-        open_interval(&n, &shown, plain, result);
+    CLX_TRY(find_shown(&n, cached, &shown, result));
+    settle(&n, &shown.cells, result);
+    result->events_by_cells =
+        (clast_estimate){result->events, result->events_low, result->events_high, result->resolved};
+    if (shown.relative.is_by_pairs) {
+        settle(&n, &shown.relative, result);
     }
     result->bias_estimate =
         n.is_printed && result->n > 0 ? (double)result->cells.n / (double)result->n : (double)NAN;

@@ -6,6 +6,7 @@
 typedef struct clx_shown {
     bool is_known;
     clx_resolution relative; ///< value, low and high over that sum
+    clx_resolution cells;    ///< the same by cells alone
 } clx_shown;
 
 /// Fills weight and events of the cells, and the result's events, interval and biases. Cells and

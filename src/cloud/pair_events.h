@@ -4,7 +4,10 @@
 
 #include <clast/decompose.h>
 
+/// An estimate of the integral with the interval of Poisson points: n^2 varies too.
+clast_estimate clx_pair_poisson(const clast_estimate *estimate, double n);
+
 /// Counts pairs where config asks for them, and takes their estimate of the events where its
-/// estimator says so: all cells' events by one factor, the cap kept.
+/// estimator is pairs: all cells' events by one factor, the cap kept.
 clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *cloud,
                              const clast_decompose_config *config, clast_decomposition *result);

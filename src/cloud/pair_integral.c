@@ -11,6 +11,7 @@
 #include "cloud/pair_integral.h"
 
 #include "base/alloc.h"
+#include "cloud/resolution.h"
 #include "math/special.h"
 #include <math.h>
 #include <string.h>
@@ -33,8 +34,13 @@ static const double step = 0.70710678118654752; ///< from one s to the next
 static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
 static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
 static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
-static const double most_doubt = 0.25;  ///< half width of the profile's interval, as a logarithm,
+static const double most_doubt = 0.2;   ///< half width of the profile's interval, as a logarithm,
                                         ///< with which a cloud is resolved
+static const double most_size = 0.125;  ///< of the domain's: pairs closer than that and than the
+                                        ///< narrowest s must be so many
+static const double least_pairs = 500.0;
+static const double least_even = 1000.0;  ///< the same where nothing narrower than that size shows
+static const double most_repeated = 0.05; ///< share of repeated points' pairs in the window
 static const double chi2_95 = 3.841458820694124;
 static const double normal_975 = 1.959963984540054;
 
@@ -502,7 +508,7 @@ static double overdispersion(const fit *f, const mixture *m, int32_t level)
 /// What one family of shapes says.
 typedef struct {
     int32_t level;
-    double likelihood; ///< over the overdispersion
+    double likelihood, factor; ///< and the overdispersion that it is to be divided by
     double value, low, high, s;
     double least, most; ///< of the profile alone
     double fit_p;
@@ -549,7 +555,8 @@ static answer ask(fit *f)
     a.low = a.value * exp(-hypot(log(a.value / a.least), shared));
     a.high = a.value * exp(hypot(log(a.most / a.value), shared));
     a.s = f->s[a.level];
-    a.likelihood = m.likelihood / factor;
+    a.likelihood = m.likelihood;
+    a.factor = factor;
     a.fit_p = fit_p(f, shapes(f, a.level), &m);
     return a;
 }
@@ -565,6 +572,20 @@ static void set_window(const clx_pair_shells *in, clast_pair_integral *result)
     }
     result->window = in->radius[k];
     result->n_pair = (int64_t)llround(n_pair);
+}
+
+/// Pairs closer than r; beyond the last shell as in an even cloud.
+static double pairs_within(const clx_pair_shells *in, double r)
+{
+    double sum = 0.0;
+    double before = 0.0;
+    for (int32_t k = 0; k < in->n_shell; ++k) {
+        const double inner = pow(before, in->d);
+        const double part = (pow(r, in->d) - inner) / (pow(in->radius[k], in->d) - inner);
+        sum += fmin(1.0, fmax(0.0, part)) * in->pairs[k];
+        before = in->radius[k];
+    }
+    return r > before ? sum * pow(r / before, in->d) : sum;
 }
 
 clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *result)
@@ -586,7 +607,9 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const int32_t n_level = f->n_level;
     prepare(in, true, 1.0, f);
     const answer kinked = ask(f);
-    const double share = 1.0 / (1.0 + exp(smooth.likelihood - kinked.likelihood)); // of the kinked
+    const double better =
+        (smooth.likelihood - kinked.likelihood) / fmax(smooth.factor, kinked.factor);
+    const double share = 1.0 / (1.0 + exp(better)); // of the kinked
     clast_estimate *e = &made.estimate;
     e->value = exp((1.0 - share) * log(smooth.value) + share * log(kinked.value));
     e->low = fmin(smooth.low, kinked.low);
@@ -594,14 +617,25 @@ clast_status clx_pair_integral(const clx_pair_shells *in, clast_pair_integral *r
     const bool is_seen = smooth.level + 1 < n_level && kinked.level + 1 < n_level;
     const double doubt =
         0.5 * log(fmax(smooth.most, kinked.most) / fmin(smooth.least, kinked.least));
-    e->resolved = is_seen && doubt <= most_doubt;
+    const double size = most_size * pow(in->volume, 1.0 / (double)in->d);
+    const double least = smooth.s < size ? least_pairs : least_even;
+    const double close = pairs_within(in, fmin(smooth.s, size));
+    const bool is_allowed = clx_resolution_allows(in->ladder, in->n * (in->n - 1.0) * e->value);
+    e->resolved = is_seen && is_allowed && doubt <= most_doubt && close >= least;
     made.scale = smooth.s;
     made.fit_p = fmax(smooth.fit_p, kinked.fit_p);
     made.n_needed = in->n;
     set_window(in, &made);
     if (!e->resolved) { // the doubt falls as the root of the pairs
-        made.n_needed = is_seen ? in->n * doubt / most_doubt : (double)INFINITY;
+        const double more = fmax(doubt / most_doubt, sqrt(least / fmax(1.0, close)));
+        made.n_needed = is_seen && is_allowed ? in->n * fmax(1.1, more) : (double)INFINITY;
         e->high = INFINITY;
+    }
+    if (in->ladder->n_repeated > most_repeated * (double)made.n_pair) {
+        e->low = (double)NAN; // there is no density at the places of repeated points
+        e->high = INFINITY;
+        e->resolved = false;
+        made.n_needed = INFINITY;
     }
     *result = made;
 done:

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "cloud/contract.h"
 #include "cloud/pair_cells.h"
+#include "cloud/pair_count.h"
 #include "cloud/pair_integral.h"
 #include <clast/decompose.h>
 #include <math.h>
@@ -43,6 +44,7 @@ typedef struct {
     const clast_domain *domain;
     const clast_cloud *cloud;
     double *x;    ///< [n][d] points inside
+    double *u;    ///< [cloud->n][d] their images in the unit cube, then those of points inside
     bool *inside; ///< [cloud->n]
     int64_t n;
     double radius[CLAST_MAX_SHELL];
@@ -56,8 +58,8 @@ static void find_inside(int64_t begin, int64_t end, int32_t worker, void *contex
     const job *w = context;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        double u[3];
-        w->inside[i] = clast_domain_map(w->domain, w->cloud->x + i * w->cloud->dimension, u);
+        const int32_t d = w->cloud->dimension;
+        w->inside[i] = clast_domain_map(w->domain, w->cloud->x + i * d, w->u + i * d);
     }
 }
 
@@ -72,9 +74,11 @@ static clast_status select_points(const clast_pairs_config *config, job *w)
     }
     CLX_TRY(clx_alloc(&w->inside, cloud->n, sizeof *w->inside));
     CLX_TRY(clx_alloc(&w->x, cloud->n * d, sizeof *w->x));
+    CLX_TRY(clx_alloc(&w->u, cloud->n * d, sizeof *w->u));
     clx_parallel_for(cloud->n, BLOCK, find_inside, w);
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (w->inside[i]) {
+            memmove(w->u + w->n * d, w->u + i * d, (size_t)d * sizeof *w->u);
             memcpy(w->x + w->n++ * d, cloud->x + i * d, (size_t)d * sizeof *w->x);
         }
     }
@@ -231,7 +235,22 @@ static void set_integrals(const job *w, int32_t n_shell, const double *matrix, d
     }
 }
 
-static clast_status fill(job *w, int32_t n_shell, clast_pairs *result)
+/// The ladder of the points inside.
+static clast_status count_ladder(const job *w, clx_ladder *ladder)
+{
+    clast_status status = CLAST_OK;
+    clx_sample sample = {.domain = w->domain, .n = w->n, .n_real = w->n, .u = w->u};
+    CLX_TRY(clx_alloc(&sample.number, w->n, sizeof *sample.number));
+    for (int64_t i = 0; i < w->n; ++i) {
+        sample.number[i] = i;
+    }
+    CLX_TRY(clx_ladder_count(&sample, NULL, ladder));
+done:
+    clx_free(sample.number);
+    return status;
+}
+
+static clast_status fill(job *w, int32_t n_shell, const clx_ladder *ladder, clast_pairs *result)
 {
     clast_status status = CLAST_OK;
     double *column[N_COLUMN];
@@ -257,6 +276,8 @@ static clast_status fill(job *w, int32_t n_shell, clast_pairs *result)
     const clx_pair_shells shells = {.d = w->domain->dimension,
                                     .n_shell = n_shell,
                                     .n = (double)w->n,
+                                    .volume = result->volume,
+                                    .ladder = ladder,
                                     .radius = w->radius,
                                     .pairs = pairs,
                                     .spread = spread,
@@ -288,11 +309,13 @@ done:
     return status;
 }
 
-clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
-                               const clast_pairs_config *config, clast_pairs *pairs)
+clast_status clx_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
+                             const clast_pairs_config *config, const clx_ladder *ladder,
+                             clast_pairs *pairs)
 {
     clast_status status = CLAST_OK;
     clast_pairs made = {0};
+    clx_ladder own = {0};
     job w = {.domain = domain, .cloud = cloud};
     CLX_NEED(pairs);
     CLX_TRY(check(domain, cloud, config));
@@ -308,15 +331,25 @@ clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cl
     made.n_shell = config->n_shell;
     made.volume = clast_domain_volume(domain);
     made.radius = w.radius[config->n_shell - 1];
-    CLX_TRY(fill(&w, config->n_shell, &made));
+    if (ladder == NULL) {
+        CLX_TRY(count_ladder(&w, &own));
+    }
+    CLX_TRY(fill(&w, config->n_shell, ladder != NULL ? ladder : &own, &made));
     *pairs = made;
     made = (clast_pairs){0};
 done:
     clx_free(w.x);
+    clx_free(w.u);
     clx_free(w.inside);
     clx_pair_cells_free(&w.cells);
     clast_pairs_free(&made);
     return status;
+}
+
+clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cloud,
+                               const clast_pairs_config *config, clast_pairs *pairs)
+{
+    return clx_pairs_count(domain, cloud, config, NULL, pairs);
 }
 
 clast_estimate clast_estimate_choose(clast_estimator estimator, const clast_estimate *cells,
@@ -333,12 +366,5 @@ clast_estimate clast_estimate_choose(clast_estimator estimator, const clast_esti
     if (estimator != CLAST_ESTIMATOR_AUTO) {
         return estimator == CLAST_ESTIMATOR_PAIRS ? *pairs : *cells;
     }
-    if (both) {
-        const bool wide = pairs->high * cells->low > cells->high * pairs->low;
-        return wide && !apart ? *cells : *pairs;
-    }
-    if (cells->resolved != pairs->resolved) {
-        return cells->resolved ? *cells : *pairs;
-    }
-    return cells->low > pairs->low ? *cells : *pairs;
+    return cells->resolved || !isfinite(pairs->value) ? *cells : *pairs;
 }

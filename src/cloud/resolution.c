@@ -14,8 +14,14 @@ static const double most_error = 0.01;   ///< most systematic error of a resolve
 static const double most_share = 0.5;    ///< the same over its standard error
 static const double witness = 2.5;       ///< finer cells may lie so many standard errors higher
 static const double least_ratio = 1.1, smooth = 4.0, jump = 2.0, expected_ratio = 2.5;
-static const double bound_errors = 2.3; ///< standard errors, for the greatest of some bounds
-static const double bound_pairs = 50.0; ///< a lower bound needs so many
+static const double bound_errors = 2.3;    ///< standard errors, for the greatest of some bounds
+static const double bound_pairs = 50.0;    ///< a lower bound needs so many
+static const double most_repeated = 0.05;  ///< share of repeated points' pairs in such a rung
+static const double allowed_pairs = 30.0;  ///< a rung that a value may not lie below
+static const double falling_pairs = 100.0; ///< a rung that what a halving adds is looked at
+static const double allowed_errors = 1.0;  ///< standard errors below it
+static const double most_falling = 0.7;    ///< what it adds over what the one before added
+static const double least_addition = 0.02; ///< of the value: less need not fall
 
 /// What one rung says.
 typedef struct {
@@ -99,15 +105,44 @@ static reading read_rung(const clx_ladder *l, int32_t r)
     return made;
 }
 
-/// Greatest lower bound: pairs of any cells fall short of the integral.
+/// Greatest lower bound: pairs of any cells fall short of the integral. NAN where those of repeated
+/// points weigh in all of them.
 static double lower_bound(const clx_ladder *l)
 {
     double most = 0.0;
+    bool is_repeated = false;
     for (int32_t r = 0; r < l->n && l->n_pair[r] >= bound_pairs; ++r) {
+        if (l->n_repeated > most_repeated * l->n_pair[r]) {
+            is_repeated = true;
+            break; // finer ones have fewer
+        }
         const double half_width = bound_errors * sqrt(fmax(0.0, l->covariance[r][r])) / l->pairs[r];
         most = fmax(most, l->pairs[r] * exp(-half_width));
     }
-    return most;
+    return is_repeated && most == 0.0 ? (double)NAN : most;
+}
+
+bool clx_resolution_allows(const clx_ladder *l, double value)
+{
+    int32_t base = 0;    // the last rung with the pairs of one that decides
+    int32_t falling = 0; // the last rung whose steps tell
+    for (int32_t r = 0; r < l->n; ++r) {
+        base = l->n_pair[r] >= least_pairs ? r : base;
+        falling = l->n_pair[r] >= falling_pairs ? r : falling;
+    }
+    for (int32_t r = 1; r < l->n && l->n_pair[r] >= allowed_pairs; ++r) {
+        const double error = fmax(error_between(l, r, base), error_between(l, r, r - 1));
+        if (l->pairs[r] - value > allowed_errors * error) {
+            return false;
+        }
+    }
+    if (falling < 2) {
+        return false;
+    }
+    const double added = l->pairs[falling] - l->pairs[falling - 1];
+    const double before = l->pairs[falling - 1] - l->pairs[falling - 2];
+    return added < 2.0 * error_between(l, falling, falling - 1) || added <= most_falling * before ||
+           added < least_addition * value;
 }
 
 /// How many times the points would give rung r its pairs; rungs beyond the last have 2^d times
@@ -168,6 +203,7 @@ clx_resolution clx_resolution_of(const clx_ladder *l)
     made.resolved = is_deep;
     if (!made.resolved) {
         made.low = lower_bound(l);
+        made.is_repeated = isnan(made.low);
         made.high = INFINITY;
         made.n_factor = l->n > 2 ? factor_needed(l, last) : (double)INFINITY;
     }

@@ -12,7 +12,15 @@ typedef struct clx_resolution {
     double n_factor;  ///< so many times the points would resolve it: 1 where it is resolved,
                       ///< INFINITY where that cannot be told
     int32_t halvings; ///< of the cells whose pairs decide
+    bool is_repeated; ///< repeated points make up so many pairs that there is no lower bound: NAN
+    bool is_by_pairs; ///< by pairs of all distances instead
 } clx_resolution;
 
 /// Reads a ladder. [docs/theory/decompose.md section 8]
 clx_resolution clx_resolution_of(const clx_ladder *ladder);
+
+/// Whether a value that pairs of all distances gave may stand beside the ladder: no rung lies
+/// higher, and what a halving adds has begun to fall.
+///
+/// @param value  as clx_resolution's
+bool clx_resolution_allows(const clx_ladder *ladder, double value);

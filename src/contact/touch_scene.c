@@ -437,3 +437,60 @@ bool clx_touch_scene_near(const clx_touch_scene *scene, const clx_touch_body *bo
     }
     return true;
 }
+
+/// Distance of a point from a box, 0 inside.
+static double box_distance(const scene_node *node, const double x[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double below = (double)node->low[k] - x[k];
+        const double above = x[k] - (double)node->high[k];
+        const double d = below > above ? below : above;
+        sum += d > 0.0 ? d * d : 0.0;
+    }
+    return sqrt(sum);
+}
+
+/// A body lies within its box and within its bounding sphere: the greater distance still holds.
+static double leaf_distance(const clx_touch_scene *scene, const scene_node *leaf, const double x[3],
+                            const double world[3])
+{
+    const clx_touch_body *body = &scene->body[leaf->body];
+    const double d = v3_distance(world, body->position) - body->radius;
+    const double b = box_distance(leaf, x);
+    return d > b ? d : b;
+}
+
+double clx_touch_scene_clearance(const clx_touch_scene *scene, const double x[3], double limit)
+{
+    waiting stack[MAX_DEPTH + 1];
+    int top = 0;
+    double local[3];
+    double least = limit;
+    v3_sub(local, x, scene->origin);
+    if (scene->n > 0) {
+        stack[top++] = (waiting){box_distance(&scene->node[0], local), 0};
+    }
+    while (top > 0) {
+        --top;
+        const scene_node *node = &scene->node[stack[top].node];
+        if (stack[top].enter >= least) {
+            continue;
+        }
+        if (node->child == 0) {
+            const double d = leaf_distance(scene, node, local, x);
+            least = d < least ? d : least;
+            continue;
+        }
+        waiting near = {box_distance(&scene->node[node->child], local), node->child};
+        waiting far = {box_distance(&scene->node[node->child + 1], local), node->child + 1};
+        const waiting swap = near;
+        if (far.enter < near.enter) {
+            near = far;
+            far = swap;
+        }
+        stack[top++] = far;
+        stack[top++] = near;
+    }
+    return least;
+}

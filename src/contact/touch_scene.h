@@ -33,6 +33,11 @@ bool clx_touch_scene_first_among(const clx_touch_scene *scene, int32_t n,
                                  const clx_touch_body *moving, const clx_touch_path *path,
                                  clx_touch *touch);
 
+/// How far a ball about x may grow before it can touch a body: never more than the distance to the
+/// nearest surface, and that distance where the nearest bodies are spheres. `limit` where nothing
+/// is that near.
+double clx_touch_scene_clearance(const clx_touch_scene *scene, const double x[3], double limit);
+
 /// Called for each body; false ends the visit.
 typedef bool (*clx_touch_visit)(int32_t body, void *context);
 

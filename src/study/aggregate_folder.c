@@ -78,6 +78,7 @@ static clast_status write_structure(const char *folder, const clx_folder_results
     options.envelope.n_ray = r->config->envelope_rays;
     options.envelope.length = r->config->envelope_length;
     options.solid.seed = r->config->seed;
+    options.n_first = r->config->mode == CLAST_AGGREGATE_CLUSTER ? -1 : 0;
     for (int32_t k = 0; k < r->config->envelope.n; ++k) {
         const char *alpha = clast_envelope_name(CLAST_ENVELOPE_ALPHA);
         options.alpha = options.alpha || strcmp(r->config->envelope.item[k], alpha) == 0;

@@ -9,6 +9,8 @@ static const double axes[2][3] = {{1.0, 0.7, 0.4}, {1.0, 0.5, 0.5}};
 
 #define COMMON "size_law=uniform;size_low=0.2;size_high=0.6;cone=60deg;envelope_every=7;"
 
+#define DIFFUSIVE "size_law=uniform;size_low=0.2;size_high=0.6;envelope_every=7;approach=diffusive;"
+
 #define SPHERE "envelope=enclosing_sphere;"
 
 static const char *const runs[] = {
@@ -23,6 +25,12 @@ static const char *const runs[] = {
     COMMON SPHERE "n_particle=30;axis=0,0,1;origin=grain;stop_mass=900",
     COMMON SPHERE "n_particle=30;mode=cluster;rays=2",
     COMMON SPHERE "n_particle=30;mode=cluster;n_final=3;pick=brownian;orientations=3",
+    COMMON "n_particle=12;rays=3;orientations=2;approach=ballistic;target=mass",
+    COMMON "n_particle=12;approach=ballistic;cone=180deg;rays=1500;envelope_every=1",
+    DIFFUSIVE "n_particle=20",
+    DIFFUSIVE SPHERE "n_particle=20;contact=spheres",
+    DIFFUSIVE SPHERE "n_particle=20;mode=cluster;n_final=2;pick=brownian",
+    COMMON SPHERE "n_particle=20;mode=cluster;approach=ballistic;rays=2",
 };
 enum { N_RUN = sizeof runs / sizeof runs[0] };
 

@@ -42,6 +42,7 @@ static void unit_weights_change_nothing_and_double_ones_count_fourfold(void **st
     clast_decomposition plain = {0};
     clast_decomposition weighted = {0};
     set(&c, "beta_dt", "1e-9");
+    c.estimator = CLAST_ESTIMATOR_CELLS; // pairs take no weights
     CHECK_OK(clast_decompose(&cloud, &c, &plain));
     for (int pass = 1; pass <= 2; ++pass) {
         for (int i = 0; i < 500; ++i) {

@@ -84,6 +84,7 @@ static void extrapolated_events_equal_sums_over_pairs(void **state)
         CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &c,
                                  domain[run % 3], false));
         c.mesh = CLAST_CELLS_TREE;
+        c.estimator = CLAST_ESTIMATOR_CELLS;
         c.beta_dt = 1e-15; // far from the cap
         CHECK_OK(clast_decompose(&cloud, &c, &r));
         by_hand(&r.cells, &cloud, sum);
