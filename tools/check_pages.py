@@ -3,7 +3,7 @@
 
 usage: tools/check_pages.py [PAGE...]
 
-A source is cited by its key, [Welzl1991] or [Cook1977, sec. 2] (in a table the bare key does), and listed under "## References" as
+A source is cited by its key, [Welzl1991] or [Cook1977, sec. 2] (in a table the bare key does), and listed under "## References" (or "## Sources") as
 `- [Welzl1991] ...`; no key without an entry, no entry uncited, no author and year in prose instead of a key. A page that draws on
 nothing published says so there, beginning with "None".
 """
@@ -29,7 +29,7 @@ def without_code(text):
 
 def faults_of(path):
     text = without_code(path.read_text(encoding="utf-8"))
-    references = section(text, "References")
+    references = section(text, "(?:References|Sources)")
     limits = section(text, "When not to use this")
     faults = []
     if limits is None or len(limits.split()) < 20:
