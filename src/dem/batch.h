@@ -14,9 +14,9 @@ typedef enum {
 
 typedef struct clx_batch {
     int n; ///< contacts in it, 1 to CLX_BATCH; the places beyond repeat the last
-    clx_pushed *to[CLX_BATCH]; ///< where what they do is written
-    clx_link *link[CLX_BATCH]; ///< awake
-    double travel[CLX_BATCH];  ///< of both grains
+    clx_pushed *to[CLX_BATCH];     ///< where what they do is written
+    clx_dem_pair *pair[CLX_BATCH]; ///< awake
+    double travel[CLX_BATCH];      ///< of both grains
     const clx_grain *a[CLX_BATCH], *b[CLX_BATCH];
     clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
     double arm_b[3][CLX_BATCH]; ///< from b's centre to the contact point

@@ -204,7 +204,7 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
     return clx_convex_ellipsoid(axes);
 }
 
-/// From now on items have convex shapes and links have memories.
+/// From now on items have convex shapes and pairs have memories.
 clast_status clx_items_begin_convex(clast_dem *dem)
 {
     clast_status status = CLAST_OK;

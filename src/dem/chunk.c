@@ -52,7 +52,7 @@ static inline int64_t end_of(uint64_t left)
     return (int64_t)(left >> 32);
 }
 
-/// Notes that grain a has a link to b.
+/// Notes that grain a has a pair to b.
 static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 {
     _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
@@ -63,7 +63,7 @@ static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 }
 
 /// Work of blocks of grains, and the lowest neighbours of all. Moving a grain costs about as much
-/// as five links that sleep, and one that touches as twelve (profile of P1).
+/// as five pairs that sleep, and one that touches as twelve (profile of P1).
 static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     enum { MOVE = 5, TOUCH = 12 };
@@ -76,10 +76,10 @@ static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
         const int64_t last = first + BLOCK < dem->n_grain ? first + BLOCK : dem->n_grain;
         int64_t work = MOVE * (last - first) + near->begin[last] - near->begin[first];
         for (int32_t k = near->begin[first]; k < near->begin[last]; ++k) {
-            const clx_link *link = clx_near_link(dem, k);
-            work += TOUCH * (int64_t)link->touches;
-            if (link->b >= 0) {
-                note_low(s, link->a, link->b);
+            const clx_dem_pair *pair = clx_near_pair(dem, k);
+            work += TOUCH * (int64_t)pair->touches;
+            if (pair->b >= 0) {
+                note_low(s, pair->a, pair->b);
             }
         }
         s->before[block + 1] = work;
@@ -125,13 +125,13 @@ static void weigh_all(clast_dem *dem)
     }
 }
 
-static int32_t most_links(const clast_dem *dem)
+static int32_t most_pairs(const clast_dem *dem)
 {
     int32_t most = 0;
     for (int32_t i = 0; i < dem->n_grain; i += BLOCK) {
         const int32_t end = i + BLOCK < dem->n_grain ? i + BLOCK : dem->n_grain;
-        const int32_t links = dem->near.begin[end] - dem->near.begin[i];
-        most = links > most ? links : most;
+        const int32_t pairs = dem->near.begin[end] - dem->near.begin[i];
+        most = pairs > most ? pairs : most;
     }
     return most;
 }
@@ -142,7 +142,7 @@ clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
     clx_sweeping *s = &dem->sweeping;
     const int64_t n_four = dem->n_grain / CLX_LANES + 1;
     s->n_worker = 0;
-    s->most = most_links(dem);
+    s->most = most_pairs(dem);
     CLX_TRY(
         clx_grow_lines(&s->chunk, &s->chunk_capacity, (int64_t)MOST * n_worker, sizeof *s->chunk));
     if (s->pace_capacity < n_worker) {

@@ -27,7 +27,7 @@ done:
 int64_t clx_container_end(const clast_dem *dem, int32_t i)
 {
     int64_t k = dem->list.begin[i];
-    while (k < dem->list.begin[i + 1] && clx_link_is_container(dem, &dem->list.link[k])) {
+    while (k < dem->list.begin[i + 1] && clx_pair_is_container(dem, &dem->list.pair[k])) {
         ++k;
     }
     return k;
@@ -53,13 +53,13 @@ static void take(const clx_contact *c, clx_dem_touch *t)
     v3_set(t->arm_b, 0.0, 0.0, 0.0);
 }
 
-void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
+void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
                                clx_contact_memory *memory, clx_dem_touch *touch)
 {
     clx_convex ball;
     clx_contact contact;
-    const clx_placed body = place(dem, link->a, &ball);
-    const clx_wall_triangle *t = clx_link_triangle(dem, link);
+    const clx_placed body = place(dem, pair->a, &ball);
+    const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
     if (clx_triangle_contact(t, &body, 0.0, memory, &contact)) {
         (void)clx_triangle_push(t, &body, &contact);
         take(&contact, touch);
@@ -71,9 +71,9 @@ void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
 /// Pushes of one item while they are sorted out.
 typedef struct {
     clx_contact contact[CLX_CONTAINER_TOUCHES]; ///< deepest first
-    int64_t link[CLX_CONTAINER_TOUCHES];
+    int64_t pair[CLX_CONTAINER_TOUCHES];
     int32_t n;
-    double normal[CLX_CONTAINER_TOUCHES][3]; ///< of links that touched before
+    double normal[CLX_CONTAINER_TOUCHES][3]; ///< of pairs that touched before
     double slide[CLX_CONTAINER_TOUCHES][3];
     clx_extra extra[CLX_CONTAINER_TOUCHES];
     int64_t old[CLX_CONTAINER_TOUCHES];
@@ -81,7 +81,7 @@ typedef struct {
 } pushes;
 
 /// Puts a contact in its place; none stays that pushes like a deeper one.
-static void insert(pushes *p, const clx_contact *c, int64_t link)
+static void insert(pushes *p, const clx_contact *c, int64_t pair)
 {
     int32_t at = 0;
     while (at < p->n && p->contact[at].gap <= c->gap) {
@@ -94,7 +94,7 @@ static void insert(pushes *p, const clx_contact *c, int64_t link)
     for (int32_t i = at; i < p->n; ++i) {
         if (v3_dot(p->contact[i].normal, c->normal) <= SAME_PUSH) {
             p->contact[kept] = p->contact[i];
-            p->link[kept++] = p->link[i];
+            p->pair[kept++] = p->pair[i];
         }
     }
     if (at >= CLX_CONTAINER_TOUCHES) {
@@ -103,24 +103,24 @@ static void insert(pushes *p, const clx_contact *c, int64_t link)
     p->n = kept < CLX_CONTAINER_TOUCHES ? kept + 1 : CLX_CONTAINER_TOUCHES;
     for (int32_t i = p->n - 1; i > at; --i) {
         p->contact[i] = p->contact[i - 1];
-        p->link[i] = p->link[i - 1];
+        p->pair[i] = p->pair[i - 1];
     }
     p->contact[at] = *c;
-    p->link[at] = link;
+    p->pair[at] = pair;
 }
 
-/// Friction of a link that touched a step ago, for whoever pushes that way now.
-static void remember(pushes *p, clx_link *link, clx_extra *extra, const clx_contact *c,
+/// Friction of a pair that touched a step ago, for whoever pushes that way now.
+static void remember(pushes *p, clx_dem_pair *pair, clx_extra *extra, const clx_contact *c,
                      bool is_near, int64_t k)
 {
-    if (link->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
+    if (pair->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
         v3_copy(p->normal[p->n_old], c->normal);
-        v3_copy(p->slide[p->n_old], link->slide);
+        v3_copy(p->slide[p->n_old], pair->slide);
         p->extra[p->n_old] = extra != NULL ? *extra : (clx_extra){0};
         p->old[p->n_old++] = k;
     }
-    link->touches = 0;
-    v3_set(link->slide, 0.0, 0.0, 0.0);
+    pair->touches = 0;
+    v3_set(pair->slide, 0.0, 0.0, 0.0);
     if (extra != NULL) {
         *extra = (clx_extra){0};
     }
@@ -155,30 +155,30 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     const double travel = dem->travel[clx_item_grain(dem, i)];
     const double near = 0.1 * clx_item_radius(dem, i);
     for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
-        clx_link *link = &dem->list.link[k];
+        clx_dem_pair *pair = &dem->list.pair[k];
         clx_contact c;
-        if (!clx_link_is_container(dem, link)) {
+        if (!clx_pair_is_container(dem, pair)) {
             break;
         }
-        if (travel < link->wake) {
+        if (travel < pair->wake) {
             continue;
         }
-        const clx_wall_triangle *t = clx_link_triangle(dem, link);
-        const bool is_near = clx_triangle_contact(t, &body, near, clx_link_memory(dem, link), &c);
-        remember(&p, link, clx_link_extra(dem, link), &c, is_near, k);
-        link->wake = travel + fmax(c.gap, 0.0);
+        const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
+        const bool is_near = clx_triangle_contact(t, &body, near, clx_pair_memory(dem, pair), &c);
+        remember(&p, pair, clx_pair_extra(dem, pair), &c, is_near, k);
+        pair->wake = travel + fmax(c.gap, 0.0);
         if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
             insert(&p, &c, k);
         }
     }
     for (int32_t m = 0; m < p.n; ++m) {
-        clx_link *link = &dem->list.link[p.link[m]];
-        link->touches = 1;
-        inherit(&p, &p.contact[m], p.link[m], link->slide, clx_link_extra(dem, link));
-        touch[m] = (clx_container_touch){.link = p.link[m]};
+        clx_dem_pair *pair = &dem->list.pair[p.pair[m]];
+        pair->touches = 1;
+        inherit(&p, &p.contact[m], p.pair[m], pair->slide, clx_pair_extra(dem, pair));
+        touch[m] = (clx_container_touch){.pair = p.pair[m]};
         take(&p.contact[m], &touch[m].touch);
         if (dem->item != NULL) {
-            clx_touch_lever(dem, link, &touch[m].touch);
+            clx_touch_lever(dem, pair, &touch[m].touch);
         }
     }
     return p.n;

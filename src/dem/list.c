@@ -16,7 +16,7 @@
 
 void clx_list_free(clx_list *list)
 {
-    clx_free(list->link);
+    clx_free(list->pair);
     clx_free(list->other);
     clx_free(list->extra);
     clx_free(list->other_extra);
@@ -223,45 +223,45 @@ done:
 }
 
 /// Whether an old pair stays without being found again: both its ends stayed where they were.
-static bool stays(const clx_list *l, const clx_link *old)
+static bool stays(const clx_list *l, const clx_dem_pair *old)
 {
     return l->is_stale[old->a] == 0 && (old->b < 0 || l->is_stale[old->b] == 0);
 }
 
-static clx_link fresh(const clx_found *f)
+static clx_dem_pair fresh(const clx_found *f)
 {
-    return (clx_link){
+    return (clx_dem_pair){
         .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .wake = -INFINITY};
 }
 
-static bool is_same(const clx_link *old, const clx_found *f)
+static bool is_same(const clx_dem_pair *old, const clx_found *f)
 {
     return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
-clast_status clx_list_give_slot(clx_list *l, clx_link *link)
+clast_status clx_list_give_slot(clx_list *l, clx_dem_pair *pair)
 {
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
-        link->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
+        pair->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
     } else {
         const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
         CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
         CLX_TRY(clx_grow_lines(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
         CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
         l->n_slot = n + 1;
-        link->slot = (uint32_t)n & CLX_MOST_SLOTS;
+        pair->slot = (uint32_t)n & CLX_MOST_SLOTS;
     }
-    link->kind = CLX_FACET_NONE;
-    l->memory[link->slot] = (clx_memory_slot){0};
+    pair->kind = CLX_FACET_NONE;
+    l->memory[pair->slot] = (clx_memory_slot){0};
 done:
     return status;
 }
 
-/// Keeps an old link, with its memory.
+/// Keeps an old pair, with its memory.
 static void keep(clx_list *l, int64_t old, int64_t n)
 {
-    l->other[n] = l->link[old];
+    l->other[n] = l->pair[old];
     if (l->other_extra != NULL) {
         l->other_extra[n] = l->extra[old];
     }
@@ -269,8 +269,8 @@ static void keep(clx_list *l, int64_t old, int64_t n)
 
 static void drop(clx_list *l, int64_t old)
 {
-    if (l->link[old].slot != 0) { // free_slot has room for all slots
-        l->free_slot[l->n_free++] = (int32_t)l->link[old].slot;
+    if (l->pair[old].slot != 0) { // free_slot has room for all slots
+        l->free_slot[l->n_free++] = (int32_t)l->pair[old].slot;
     }
 }
 
@@ -288,9 +288,9 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
     while (old < old_end || f < f_end) {
-        const bool take_old = f == f_end || (old < old_end && l->link[old].b < l->sorted[f].b);
+        const bool take_old = f == f_end || (old < old_end && l->pair[old].b < l->sorted[f].b);
         if (take_old) {
-            if (stays(l, &l->link[old])) {
+            if (stays(l, &l->pair[old])) {
                 keep(l, old, n++);
             } else {
                 drop(l, old);
@@ -298,8 +298,8 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
             ++old;
             continue;
         }
-        if (old < old_end && l->link[old].b == l->sorted[f].b) {
-            if (is_same(&l->link[old], &l->sorted[f])) {
+        if (old < old_end && l->pair[old].b == l->sorted[f].b) {
+            if (is_same(&l->pair[old], &l->sorted[f])) {
                 keep(l, old, n++);
             } else {
                 drop(l, old);
@@ -316,11 +316,11 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
 
 static void swap_buffers(clx_list *l)
 {
-    clx_link *const link = l->link;
+    clx_dem_pair *const pair = l->pair;
     const int64_t capacity = l->capacity;
-    l->link = l->other;
+    l->pair = l->other;
     l->capacity = l->other_capacity;
-    l->other = link;
+    l->other = pair;
     l->other_capacity = capacity;
     clx_extra *const extra = l->extra;
     const int64_t extra_capacity = l->extra_capacity;
@@ -335,16 +335,16 @@ static clast_status merge(clast_dem *dem)
     clast_status status = CLAST_OK;
     clx_list *l = &dem->list;
     int64_t n = 0;
-    CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_link + l->n_found + 1,
+    CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_pair + l->n_found + 1,
                            sizeof *l->other));
     if (dem->law.has_extra) {
-        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_link + l->n_found + 1,
+        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_pair + l->n_found + 1,
                          sizeof *l->other_extra));
     }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;
-        while (old_end < l->n_link && l->link[old_end].a == i) {
+        while (old_end < l->n_pair && l->pair[old_end].a == i) {
             ++old_end;
         }
         l->begin[i] = n;
@@ -353,7 +353,7 @@ static clast_status merge(clast_dem *dem)
     }
     l->begin[dem->n_item] = n;
     swap_buffers(l);
-    l->n_link = n;
+    l->n_pair = n;
 done:
     return status;
 }

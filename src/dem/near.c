@@ -1,11 +1,11 @@
-// The links that a step looks at.
+// The pairs that a step looks at.
 //
 // Most listed pairs sleep: they cannot touch before the paths of both grains have grown to `wake`.
-// Each grain gets some path in advance (`until`); links whose wake lies beyond what both may go are
-// left out until a grain has used up its advance. A link that is here and still sleeps costs a
+// Each grain gets some path in advance (`until`); pairs whose wake lies beyond what both may go are
+// left out until a grain has used up its advance. A pair that is here and still sleeps costs a
 // comparison, one that is not costs nothing, and whether it is here changes no result.
 //
-// A sweep works on copies that stand in a row, links with their memories: memory hands out what it
+// A sweep works on copies that stand in a row, pairs with their memories: memory hands out what it
 // is asked for in order several times faster than lines here and there. A new near list is packed
 // out of the old one where it can; the list has all back before it is brought up to date, and
 // whenever somebody outside may look.
@@ -20,7 +20,7 @@ static const double LEAST = 0.002;
 
 void clx_near_free(clx_near *near)
 {
-    clx_free(near->link);
+    clx_free(near->index);
     clx_free(near->push);
     clx_free(near->begin);
     clx_free(near->in_begin);
@@ -28,15 +28,15 @@ void clx_near_free(clx_near *near)
     clx_free(near->until);
     clx_free(near->load);
     clx_free(near->block);
-    clx_free(near->pair);
-    clx_free(near->old.link);
+    clx_free(near->packed);
+    clx_free(near->old.index);
     clx_free(near->old.begin);
-    clx_free(near->old.pair);
+    clx_free(near->old.packed);
     *near = (clx_near){0};
 }
 
-/// Items that are gone through at once, 64, so that few blocks have a link that wants a memory;
-/// links that are copied at once.
+/// Items that are gone through at once, 64, so that few blocks have a pair that wants a memory;
+/// pairs that are copied at once.
 enum { BLOCK = 64, PACK = 1024 };
 
 static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -55,7 +55,7 @@ static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-/// Where an item's links stood in what was packed before.
+/// Where an item's pairs stood in what was packed before.
 typedef struct {
     int32_t at, end;
 } old_range;
@@ -66,24 +66,24 @@ static old_range old_of(const clx_near *near, int64_t i)
                            : (old_range){0};
 }
 
-/// Link k of the list, out of the old row where it stands at the range's begin.
-static inline const clx_link *link_now(const clast_dem *dem, int64_t k, old_range *old)
+/// Pair k of the list, out of the old row where it stands at the range's begin.
+static inline const clx_dem_pair *pair_now(const clast_dem *dem, int64_t k, old_range *old)
 {
-    const clx_near_row *row = &dem->near.old;
-    if (old->at < old->end && row->link[old->at] == k) {
-        return &row->pair[old->at++].link;
+    const clx_packed_row *row = &dem->near.old;
+    if (old->at < old->end && row->index[old->at] == k) {
+        return &row->packed[old->at++].pair;
     }
-    return &dem->list.link[k];
+    return &dem->list.pair[k];
 }
 
-/// Links of a block of items that may wake, to where the block's listed links begin; how many come
+/// Pairs of a block of items that may wake, to where the block's listed pairs begin; how many come
 /// before each item's, and whether one of them has no memory yet and needs it.
 static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
     clx_near *near = &dem->near;
     const clx_list *l = &dem->list;
-    int32_t *to = near->link + l->begin[begin];
+    int32_t *to = near->index + l->begin[begin];
     clx_near_block *block = &near->block[begin / BLOCK];
     int32_t n = 0;
     bool wants = false;
@@ -93,25 +93,25 @@ static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context
         old_range old = old_of(near, i);
         near->begin[i] = n;
         for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
-            const clx_link *link = link_now(dem, k, &old);
-            const double other = link->b >= 0 ? near->until[clx_item_grain(dem, link->b)] : 0.0;
-            const bool may_wake = link->wake <= own + other;
+            const clx_dem_pair *pair = pair_now(dem, k, &old);
+            const double other = pair->b >= 0 ? near->until[clx_item_grain(dem, pair->b)] : 0.0;
+            const bool may_wake = pair->wake <= own + other;
             to[n] = (int32_t)k;
             n += may_wake ? 1 : 0;
-            wants = wants || (may_wake && link->slot == 0 && !clx_link_is_round(dem, link));
+            wants = wants || (may_wake && pair->slot == 0 && !clx_pair_is_round(dem, pair));
         }
     }
     *block = (clx_near_block){.n = n, .wants_memory = wants};
 }
 
-/// Numbers of the links that may wake: what the blocks found, one after the other.
+/// Numbers of the pairs that may wake: what the blocks found, one after the other.
 static clast_status pick(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_near *near = &dem->near;
     const clx_list *l = &dem->list;
-    CLX_CHECK(l->n_link <= INT32_MAX, CLAST_E_LIMIT, "%lld pairs of grains", (long long)l->n_link);
-    CLX_TRY(clx_grow_lines(&near->link, &near->capacity, l->n_link + 1, sizeof *near->link));
+    CLX_CHECK(l->n_pair <= INT32_MAX, CLAST_E_LIMIT, "%lld pairs of grains", (long long)l->n_pair);
+    CLX_TRY(clx_grow_lines(&near->index, &near->capacity, l->n_pair + 1, sizeof *near->index));
     CLX_TRY(clx_grow(&near->block, &near->block_capacity, dem->n_item / BLOCK + 1,
                      sizeof *near->block));
     clx_dem_for(dem, dem->n_item, BLOCK, pick_block, dem);
@@ -119,7 +119,7 @@ static clast_status pick(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_item; i += BLOCK) {
         const int32_t end = i + BLOCK < dem->n_item ? i + BLOCK : dem->n_item;
         const int32_t n = near->block[i / BLOCK].n;
-        memmove(near->link + near->n, near->link + l->begin[i], (size_t)n * sizeof *near->link);
+        memmove(near->index + near->n, near->index + l->begin[i], (size_t)n * sizeof *near->index);
         for (int32_t k = i; k < end; ++k) {
             near->begin[k] += near->n;
         }
@@ -137,7 +137,7 @@ static void gather(clast_dem *dem)
     int32_t *begin = near->in_begin;
     memset(begin, 0, ((size_t)dem->n_grain + 2) * sizeof *begin);
     for (int32_t k = 0; k < near->n; ++k) {
-        const int32_t b = clx_near_link(dem, k)->b;
+        const int32_t b = clx_near_pair(dem, k)->b;
         if (b >= 0) {
             ++begin[clx_item_grain(dem, b) + 2];
         }
@@ -146,7 +146,7 @@ static void gather(clast_dem *dem)
         begin[g + 1] += begin[g];
     }
     for (int32_t k = 0; k < near->n; ++k) {
-        const int32_t b = clx_near_link(dem, k)->b;
+        const int32_t b = clx_near_pair(dem, k)->b;
         if (b >= 0) {
             near->in[begin[clx_item_grain(dem, b) + 1]++] = k;
         }
@@ -168,7 +168,7 @@ done:
     return status;
 }
 
-/// A place for the memory of every link that may be asked.
+/// A place for the memory of every pair that may be asked.
 static clast_status give_slots(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -177,9 +177,9 @@ static clast_status give_slots(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_item && !dem->all_round; i += BLOCK) {
         const int32_t end = near->begin[i + BLOCK < dem->n_item ? i + BLOCK : dem->n_item];
         for (int32_t k = near->begin[i]; k < end && near->block[i / BLOCK].wants_memory; ++k) {
-            clx_link *link = &l->link[near->link[k]];
-            if (link->slot == 0 && !clx_link_is_round(dem, link)) {
-                CLX_TRY(clx_list_give_slot(l, link));
+            clx_dem_pair *pair = &l->pair[near->index[k]];
+            if (pair->slot == 0 && !clx_pair_is_round(dem, pair)) {
+                CLX_TRY(clx_list_give_slot(l, pair));
             }
         }
     }
@@ -188,20 +188,20 @@ done:
 }
 
 /// Out of the list.
-static inline void take(const clx_list *l, int32_t k, clx_near_pair *pair)
+static inline void take(const clx_list *l, int32_t k, clx_packed_pair *packed)
 {
-    pair->link = l->link[k];
-    if (pair->link.slot != 0) {
-        pair->memory = l->memory[pair->link.slot].record;
+    packed->pair = l->pair[k];
+    if (packed->pair.slot != 0) {
+        packed->memory = l->memory[packed->pair.slot].record;
     }
 }
 
 /// Back into the list.
-static inline void give(clx_list *l, int32_t k, const clx_near_pair *pair)
+static inline void give(clx_list *l, int32_t k, const clx_packed_pair *packed)
 {
-    l->link[k] = pair->link;
-    if (pair->link.slot != 0) {
-        l->memory[pair->link.slot].record = pair->memory;
+    l->pair[k] = packed->pair;
+    if (packed->pair.slot != 0) {
+        l->memory[packed->pair.slot].record = packed->memory;
     }
 }
 
@@ -210,7 +210,7 @@ static void pack_block(int64_t begin, int64_t end, int32_t worker, void *context
     clast_dem *dem = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        take(&dem->list, dem->near.link[k], &dem->near.pair[k]);
+        take(&dem->list, dem->near.index[k], &dem->near.packed[k]);
     }
 }
 
@@ -220,21 +220,21 @@ static void pack_again(int64_t begin, int64_t end, int32_t worker, void *context
 {
     clast_dem *dem = context;
     const clx_near *near = &dem->near;
-    const clx_near_row *row = &near->old;
+    const clx_packed_row *row = &near->old;
     int32_t at = row->begin[begin];
     (void)worker;
     for (int32_t k = near->begin[begin]; k < near->begin[end]; ++k) {
-        for (; at < row->begin[end] && row->link[at] < near->link[k]; ++at) {
-            give(&dem->list, row->link[at], &row->pair[at]);
+        for (; at < row->begin[end] && row->index[at] < near->index[k]; ++at) {
+            give(&dem->list, row->index[at], &row->packed[at]);
         }
-        if (at < row->begin[end] && row->link[at] == near->link[k]) {
-            near->pair[k] = row->pair[at++];
+        if (at < row->begin[end] && row->index[at] == near->index[k]) {
+            near->packed[k] = row->packed[at++];
         } else {
-            take(&dem->list, near->link[k], &near->pair[k]);
+            take(&dem->list, near->index[k], &near->packed[k]);
         }
     }
     for (; at < row->begin[end]; ++at) {
-        give(&dem->list, row->link[at], &row->pair[at]);
+        give(&dem->list, row->index[at], &row->packed[at]);
     }
 }
 
@@ -243,16 +243,16 @@ static void unpack_block(int64_t begin, int64_t end, int32_t worker, void *conte
     clast_dem *dem = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        give(&dem->list, dem->near.link[k], &dem->near.pair[k]);
+        give(&dem->list, dem->near.index[k], &dem->near.packed[k]);
     }
 }
 
 static clast_status grow_row(clx_near *near)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_grow_lines(&near->pair, &near->pair_capacity, (int64_t)near->n + CLX_NEAR_AHEAD,
-                           sizeof *near->pair));
-    memset(near->pair + near->n, 0, CLX_NEAR_AHEAD * sizeof *near->pair);
+    CLX_TRY(clx_grow_lines(&near->packed, &near->packed_capacity,
+                           (int64_t)near->n + CLX_PREFETCH_PAIRS, sizeof *near->packed));
+    memset(near->packed + near->n, 0, CLX_PREFETCH_PAIRS * sizeof *near->packed);
 done:
     return status;
 }
@@ -279,20 +279,20 @@ void clx_near_unpack(clast_dem *dem)
 /// What is packed becomes the old row, whose room is used for the next, or the other way round.
 static void turn_rows(clx_near *near)
 {
-    const clx_near_row row = {.n = near->n,
-                              .link = near->link,
-                              .begin = near->begin,
-                              .pair = near->pair,
-                              .capacity = near->capacity,
-                              .item_capacity = near->item_capacity,
-                              .pair_capacity = near->pair_capacity};
+    const clx_packed_row row = {.n = near->n,
+                                .index = near->index,
+                                .begin = near->begin,
+                                .packed = near->packed,
+                                .capacity = near->capacity,
+                                .item_capacity = near->item_capacity,
+                                .packed_capacity = near->packed_capacity};
     near->n = near->old.n;
-    near->link = near->old.link;
+    near->index = near->old.index;
     near->begin = near->old.begin;
-    near->pair = near->old.pair;
+    near->packed = near->old.packed;
     near->capacity = near->old.capacity;
     near->item_capacity = near->old.item_capacity;
-    near->pair_capacity = near->old.pair_capacity;
+    near->packed_capacity = near->old.packed_capacity;
     near->old = row;
 }
 

@@ -90,16 +90,16 @@ static inline double clx_rolling_inertia(const clx_grain *a, const clx_grain *b)
     return b->mass > 0.0 ? ia * ib / (ia + ib) : ia;
 }
 
-/// What the law remembers of a link beside its displacement, or NULL where it does not.
-static inline clx_extra *clx_link_extra(const clast_dem *dem, const clx_link *link)
+/// What the law remembers of a pair beside its displacement, or NULL where it does not.
+static inline clx_extra *clx_pair_extra(const clast_dem *dem, const clx_dem_pair *pair)
 {
     if (!dem->law.has_extra) {
         return NULL;
     }
     const clx_near *near = &dem->near;
     const int64_t k = near->is_packed
-                          ? near->link[(const clx_near_pair *)(const void *)link - near->pair]
-                          : link - dem->list.link;
+                          ? near->index[(const clx_packed_pair *)(const void *)pair - near->packed]
+                          : pair - dem->list.pair;
     return &dem->list.extra[k];
 }
 
@@ -115,14 +115,14 @@ static inline double clx_item_curve(const clast_dem *dem, int32_t item)
 
 /// Length of the neck that still holds a pair apart; 0 for laws that have none, and pairs that did
 /// not touch.
-static inline double clx_link_neck(const clast_dem *dem, const clx_link *link)
+static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    if (!dem->law.has_neck || link->touches == 0) {
+    if (!dem->law.has_neck || pair->touches == 0) {
         return 0.0;
     }
-    const double ra = clx_item_curve(dem, link->a);
-    const double rb = link->b >= 0 ? clx_item_curve(dem, link->b) : 0.0;
-    return -clx_jkr_tear(&dem->law, link->b >= 0 ? ra * rb / (ra + rb) : ra);
+    const double ra = clx_item_curve(dem, pair->a);
+    const double rb = pair->b >= 0 ? clx_item_curve(dem, pair->b) : 0.0;
+    return -clx_jkr_tear(&dem->law, pair->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
 /// What fluid that is moved along makes of a grain's inertia: 1 + C_m rho_f / rho.
@@ -131,21 +131,21 @@ static inline double clx_heavier(const clast_dem *dem, const clx_motion *m)
     return 1.0 + dem->config.added_mass * dem->config.fluid_density / m->density;
 }
 
-/// Reduced mass of a link with the fluid that its grains move along.
-static inline double clx_heavier_mass(const clast_dem *dem, const clx_link *link)
+/// Reduced mass of a pair with the fluid that its grains move along.
+static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    const int32_t a = clx_item_grain(dem, link->a);
+    const int32_t a = clx_item_grain(dem, pair->a);
     const double of_a = dem->grain[a].mass * clx_heavier(dem, &dem->motion[a]);
-    if (link->b < 0) {
+    if (pair->b < 0) {
         return of_a;
     }
-    const int32_t b = clx_item_grain(dem, link->b);
+    const int32_t b = clx_item_grain(dem, pair->b);
     const double of_b = dem->grain[b].mass * clx_heavier(dem, &dem->motion[b]);
     return of_a * of_b / (of_a + of_b);
 }
 
-/// A pair that touches; `extra` as clx_link_extra.
-static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *extra,
+/// A pair that touches; `extra` as clx_pair_extra.
+static inline void clx_push_pair(const clast_dem *dem, clx_dem_pair *p, clx_extra *extra,
                                  const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
 {
     const clx_law *law = &dem->law;

@@ -24,7 +24,7 @@ CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// A block of grains, its awake links and what all its links do.
+/// A block of grains, its awake pairs and what all its pairs do.
 typedef struct {
     clx_chunk *chunk;
     int64_t begin, end;
@@ -45,7 +45,7 @@ CLX_INLINE void keep(clast_dem *dem, clx_chunk *chunk, int32_t grain, const doub
     chunk->highest = grain > chunk->highest ? grain : chunk->highest;
 }
 
-/// What the awake links do to the block's grains and to the others: onto their loads, or kept where
+/// What the awake pairs do to the block's grains and to the others: onto their loads, or kept where
 /// the grain is late.
 CLX_INLINE void spread(clast_dem *dem, block in, bool has_late)
 {
@@ -56,8 +56,8 @@ CLX_INLINE void spread(clast_dem *dem, block in, bool has_late)
     for (int32_t k = 0; k < in.n; ++k) {
         const clx_awake awake = in.awake[k];
         const clx_pushed *push = &in.push[awake.at];
-        const int32_t b = awake.link->b;
-        clx_load *on_a = &own[awake.link->a - in.begin];
+        const int32_t b = awake.pair->b;
+        clx_load *on_a = &own[awake.pair->a - in.begin];
         lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
         lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(push->torque_a));
         if (b < 0) {

@@ -96,7 +96,7 @@ static void shares_follow_paces(void **state)
     clast_dem_destroy(dem);
 }
 
-/* A grain is late where a link leads to it, or to one of its four, from before the border. */
+/* A grain is late where a pair leads to it, or to one of its four, from before the border. */
 static void late_is_what_lower_grains_reach(void **state)
 {
     (void)state;
@@ -107,10 +107,10 @@ static void late_is_what_lower_grains_reach(void **state)
         lowest[g] = INT32_MAX;
     }
     for (int32_t k = 0; k < dem->near.n; ++k) {
-        const clx_link *link = clx_near_link(dem, k);
-        for (int32_t g = link->b / CLX_LANES * CLX_LANES;
-             link->b >= 0 && g < N && g / CLX_LANES == link->b / CLX_LANES; ++g) {
-            lowest[g] = link->a < lowest[g] ? link->a : lowest[g];
+        const clx_dem_pair *pair = clx_near_pair(dem, k);
+        for (int32_t g = pair->b / CLX_LANES * CLX_LANES;
+             pair->b >= 0 && g < N && g / CLX_LANES == pair->b / CLX_LANES; ++g) {
+            lowest[g] = pair->a < lowest[g] ? pair->a : lowest[g];
         }
     }
     for (int32_t border = 0; border < N; border += 10 * CLX_SWEEP_BLOCK) {
