@@ -137,7 +137,7 @@ typedef struct {
     clx_lanes wake, slide[3]; ///< of the pairs
     clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
-    clx_lanes push, limit, tangential[3];
+    clx_lanes normal_force, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
     clx_lanes inverse;               ///< of the tangential stiffness, negative
     clx_lanes load[2];               ///< exact steps: what the contact adds to a and b
@@ -291,12 +291,12 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     load_normal(p, from, normal);
     const clx_lanes apart = lanes_dot(m->velocity, normal);
     lanes_axpy(along, m->velocity, -apart, normal);
-    clx_lanes push = elastic - normal_damping * apart;
+    clx_lanes force = elastic - normal_damping * apart;
     if (law->clip) {
-        push = lanes_pick(push < 0.0, lanes_all(0.0), push);
+        force = lanes_pick(force < 0.0, lanes_all(0.0), force);
     }
-    m->push = push;
-    m->limit = m->friction * lanes_size(push);
+    m->normal_force = force;
+    m->limit = m->friction * lanes_size(force);
     m->inverse = -1.0 / kt;
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
@@ -325,15 +325,15 @@ CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide
 
 /// Forces, torques and the pairs' wakes and displacements. Lanes that repeat another write the same
 /// bytes to the same place.
-CLX_INLINE void write(clx_pushed *const to[CLX_LANES], clx_dem_pair *const pair[CLX_LANES],
+CLX_INLINE void write(clx_pair_force *const to[CLX_LANES], clx_dem_pair *const pair[CLX_LANES],
                       clx_marks touching, clx_lanes out[4][4])
 {
     for (int i = 0; i < 4; ++i) {
         lanes_transpose(out[i]);
     }
     for (int k = 0; k < 4; ++k) {
-        clx_pushed *p = to[k];
-        clx_pushed *beyond = to[k + CLX_BEYOND];
+        clx_pair_force *p = to[k];
+        clx_pair_force *beyond = to[k + CLX_BEYOND];
         lanes_put_row(&pair[k]->wake, &pair[k + CLX_BEYOND]->wake, out[3][k]);
         lanes_put_row(p->force, beyond->force, out[0][k]);
         lanes_put_row(p->torque_b, beyond->torque_b, out[1][k]);
@@ -362,7 +362,7 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
     load_normal(p, from, normal);
     out[3][0] = lanes_pick(touching, m->wake, lanes_load(p->travel + from) + gap);
     for (int c = 0; c < 3; ++c) {
-        force[c] = where(touching, tangential[c] + m->push * normal[c]);
+        force[c] = where(touching, tangential[c] + m->normal_force * normal[c]);
         out[3][c + 1] = where(touching, slide[c]);
         turning[c] = dem->config.normal_torque ? force[c] : where(touching, tangential[c]);
     }
@@ -378,7 +378,8 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
     write(p->to + from, p->pair + from, touching, out);
 }
 
-CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls, bool is_exact)
+CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls,
+                               bool is_exact)
 {
     meetings m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
@@ -395,14 +396,14 @@ CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_wa
     }
 }
 
-/// The kinds of push_lanes, each compiled for itself.
-CLX_INLINE void push_kind(const clast_dem *dem, const clx_batch *p, bool has_walls)
+/// The kinds of force_of_lanes, each compiled for itself.
+CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (dem->law.is_exact) {
-        push_lanes(dem, p, true, true);
+        force_of_lanes(dem, p, true, true);
     } else if (has_walls) {
-        push_lanes(dem, p, true, false);
+        force_of_lanes(dem, p, true, false);
     } else {
-        push_lanes(dem, p, false, false);
+        force_of_lanes(dem, p, false, false);
     }
 }

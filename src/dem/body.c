@@ -225,7 +225,7 @@ clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain 
         need += dem->has_items ? n_item_of(dem, grain[i].shape) : 1;
     }
     CLX_CHECK(need <= INT32_MAX, CLAST_E_LIMIT, "%lld spheres of clumps", (long long)need);
-    CLX_TRY(clx_list_reserve(&dem->list, need));
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, need));
     if (!dem->all_round) {
         CLX_TRY(clx_realloc(&dem->convex, dem->list.item_capacity + 1, sizeof *dem->convex));
     }

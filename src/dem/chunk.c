@@ -30,7 +30,7 @@ void clx_sweeping_free(clx_sweeping *s)
     clx_free(s->before);
     clx_free(s->lowest);
     clx_free(s->late);
-    clx_free(s->push);
+    clx_free(s->force);
     clx_free(s->awake);
     clx_free(s->kept);
     clx_free(s->kept_on);
@@ -68,15 +68,15 @@ static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     enum { MOVE = 5, TOUCH = 12 };
     clast_dem *dem = context;
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     clx_sweeping *s = &dem->sweeping;
     (void)worker;
     for (int64_t block = begin; block < end; ++block) {
         const int64_t first = block * BLOCK;
         const int64_t last = first + BLOCK < dem->n_grain ? first + BLOCK : dem->n_grain;
-        int64_t work = MOVE * (last - first) + near->begin[last] - near->begin[first];
-        for (int32_t k = near->begin[first]; k < near->begin[last]; ++k) {
-            const clx_dem_pair *pair = clx_near_pair(dem, k);
+        int64_t work = MOVE * (last - first) + inner->begin[last] - inner->begin[first];
+        for (int32_t k = inner->begin[first]; k < inner->begin[last]; ++k) {
+            const clx_dem_pair *pair = clx_inner_pair(dem, k);
             work += TOUCH * (int64_t)pair->touches;
             if (pair->b >= 0) {
                 note_low(s, pair->a, pair->b);
@@ -130,7 +130,7 @@ static int32_t most_pairs(const clast_dem *dem)
     int32_t most = 0;
     for (int32_t i = 0; i < dem->n_grain; i += BLOCK) {
         const int32_t end = i + BLOCK < dem->n_grain ? i + BLOCK : dem->n_grain;
-        const int32_t pairs = dem->near.begin[end] - dem->near.begin[i];
+        const int32_t pairs = dem->inner.begin[end] - dem->inner.begin[i];
         most = pairs > most ? pairs : most;
     }
     return most;
@@ -149,15 +149,15 @@ clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
         CLX_TRY(clx_grow_lines(&s->pace, &s->pace_capacity, n_worker, sizeof *s->pace));
         memset(s->pace, 0, (size_t)s->pace_capacity * sizeof *s->pace);
     }
-    CLX_TRY(
-        clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
+    CLX_TRY(clx_grow_lines(&s->force, &s->force_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->force));
     CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
                            sizeof *s->awake));
     if (n_worker > 1) {
         CLX_TRY(clx_grow(&s->before, &s->before_capacity, blocks_of(dem) + 1, sizeof *s->before));
         CLX_TRY(clx_grow(&s->lowest, &s->lowest_capacity, n_four, sizeof *s->lowest));
         CLX_TRY(clx_grow(&s->late, &s->late_capacity, n_four, sizeof *s->late));
-        CLX_TRY(reserve_kept(s, (int64_t)dem->near.n + dem->n_grain));
+        CLX_TRY(reserve_kept(s, (int64_t)dem->inner.n + dem->n_grain));
         weigh_all(dem);
     }
     s->n_worker = n_worker;

@@ -1,7 +1,7 @@
 // Forces of contacts as a table.
 #include "base/alloc.h"
 #include "dem/dem.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 
 static const struct {
     const char *name, *unit;
@@ -24,7 +24,7 @@ static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N
     if (!clx_pair_holds(dem, pair, &t)) {
         return false;
     }
-    clx_push_pair(dem, &copy, &extra, &t, &on_a, &on_b);
+    clx_add_pair_force(dem, &copy, &extra, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
         v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, pair), on_a.force);
     }

@@ -20,7 +20,7 @@ static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_dem_pair 
     static const uint8_t remembered[] = {CLX_BATCH_ANY, CLX_BATCH_FACES, CLX_BATCH_FACES,
                                          CLX_BATCH_EDGES};
     if (pair->slot == 0) {
-        return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
+        return CLX_BATCH_SPHERES; // else clx_inner_find had given it a memory
     }
     if (pair->kind == CLX_FACET_NONE && grain[pair->a].kind == CLAST_SHAPE_ELLIPSOID &&
         grain[pair->b].kind == CLAST_SHAPE_ELLIPSOID) {
@@ -34,7 +34,7 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
     clx_dem_pair *pair = p->pair[k];
-    clx_contact_memory *memory = clx_near_memory(dem, pair);
+    clx_contact_memory *memory = clx_inner_memory(dem, pair);
     clx_dem_touch_find(dem, pair, memory, &t);
     if (memory != NULL) {
         pair->kind = memory->kind & 3U;
@@ -61,7 +61,7 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
         answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
     }
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *memory = clx_near_memory(dem, p->pair[k]);
+        clx_contact_memory *memory = clx_inner_memory(dem, p->pair[k]);
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
             memory->seen[0][c] = (float)p->meet.normal[c][k];
         }
@@ -126,17 +126,17 @@ static void part(const clast_dem *dem, const clx_batch *p, int k)
     pair->wake = p->travel[k] + p->meet.gap[k];
     pair->touches = 0;
     v3_set(pair->slide, 0.0, 0.0, 0.0);
-    *p->to[k] = (clx_pushed){0};
+    *p->to[k] = (clx_pair_force){0};
 }
 
 /// What a pair that touches does, by the plain way.
-static void push_alone(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
-                       clx_pushed *out)
+static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
+                          clx_pair_force *out)
 {
     clx_load on_a = {0};
     clx_load on_b = {0};
-    clx_push_pair(dem, pair, clx_pair_extra(dem, pair), t, &on_a, &on_b);
-    *out = (clx_pushed){0};
+    clx_add_pair_force(dem, pair, clx_pair_extra(dem, pair), t, &on_a, &on_b);
+    *out = (clx_pair_force){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);
     v3_scale(out->torque_a, -1.0, on_a.torque);
@@ -144,7 +144,7 @@ static void push_alone(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_t
     out->torque_a[3] = -on_a.torque[3];
 }
 
-static void push_one(const clast_dem *dem, const clx_batch *p, int k)
+static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_dem_touch t = {.distance = p->meet.gap[k]};
     for (int c = 0; c < 3; ++c) {
@@ -152,23 +152,23 @@ static void push_one(const clast_dem *dem, const clx_batch *p, int k)
         t.arm_a[c] = p->meet.point[c][k];
         t.arm_b[c] = p->arm_b[c][k];
     }
-    push_alone(dem, p->pair[k], &t, p->to[k]);
+    force_of_pair(dem, p->pair[k], &t, p->to[k]);
 }
 
 /// By the laws that lanes do not know.
-static void push_each(clast_dem *dem, const clx_batch *p)
+static void force_of_each(clast_dem *dem, const clx_batch *p)
 {
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_pair_neck(dem, p->pair[k]))) {
             part(dem, p, k);
         } else {
             p->pair[k]->touches = 1;
-            push_one(dem, p, k);
+            force_of_lane(dem, p, k);
         }
     }
 }
 
-/// Pairs of the near list that are gone through at once; how far ahead a pair, its memory
+/// Pairs of the inner list that are gone through at once; how far ahead a pair, its memory
 /// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
 enum {
     PAIR_AHEAD = 16,
@@ -180,12 +180,12 @@ enum {
     LINE = 64
 };
 
-/// A piece of the near list, and which of its pairs are awake, by how they are answered.
+/// A piece of the inner list, and which of its pairs are awake, by how they are answered.
 typedef struct {
     const int32_t *index;
     clx_packed_pair *packed;       ///< the same pairs, packed, or NULL
-    int64_t n_left;                ///< pairs from there to the end of the near list
-    clx_pushed *push;              ///< of each pair
+    int64_t n_left;                ///< pairs from there to the end of the inner list
+    clx_pair_force *force;         ///< of each pair
     double travel[PIECE];          ///< what each pair's grains have gone
     int n[CLX_N_BATCH];            ///< awake pairs
     uint16_t at[CLX_N_BATCH][ROW]; ///< their places, the last of a kind repeated
@@ -293,7 +293,7 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
     for (int k = 0; k < CLX_BATCH; ++k) {
         clx_dem_pair *pair = pair_of(dem, s, is_packed, at[k]);
         const int32_t b = pair->b;
-        p->to[k] = &s->push[at[k]];
+        p->to[k] = &s->force[at[k]];
         p->pair[k] = pair;
         p->travel[k] = s->travel[at[k]];
         p->a[k] = &grain[grain_of(dem, is_packed, pair->a)];
@@ -334,30 +334,30 @@ static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
             if (has_law) {
-                clx_batch_push(dem, &batch, kind == CLX_BATCH_ANY);
+                clx_batch_force(dem, &batch, kind == CLX_BATCH_ANY);
             } else {
-                push_each(dem, &batch);
+                force_of_each(dem, &batch);
             }
         }
     }
     return n_awake;
 }
 
-static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piece *s)
+static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force, piece *s)
 {
-    s->index = dem->near.index + at;
-    s->packed = dem->near.is_packed ? dem->near.packed + at : NULL;
-    s->n_left = dem->near.n - at;
-    s->push = push;
+    s->index = dem->inner.index + at;
+    s->packed = dem->inner.is_packed ? dem->inner.packed + at : NULL;
+    s->n_left = dem->inner.n - at;
+    s->force = force;
 }
 
-int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
                            clx_awake *awake)
 {
     piece s;
     int32_t n_awake = 0;
     for (int32_t at = begin; at < end; at += PIECE) {
-        begin_piece(dem, at, push + (at - begin), &s);
+        begin_piece(dem, at, force + (at - begin), &s);
         const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, awake + n_awake);
         for (int k = 0; k < n && at > begin; ++k) {
             awake[n_awake + k].at += at - begin;
@@ -373,8 +373,8 @@ static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context
     clx_awake awake[PIECE];
     piece s;
     (void)worker;
-    begin_piece(dem, begin, dem->near.push + begin, &s);
-    memset(s.push, 0, (size_t)(end - begin) * sizeof *s.push); // of pairs that sleep
+    begin_piece(dem, begin, dem->inner.force + begin, &s);
+    memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of pairs that sleep
     (void)meet_piece(dem, (int)(end - begin), &s, awake);
 }
 
@@ -382,25 +382,25 @@ static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context
 static void contain_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         clx_container_touch touch[CLX_CONTAINER_TOUCHES];
-        int32_t at = near->begin[i];
-        if (at == near->begin[i + 1] ||
-            !clx_pair_is_container(dem, &dem->list.pair[near->index[at]])) {
+        int32_t at = inner->begin[i];
+        if (at == inner->begin[i + 1] ||
+            !clx_pair_is_container(dem, &dem->list.pair[inner->index[at]])) {
             continue; // they stand first
         }
         const int32_t n = clx_container_meet(dem, (int32_t)i, touch);
-        for (; at < near->begin[i + 1]; ++at) {
-            clx_dem_pair *pair = &dem->list.pair[near->index[at]];
+        for (; at < inner->begin[i + 1]; ++at) {
+            clx_dem_pair *pair = &dem->list.pair[inner->index[at]];
             if (!clx_pair_is_container(dem, pair)) {
                 break;
             }
-            near->push[at] = (clx_pushed){0};
+            inner->force[at] = (clx_pair_force){0};
             for (int32_t k = 0; k < n; ++k) {
-                if (touch[k].pair == near->index[at]) {
-                    push_alone(dem, pair, &touch[k].touch, &near->push[at]);
+                if (touch[k].pair == inner->index[at]) {
+                    force_of_pair(dem, pair, &touch[k].touch, &inner->force[at]);
                 }
             }
         }
@@ -429,11 +429,11 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 void clx_contacts(clast_dem *dem)
 {
-    clx_dem_for(dem, dem->near.n, PIECE, meet_block, dem);
+    clx_dem_for(dem, dem->inner.n, PIECE, meet_block, dem);
     if (dem->container != NULL) {
         clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }
     if (dem->item != NULL && dem->config.clump_contacts == CLAST_DEM_SHARED) {
-        clx_dem_for(dem, dem->n_grain, BLOCK, clx_share_pushes, dem);
+        clx_dem_for(dem, dem->n_grain, BLOCK, clx_share_forces, dem);
     }
 }

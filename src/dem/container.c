@@ -2,13 +2,13 @@
 #include "dem/container.h"
 
 #include "base/alloc.h"
-#include "dem/list.h"
-#include "dem/push.h"
+#include "dem/neighbour_list.h"
+#include "dem/pair_force.h"
 #include "geom/whole.h"
 
-/// Pushes whose normals are closer than this cosine are one (25 degrees, as in
+/// Contacts whose normals are closer than this cosine are one (25 degrees, as in
 /// contact/wall_mesh.c).
-static const double SAME_PUSH = 0.9;
+static const double SAME_NORMAL = 0.9;
 
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 {
@@ -68,7 +68,7 @@ void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
     }
 }
 
-/// Pushes of one item while they are sorted out.
+/// Contacts of one item before those that repeat a deeper one are dropped.
 typedef struct {
     clx_contact contact[CLX_CONTAINER_TOUCHES]; ///< deepest first
     int64_t pair[CLX_CONTAINER_TOUCHES];
@@ -78,21 +78,21 @@ typedef struct {
     clx_extra extra[CLX_CONTAINER_TOUCHES];
     int64_t old[CLX_CONTAINER_TOUCHES];
     int32_t n_old;
-} pushes;
+} candidates;
 
-/// Puts a contact in its place; none stays that pushes like a deeper one.
-static void insert(pushes *p, const clx_contact *c, int64_t pair)
+/// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
+static void insert(candidates *p, const clx_contact *c, int64_t pair)
 {
     int32_t at = 0;
     while (at < p->n && p->contact[at].gap <= c->gap) {
-        if (v3_dot(p->contact[at].normal, c->normal) > SAME_PUSH) {
+        if (v3_dot(p->contact[at].normal, c->normal) > SAME_NORMAL) {
             return;
         }
         ++at;
     }
     int32_t kept = at;
     for (int32_t i = at; i < p->n; ++i) {
-        if (v3_dot(p->contact[i].normal, c->normal) <= SAME_PUSH) {
+        if (v3_dot(p->contact[i].normal, c->normal) <= SAME_NORMAL) {
             p->contact[kept] = p->contact[i];
             p->pair[kept++] = p->pair[i];
         }
@@ -109,8 +109,8 @@ static void insert(pushes *p, const clx_contact *c, int64_t pair)
     p->pair[at] = pair;
 }
 
-/// Friction of a pair that touched a step ago, for whoever pushes that way now.
-static void remember(pushes *p, clx_dem_pair *pair, clx_extra *extra, const clx_contact *c,
+/// History of a pair that touched a step ago, for the triangle whose force has this direction now.
+static void remember(candidates *p, clx_dem_pair *pair, clx_extra *extra, const clx_contact *c,
                      bool is_near, int64_t k)
 {
     if (pair->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
@@ -126,10 +126,10 @@ static void remember(pushes *p, clx_dem_pair *pair, clx_extra *extra, const clx_
     }
 }
 
-static void inherit(const pushes *p, const clx_contact *c, int64_t k, double slide[3],
+static void inherit(const candidates *p, const clx_contact *c, int64_t k, double slide[3],
                     clx_extra *extra)
 {
-    double best = SAME_PUSH;
+    double best = SAME_NORMAL;
     int32_t from = -1;
     for (int32_t i = 0; i < p->n_old; ++i) {
         const double alike = p->old[i] == k ? 2.0 : v3_dot(p->normal[i], c->normal);
@@ -149,7 +149,7 @@ static void inherit(const pushes *p, const clx_contact *c, int64_t k, double sli
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES])
 {
-    pushes p = {.n = 0};
+    candidates p = {.n = 0};
     clx_convex ball;
     const clx_placed body = place(dem, i, &ball);
     const double travel = dem->travel[clx_item_grain(dem, i)];
@@ -187,15 +187,15 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
 clast_status clx_container_find(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
     const double *x = l->anchor[i].position;
     const int32_t n = clx_wall_mesh_near(dem->container, x, reach, 0, NULL);
-    CLX_TRY(clx_grow(&l->near, &l->near_capacity, n, sizeof *l->near));
-    (void)clx_wall_mesh_near(dem->container, x, reach, n, l->near);
+    CLX_TRY(clx_grow(&l->triangle, &l->triangle_capacity, n, sizeof *l->triangle));
+    (void)clx_wall_mesh_near(dem->container, x, reach, n, l->triangle);
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
     for (int32_t k = 0; k < n; ++k) {
-        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->near[k]};
+        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->triangle[k]};
     }
 done:
     return status;

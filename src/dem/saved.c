@@ -2,7 +2,7 @@
 #include "dem/saved.h"
 
 #include "base/lines.h"
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 #include <string.h>
 
 enum { MEMORY = sizeof(clx_contact_memory) };
@@ -49,7 +49,7 @@ static void write_pair(const clx_dem_pair *pair, int32_t *id, double *out)
 clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
 {
     clast_status status = CLAST_OK;
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     clx_dem_saved s = {.step = dem->step,
                        .n_refresh = l->n_refresh,
                        .n_grain = dem->n_grain,
@@ -154,7 +154,7 @@ done:
     return status;
 }
 
-static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
+static clast_status take_memories(clx_neighbour_list *l, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < s->n_pair; ++k) {
@@ -164,7 +164,7 @@ static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
             is_empty = bytes[i] == 0;
         }
         if (!is_empty) {
-            CLX_TRY(clx_list_give_slot(l, &l->pair[k]));
+            CLX_TRY(clx_neighbour_list_give_slot(l, &l->pair[k]));
             memcpy(&l->memory[l->pair[k].slot].record, bytes, MEMORY);
             l->pair[k].kind = l->memory[l->pair[k].slot].record.kind & 3U;
         }
@@ -178,7 +178,7 @@ done:
 static clast_status take_extras(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     CLX_CHECK(dem->law.is_exact == (s->held != NULL) && dem->law.has_extra == (s->extra != NULL),
               CLAST_E_FORMAT, "the checkpoint is of another contact law");
     for (int64_t i = 0; s->held != NULL && i < s->n_grain; ++i) {
@@ -201,8 +201,8 @@ done:
 static clast_status read_pairs(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
-    CLX_TRY(clx_list_reserve(l, dem->n_item));
+    clx_neighbour_list *l = &dem->list;
+    CLX_TRY(clx_neighbour_list_reserve(l, dem->n_item));
     CLX_TRY(clx_grow_lines(&l->pair, &l->capacity, s->n_pair + 1, sizeof *l->pair));
     for (int64_t k = 0; k < s->n_pair; ++k) {
         CLX_TRY(read_pair(dem, s, k));
@@ -220,7 +220,7 @@ static clast_status read_pairs(clast_dem *dem, const clx_dem_saved *s)
                   "the checkpoint's contact memories are of another version, or of other shapes");
         CLX_TRY(take_memories(l, s));
     }
-    dem->near.is_due = true;
+    dem->inner.is_due = true;
 done:
     return status;
 }

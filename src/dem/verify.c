@@ -32,7 +32,7 @@ static double cold_gap(const clast_dem *dem, const clx_dem_pair *pair)
 
 void clx_verify(clast_dem *dem)
 {
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     for (int64_t k = 0; k < l->n_pair && !dem->all_round; ++k) {
         const clx_dem_pair *pair = &l->pair[k];
         if (pair->b < 0 || clx_pair_is_round(dem, pair)) {

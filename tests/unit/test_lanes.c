@@ -227,13 +227,13 @@ static clx_grain random_grain(clx_rng *rng)
 }
 
 /* The scalar law for lane k of a batch. */
-static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double slide[3],
-                       clx_pushed *out)
+static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, double slide[3],
+                          clx_pair_force *out)
 {
     const clx_grain *a = p->a[k];
     const clx_grain *b = p->b[k];
     double n[3], arm_a[3], arm_b[3], u[3], w[3];
-    clx_push push;
+    clx_contact_force force;
     for (int c = 0; c < 3; ++c) {
         n[c] = -p->meet.normal[c][k];
         arm_a[c] = p->meet.point[c][k];
@@ -259,14 +259,15 @@ static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double s
         out->torque_b[3] = load[1];
         out->torque_a[3] = -load[0];
     }
-    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &push);
-    v3_axpy(out->force, push.tangential, push.normal, n);
+    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &force);
+    v3_axpy(out->force, force.tangential, force.normal, n);
     v3_cross(out->torque_b, arm_b, out->force);
     v3_cross(out->torque_a, arm_a, out->force);
 }
 
 /* Lane k has the bits of the scalar law; a pair that is apart waits for the path of its gap. */
-static void check_lane(const clx_batch *p, int k, const double slide[3], const clx_pushed *alone)
+static void check_lane(const clx_batch *p, int k, const double slide[3],
+                       const clx_pair_force *alone)
 {
     const clx_dem_pair *pair = p->pair[k];
     const bool is_apart = p->meet.gap[k] >= 0.0;
@@ -310,7 +311,7 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
 {
     clast_dem *dem = NULL;
     clast_dem_config config;
-    clx_pushed room[CLX_BATCH] = {0};
+    clx_pair_force room[CLX_BATCH] = {0};
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
     config.contact_scheme = (int32_t)scheme;
@@ -322,17 +323,17 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
         clx_dem_pair pair[CLX_BATCH];
         const int n_pair = i % 2 == 0 ? CLX_BATCH : CLX_LANES; /* both widths */
         clx_batch p = {.n = n_pair};
-        clx_pushed alone[CLX_BATCH] = {0};
+        clx_pair_force alone[CLX_BATCH] = {0};
         double slide[CLX_BATCH][3];
         for (int k = 0; k < n_pair; ++k) {
             const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &pair[k]);
             p.to[k] = &room[k];
             v3_copy(slide[k], pair[k].slide);
             if (!is_apart) {
-                push_alone(dem, &p, k, slide[k], &alone[k]);
+                force_of_pair(dem, &p, k, slide[k], &alone[k]);
             }
         }
-        clx_batch_push(dem, &p, true);
+        clx_batch_force(dem, &p, true);
         for (int k = 0; k < n_pair; ++k) {
             check_lane(&p, k, slide[k], &alone[k]);
         }

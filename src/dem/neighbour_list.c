@@ -5,7 +5,7 @@
 // its margin, all that have used half of it look again, and only they: a grain that falls pays for
 // itself, the bed below does not. Then old and new pairs are merged in order, which costs a pass
 // over memory.
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 
 #include "base/lines.h"
 #include "contact/facet.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void clx_list_free(clx_list *list)
+void clx_neighbour_list_free(clx_neighbour_list *list)
 {
     clx_free(list->pair);
     clx_free(list->other);
@@ -26,15 +26,15 @@ void clx_list_free(clx_list *list)
     clx_free(list->anchor);
     clx_free(list->limit);
     clx_free(list->is_stale);
-    clx_free(list->near);
+    clx_free(list->triangle);
     clx_dem_grid_free(&list->grid);
     clx_free(list->found);
     clx_free(list->sorted);
     clx_free(list->found_begin);
-    *list = (clx_list){0};
+    *list = (clx_neighbour_list){0};
 }
 
-clast_status clx_list_reserve(clx_list *list, int64_t n_item)
+clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item)
 {
     clast_status status = CLAST_OK;
     if (n_item <= list->item_capacity) {
@@ -54,7 +54,7 @@ done:
 /// Steps of free flight that a fast grain's margin covers beyond its share of the radius.
 static const double LOOK_AHEAD = 50.0;
 
-static void drop_anchor(clast_dem *dem, int32_t i)
+static void set_anchor(clast_dem *dem, int32_t i)
 {
     clx_anchor *at = &dem->list.anchor[i];
     const int32_t g = clx_item_grain(dem, i);
@@ -74,17 +74,17 @@ static void drop_anchor(clast_dem *dem, int32_t i)
 /// All items that have used half of their margin.
 static void mark_stale(clast_dem *dem)
 {
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         l->is_stale[i] = i >= l->n_known || clx_item_has_left(dem, i, 0.5) ? 1 : 0;
         if (l->is_stale[i] != 0) {
-            drop_anchor(dem, i);
+            set_anchor(dem, i);
         }
     }
     l->n_known = dem->n_item;
 }
 
-static clast_status add_found(clx_list *l, clx_found found)
+static clast_status add_found(clx_neighbour_list *l, clx_found found)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found));
@@ -114,7 +114,7 @@ done:
 /// One candidate of a stale item's query.
 static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
 {
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     const clx_anchor *a = &l->anchor[i];
     const clx_anchor *b = &l->anchor[k];
     if (k == i || (l->is_stale[k] != 0 && k < i) ||
@@ -159,7 +159,7 @@ done:
 static clast_status find_items(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     clx_dem_grid_walk walk;
     const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
     for (int32_t level = 0; level < l->grid.n_level; ++level) {
@@ -191,7 +191,7 @@ done:
 static clast_status sort_found(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     CLX_TRY(clx_grow(&l->sorted, &l->sorted_capacity, l->n_found, sizeof *l->sorted));
     int64_t *begin = l->found_begin;
     memset(begin, 0, ((size_t)dem->n_item + 1) * sizeof *begin);
@@ -223,7 +223,7 @@ done:
 }
 
 /// Whether an old pair stays without being found again: both its ends stayed where they were.
-static bool stays(const clx_list *l, const clx_dem_pair *old)
+static bool stays(const clx_neighbour_list *l, const clx_dem_pair *old)
 {
     return l->is_stale[old->a] == 0 && (old->b < 0 || l->is_stale[old->b] == 0);
 }
@@ -239,7 +239,7 @@ static bool is_same(const clx_dem_pair *old, const clx_found *f)
     return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
-clast_status clx_list_give_slot(clx_list *l, clx_dem_pair *pair)
+clast_status clx_neighbour_list_give_slot(clx_neighbour_list *l, clx_dem_pair *pair)
 {
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
@@ -259,7 +259,7 @@ done:
 }
 
 /// Keeps an old pair, with its memory.
-static void keep(clx_list *l, int64_t old, int64_t n)
+static void keep(clx_neighbour_list *l, int64_t old, int64_t n)
 {
     l->other[n] = l->pair[old];
     if (l->other_extra != NULL) {
@@ -267,14 +267,14 @@ static void keep(clx_list *l, int64_t old, int64_t n)
     }
 }
 
-static void drop(clx_list *l, int64_t old)
+static void drop(clx_neighbour_list *l, int64_t old)
 {
     if (l->pair[old].slot != 0) { // free_slot has room for all slots
         l->free_slot[l->n_free++] = (int32_t)l->pair[old].slot;
     }
 }
 
-static void start(clx_list *l, const clx_found *f, int64_t n)
+static void start(clx_neighbour_list *l, const clx_found *f, int64_t n)
 {
     l->other[n] = fresh(f);
     if (l->other_extra != NULL) {
@@ -283,7 +283,7 @@ static void start(clx_list *l, const clx_found *f, int64_t n)
 }
 
 /// Old and found pairs of one item, both sorted by b, into the other buffer at n.
-static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
+static int64_t merge_item(clx_neighbour_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
@@ -314,7 +314,7 @@ static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, 
     return n;
 }
 
-static void swap_buffers(clx_list *l)
+static void swap_buffers(clx_neighbour_list *l)
 {
     clx_dem_pair *const pair = l->pair;
     const int64_t capacity = l->capacity;
@@ -333,7 +333,7 @@ static void swap_buffers(clx_list *l)
 static clast_status merge(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     int64_t n = 0;
     CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_pair + l->n_found + 1,
                            sizeof *l->other));
@@ -358,16 +358,16 @@ done:
     return status;
 }
 
-clast_status clx_list_refresh(clast_dem *dem)
+clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_list_reserve(&dem->list, dem->n_item));
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
     mark_stale(dem);
     CLX_TRY(find(dem));
     CLX_TRY(sort_found(dem));
     CLX_TRY(merge(dem));
     dem->list.is_due = false;
-    dem->near.is_due = true;
+    dem->inner.is_due = true;
     ++dem->list.n_refresh;
 done:
     return status;
