@@ -230,9 +230,9 @@ void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_load *load)
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
     for (int32_t k = inner->in_begin[g]; k < inner->in_begin[g + 1]; ++k) {
-        const clx_pair_force *force = &inner->force[inner->in[k]];
-        force += lanes_load(force->force);
-        torque += lanes_load(force->torque_b);
+        const clx_pair_force *pair = &inner->force[inner->in[k]];
+        force += lanes_load(pair->force);
+        torque += lanes_load(pair->torque_b);
     }
     lanes_store(load->force, force);
     lanes_store(load->torque, torque);
