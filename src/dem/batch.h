@@ -15,7 +15,7 @@ typedef enum {
 typedef struct clx_batch {
     int n; ///< contacts in it, 1 to CLX_BATCH; the places beyond repeat the last
     clx_pair_force *to[CLX_BATCH]; ///< where what they do is written
-    clx_dem_pair *pair[CLX_BATCH]; ///< awake
+    clx_dem_pair *pair[CLX_BATCH]; ///< active
     double travel[CLX_BATCH];      ///< of both grains
     const clx_grain *a[CLX_BATCH], *b[CLX_BATCH];
     clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
@@ -41,6 +41,6 @@ static inline bool clx_batch_has_law(const clx_law *law)
 }
 
 /// What contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
-/// forces, displacements and whether they touch; where one is apart, when it may wake. Walls are
-/// looked for if there may be any.
+/// forces, displacements and whether they touch; where one is apart, from which travel on it may touch. Walls
+/// are looked for if there may be any.
 void clx_batch_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);

@@ -134,8 +134,8 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
 
 /// Contacts side by side and what the law has worked out for them so far.
 typedef struct {
-    clx_lanes wake, slide[3]; ///< of the pairs
-    clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
+    clx_lanes active_from, slide[3]; ///< of the pairs
+    clx_lanes velocity[3];           ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
     clx_lanes normal_force, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
@@ -183,10 +183,11 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
         m->friction = lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), m->friction);
     }
     for (int k = 0; k < 4; ++k) {
-        slide[k] = lanes_row(&p->pair[from + k]->wake, &p->pair[from + k + CLX_BEYOND]->wake);
+        slide[k] = lanes_row(&p->pair[from + k]->active_from,
+                             &p->pair[from + k + CLX_BEYOND]->active_from);
     }
     lanes_transpose(slide);
-    m->wake = slide[0];
+    m->active_from = slide[0];
     for (int c = 0; c < 3; ++c) {
         m->slide[c] = slide[c + 1];
     }
@@ -323,8 +324,8 @@ CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide
     }
 }
 
-/// Forces, torques and the pairs' wakes and displacements. Lanes that repeat another write the same
-/// bytes to the same place.
+/// Forces, torques, and what is renewed of the pairs (active_from, slide). Lanes that repeat
+/// another write the same bytes to the same place.
 CLX_INLINE void write(clx_pair_force *const to[CLX_LANES], clx_dem_pair *const pair[CLX_LANES],
                       clx_marks touching, clx_lanes out[4][4])
 {
@@ -334,7 +335,7 @@ CLX_INLINE void write(clx_pair_force *const to[CLX_LANES], clx_dem_pair *const p
     for (int k = 0; k < 4; ++k) {
         clx_pair_force *p = to[k];
         clx_pair_force *beyond = to[k + CLX_BEYOND];
-        lanes_put_row(&pair[k]->wake, &pair[k + CLX_BEYOND]->wake, out[3][k]);
+        lanes_put_row(&pair[k]->active_from, &pair[k + CLX_BEYOND]->active_from, out[3][k]);
         lanes_put_row(p->force, beyond->force, out[0][k]);
         lanes_put_row(p->torque_b, beyond->torque_b, out[1][k]);
         lanes_put_row(p->torque_a, beyond->torque_a, out[2][k]);
@@ -353,14 +354,14 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
 CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
                          const meetings *m)
 {
-    clx_lanes out[4][4]; // force, torque on b and on a, the pair's wake and slide
+    clx_lanes out[4][4]; // force, torque on b and on a, the pair's active_from and slide
     clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
     clx_lanes *force = out[0];
     const clx_lanes gap = lanes_load(p->meet.gap + from);
     const clx_marks touching = ~(gap >= 0.0);
     slip(m, tangential, slide);
     load_normal(p, from, normal);
-    out[3][0] = lanes_pick(touching, m->wake, lanes_load(p->travel + from) + gap);
+    out[3][0] = lanes_pick(touching, m->active_from, lanes_load(p->travel + from) + gap);
     for (int c = 0; c < 3; ++c) {
         force[c] = where(touching, tangential[c] + m->normal_force * normal[c]);
         out[3][c + 1] = where(touching, slide[c]);

@@ -29,11 +29,11 @@ void clx_sweeping_free(clx_sweeping *s)
     clx_free(s->pace);
     clx_free(s->before);
     clx_free(s->lowest);
-    clx_free(s->late);
+    clx_free(s->deferred);
     clx_free(s->force);
-    clx_free(s->awake);
-    clx_free(s->kept);
-    clx_free(s->kept_on);
+    clx_free(s->active);
+    clx_free(s->contribution);
+    clx_free(s->contribution_to);
     *s = (clx_sweeping){0};
 }
 
@@ -86,20 +86,22 @@ static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-/// Room for all that the threads do to late grains. Only what is touched takes memory, so nothing
-/// is copied when it grows.
-static clast_status reserve_kept(clx_sweeping *s, int64_t n)
+/// Room for all that the threads do to deferred grains. Only what is touched takes memory, so
+/// nothing is copied when it grows.
+static clast_status reserve_contributions(clx_sweeping *s, int64_t n)
 {
     clast_status status = CLAST_OK;
-    if (s->kept_capacity[0] < n || s->kept_capacity[1] < n) {
-        clx_free(s->kept);
-        clx_free(s->kept_on);
-        s->kept = NULL;
-        s->kept_on = NULL;
-        s->kept_capacity[0] = 0;
-        s->kept_capacity[1] = 0;
-        CLX_TRY(clx_grow_lines(&s->kept, &s->kept_capacity[0], n + n / 4, sizeof *s->kept));
-        CLX_TRY(clx_grow_lines(&s->kept_on, &s->kept_capacity[1], n + n / 4, sizeof *s->kept_on));
+    if (s->contribution_capacity[0] < n || s->contribution_capacity[1] < n) {
+        clx_free(s->contribution);
+        clx_free(s->contribution_to);
+        s->contribution = NULL;
+        s->contribution_to = NULL;
+        s->contribution_capacity[0] = 0;
+        s->contribution_capacity[1] = 0;
+        CLX_TRY(clx_grow_lines(&s->contribution, &s->contribution_capacity[0], n + n / 4,
+                               sizeof *s->contribution));
+        CLX_TRY(clx_grow_lines(&s->contribution_to, &s->contribution_capacity[1], n + n / 4,
+                               sizeof *s->contribution_to));
     }
 done:
     return status;
@@ -151,13 +153,13 @@ clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
     }
     CLX_TRY(clx_grow_lines(&s->force, &s->force_capacity, (int64_t)n_worker * s->most,
                            sizeof *s->force));
-    CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
-                           sizeof *s->awake));
+    CLX_TRY(clx_grow_lines(&s->active, &s->active_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->active));
     if (n_worker > 1) {
         CLX_TRY(clx_grow(&s->before, &s->before_capacity, blocks_of(dem) + 1, sizeof *s->before));
         CLX_TRY(clx_grow(&s->lowest, &s->lowest_capacity, n_four, sizeof *s->lowest));
-        CLX_TRY(clx_grow(&s->late, &s->late_capacity, n_four, sizeof *s->late));
-        CLX_TRY(reserve_kept(s, (int64_t)dem->inner.n + dem->n_grain));
+        CLX_TRY(clx_grow(&s->deferred, &s->deferred_capacity, n_four, sizeof *s->deferred));
+        CLX_TRY(reserve_contributions(s, (int64_t)dem->inner.n + dem->n_grain));
         weigh_all(dem);
     }
     s->n_worker = n_worker;
@@ -185,8 +187,8 @@ static int64_t grain_at(const clast_dem *dem, double work)
 static void set_chunk(clx_chunk *chunk, int64_t begin, int64_t end)
 {
     chunk->begin = (int32_t)begin;
-    chunk->n_late = 0;
-    chunk->n_kept = 0;
+    chunk->n_deferred = 0;
+    chunk->n_contribution = 0;
     chunk->highest = -1;
     chunk->flag = 0;
     atomic_store_explicit(&chunk->left, packed(begin, end), memory_order_release);
@@ -323,13 +325,13 @@ void clx_chunks_end(clast_dem *dem)
     const int32_t n = chunks_of(s);
     atomic_store(&s->n_chunk, n);
     sort(s->chunk, n);
-    s->n_late = 0;
+    s->n_deferred = 0;
     for (int32_t c = 0; c < n; ++c) {
         const clx_chunk *chunk = &s->chunk[c];
-        if (chunk->n_late > 0) {
-            memmove(s->late + s->n_late, s->late + chunk->begin / CLX_LANES,
-                    (size_t)chunk->n_late * sizeof *s->late);
-            s->n_late += chunk->n_late;
+        if (chunk->n_deferred > 0) {
+            memmove(s->deferred + s->n_deferred, s->deferred + chunk->begin / CLX_LANES,
+                    (size_t)chunk->n_deferred * sizeof *s->deferred);
+            s->n_deferred += chunk->n_deferred;
         }
     }
     for (int32_t w = 0; w < s->n_worker; ++w) {

@@ -10,10 +10,10 @@ typedef struct clx_chunk {
     _Alignas(64) _Atomic uint64_t left; ///< the next grain; in the upper half: the end
     _Atomic bool is_taken;
     int32_t begin;
-    int32_t n_late;  ///< fours of it that wait until all chunks are done
-    int64_t n_kept;  ///< what it does to late grains
-    int32_t highest; ///< of those grains
-    int flag;        ///< clx_move_flag of its grains
+    int32_t n_deferred;     ///< fours of it that wait until all chunks are done
+    int64_t n_contribution; ///< what it does to deferred grains
+    int32_t highest;        ///< of those grains
+    int flag;               ///< clx_move_flag of its grains
 } clx_chunk;
 
 /// What a thread did in a step, and how fast.
@@ -39,12 +39,12 @@ bool clx_chunk_next(clx_chunk *chunk, int64_t *begin, int64_t *end);
 /// Notes that a thread did these blocks' work in so many seconds.
 void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double seconds);
 
-/// Brings the chunks into the order of their grains, and what is late into one row; learns the
+/// Brings the chunks into the order of their grains, and what is deferred into one row; learns the
 /// threads' paces.
 void clx_chunks_end(clast_dem *dem);
 
-/// Where a chunk keeps what it does to late grains: there is room for all its pairs and grains.
-static inline int64_t clx_chunk_room(const clast_dem *dem, const clx_chunk *chunk)
+/// Where a chunk keeps what it does to deferred grains: there is room for all its pairs and grains.
+static inline int64_t clx_chunk_offset(const clast_dem *dem, const clx_chunk *chunk)
 {
     return dem->inner.begin[chunk->begin] + chunk->begin;
 }
@@ -57,7 +57,7 @@ static inline int64_t clx_block_work(const clx_sweeping *s, int64_t g)
 }
 
 /// Whether some pair leads from a grain before `begin` to grain g or to one of its four.
-static inline bool clx_is_late(const clx_sweeping *s, int64_t g, int64_t begin)
+static inline bool clx_is_deferred(const clx_sweeping *s, int64_t g, int64_t begin)
 {
     return atomic_load_explicit(&s->lowest[g / CLX_LANES], memory_order_relaxed) < begin;
 }

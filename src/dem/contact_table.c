@@ -15,11 +15,11 @@ enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N_COLUMN])
 {
     clx_dem_pair copy = *pair;
-    const clx_extra *kept = clx_pair_extra(dem, pair);
-    clx_extra extra = kept != NULL ? *kept : (clx_extra){0};
+    const clx_extra *own = clx_pair_extra(dem, pair);
+    clx_extra extra = own != NULL ? *own : (clx_extra){0};
     clx_dem_touch t;
-    clx_load on_a = {0};
-    clx_load on_b = {0};
+    clx_force_torque on_a = {0};
+    clx_force_torque on_b = {0};
     const int32_t a = clx_item_grain(dem, pair->a);
     if (!clx_pair_holds(dem, pair, &t)) {
         return false;

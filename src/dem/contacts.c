@@ -123,7 +123,7 @@ static void part(const clast_dem *dem, const clx_batch *p, int k)
     if (extra != NULL) {
         *extra = (clx_extra){0};
     }
-    pair->wake = p->travel[k] + p->meet.gap[k];
+    pair->active_from = p->travel[k] + p->meet.gap[k];
     pair->touches = 0;
     v3_set(pair->slide, 0.0, 0.0, 0.0);
     *p->to[k] = (clx_pair_force){0};
@@ -133,8 +133,8 @@ static void part(const clast_dem *dem, const clx_batch *p, int k)
 static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
                           clx_pair_force *out)
 {
-    clx_load on_a = {0};
-    clx_load on_b = {0};
+    clx_force_torque on_a = {0};
+    clx_force_torque on_b = {0};
     clx_add_pair_force(dem, pair, clx_pair_extra(dem, pair), t, &on_a, &on_b);
     *out = (clx_pair_force){0};
     v3_copy(out->force, on_b.force);
@@ -180,14 +180,14 @@ enum {
     LINE = 64
 };
 
-/// A piece of the inner list, and which of its pairs are awake, by how they are answered.
+/// A piece of the inner list, and which of its pairs are active, by how they are answered.
 typedef struct {
     const int32_t *index;
     clx_packed_pair *packed;       ///< the same pairs, packed, or NULL
     int64_t n_left;                ///< pairs from there to the end of the inner list
     clx_pair_force *force;         ///< of each pair
     double travel[PIECE];          ///< what each pair's grains have gone
-    int n[CLX_N_BATCH];            ///< awake pairs
+    int n[CLX_N_BATCH];            ///< active pairs
     uint16_t at[CLX_N_BATCH][ROW]; ///< their places, the last of a kind repeated
 } piece;
 
@@ -240,13 +240,14 @@ CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_packed_pair *pack
     fetch_three(&grain[b < 0 ? 0 : b]);
 }
 
-/// Sorts out which of n pairs are awake, without a branch that depends on it; returns how many.
-CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s, clx_awake *awake)
+/// Sorts out which of n pairs are active, without a branch that depends on it; returns how many.
+CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
+                          clx_active_pair *active)
 {
     const clx_grain *grain = dem->grain;
     const double *travel = dem->travel;
     const bool has_container = dem->container != NULL;
-    clx_awake *to = awake;
+    clx_active_pair *to = active;
     uint16_t *end[CLX_N_BATCH];
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         end[kind] = s->at[kind];
@@ -263,12 +264,12 @@ CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
         const double other = pair->b >= 0 ? travel[grain_of(dem, is_packed, pair->b)] : 0.0;
         const double path = travel[grain_of(dem, is_packed, pair->a)] + other;
         const int is_contained = !is_packed && has_container && clx_pair_is_container(dem, pair);
-        const int is_awake = !(path < pair->wake) & !is_contained;
+        const int is_active = !(path < pair->active_from) & !is_contained;
         s->travel[i] = path;
         *end[kind] = (uint16_t)i;
-        *to = (clx_awake){.pair = pair, .at = i};
-        end[kind] += is_awake;
-        to += is_awake;
+        *to = (clx_active_pair){.pair = pair, .at = i};
+        end[kind] += is_active;
+        to += is_active;
     }
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         s->n[kind] = (int)(end[kind] - s->at[kind]);
@@ -276,13 +277,13 @@ CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
             end[kind][k] = end[kind][-1];
         }
     }
-    return (int)(to - awake);
+    return (int)(to - active);
 }
 
-static int sort_awake(const clast_dem *dem, int n, piece *s, clx_awake *awake)
+static int sort_active(const clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
-    return s->packed != NULL ? sort_pairs(dem, n, true, s, awake)
-                             : sort_pairs(dem, n, false, s, awake);
+    return s->packed != NULL ? sort_pairs(dem, n, true, s, active)
+                             : sort_pairs(dem, n, false, s, active);
 }
 
 /// The batch of these pairs.
@@ -304,7 +305,7 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
     }
 }
 
-/// The batch that begins with the awake pair `from` of a kind.
+/// The batch that begins with the active pair `from` of a kind.
 static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
                         clx_batch *p)
 {
@@ -323,11 +324,11 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
     }
 }
 
-/// What the pairs of the piece do; its awake pairs, and how many they are.
-static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
+/// What the pairs of the piece do; its active pairs, and how many they are.
+static int meet_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
-    const int n_awake = sort_awake(dem, n, s, awake);
+    const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
@@ -340,7 +341,7 @@ static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
             }
         }
     }
-    return n_awake;
+    return n_active;
 }
 
 static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force, piece *s)
@@ -352,30 +353,30 @@ static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force,
 }
 
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
-                           clx_awake *awake)
+                           clx_active_pair *active)
 {
     piece s;
-    int32_t n_awake = 0;
+    int32_t n_active = 0;
     for (int32_t at = begin; at < end; at += PIECE) {
         begin_piece(dem, at, force + (at - begin), &s);
-        const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, awake + n_awake);
+        const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, active + n_active);
         for (int k = 0; k < n && at > begin; ++k) {
-            awake[n_awake + k].at += at - begin;
+            active[n_active + k].at += at - begin;
         }
-        n_awake += n;
+        n_active += n;
     }
-    return n_awake;
+    return n_active;
 }
 
 static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    clx_awake awake[PIECE];
+    clx_active_pair active[PIECE];
     piece s;
     (void)worker;
     begin_piece(dem, begin, dem->inner.force + begin, &s);
     memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of pairs that sleep
-    (void)meet_piece(dem, (int)(end - begin), &s, awake);
+    (void)meet_piece(dem, (int)(end - begin), &s, active);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.
@@ -408,7 +409,7 @@ static void contain_block(int64_t begin, int64_t end, int32_t worker, void *cont
 }
 
 /// Grains below which one thread works alone. A guess, not measured: a step of 1500 grains takes
-/// about as long as ten wake-ups of a thread.
+/// about as long as waking a thread ten times.
 enum { FEW = 1500 };
 
 bool clx_dem_is_serial(const clast_dem *dem)

@@ -160,13 +160,13 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
         if (!clx_pair_is_container(dem, pair)) {
             break;
         }
-        if (travel < pair->wake) {
+        if (travel < pair->active_from) {
             continue;
         }
         const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
         const bool is_near = clx_triangle_contact(t, &body, near, clx_pair_memory(dem, pair), &c);
         remember(&p, pair, clx_pair_extra(dem, pair), &c, is_near, k);
-        pair->wake = travel + fmax(c.gap, 0.0);
+        pair->active_from = travel + fmax(c.gap, 0.0);
         if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
             insert(&p, &c, k);
         }

@@ -126,14 +126,14 @@ static clast_status reserve(clast_dem *dem, int64_t n)
     if (n <= dem->grain_capacity) {
         return CLAST_OK;
     }
-    const int64_t room = n + n / 2 + 16;
-    const int64_t blocks = room / CLX_SWEEP_BLOCK + 1;
-    int64_t capacity[2] = {dem->grain_capacity, dem->grain_capacity};
-    CLX_TRY(clx_grow_lines(&dem->grain, &capacity[0], room, sizeof *dem->grain));
-    CLX_TRY(clx_grow_lines(&dem->motion, &capacity[1], room, sizeof *dem->motion));
-    CLX_TRY(clx_realloc(&dem->travel, room, sizeof *dem->travel));
+    const int64_t capacity = n + n / 2 + 16;
+    const int64_t blocks = capacity / CLX_SWEEP_BLOCK + 1;
+    int64_t records[2] = {dem->grain_capacity, dem->grain_capacity};
+    CLX_TRY(clx_grow_lines(&dem->grain, &records[0], capacity, sizeof *dem->grain));
+    CLX_TRY(clx_grow_lines(&dem->motion, &records[1], capacity, sizeof *dem->motion));
+    CLX_TRY(clx_realloc(&dem->travel, capacity, sizeof *dem->travel));
     CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
-    dem->grain_capacity = room;
+    dem->grain_capacity = capacity;
 done:
     return status;
 }

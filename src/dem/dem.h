@@ -28,7 +28,8 @@ typedef struct clx_grain {
     double round_radius; ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
-    double held;  ///< exact steps: sum of the contacts' loads in the last step (clx_law_hold)
+    double
+        held; ///< exact steps: sum of the contacts' stability loads in the last step (clx_law_hold)
 } clx_grain;
 
 /// What only the integration reads.
@@ -66,7 +67,7 @@ typedef struct clx_dem_pair {
     uint32_t touches : 1; ///< in the last step
     uint32_t kind : 2;    ///< clx_facet_kind of its memory
     uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
-    double wake;          ///< no touch before travel a + travel b gets here
+    double active_from;   ///< no touch before travel a + travel b gets here
     double slide[3];      ///< tangential displacement of b over a
 } clx_dem_pair;
 
@@ -97,23 +98,23 @@ typedef struct clx_packed_pair {
 static_assert(sizeof(clx_packed_pair) == 192, "a pair takes three lines");
 
 /// Force and torque on a grain, in fours.
-typedef struct clx_load {
+typedef struct clx_force_torque {
     double force[4];  ///< the fourth is 0
     double torque[4]; ///< the fourth is 0; with exact steps the grain's `held`
-} clx_load;
+} clx_force_torque;
 
 /// What a contact does to its grains: the force on b, and the torques.
 typedef struct clx_pair_force {
     double force[4];    ///< the fourth is 0
-    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's load on b
+    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's stability load on b
     double torque_a[4]; ///< to be taken off
 } clx_pair_force;
 
-/// A pair that is awake, and its place among those that were asked for.
-typedef struct clx_awake {
+/// A pair that is active, and its place among those that were asked for.
+typedef struct clx_active_pair {
     const clx_dem_pair *pair;
     int64_t at;
-} clx_awake;
+} clx_active_pair;
 
 /// What a block of items has in the inner list.
 typedef struct clx_inner_block {
@@ -139,16 +140,17 @@ typedef struct clx_inner_list {
     int32_t *index;        ///< [n] rising
     clx_pair_force *force; ///< [n] of the last step, unless that was a sweep
     int32_t *begin;        ///< [n_item + 1] first of each item's own
-    int32_t *in_begin;     ///< [n_grain + 2] first of those that load a grain as b
+    int32_t *in_begin;     ///< [n_grain + 2] first of the pairs whose b a grain is
     int32_t *in;           ///< [n] their numbers, rising
     double *until;         ///< [n_grain]
-    clx_load *load; ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
+    clx_force_torque
+        *total; ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
     int64_t capacity, force_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
     clx_inner_block *block;
     clx_packed_pair *packed; ///< [n + CLX_PREFETCH_PAIRS], the last all 0, while is_packed: the
                              ///< pairs and memories of the list are out of date
     clx_packed_row old;      ///< what was packed before, while it is packed anew
-    int64_t load_capacity, block_capacity, packed_capacity;
+    int64_t total_capacity, block_capacity, packed_capacity;
     bool is_due;
     bool is_packed;
     bool is_gathered; ///< `in` is there
@@ -167,13 +169,13 @@ typedef struct clx_sweeping {
     _Atomic int32_t *lowest; ///< [fours of grains] least grain with a pair to one of the four
     int32_t most;            ///< pairs of a block of grains
     clx_pair_force *force;   ///< [n_worker][most] of the block that a worker is at
-    clx_awake *awake;        ///< [n_worker][most] its awake pairs
-    int32_t *late;           ///< [n_late] fours that move when all chunks are done: first grains
-    int32_t n_late;
-    clx_load *kept;   ///< [n of inner + n_grain] what is done to them
-    int32_t *kept_on; ///< grain of each
-    int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, late_capacity;
-    int64_t force_capacity, awake_capacity, kept_capacity[2];
+    clx_active_pair *active; ///< [n_worker][most] its active pairs
+    int32_t *deferred; ///< [n_deferred] fours that move when all chunks are done: first grains
+    int32_t n_deferred;
+    clx_force_torque *contribution; ///< [n of inner + n_grain] what is done to them
+    int32_t *contribution_to;       ///< grain of each
+    int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, deferred_capacity;
+    int64_t force_capacity, active_capacity, contribution_capacity[2];
 } clx_sweeping;
 
 /// Volume of grains by height, for the porosity around one.
@@ -440,7 +442,7 @@ void clx_inner_free(clx_inner_list *inner);
 clast_status clx_inner_pack(clast_dem *dem);
 void clx_inner_unpack(clast_dem *dem);
 
-/// Which pairs load each grain as b, and room for what all pairs do (inner.force).
+/// Which pairs have each grain as b, and capacity for the forces of all pairs (inner.force).
 clast_status clx_inner_gather(clast_dem *dem);
 
 void clx_sweeping_free(clx_sweeping *sweeping);
@@ -455,11 +457,11 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 /// What all contacts do (inner.force), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some pairs of the inner list: the awake ones, places counted from `begin`, rising,
+/// The same for some pairs of the inner list: the active ones, places counted from `begin`, rising,
 /// and what each does at its place. Both have room for all. Returns how many; the others do nothing
 /// and nothing is written at their places.
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
-                           clx_awake *awake);
+                           clx_active_pair *active);
 
 /// Compares what clx_contacts has just found with cold contacts.
 void clx_verify(clast_dem *dem);

@@ -37,17 +37,17 @@ static clast_status reserve(clx_dem_grid *grid, int32_t n)
     if (n <= grid->capacity) {
         return CLAST_OK;
     }
-    const int32_t room = n + n / 2 + 16;
+    const int32_t capacity = n + n / 2 + 16;
     uint32_t n_bucket = 64;
-    while ((int64_t)n_bucket < 2 * (int64_t)room) {
+    while ((int64_t)n_bucket < 2 * (int64_t)capacity) {
         n_bucket *= 2;
     }
-    CLX_TRY(clx_realloc(&grid->cell, room, sizeof *grid->cell));
-    CLX_TRY(clx_realloc(&grid->entry, room, sizeof *grid->entry));
-    CLX_TRY(clx_realloc(&grid->by_level, room, sizeof *grid->by_level));
+    CLX_TRY(clx_realloc(&grid->cell, capacity, sizeof *grid->cell));
+    CLX_TRY(clx_realloc(&grid->entry, capacity, sizeof *grid->entry));
+    CLX_TRY(clx_realloc(&grid->by_level, capacity, sizeof *grid->by_level));
     CLX_TRY(clx_realloc(&grid->bucket, (int64_t)n_bucket + 2, sizeof *grid->bucket));
     grid->n_bucket = n_bucket;
-    grid->capacity = room;
+    grid->capacity = capacity;
 done:
     return status;
 }

@@ -1,9 +1,10 @@
 // The pairs that a step looks at.
 //
-// Most listed pairs sleep: they cannot touch before the paths of both grains have grown to `wake`.
-// Each grain gets some path in advance (`until`); pairs whose wake lies beyond what both may go are
-// left out until a grain has used up its advance. A pair that is here and still sleeps costs a
-// comparison, one that is not costs nothing, and whether it is here changes no result.
+// Most listed pairs sleep: they cannot touch before the paths of both grains have grown to
+// `active_from`. Each grain gets some path in advance (`until`); pairs whose active_from lies
+// beyond what both may go are left out until a grain has used up its advance. A pair that is here
+// and still sleeps costs a comparison, one that is not costs nothing, and whether it is here
+// changes no result.
 //
 // A sweep works on copies that stand in a row, pairs with their memories: memory hands out what it
 // is asked for in order several times faster than lines here and there. A new inner list is packed
@@ -26,7 +27,7 @@ void clx_inner_free(clx_inner_list *inner)
     clx_free(inner->in_begin);
     clx_free(inner->in);
     clx_free(inner->until);
-    clx_free(inner->load);
+    clx_free(inner->total);
     clx_free(inner->block);
     clx_free(inner->packed);
     clx_free(inner->old.index);
@@ -76,8 +77,8 @@ static inline const clx_dem_pair *pair_now(const clast_dem *dem, int64_t k, old_
     return &dem->list.pair[k];
 }
 
-/// Pairs of a block of items that may wake, to where the block's listed pairs begin; how many come
-/// before each item's, and whether one of them has no memory yet and needs it.
+/// Pairs of a block of items that may become active, to where the block's listed pairs begin; how
+/// many come before each item's, and whether one of them has no memory yet and needs it.
 static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
@@ -95,16 +96,16 @@ static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context
         for (int64_t k = l->begin[i]; k < l->begin[i + 1]; ++k) {
             const clx_dem_pair *pair = pair_now(dem, k, &old);
             const double other = pair->b >= 0 ? inner->until[clx_item_grain(dem, pair->b)] : 0.0;
-            const bool may_wake = pair->wake <= own + other;
+            const bool may_be_active = pair->active_from <= own + other;
             to[n] = (int32_t)k;
-            n += may_wake ? 1 : 0;
-            wants = wants || (may_wake && pair->slot == 0 && !clx_pair_is_round(dem, pair));
+            n += may_be_active ? 1 : 0;
+            wants = wants || (may_be_active && pair->slot == 0 && !clx_pair_is_round(dem, pair));
         }
     }
     *block = (clx_inner_block){.n = n, .wants_memory = wants};
 }
 
-/// Numbers of the pairs that may wake: what the blocks found, one after the other.
+/// Numbers of the pairs that may become active: what the blocks found, one after the other.
 static clast_status pick(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -131,7 +132,7 @@ done:
     return status;
 }
 
-/// Which of them load each grain as b.
+/// Which of them have each grain as b.
 static void gather(clast_dem *dem)
 {
     clx_inner_list *inner = &dem->inner;
@@ -308,8 +309,9 @@ clast_status clx_inner_find(clast_dem *dem)
     CLX_TRY(clx_grow(&inner->begin, &inner->item_capacity, (int64_t)dem->n_item + 1,
                      sizeof *inner->begin));
     CLX_TRY(clx_grow(&inner->until, &inner->until_capacity, n_grain + 1, sizeof *inner->until));
-    CLX_TRY(clx_grow_lines(&inner->load, &inner->load_capacity, n_grain + 1, sizeof *inner->load));
-    memset(inner->load, 0, (size_t)n_grain * sizeof *inner->load);
+    CLX_TRY(
+        clx_grow_lines(&inner->total, &inner->total_capacity, n_grain + 1, sizeof *inner->total));
+    memset(inner->total, 0, (size_t)n_grain * sizeof *inner->total);
     clx_dem_for(dem, n_grain, BLOCK, advance, dem);
     CLX_TRY(pick(dem));
     CLX_TRY(give_slots(dem));

@@ -6,8 +6,8 @@
 //
 // Four grains side by side move in lanes (move_lanes.c), others one by one with the same bits.
 //
-// The load of a grain is first the sum over contacts whose b it is, in the order of the list, then
-// the sums over its items' own contacts: the same bytes whatever the threads.
+// The force and torque on a grain are first the sum over contacts whose b it is, in the order of
+// the list, then the sums over its items' own contacts: the same bytes whatever the threads.
 #include "dem/move.h"
 
 #include "base/parallel.h"
@@ -130,7 +130,8 @@ void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
     v3_scale(arm, -g->scale, arm);
 }
 
-/// Buoyancy and drag act at the centre of volume, the load at the centre of mass: what that turns.
+/// Buoyancy and drag act at the centre of volume, other forces at the centre of mass: the torque of
+/// that.
 static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
 {
     const clx_grain *g = &dem->grain[i];
@@ -205,19 +206,19 @@ static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
 }
 
 /// One grain; true unless it is lost.
-static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
+static bool move_one(const clx_moving *c, int64_t i, const clx_force_torque *total)
 {
     clast_dem *dem = c->dem;
     clx_grain *g = &dem->grain[i];
     const double dt = dem->config.time_step;
-    double speed = shift(c, i, load->force);
+    double speed = shift(c, i, total->force);
     const bool is_fine = speed * dt <= c->stride * g->radius;
     if (g->kind == CLAST_SHAPE_SPHERE) {
-        const double kept =
+        const double factor =
             dem->config.fluid_viscosity > 0.0 ? clx_fluid_spin_factor(dem, g, dt) : 1.0;
-        turn_round(g, &dem->motion[i], load->torque, c->damping * kept, dt);
+        turn_round(g, &dem->motion[i], total->torque, c->damping * factor, dt);
     } else {
-        turn_body(dem, i, load->torque, c->damping, dt);
+        turn_body(dem, i, total->torque, c->damping, dt);
         speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);
     }
     dem->travel[i] += dt * speed;
@@ -225,25 +226,25 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_load *load)
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_force_torque *total)
 {
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
     for (int32_t k = inner->in_begin[g]; k < inner->in_begin[g + 1]; ++k) {
-        const clx_pair_force *force = &inner->force[inner->in[k]];
-        force += lanes_load(force->force);
-        torque += lanes_load(force->torque_b);
+        const clx_pair_force *pair = &inner->force[inner->in[k]];
+        force += lanes_load(pair->force);
+        torque += lanes_load(pair->torque_b);
     }
-    lanes_store(load->force, force);
-    lanes_store(load->torque, torque);
+    lanes_store(total->force, force);
+    lanes_store(total->torque, torque);
 }
 
 /// Sum of what contacts do to grain g.
-static inline clx_load load_of(const clast_dem *dem, int64_t g)
+static inline clx_force_torque total_of(const clast_dem *dem, int64_t g)
 {
     const clx_inner_list *inner = &dem->inner;
-    clx_load load;
-    clx_move_incoming(inner, g, &load);
+    clx_force_torque total;
+    clx_move_incoming(inner, g, &total);
     const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
     const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
     for (int64_t i = first; i < last; ++i) {
@@ -253,13 +254,13 @@ static inline clx_load load_of(const clast_dem *dem, int64_t g)
             own -= lanes_load(inner->force[k].force);
             turning -= lanes_load(inner->force[k].torque_a);
         }
-        lanes_store(load.force, lanes_load(load.force) + own);
-        lanes_store(load.torque, lanes_load(load.torque) + turning);
+        lanes_store(total.force, lanes_load(total.force) + own);
+        lanes_store(total.torque, lanes_load(total.torque) + turning);
     }
     if (dem->item_begin != NULL && dem->body[dem->grain[g].shape].shape.own.is_mixed) {
-        add_fluid_torque(dem, g, load.torque);
+        add_fluid_torque(dem, g, total.torque);
     }
-    return load;
+    return total;
 }
 
 /// Whether an item of the grain has used up its margin.
@@ -287,19 +288,19 @@ static int flag_of(clast_dem *dem, int64_t first, int n)
     return flag;
 }
 
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load)
+int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_force_torque *total)
 {
     clast_dem *dem = c->dem;
     int flag = 0;
     for (int k = 0; k < n && dem->law.is_exact; ++k) {
-        dem->grain[first + k].held = load[k].torque[3];
+        dem->grain[first + k].held = total[k].torque[3];
     }
-    if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, load, &flag)) {
+    if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, total, &flag)) {
         const bool is_sure = dem->item == NULL && (flag & CLX_MOVE_DUE) == 0;
         return is_sure ? flag : (flag & CLX_MOVE_LOST) | flag_of(dem, first, n);
     }
     for (int k = 0; k < n; ++k) {
-        flag |= move_one(c, first + k, &load[k]) ? 0 : CLX_MOVE_LOST;
+        flag |= move_one(c, first + k, &total[k]) ? 0 : CLX_MOVE_LOST;
     }
     return flag | flag_of(dem, first, n);
 }
@@ -312,12 +313,12 @@ static void move_block(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     int n = 0;
     for (int64_t i = begin; i < end; i += n) {
-        clx_load load[CLX_MOVE_MOST];
+        clx_force_torque total[CLX_MOVE_MOST];
         n = clx_lanes_from(i, end);
         for (int k = 0; k < n; ++k) {
-            load[k] = load_of(c->dem, i + k);
+            total[k] = total_of(c->dem, i + k);
         }
-        flag |= clx_move_few(c, i, n, load);
+        flag |= clx_move_few(c, i, n, total);
     }
     c->dem->block_flag[begin / BLOCK] = (uint8_t)flag;
 }

@@ -22,7 +22,8 @@ bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n);
 /// Moves four grains, or eight: the bits of one by one. False, and nothing done, when one turns too
 /// fast for the series. Where items are grains, the flag has CLX_MOVE_DUE if one may have used up
 /// its margin.
-bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag);
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_force_torque *total,
+                    int *flag);
 
 /// How many of the grains from i to end go side by side.
 static inline int clx_lanes_from(int64_t i, int64_t end)
@@ -32,11 +33,11 @@ static inline int clx_lanes_from(int64_t i, int64_t end)
 }
 
 /// Sum over what contacts with grains of lower number do to grain g (inner.force), in their order.
-void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_load *load);
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_force_torque *total);
 
 /// A step's constants; what its blocks asked for goes to the lists. True unless a grain is lost.
 clx_moving clx_move_begin(clast_dem *dem);
 bool clx_move_end(clast_dem *dem, int flag);
 
 /// Moves n grains, CLX_MOVE_MOST at most; clx_move_flag.
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load);
+int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_force_torque *total);

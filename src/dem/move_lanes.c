@@ -78,23 +78,24 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
 }
 
 /// Spins, orientations and torques.
-CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_load load[CLX_LANES], grains *g,
-                          clx_lanes torque[4])
+CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g, clx_lanes torque[4])
 {
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
-    lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
+    lanes_gather(torque, total[0].torque, total[1].torque, total[2].torque, total[3].torque);
     lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
     lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                  m[3].orientation);
 }
 
 /// turn_body as far as the spin of the middle of the step.
-CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
+CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g)
 {
     clx_lanes half[4], middle[9], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, load, g, torque);
+    read_turn(c->dem, i, total, g, torque);
     read_body(c->dem, i, g);
     for (int k = 0; k < 3; ++k) {
         g->angular[k] = c->damping * (g->angular[k] + dt * torque[k]);
@@ -116,12 +117,12 @@ CLX_INLINE void turn_whole(double dt, grains *g)
     spin_of(g, g->turn, g->spin);
 }
 
-CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES],
-                             grains *g)
+CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
+                             const clx_force_torque total[CLX_LANES], grains *g)
 {
     clx_lanes q[4], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, load, g, torque);
+    read_turn(c->dem, i, total, g, torque);
     const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
     for (int k = 0; k < 3; ++k) {
         g->spin[k] = c->damping * (g->spin[k] + scale * torque[k]);
@@ -133,7 +134,8 @@ CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i, const clx_load load
 }
 
 /// shift
-CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
+CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g)
 {
     const clast_dem *dem = c->dem;
     const clx_grain *from = &dem->grain[i];
@@ -141,7 +143,7 @@ CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_load load[CL
     const double dt = dem->config.time_step;
     const clx_lanes volume = {m[0].volume, m[1].volume, m[2].volume, m[3].volume};
     clx_lanes force[4];
-    lanes_gather(force, load[0].force, load[1].force, load[2].force, load[3].force);
+    lanes_gather(force, total[0].force, total[1].force, total[2].force, total[3].force);
     lanes_gather(g->position, from[0].position, from[1].position, from[2].position,
                  from[3].position);
     lanes_gather(g->velocity, from[0].velocity, from[1].velocity, from[2].velocity,
@@ -215,19 +217,19 @@ CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const gr
 
 /// Two fours go through each stage before the next: while one waits for its sums, the other goes
 /// on.
-CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_load *load, bool is_round,
-                     int *flag)
+CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_force_torque *total,
+                     bool is_round, int *flag)
 {
     grains g[CLX_MOVE_MOST / CLX_LANES];
     clx_marks is_fast = {0};
     for (int k = 0; k < n; k += CLX_LANES) {
-        shift_all(c, i + k, load + k, &g[k / CLX_LANES]);
+        shift_all(c, i + k, total + k, &g[k / CLX_LANES]);
     }
     for (int k = 0; k < n; k += CLX_LANES) {
         if (is_round) {
-            turn_spheres(c, i + k, load + k, &g[k / CLX_LANES]);
+            turn_spheres(c, i + k, total + k, &g[k / CLX_LANES]);
         } else {
-            turn_half(c, i + k, load + k, &g[k / CLX_LANES]);
+            turn_half(c, i + k, total + k, &g[k / CLX_LANES]);
         }
     }
     for (int k = 0; k < n; k += CLX_LANES) {
@@ -247,9 +249,9 @@ CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_load *load
 }
 
 CLX_FOR_EACH_MACHINE
-bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag)
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_force_torque *total, int *flag)
 {
     *flag = 0;
-    return c->dem->grain[i].kind == CLAST_SHAPE_SPHERE ? move(c, i, n, load, true, flag)
-                                                       : move(c, i, n, load, false, flag);
+    return c->dem->grain[i].kind == CLAST_SHAPE_SPHERE ? move(c, i, n, total, true, flag)
+                                                       : move(c, i, n, total, false, flag);
 }

@@ -40,13 +40,13 @@ clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item
     if (n_item <= list->item_capacity) {
         return CLAST_OK;
     }
-    const int64_t room = n_item + n_item / 2 + 16;
-    CLX_TRY(clx_realloc(&list->begin, room + 1, sizeof *list->begin));
-    CLX_TRY(clx_realloc(&list->anchor, room, sizeof *list->anchor));
-    CLX_TRY(clx_realloc(&list->limit, room, sizeof *list->limit));
-    CLX_TRY(clx_realloc(&list->is_stale, room, sizeof *list->is_stale));
-    CLX_TRY(clx_realloc(&list->found_begin, room + 1, sizeof *list->found_begin));
-    list->item_capacity = room;
+    const int64_t capacity = n_item + n_item / 2 + 16;
+    CLX_TRY(clx_realloc(&list->begin, capacity + 1, sizeof *list->begin));
+    CLX_TRY(clx_realloc(&list->anchor, capacity, sizeof *list->anchor));
+    CLX_TRY(clx_realloc(&list->limit, capacity, sizeof *list->limit));
+    CLX_TRY(clx_realloc(&list->is_stale, capacity, sizeof *list->is_stale));
+    CLX_TRY(clx_realloc(&list->found_begin, capacity + 1, sizeof *list->found_begin));
+    list->item_capacity = capacity;
 done:
     return status;
 }
@@ -231,7 +231,7 @@ static bool stays(const clx_neighbour_list *l, const clx_dem_pair *old)
 static clx_dem_pair fresh(const clx_found *f)
 {
     return (clx_dem_pair){
-        .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .wake = -INFINITY};
+        .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .active_from = -INFINITY};
 }
 
 static bool is_same(const clx_dem_pair *old, const clx_found *f)

@@ -18,7 +18,8 @@ static inline void clx_approach(const clx_grain *a, const clx_grain *b, const cl
 }
 
 static inline void clx_add_contact_force(const clx_dem_touch *t, const clx_contact_force *force,
-                                         bool normal_torque, clx_load *on_a, clx_load *on_b)
+                                         bool normal_torque, clx_force_torque *on_a,
+                                         clx_force_torque *on_b)
 {
     double total[3];
     double turning[3];
@@ -147,7 +148,8 @@ static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *
 
 /// A pair that touches; `extra` as clx_pair_extra.
 static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p, clx_extra *extra,
-                                      const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
+                                      const clx_dem_touch *t, clx_force_torque *on_a,
+                                      clx_force_torque *on_b)
 {
     const clx_law *law = &dem->law;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];

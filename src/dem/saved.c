@@ -42,7 +42,7 @@ static void write_pair(const clx_dem_pair *pair, int32_t *id, double *out)
     id[2] = pair->period[0];
     id[3] = pair->period[1];
     id[4] = (int32_t)pair->touches;
-    out[0] = pair->wake;
+    out[0] = pair->active_from;
     memcpy(out + 1, pair->slide, 3 * sizeof *out);
 }
 
@@ -148,7 +148,7 @@ static clast_status read_pair(const clast_dem *dem, const clx_dem_saved *s, int6
                            .b = id[1],
                            .period = {(int16_t)id[2], (int16_t)id[3]},
                            .touches = id[4] != 0,
-                           .wake = in[0]};
+                           .active_from = in[0]};
     memcpy(pair->slide, in + 1, sizeof pair->slide);
 done:
     return status;

@@ -24,7 +24,7 @@ typedef struct clx_dem_saved {
     double *held;  ///< [n_grain] loads of exact steps, or NULL
     double *extra; ///< [n_pair][4] torques of rolling springs, restitutions; or NULL
     int32_t *id;   ///< [n_pair][5] a, b, image in x and y, flags
-    double *pair;  ///< [n_pair][4] wake, slide
+    double *pair;  ///< [n_pair][4] active_from, slide
     int32_t memory_width; ///< bytes of a contact memory
     uint8_t
         *memory; ///< [n_pair][memory_width] contact memories, or NULL while all items are spheres

@@ -2,7 +2,7 @@
 //
 // Every so many steps each listed pair of bodies that are no spheres is asked without its memory,
 // where the step's contacts have just been found and nothing has moved since. A pair that the step
-// asked must have that gap; one that sleeps must be as far apart as its `wake` promises.
+// asked must have that gap; one that sleeps must be as far apart as its `active_from` promises.
 #include "dem/container.h"
 #include "dem/dem.h"
 
@@ -46,7 +46,7 @@ void clx_verify(clast_dem *dem)
             clx_find_again(dem, pair, &t);
             count(&dem->verified, fabs(t.distance - gap));
         } else { // what is promised may be less than the gap, never more
-            count(&dem->verified, fmax(0.0, fmax(0.0, pair->wake - travel) - gap));
+            count(&dem->verified, fmax(0.0, fmax(0.0, pair->active_from - travel) - gap));
         }
     }
 }

@@ -1,4 +1,5 @@
-/* Unit: how a sweep is divided: every grain once whoever is fast, shares by pace, what is late. */
+/* Unit: how a sweep is divided: every grain once whoever is fast, shares by pace, what is deferred.
+ */
 #include "support.h"
 
 #include "dem/chunk.h"
@@ -96,13 +97,13 @@ static void shares_follow_paces(void **state)
     clast_dem_destroy(dem);
 }
 
-/* A grain is late where a pair leads to it, or to one of its four, from before the border. */
+/* A grain is deferred where a pair leads to it, or to one of its four, from before the border. */
 static void late_is_what_lower_grains_reach(void **state)
 {
     (void)state;
     static int32_t lowest[N];
     clast_dem *dem = make();
-    int n_late = 0;
+    int n_deferred = 0;
     for (int g = 0; g < N; ++g) {
         lowest[g] = INT32_MAX;
     }
@@ -115,11 +116,11 @@ static void late_is_what_lower_grains_reach(void **state)
     }
     for (int32_t border = 0; border < N; border += 10 * CLX_SWEEP_BLOCK) {
         for (int32_t g = border; g < N; ++g) {
-            assert_int_equal(clx_is_late(&dem->sweeping, g, border), lowest[g] < border);
-            n_late += lowest[g] < border ? 1 : 0;
+            assert_int_equal(clx_is_deferred(&dem->sweeping, g, border), lowest[g] < border);
+            n_deferred += lowest[g] < border ? 1 : 0;
         }
     }
-    assert_true(n_late > 0);
+    assert_true(n_deferred > 0);
     clast_dem_destroy(dem);
 }
 
