@@ -66,6 +66,20 @@ class Ranges(Case):
             self.assertEqual(r.code, 2, r.err)
             self.assertIn("a1 + a2 over Kolmogorov's length is 3.99 at the farthest, where it holds up to 1 [Saffman", r.err)
 
+    def test_a_cloud_that_grows_out_of_the_range_says_when(self):
+        file = grains(self.folder / "p.csv", [1e-4] * 300)
+        common = ("agglomerate", file, "--domain", CUBE, "--kernel", "shear_laminar", "--shear", "13", "--radius-column", "r",
+                  "--variant", "test", "--duration", "2e9", "--n-step", "20")
+        self.assert_fails(2, *common, says=["shear Reynolds number", "% of the collisions up to t = "])
+        r = clast(*common, "--out-of-range", "extrapolate", "--json")
+        self.assertEqual(r.code, 0, r.err)
+        told = r.json["out_of_range"]
+        self.assertEqual(told["share_of_start"], 0)
+        self.assertGreater(told["from_time"], 0)
+        self.assertTrue(0.001 < told["share_of_collisions"] < 0.9, told)
+        self.assertGreater(told["value"], 1)
+        self.assertIn("% of the collisions, over 0.1 % of them from t = ", r.err)
+
     def test_a_mechanism_is_counted_once(self):
         self.assert_fails(2, *BOX, "--kernel", "brownian+brownian_transition", "--monomer-radius", "1um", "--particle-density",
                           "2500", says=["counts Brownian motion twice"])

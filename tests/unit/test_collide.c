@@ -253,7 +253,7 @@ static void no_event_is_lost_at_caps(void **state)
     }
 }
 
-/* Radii: volumes add, or grow with the fractal dimension. */
+/* Radii: volumes add, or grow with the fractal dimension, of collision or of gyration. */
 static void radii_follow_their_law(void **state)
 {
     (void)state;
@@ -271,6 +271,15 @@ static void radii_follow_their_law(void **state)
     CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
     for (int i = 0; i < 10; ++i) {
         const double expected = 1e-6 * pow(10.0, 1.0 / 1.8);
+        CHECK_REL(monomers[i] > 0 ? radius[i] : expected, expected, 1e-14);
+    }
+    p = singles(10); // k_f = 1.3 of radii of gyration, half a monomer to a count
+    c.radius_law = CLAST_RADIUS_FRACTAL_GYRATION;
+    c.fractal_prefactor = 1.3;
+    c.count_unit = 0.5;
+    CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
+    for (int i = 0; i < 10; ++i) {
+        const double expected = 1e-6 * pow(5.0 / 1.3, 1.0 / 1.8) * sqrt(3.8 / 1.8);
         CHECK_REL(monomers[i] > 0 ? radius[i] : expected, expected, 1e-14);
     }
 }
