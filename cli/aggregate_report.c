@@ -36,6 +36,12 @@ static double read_settling(const clast_aggregate_result *r, int32_t k)
     return r->settling_velocity;
 }
 
+static double read_permeable(const clast_aggregate_result *r, int32_t k)
+{
+    (void)k;
+    return r->settling_velocity_permeable;
+}
+
 static double read_porosity(const clast_aggregate_result *r, int32_t k)
 {
     return r->porosity[k];
@@ -50,7 +56,7 @@ typedef struct {
 
 static void print_line(const clast_aggregate_report *report, const line *l)
 {
-    double *value = calloc((size_t)report->n, sizeof *value);
+    double *value = report->n > 0 ? calloc((size_t)report->n, sizeof *value) : NULL;
     if (value == NULL) {
         return;
     }
@@ -64,6 +70,20 @@ static void print_line(const clast_aggregate_report *report, const line *l)
     }
     (void)putchar('\n');
     free(value);
+}
+
+/// The permeable velocity, or why it has none: of the first aggregate that has none.
+static void print_permeable(const clast_aggregate_report *report)
+{
+    static const line l = {"settling, permeable coat", "m/s", 1.0, read_permeable, 0};
+    for (int32_t i = 0; i < report->n; ++i) {
+        if (report->result[i].permeable != CLAST_PERMEABLE_YES) {
+            (void)printf("%-28s %12s (%s)\n", l.name, "-",
+                         clast_permeable_text(report->result[i].permeable));
+            return;
+        }
+    }
+    print_line(report, &l);
 }
 
 void aggregate_report_print(const clast_aggregate_report *report)
@@ -81,6 +101,7 @@ void aggregate_report_print(const clast_aggregate_report *report)
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i) {
         print_line(report, &lines[i]);
     }
+    print_permeable(report);
     for (int32_t k = 0; k < report->result[0].n_envelope; ++k) {
         (void)snprintf(name, sizeof name, "porosity, %s",
                        clast_envelope_name(report->result[0].envelope[k].kind));

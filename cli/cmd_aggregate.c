@@ -73,7 +73,9 @@ static clast_status run(const cli_common *common, void *context)
 static const char details[] =
     "The core lies at the origin. Each particle is tried along N_r rays in a cone about an axis,\n"
     "in N_o orientations on each ray, comes from outside to its first touch, and stays where its\n"
-    "centre of mass ends nearest to the target. Nothing moves after that.\n"
+    "centre of mass ends nearest to the target. Nothing moves after that: no restructuring, no\n"
+    "sintering, no compaction. --approach ballistic draws lines over the whole cross-section,\n"
+    "diffusive walks at random (with mode: cluster BCCA and DLCA).\n"
     "mpirun -n N clast-mpi aggregate ... (clast built with MPI) grows --repeats on N ranks.\n"
     "--fit finds rays, orientations, cone and replicate that explain an observed size, density or\n"
     "settling velocity, with their spread, and says when none do (exit code 1); fit.csv, fit.svg.\n"

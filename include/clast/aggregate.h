@@ -116,6 +116,7 @@ typedef struct clast_aggregate_config {
     int32_t envelope_rays;
     double envelope_length; ///< radius of the ball of `wrap`
     bool solid_union;       ///< measure the volume of the union
+    int32_t permeability;   ///< clast_permeability_law of the settling velocity
 
     double stop_mass;     ///< kg; 0: never
     double stop_size;     ///< D_agg; 0: never
@@ -166,6 +167,18 @@ typedef enum {
     CLAST_STOP_POROSITY
 } clast_aggregate_stop;
 
+/// Whether an aggregate has a permeable settling velocity, or why not.
+typedef enum {
+    CLAST_PERMEABLE_NO,       ///< not measured
+    CLAST_PERMEABLE_YES,      ///< it has one
+    CLAST_PERMEABLE_THIN,     ///< the coat is thinner than its mean grain
+    CLAST_PERMEABLE_POROSITY, ///< its porosity lies outside of the law of permeability
+    CLAST_PERMEABLE_REYNOLDS  ///< beyond Re 1 with beta < 15, or beyond Re 120
+} clast_permeable_range;
+
+/// What that means, for messages: "the coat is thinner than its mean grain", ...
+CLAST_API const char *clast_permeable_text(clast_permeable_range range);
+
 /// An aggregate in numbers, SI. In cluster mode those of the largest cluster.
 typedef struct clast_aggregate_result {
     int32_t n_particle; ///< placed on the core, or mergers
@@ -180,10 +193,17 @@ typedef struct clast_aggregate_result {
     int32_t n_envelope;
     clast_envelope envelope[CLAST_N_ENVELOPE]; ///< [n_envelope] in the order of the configuration
     double porosity[CLAST_N_ENVELOPE];         ///< 1 - solid_sum / envelope
-    double d_agg;                ///< diameter of the sphere of the first envelope's volume
-    double density;              ///< mass by the first envelope's volume
-    double radius_of_gyration;   ///< of the mass, each grain's own extent included
-    double settling_velocity;    ///< in air at sea level [Bagheri2016], by d_agg and density [m/s]
+    double d_agg;              ///< diameter of the sphere of the first envelope's volume
+    double density;            ///< mass by the first envelope's volume
+    double radius_of_gyration; ///< of the mass, each grain's own extent included
+    double settling_velocity;  ///< in air at sea level [Bagheri2016], by d_agg and density [m/s]
+    double settling_velocity_permeable; ///< with air flowing through the coat [Neale1973,
+                                        ///< Masliyah1987]; NAN where `permeable` says why
+    clast_permeable_range permeable;
+    double coat_porosity;        ///< 1 - solid / (first envelope - core)
+    double coat_grain;           ///< Sauter's mean size of the placed grains [m]
+    double permeability;         ///< of the coat [m2]; NAN outside of the law
+    double drag_permeable;       ///< Stokes drag over that of the solid body; NAN as that
     double max_overlap;          ///< greatest step back that frees a particle; 0 within rounding
     double max_overlap_relative; ///< the same by the particle's size
     int32_t n_lost;              ///< particles that the published march left at a step limit

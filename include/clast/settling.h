@@ -46,6 +46,19 @@ CLAST_API double clast_drag_coefficient(double reynolds, const clast_drag *drag)
 ///     C_D = 24 / Re (1 + 0.15 Re^0.687) + 0.42 / (1 + 42500 Re^-1.16)             [Clift1971]
 CLAST_API double clast_drag_sphere(double reynolds);
 
+/// Reynolds number at which clast_drag_sphere gives this Best number, C_D Re^2, to rounding.
+///
+/// @param best  4/3 rho_f |rho - rho_f| g d^3 / mu^2 for a falling sphere; 24 Re of Stokes' law
+/// @return 0 for 0, NaN for less
+CLAST_API double clast_drag_sphere_reynolds(double best);
+
+/// Cunningham's slip correction C with Davies' constants, by which drag in a gas is less.
+///
+///     C = 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn))                                      [Davies1945]
+///
+/// @param knudsen  mean free path of the gas over the radius; 0: no slip
+CLAST_API double clast_slip_correction(double knudsen);
+
 /// Factor on the drag of a body among others that settle at this local porosity, with no net flow:
 ///
 ///     e^-(n + 1),  n = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2 / 2)                   [DiFelice1994]
@@ -72,5 +85,51 @@ typedef struct clast_settling {
 CLAST_API clast_status clast_terminal_velocity(double diameter, double density,
                                                const clast_drag *drag, const clast_fluid *fluid,
                                                clast_settling *settling);
+
+/// Permeability of grains by their porosity and size.
+typedef enum {
+    CLAST_PERMEABILITY_HAPPEL,       ///< cell model, porosity 0.3 to 1
+    CLAST_PERMEABILITY_KOZENY_CARMAN ///< packed beds, porosity 0.26 to 0.7
+} clast_permeability_law;
+
+/// Permeability k [m2] of grains of this size (6 times volume over surface, Sauter's mean) at this
+/// porosity e; with s = (1 - e)^(1/3)
+///
+///     Happel           k = d^2 / 18 (3 - 4.5 s + 4.5 s^5 - 3 s^6) / (s^3 (3 + 2 s^5)) [Happel1958]
+///     Kozeny, Carman   k = d^2 e^3 / (180 (1 - e)^2) [Carman1937]
+///
+/// @return CLAST_E_USAGE outside of the law's range of porosities, or for a size that is not > 0
+CLAST_API clast_status clast_permeability(clast_permeability_law law, double diameter,
+                                          double porosity, double *permeability);
+
+/// Stokes drag of a permeable sphere over that of a solid one: creeping flow outside, Brinkman's
+/// equation inside, beta the radius over the root of the permeability.
+///
+///     Omega = 2 beta^2 (1 - tanh(beta) / beta) / (2 beta^2 + 3 (1 - tanh(beta) / beta))
+///     [Neale1973]
+///
+/// 0 at beta 0, 1 at infinity. `core` is the radius of a solid core over that of the sphere, whose
+/// shell alone is permeable then (its own solution: core at beta 0).               [Masliyah1987]
+/// @return NAN unless beta >= 0 and 0 <= core <= 1
+CLAST_API double clast_drag_permeable(double beta, double core);
+
+/// What air flows through.
+typedef struct clast_porous {
+    double permeability; ///< > 0 [m2]
+    double core;         ///< radius of the solid core over that of the body, in [0, 1)
+} clast_porous;
+
+/// Terminal velocity with the whole drag law scaled by clast_drag_permeable.
+///
+/// That is exact in creeping flow, and was measured on permeable spheres of beta > 15 up to Re 120
+/// [Masliyah1980]: in_range is Re <= 1, or beta >= 15 and Re <= 120.
+/// @return as clast_terminal_velocity; CLAST_E_USAGE too for a permeability that is not > 0 or a
+/// core
+///         outside of [0, 1), and where a factor of 0 leaves no drag
+CLAST_API clast_status clast_terminal_velocity_permeable(double diameter, double density,
+                                                         const clast_drag *drag,
+                                                         const clast_fluid *fluid,
+                                                         const clast_porous *porous,
+                                                         clast_settling *settling);
 
 CLAST_END

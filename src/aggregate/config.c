@@ -122,6 +122,8 @@ const clast_field clast_aggregate_fields[] = {
     COUNT(envelope_rays, 10000, 10, 1e8, "rays of the published envelope"),
     NUMBER(envelope_length, 0, 0, 1e6, "m",
            "radius of the ball of the wrap and alpha envelopes, which need it"),
+    CHOICE(permeability, 0, "happel|kozeny_carman",
+           "permeability by porosity and grain size, for the settling velocity that it allows"),
 
     NUMBER(stop_mass, 0, 0, 1e12, "kg", "stop when the aggregate weighs this; 0: never",
            .group = "when to stop"),

@@ -102,6 +102,9 @@ clast_status clx_aggregate_measure_begin(clast_aggregate *a);
 clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row);
 clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster *cluster,
                                            double *row);
+/// Terminal velocities in air of a body with the first envelope's volume and these widths.
+clast_status clx_aggregate_measure_settling(const clast_aggregate *a, const clast_assembly *grains,
+                                            const double width[3], clast_aggregate_result *result);
 clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result);
 
 /// A row of the sums as they are; without the envelopes, or with them.

@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include <clast/overlap.h>
-#include <clast/settling.h>
 #include <clast/structure.h>
 #include <math.h>
 #include <stdio.h>
@@ -194,21 +193,6 @@ done:
     return status;
 }
 
-/// Terminal velocity in air of a body with the first envelope's volume and the aggregate's form.
-static clast_status measure_settling(const clast_extent *extent, clast_aggregate_result *result)
-{
-    clast_status status = CLAST_OK;
-    clast_drag drag;
-    clast_settling settling;
-    const clast_fluid air = clast_fluid_air();
-    CLX_TRY(clast_drag_of_form(extent->width[0], extent->width[1], extent->width[2], result->d_agg,
-                               result->density / air.density, &drag));
-    CLX_TRY(clast_terminal_velocity(result->d_agg, result->density, &drag, &air, &settling));
-    result->settling_velocity = settling.velocity;
-done:
-    return status;
-}
-
 enum { AT_END = 2 };
 
 /// The measures at the end that run on one thread each and do not need each other.
@@ -271,7 +255,7 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     result->n_envelope = a->n_kind;
     result->d_agg = equivalent_diameter(result->envelope[0].volume);
     result->density = result->mass / result->envelope[0].volume;
-    CLX_TRY(measure_settling(&m.extent, result));
+    CLX_TRY(clx_aggregate_measure_settling(a, grains, m.extent.width, result));
 done:
     free_view(&part);
     return status;

@@ -82,7 +82,7 @@ clast_status clx_cloud_no_column(const clast_table *table, const char *name)
             (void)snprintf(guess, sizeof guess, "; did you mean '%.40s'?", known);
         }
     }
-    if (guess[0] == '\0' && strcmp(table->column[0].name, "column_1") == 0) {
+    if (table->n_column > 0 && guess[0] == '\0' && strcmp(table->column[0].name, "column_1") == 0) {
         (void)snprintf(guess, sizeof guess, "; the file has no header: --columns %s",
                        table->n_column > 2    ? "column_1,column_2,column_3"
                        : table->n_column == 2 ? "column_1,column_2"

@@ -55,9 +55,9 @@ static int edges(const clast_dem *dem, clx_batch *p, int from)
 }
 
 CLX_FOR_EACH_MACHINE
-static void push(const clast_dem *dem, const clx_batch *p, bool has_walls)
+static void force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
-    push_kind(dem, p, has_walls);
+    batch_force(dem, p, has_walls);
 }
 
 void clx_batch_spheres(const clast_dem *dem, clx_batch *p)
@@ -95,13 +95,13 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *p)
     return p->n > CLX_LANES ? first | edges(dem, p, CLX_LANES) << CLX_LANES : first;
 }
 
-void clx_batch_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
+void clx_batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
 #if CLX_MAKES_WIDE
     if (is_wide(p)) {
-        clx_wide_push(dem, p, has_walls);
+        clx_wide_force(dem, p, has_walls);
         return;
     }
 #endif
-    push(dem, p, has_walls);
+    force(dem, p, has_walls);
 }

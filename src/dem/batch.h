@@ -1,7 +1,7 @@
 #pragma once
 // Contacts of one kind, up to eight side by side.
 #include "contact/facet_lanes.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 
 typedef enum {
     CLX_BATCH_FACES,   ///< hulls whose memory is a face with a vertex
@@ -14,9 +14,9 @@ typedef enum {
 
 typedef struct clx_batch {
     int n; ///< contacts in it, 1 to CLX_BATCH; the places beyond repeat the last
-    clx_pushed *to[CLX_BATCH]; ///< where what they do is written
-    clx_link *link[CLX_BATCH]; ///< awake
-    double travel[CLX_BATCH];  ///< of both grains
+    clx_pair_force *to[CLX_BATCH]; ///< where what they do is written
+    clx_dem_pair *pair[CLX_BATCH]; ///< awake
+    double travel[CLX_BATCH];      ///< of both grains
     const clx_grain *a[CLX_BATCH], *b[CLX_BATCH];
     clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
     double arm_b[3][CLX_BATCH]; ///< from b's centre to the contact point
@@ -33,7 +33,7 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *batch);
 void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
 void clx_batch_arms(clx_batch *batch);
 
-/// Whether clx_batch_push can do this law.
+/// Whether clx_batch_force can do this law.
 static inline bool clx_batch_has_law(const clx_law *law)
 {
     return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 &&
@@ -41,6 +41,6 @@ static inline bool clx_batch_has_law(const clx_law *law)
 }
 
 /// What contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
-/// pushes, displacements and whether they touch; where one is apart, when it may wake. Walls are
+/// forces, displacements and whether they touch; where one is apart, when it may wake. Walls are
 /// looked for if there may be any.
-void clx_batch_push(const clast_dem *dem, const clx_batch *batch, bool has_walls);
+void clx_batch_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);

@@ -38,11 +38,11 @@ CLX_INLINE void collect(const clx_grain *const grain[CLX_LANES], size_t at, clx_
 }
 
 /// Images of b, along x and y, as the low bits of numbers of periods.
-CLX_INLINE void read_periods(clx_link *const link[CLX_LANES], clx_lanes period[2])
+CLX_INLINE void read_periods(clx_dem_pair *const pair[CLX_LANES], clx_lanes period[2])
 {
     words both;
     for (int k = 0; k < CLX_LANES; ++k) {
-        const int16_t *n = link[k]->period;
+        const int16_t *n = pair[k]->period;
         both[k] = (uint32_t)(uint16_t)n[0] | (uint32_t)(uint16_t)n[1] << 16;
     }
     period[0] = __builtin_convertvector((ints)(both << 16) >> 16, clx_lanes);
@@ -64,7 +64,7 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
         return;
     }
     clx_lanes period[2];
-    read_periods(p->link + from, period);
+    read_periods(p->pair + from, period);
     for (int c = 0; c < 2; ++c) {
         const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
         const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
@@ -96,13 +96,13 @@ CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)
 }
 
 /// As clx_pair_contact does for one.
-CLX_INLINE void add_rounding(const clast_dem *dem, clx_link *const link[CLX_LANES],
+CLX_INLINE void add_rounding(const clast_dem *dem, clx_dem_pair *const pair[CLX_LANES],
                              clx_meet_lanes *m)
 {
     clx_lanes a, b;
     for (int k = 0; k < CLX_LANES; ++k) {
-        a[k] = dem->convex[link[k]->a].round;
-        b[k] = dem->convex[link[k]->b].round;
+        a[k] = dem->convex[pair[k]->a].round;
+        b[k] = dem->convex[pair[k]->b].round;
     }
     m->gap = m->gap - (a + b);
     lanes_axpy(m->point, m->point, 0.5 * (b - a), m->normal);
@@ -117,7 +117,7 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
     const clx_marks good =
         edges ? clx_edges_again(&p->meet, from, r, &m) : clx_faces_again(&p->meet, from, r, &m);
     if (dem->config.rounding > 0.0) {
-        add_rounding(dem, p->link + from, &m);
+        add_rounding(dem, p->pair + from, &m);
     }
     for (int c = 0; c < 3; ++c) {
         arm[c] = m.point[c] - r[c];
@@ -134,10 +134,10 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
 
 /// Contacts side by side and what the law has worked out for them so far.
 typedef struct {
-    clx_lanes wake, slide[3]; ///< of the links
+    clx_lanes wake, slide[3]; ///< of the pairs
     clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
-    clx_lanes push, limit, tangential[3];
+    clx_lanes normal_force, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
     clx_lanes inverse;               ///< of the tangential stiffness, negative
     clx_lanes load[2];               ///< exact steps: what the contact adds to a and b
@@ -153,7 +153,7 @@ CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
     }
 }
 
-/// Velocities, reduced mass and friction; the links' displacements.
+/// Velocities, reduced mass and friction; the pairs' displacements.
 CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
                          meetings *m)
 {
@@ -177,13 +177,13 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
     if (has_walls) {
         clx_lanes is_wall;
         for (int k = 0; k < CLX_LANES; ++k) {
-            is_wall[k] = p->link[from + k]->b < 0 ? 1.0 : 0.0;
+            is_wall[k] = p->pair[from + k]->b < 0 ? 1.0 : 0.0;
         }
         m->mass = lanes_pick(is_wall > 0.0, va[3], m->mass);
         m->friction = lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), m->friction);
     }
     for (int k = 0; k < 4; ++k) {
-        slide[k] = lanes_row(&p->link[from + k]->wake, &p->link[from + k + CLX_BEYOND]->wake);
+        slide[k] = lanes_row(&p->pair[from + k]->wake, &p->pair[from + k + CLX_BEYOND]->wake);
     }
     lanes_transpose(slide);
     m->wake = slide[0];
@@ -291,12 +291,12 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     load_normal(p, from, normal);
     const clx_lanes apart = lanes_dot(m->velocity, normal);
     lanes_axpy(along, m->velocity, -apart, normal);
-    clx_lanes push = elastic - normal_damping * apart;
+    clx_lanes force = elastic - normal_damping * apart;
     if (law->clip) {
-        push = lanes_pick(push < 0.0, lanes_all(0.0), push);
+        force = lanes_pick(force < 0.0, lanes_all(0.0), force);
     }
-    m->push = push;
-    m->limit = m->friction * lanes_size(push);
+    m->normal_force = force;
+    m->limit = m->friction * lanes_size(force);
     m->inverse = -1.0 / kt;
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
@@ -323,24 +323,24 @@ CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide
     }
 }
 
-/// Forces, torques and the links' wakes and displacements. Lanes that repeat another write the same
+/// Forces, torques and the pairs' wakes and displacements. Lanes that repeat another write the same
 /// bytes to the same place.
-CLX_INLINE void write(clx_pushed *const to[CLX_LANES], clx_link *const link[CLX_LANES],
+CLX_INLINE void write(clx_pair_force *const to[CLX_LANES], clx_dem_pair *const pair[CLX_LANES],
                       clx_marks touching, clx_lanes out[4][4])
 {
     for (int i = 0; i < 4; ++i) {
         lanes_transpose(out[i]);
     }
     for (int k = 0; k < 4; ++k) {
-        clx_pushed *p = to[k];
-        clx_pushed *beyond = to[k + CLX_BEYOND];
-        lanes_put_row(&link[k]->wake, &link[k + CLX_BEYOND]->wake, out[3][k]);
+        clx_pair_force *p = to[k];
+        clx_pair_force *beyond = to[k + CLX_BEYOND];
+        lanes_put_row(&pair[k]->wake, &pair[k + CLX_BEYOND]->wake, out[3][k]);
         lanes_put_row(p->force, beyond->force, out[0][k]);
         lanes_put_row(p->torque_b, beyond->torque_b, out[1][k]);
         lanes_put_row(p->torque_a, beyond->torque_a, out[2][k]);
     }
     for (int k = 0; k < CLX_LANES; ++k) {
-        link[k]->touches = (uint32_t)touching[k] & 1U;
+        pair[k]->touches = (uint32_t)touching[k] & 1U;
     }
 }
 
@@ -353,7 +353,7 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
 CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
                          const meetings *m)
 {
-    clx_lanes out[4][4]; // force, torque on b and on a, the link's wake and slide
+    clx_lanes out[4][4]; // force, torque on b and on a, the pair's wake and slide
     clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
     clx_lanes *force = out[0];
     const clx_lanes gap = lanes_load(p->meet.gap + from);
@@ -362,7 +362,7 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
     load_normal(p, from, normal);
     out[3][0] = lanes_pick(touching, m->wake, lanes_load(p->travel + from) + gap);
     for (int c = 0; c < 3; ++c) {
-        force[c] = where(touching, tangential[c] + m->push * normal[c]);
+        force[c] = where(touching, tangential[c] + m->normal_force * normal[c]);
         out[3][c + 1] = where(touching, slide[c]);
         turning[c] = dem->config.normal_torque ? force[c] : where(touching, tangential[c]);
     }
@@ -375,10 +375,11 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
         out[1][3] = where(touching, m->load[1]);
         out[2][3] = where(touching, -m->load[0]);
     }
-    write(p->to + from, p->link + from, touching, out);
+    write(p->to + from, p->pair + from, touching, out);
 }
 
-CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls, bool is_exact)
+CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls,
+                               bool is_exact)
 {
     meetings m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
@@ -395,14 +396,14 @@ CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_wa
     }
 }
 
-/// The kinds of push_lanes, each compiled for itself.
-CLX_INLINE void push_kind(const clast_dem *dem, const clx_batch *p, bool has_walls)
+/// The kinds of force_of_lanes, each compiled for itself.
+CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (dem->law.is_exact) {
-        push_lanes(dem, p, true, true);
+        force_of_lanes(dem, p, true, true);
     } else if (has_walls) {
-        push_lanes(dem, p, true, false);
+        force_of_lanes(dem, p, true, false);
     } else {
-        push_lanes(dem, p, false, false);
+        force_of_lanes(dem, p, false, false);
     }
 }

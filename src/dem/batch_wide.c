@@ -25,8 +25,8 @@ int clx_wide_edges(const clast_dem *dem, clx_batch *p)
     return meet_facets(dem, p, 0, true);
 }
 
-void clx_wide_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
+void clx_wide_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
-    push_kind(dem, p, has_walls);
+    batch_force(dem, p, has_walls);
 }
 #endif

@@ -7,5 +7,5 @@
 void clx_wide_spheres(const clast_dem *dem, clx_batch *batch);
 int clx_wide_faces(const clast_dem *dem, clx_batch *batch);
 int clx_wide_edges(const clast_dem *dem, clx_batch *batch);
-void clx_wide_push(const clast_dem *dem, const clx_batch *batch, bool has_walls);
+void clx_wide_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);
 #endif

@@ -204,7 +204,7 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
     return clx_convex_ellipsoid(axes);
 }
 
-/// From now on items have convex shapes and links have memories.
+/// From now on items have convex shapes and pairs have memories.
 clast_status clx_items_begin_convex(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -225,7 +225,7 @@ clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain 
         need += dem->has_items ? n_item_of(dem, grain[i].shape) : 1;
     }
     CLX_CHECK(need <= INT32_MAX, CLAST_E_LIMIT, "%lld spheres of clumps", (long long)need);
-    CLX_TRY(clx_list_reserve(&dem->list, need));
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, need));
     if (!dem->all_round) {
         CLX_TRY(clx_realloc(&dem->convex, dem->list.item_capacity + 1, sizeof *dem->convex));
     }

@@ -30,7 +30,7 @@ void clx_sweeping_free(clx_sweeping *s)
     clx_free(s->before);
     clx_free(s->lowest);
     clx_free(s->late);
-    clx_free(s->push);
+    clx_free(s->force);
     clx_free(s->awake);
     clx_free(s->kept);
     clx_free(s->kept_on);
@@ -52,7 +52,7 @@ static inline int64_t end_of(uint64_t left)
     return (int64_t)(left >> 32);
 }
 
-/// Notes that grain a has a link to b.
+/// Notes that grain a has a pair to b.
 static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 {
     _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
@@ -63,23 +63,23 @@ static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 }
 
 /// Work of blocks of grains, and the lowest neighbours of all. Moving a grain costs about as much
-/// as five links that sleep, and one that touches as twelve (profile of P1).
+/// as five pairs that sleep, and one that touches as twelve (profile of P1).
 static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     enum { MOVE = 5, TOUCH = 12 };
     clast_dem *dem = context;
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     clx_sweeping *s = &dem->sweeping;
     (void)worker;
     for (int64_t block = begin; block < end; ++block) {
         const int64_t first = block * BLOCK;
         const int64_t last = first + BLOCK < dem->n_grain ? first + BLOCK : dem->n_grain;
-        int64_t work = MOVE * (last - first) + near->begin[last] - near->begin[first];
-        for (int32_t k = near->begin[first]; k < near->begin[last]; ++k) {
-            const clx_link *link = clx_near_link(dem, k);
-            work += TOUCH * (int64_t)link->touches;
-            if (link->b >= 0) {
-                note_low(s, link->a, link->b);
+        int64_t work = MOVE * (last - first) + inner->begin[last] - inner->begin[first];
+        for (int32_t k = inner->begin[first]; k < inner->begin[last]; ++k) {
+            const clx_dem_pair *pair = clx_inner_pair(dem, k);
+            work += TOUCH * (int64_t)pair->touches;
+            if (pair->b >= 0) {
+                note_low(s, pair->a, pair->b);
             }
         }
         s->before[block + 1] = work;
@@ -125,13 +125,13 @@ static void weigh_all(clast_dem *dem)
     }
 }
 
-static int32_t most_links(const clast_dem *dem)
+static int32_t most_pairs(const clast_dem *dem)
 {
     int32_t most = 0;
     for (int32_t i = 0; i < dem->n_grain; i += BLOCK) {
         const int32_t end = i + BLOCK < dem->n_grain ? i + BLOCK : dem->n_grain;
-        const int32_t links = dem->near.begin[end] - dem->near.begin[i];
-        most = links > most ? links : most;
+        const int32_t pairs = dem->inner.begin[end] - dem->inner.begin[i];
+        most = pairs > most ? pairs : most;
     }
     return most;
 }
@@ -142,22 +142,22 @@ clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
     clx_sweeping *s = &dem->sweeping;
     const int64_t n_four = dem->n_grain / CLX_LANES + 1;
     s->n_worker = 0;
-    s->most = most_links(dem);
+    s->most = most_pairs(dem);
     CLX_TRY(
         clx_grow_lines(&s->chunk, &s->chunk_capacity, (int64_t)MOST * n_worker, sizeof *s->chunk));
     if (s->pace_capacity < n_worker) {
         CLX_TRY(clx_grow_lines(&s->pace, &s->pace_capacity, n_worker, sizeof *s->pace));
         memset(s->pace, 0, (size_t)s->pace_capacity * sizeof *s->pace);
     }
-    CLX_TRY(
-        clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
+    CLX_TRY(clx_grow_lines(&s->force, &s->force_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->force));
     CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
                            sizeof *s->awake));
     if (n_worker > 1) {
         CLX_TRY(clx_grow(&s->before, &s->before_capacity, blocks_of(dem) + 1, sizeof *s->before));
         CLX_TRY(clx_grow(&s->lowest, &s->lowest_capacity, n_four, sizeof *s->lowest));
         CLX_TRY(clx_grow(&s->late, &s->late_capacity, n_four, sizeof *s->late));
-        CLX_TRY(reserve_kept(s, (int64_t)dem->near.n + dem->n_grain));
+        CLX_TRY(reserve_kept(s, (int64_t)dem->inner.n + dem->n_grain));
         weigh_all(dem);
     }
     s->n_worker = n_worker;

@@ -23,7 +23,7 @@ typedef struct clx_pace {
     double speed; ///< work a second in the last steps; 0: not known
 } clx_pace;
 
-/// Weighs the grains of a new near list, for `n_worker` threads.
+/// Weighs the grains of a new inner list, for `n_worker` threads.
 clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker);
 
 /// A chunk for each thread, as large as its pace in the last steps asks for.
@@ -43,10 +43,10 @@ void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double second
 /// threads' paces.
 void clx_chunks_end(clast_dem *dem);
 
-/// Where a chunk keeps what it does to late grains: there is room for all its links and grains.
+/// Where a chunk keeps what it does to late grains: there is room for all its pairs and grains.
 static inline int64_t clx_chunk_room(const clast_dem *dem, const clx_chunk *chunk)
 {
-    return dem->near.begin[chunk->begin] + chunk->begin;
+    return dem->inner.begin[chunk->begin] + chunk->begin;
 }
 
 /// Work of the block of grains that begins with g.
@@ -56,7 +56,7 @@ static inline int64_t clx_block_work(const clx_sweeping *s, int64_t g)
     return s->n_worker > 1 ? s->before[block + 1] - s->before[block] : 0;
 }
 
-/// Whether some link leads from a grain before `begin` to grain g or to one of its four.
+/// Whether some pair leads from a grain before `begin` to grain g or to one of its four.
 static inline bool clx_is_late(const clx_sweeping *s, int64_t g, int64_t begin)
 {
     return atomic_load_explicit(&s->lowest[g / CLX_LANES], memory_order_relaxed) < begin;

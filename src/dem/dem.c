@@ -3,7 +3,7 @@
 
 #include "base/lines.h"
 #include "dem/fluid.h"
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -33,9 +33,9 @@ void clast_dem_destroy(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_body; ++i) {
         clx_body_free(&dem->body[i]);
     }
-    clx_list_free(&dem->list);
+    clx_neighbour_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
-    clx_near_free(&dem->near);
+    clx_inner_free(&dem->inner);
     clx_sweeping_free(&dem->sweeping);
     clx_free(dem->body);
     clx_free(dem->grain);
@@ -210,10 +210,10 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
 {
     clast_status status = CLAST_OK;
-    clx_near *near = &dem->near;
-    clx_near_unpack(dem);
-    if (!near->is_gathered) {
-        CLX_TRY(clx_near_gather(dem));
+    clx_inner_list *inner = &dem->inner;
+    clx_inner_unpack(dem);
+    if (!inner->is_gathered) {
+        CLX_TRY(clx_inner_gather(dem));
     }
     clx_contacts(dem);
     if (verifies) {
@@ -239,11 +239,11 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
         if (dem->list.is_due) {
-            clx_near_unpack(dem);
-            CLX_TRY(clx_list_refresh(dem));
+            clx_inner_unpack(dem);
+            CLX_TRY(clx_neighbour_list_refresh(dem));
         }
-        if (dem->near.is_due) {
-            CLX_TRY(clx_near_find(dem));
+        if (dem->inner.is_due) {
+            CLX_TRY(clx_inner_find(dem));
         }
         if (dem->n_started < dem->n_grain) {
             CLX_TRY(clx_check_starts(dem));
@@ -252,12 +252,12 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
-            clx_near_unpack(dem);
+            clx_inner_unpack(dem);
             return clx_explain_explosion(dem);
         }
     }
 done:
-    clx_near_unpack(dem);
+    clx_inner_unpack(dem);
     return status;
 }
 

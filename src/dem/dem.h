@@ -60,7 +60,7 @@ typedef struct clx_item {
 } clx_item;
 
 /// Two items near each other: 48 bytes.
-typedef struct clx_link {
+typedef struct clx_dem_pair {
     int32_t a, b;         ///< b > a, or -1 - wall
     int16_t period[2];    ///< b's image: position + n * width; the low 16 bits of n
     uint32_t touches : 1; ///< in the last step
@@ -68,7 +68,7 @@ typedef struct clx_link {
     uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
     double wake;          ///< no touch before travel a + travel b gets here
     double slide[3];      ///< tangential displacement of b over a
-} clx_link;
+} clx_dem_pair;
 
 /// What only some laws remember of a contact.
 typedef struct clx_extra {
@@ -83,18 +83,18 @@ typedef struct clx_memory_slot {
 } clx_memory_slot;
 
 /// What the low 16 bits of a number of periods leave open; which it is, the offset tells to within
-/// a period (clx_link_offset).
+/// a period (clx_pair_offset).
 #define CLX_PERIOD_TURN 65536.0
 #define CLX_TO_WHOLE    0x1.8p52 ///< added and taken off again: rounds to a whole number
 
 enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 
-/// A link and its memory in three cache lines, for a sweep.
-typedef struct clx_near_pair {
-    clx_link link; ///< first, so that a pointer to it is one to the pair
+/// A pair and its memory in three cache lines, for a sweep.
+typedef struct clx_packed_pair {
+    clx_dem_pair pair; ///< first, so that a pointer to it is one to the pair
     clx_contact_memory memory;
-} clx_near_pair;
-static_assert(sizeof(clx_near_pair) == 192, "a pair takes three lines");
+} clx_packed_pair;
+static_assert(sizeof(clx_packed_pair) == 192, "a pair takes three lines");
 
 /// Force and torque on a grain, in fours.
 typedef struct clx_load {
@@ -103,56 +103,56 @@ typedef struct clx_load {
 } clx_load;
 
 /// What a contact does to its grains: the force on b, and the torques.
-typedef struct clx_pushed {
+typedef struct clx_pair_force {
     double force[4];    ///< the fourth is 0
     double torque_b[4]; ///< the fourth is 0; with exact steps the contact's load on b
     double torque_a[4]; ///< to be taken off
-} clx_pushed;
+} clx_pair_force;
 
-/// A link that is awake, and its place among those that were asked for.
+/// A pair that is awake, and its place among those that were asked for.
 typedef struct clx_awake {
-    const clx_link *link;
+    const clx_dem_pair *pair;
     int64_t at;
 } clx_awake;
 
-/// What a block of items has in the near list.
-typedef struct clx_near_block {
+/// What a block of items has in the inner list.
+typedef struct clx_inner_block {
     int32_t n;
-    bool wants_memory; ///< some link has none yet and needs one
-} clx_near_block;
+    bool wants_memory; ///< some pair has none yet and needs one
+} clx_inner_block;
 
-/// Packed links that are asked for in advance.
-enum { CLX_NEAR_AHEAD = 12 };
+/// Packed pairs that are asked for in advance.
+enum { CLX_PREFETCH_PAIRS = 12 };
 
-/// Links that were packed, by their numbers in the list.
-typedef struct clx_near_row {
+/// Pairs that were packed, by their numbers in the list.
+typedef struct clx_packed_row {
     int32_t n;
-    int32_t *link;       ///< [n] rising
-    int32_t *begin;      ///< [n_item + 1]
-    clx_near_pair *pair; ///< [n]
-    int64_t capacity, item_capacity, pair_capacity;
-} clx_near_row;
+    int32_t *index;          ///< [n] rising
+    int32_t *begin;          ///< [n_item + 1]
+    clx_packed_pair *packed; ///< [n]
+    int64_t capacity, item_capacity, packed_capacity;
+} clx_packed_row;
 
-/// The links that may touch before some grain's path exceeds its `until`: what a step looks at.
-typedef struct clx_near {
+/// The pairs that may touch before some grain's path exceeds its `until`: what a step looks at.
+typedef struct clx_inner_list {
     int32_t n;
-    int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step, unless that was a sweep
-    int32_t *begin;    ///< [n_item + 1] first of each item's own
-    int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
-    int32_t *in;       ///< [n] their numbers, rising
-    double *until;     ///< [n_grain]
-    clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
-    int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
-    clx_near_block *block;
-    clx_near_pair *pair; ///< [n + CLX_NEAR_AHEAD], the last all 0, while is_packed: the links and
-                         ///< memories of the list are out of date
-    clx_near_row old;    ///< what was packed before, while it is packed anew
-    int64_t load_capacity, block_capacity, pair_capacity;
+    int32_t *index;        ///< [n] rising
+    clx_pair_force *force; ///< [n] of the last step, unless that was a sweep
+    int32_t *begin;        ///< [n_item + 1] first of each item's own
+    int32_t *in_begin;     ///< [n_grain + 2] first of those that load a grain as b
+    int32_t *in;           ///< [n] their numbers, rising
+    double *until;         ///< [n_grain]
+    clx_load *load; ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
+    int64_t capacity, force_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
+    clx_inner_block *block;
+    clx_packed_pair *packed; ///< [n + CLX_PREFETCH_PAIRS], the last all 0, while is_packed: the
+                             ///< pairs and memories of the list are out of date
+    clx_packed_row old;      ///< what was packed before, while it is packed anew
+    int64_t load_capacity, block_capacity, packed_capacity;
     bool is_due;
     bool is_packed;
     bool is_gathered; ///< `in` is there
-} clx_near;
+} clx_inner_list;
 
 struct clx_chunk;
 struct clx_pace;
@@ -164,16 +164,16 @@ typedef struct clx_sweeping {
     struct clx_chunk *chunk; ///< [n_chunk], first the threads' own, then what others took of them
     struct clx_pace *pace;   ///< [n_worker]
     int64_t *before;         ///< [blocks + 1] work of all blocks of grains before
-    _Atomic int32_t *lowest; ///< [fours of grains] least grain with a link to one of the four
-    int32_t most;            ///< links of a block of grains
-    clx_pushed *push;        ///< [n_worker][most] of the block that a worker is at
-    clx_awake *awake;        ///< [n_worker][most] its awake links
+    _Atomic int32_t *lowest; ///< [fours of grains] least grain with a pair to one of the four
+    int32_t most;            ///< pairs of a block of grains
+    clx_pair_force *force;   ///< [n_worker][most] of the block that a worker is at
+    clx_awake *awake;        ///< [n_worker][most] its awake pairs
     int32_t *late;           ///< [n_late] fours that move when all chunks are done: first grains
     int32_t n_late;
-    clx_load *kept;   ///< [n of near + n_grain] what is done to them
+    clx_load *kept;   ///< [n of inner + n_grain] what is done to them
     int32_t *kept_on; ///< grain of each
     int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, late_capacity;
-    int64_t push_capacity, awake_capacity, kept_capacity[2];
+    int64_t force_capacity, awake_capacity, kept_capacity[2];
 } clx_sweeping;
 
 /// Volume of grains by height, for the porosity around one.
@@ -256,14 +256,14 @@ typedef struct clx_found {
 } clx_found;
 
 /// Neighbour lists and what their upkeep needs.
-typedef struct clx_list {
-    clx_link *link;  ///< [n_link] sorted by a, b
-    clx_link *other; ///< the buffer that the next refresh fills
-    int64_t n_link, capacity, other_capacity;
-    clx_extra *extra;       ///< [n_link] where the law has them (has_extra)
+typedef struct clx_neighbour_list {
+    clx_dem_pair *pair;  ///< [n_pair] sorted by a, b
+    clx_dem_pair *other; ///< the buffer that the next refresh fills
+    int64_t n_pair, capacity, other_capacity;
+    clx_extra *extra;       ///< [n_pair] where the law has them (has_extra)
     clx_extra *other_extra; ///< of the buffer
     int64_t extra_capacity, other_extra_capacity;
-    clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
+    clx_memory_slot *memory; ///< [n_slot] of the pairs that have one; the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]
     int64_t n_free, free_capacity;
@@ -272,8 +272,8 @@ typedef struct clx_list {
     double *limit;      ///< [n_item] below this travel an item is surely within its margin
     uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
     int64_t item_capacity;
-    int32_t *near; ///< triangles of the container about one item
-    int64_t near_capacity;
+    int32_t *triangle; ///< triangles of the container about one item
+    int64_t triangle_capacity;
     clx_dem_grid grid;
     clx_found *found, *sorted; ///< [n_found] as found; by a and b
     int64_t n_found, found_capacity, sorted_capacity;
@@ -281,7 +281,7 @@ typedef struct clx_list {
     int32_t n_known;      ///< items that have anchors
     int64_t n_refresh;
     bool is_due; ///< some item has used up its margin
-} clx_list;
+} clx_neighbour_list;
 
 struct clast_dem {
     clast_dem_config config;
@@ -311,8 +311,8 @@ struct clast_dem {
     clx_convex *convex;        ///< [n_item], or NULL while all items are spheres
     double (*item_turn)[3][3]; ///< [n_item] rotation matrices, or NULL without rigid grains
     uint8_t *block_flag; ///< [blocks of CLX_SWEEP_BLOCK grains, at most] clx_move_flag of each
-    clx_list list;
-    clx_near near;
+    clx_neighbour_list list;
+    clx_inner_list inner;
     clx_sweeping sweeping;
     clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
@@ -359,32 +359,32 @@ static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
                                   : dem->grain[clx_item_grain(dem, i)].turn[0];
 }
 
-/// The contact memory of a link, or NULL.
-static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
+/// The contact memory of a pair, or NULL.
+static inline clx_contact_memory *clx_pair_memory(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    return link->slot != 0 ? &dem->list.memory[link->slot].record : NULL;
+    return pair->slot != 0 ? &dem->list.memory[pair->slot].record : NULL;
 }
 
-/// Link k of the near list, where it is up to date.
-static inline clx_link *clx_near_link(const clast_dem *dem, int32_t k)
+/// Pair k of the inner list, where it is up to date.
+static inline clx_dem_pair *clx_inner_pair(const clast_dem *dem, int32_t k)
 {
-    return dem->near.is_packed ? &dem->near.pair[k].link : &dem->list.link[dem->near.link[k]];
+    return dem->inner.is_packed ? &dem->inner.packed[k].pair : &dem->list.pair[dem->inner.index[k]];
 }
 
-/// The contact memory of a link of the near list, or NULL.
-static inline clx_contact_memory *clx_near_memory(const clast_dem *dem, clx_link *link)
+/// The contact memory of a pair of the inner list, or NULL.
+static inline clx_contact_memory *clx_inner_memory(const clast_dem *dem, clx_dem_pair *pair)
 {
-    if (!dem->near.is_packed) {
-        return clx_link_memory(dem, link);
+    if (!dem->inner.is_packed) {
+        return clx_pair_memory(dem, pair);
     }
-    return link->slot != 0 ? &((clx_near_pair *)(void *)link)->memory : NULL;
+    return pair->slot != 0 ? &((clx_packed_pair *)(void *)pair)->memory : NULL;
 }
 
-/// Whether a link's meeting has a closed form: both are spheres, or a sphere and a wall.
-static inline bool clx_link_is_round(const clast_dem *dem, const clx_link *link)
+/// Whether a pair's meeting has a closed form: both are spheres, or a sphere and a wall.
+static inline bool clx_pair_is_round(const clast_dem *dem, const clx_dem_pair *pair)
 {
     return dem->all_round ||
-           (clx_item_is_round(dem, link->a) && (link->b < 0 || clx_item_is_round(dem, link->b)));
+           (clx_item_is_round(dem, pair->a) && (pair->b < 0 || clx_item_is_round(dem, pair->b)));
 }
 
 /// Checks sizes and time step of a configuration.
@@ -423,25 +423,25 @@ void clx_dem_build_walls(clast_dem *dem);
 double clx_wall_distance(const clx_wall *wall, const double x[3], double normal[3]);
 
 /// Brings the lists up to date for the items that have used half of their margin.
-clast_status clx_list_refresh(clast_dem *dem);
-void clx_list_free(clx_list *list);
+clast_status clx_neighbour_list_refresh(clast_dem *dem);
+void clx_neighbour_list_free(clx_neighbour_list *list);
 
-/// A place for a link's memory, which begins empty.
-clast_status clx_list_give_slot(clx_list *list, clx_link *link);
+/// A place for a pair's memory, which begins empty.
+clast_status clx_neighbour_list_give_slot(clx_neighbour_list *list, clx_dem_pair *pair);
 
 /// Room for n items; new ones are stale.
-clast_status clx_list_reserve(clx_list *list, int64_t n_item);
+clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item);
 
-/// Lists the links that may touch soon, and gives memories to those that need one.
-clast_status clx_near_find(clast_dem *dem);
-void clx_near_free(clx_near *near);
+/// Lists the pairs that may touch soon, and gives memories to those that need one.
+clast_status clx_inner_find(clast_dem *dem);
+void clx_inner_free(clx_inner_list *inner);
 
-/// Copies the near list's links and memories side by side, and what they have become back.
-clast_status clx_near_pack(clast_dem *dem);
-void clx_near_unpack(clast_dem *dem);
+/// Copies the inner list's pairs and memories side by side, and what they have become back.
+clast_status clx_inner_pack(clast_dem *dem);
+void clx_inner_unpack(clast_dem *dem);
 
-/// Which links load each grain as b, and room for what all links do (near.push).
-clast_status clx_near_gather(clast_dem *dem);
+/// Which pairs load each grain as b, and room for what all pairs do (inner.force).
+clast_status clx_inner_gather(clast_dem *dem);
 
 void clx_sweeping_free(clx_sweeping *sweeping);
 
@@ -452,13 +452,13 @@ bool clx_dem_is_serial(const clast_dem *dem);
 /// clx_parallel_for, or the same blocks in this thread where that is as fast.
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context);
 
-/// What all contacts do (near.push), memories gone on by a step.
+/// What all contacts do (inner.force), memories gone on by a step.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some links of the near list: the awake ones, places counted from `begin`, rising,
+/// The same for some pairs of the inner list: the awake ones, places counted from `begin`, rising,
 /// and what each does at its place. Both have room for all. Returns how many; the others do nothing
 /// and nothing is written at their places.
-int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
                            clx_awake *awake);
 
 /// Compares what clx_contacts has just found with cold contacts.
@@ -475,11 +475,11 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine);
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);
 
-/// Contacts that the pair of bodies of a touching link had in the last step.
-int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link);
+/// Contacts that the pair of bodies of a touching pair had in the last step.
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_dem_pair *pair);
 
 /// A kernel over grains: sub-contacts of clumps share their pair's stiffness.
-void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context);
+void clx_share_forces(int64_t begin, int64_t end, int32_t worker, void *context);
 
 /// Refuses grains that overlap others added since the last step by so much that
 /// they would fly apart faster than a run may go.

@@ -58,12 +58,12 @@ typedef struct clx_meeting {
 } clx_meeting;
 
 /// What acts on b; a gets the opposite.
-typedef struct clx_push {
+typedef struct clx_contact_force {
     double normal;        ///< force along the normal; > 0 pushes apart [N]
     double pressed;       ///< normal force that limits friction and rolling, >= 0 [N]
     double tangential[3]; ///< [N]
     double rolling[3];    ///< torque against rolling [N m]
-} clx_push;
+} clx_contact_force;
 
 /// Constants from a configuration, which has been checked.
 clx_law clx_law_make(const clast_dem_config *config);
@@ -222,7 +222,7 @@ static inline void clx_law_turn(const clx_meeting *c, double dt, double slide[3]
 
 /// Eq. 6 and 7: forces of a contact; its memory `slide` (displacement of b over a) goes on by dt.
 static inline void clx_law_force(const clx_law *law, const clx_meeting *c, double dt,
-                                 double slide[3], clx_push *push)
+                                 double slide[3], clx_contact_force *force)
 {
     clx_springs s = clx_law_springs(law, c);
     if (law->is_exact) {
@@ -236,27 +236,27 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
     const double apart = v3_dot(c->velocity, c->normal);
     double along[3];
     v3_axpy(along, c->velocity, -apart, c->normal);
-    push->normal = s.elastic - s.normal_damping * apart;
-    if (law->clip && push->normal < fmin(s.elastic, 0.0)) {
-        push->normal = fmin(s.elastic, 0.0);
+    force->normal = s.elastic - s.normal_damping * apart;
+    if (law->clip && force->normal < fmin(s.elastic, 0.0)) {
+        force->normal = fmin(s.elastic, 0.0);
     }
     // Coulomb's limit takes the pressed force: attraction presses too, so it is left out of it; for
     // JKR that is F + 2 F_pull-off [Thornton1991]
     const double pressed = law->has_neck ? 2.0 * law->pull * c->radius : 0.0;
-    push->pressed = fabs(push->normal + pressed);
-    const double limit = c->friction * push->pressed;
-    push->normal -= clx_law_pull(law, c);
+    force->pressed = fabs(force->normal + pressed);
+    const double limit = c->friction * force->pressed;
+    force->normal -= clx_law_pull(law, c);
     clx_law_turn(c, dt, slide);
     v3_axpy(slide, slide, dt, along);
     for (int k = 0; k < 3; ++k) {
-        push->tangential[k] = -s.tangential * slide[k] - s.tangential_damping * along[k];
+        force->tangential[k] = -s.tangential * slide[k] - s.tangential_damping * along[k];
     }
-    const double size2 = v3_norm2(push->tangential);
+    const double size2 = v3_norm2(force->tangential);
     if (size2 > limit * limit) {
         const double inverse = -1.0 / s.tangential;
-        v3_scale(push->tangential, limit / sqrt(size2), push->tangential);
+        v3_scale(force->tangential, limit / sqrt(size2), force->tangential);
         for (int k = 0; k < 3; ++k) {
-            slide[k] = inverse * (push->tangential[k] + s.tangential_damping * along[k]);
+            slide[k] = inverse * (force->tangential[k] + s.tangential_damping * along[k]);
         }
     }
 }
@@ -265,14 +265,14 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
 ///
 /// @param inertia  reduced moment of inertia of the two [kg m2]
 static inline void clx_law_roll(const clx_law *law, const clx_meeting *c, double inertia, double dt,
-                                clx_push *push)
+                                clx_contact_force *force)
 {
     double roll[3];
     v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
     const double size = v3_norm(roll);
-    const double most = law->rolling * c->radius * push->pressed;
+    const double most = law->rolling * c->radius * force->pressed;
     const double stops = CLX_LAW_STOPS * inertia * size / dt;
-    v3_scale(push->rolling, size > 0.0 ? -fmin(most, stops) / size : 0.0, roll);
+    v3_scale(force->rolling, size > 0.0 ? -fmin(most, stops) / size : 0.0, roll);
 }
 
 /// Slope of the normal force over the overlap [N/m].
@@ -292,12 +292,12 @@ static inline double clx_law_stiffness(const clx_law *law, const clx_meeting *c)
 /// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m2]
 static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
                                        const double inertia[2], double dt, double torque[3],
-                                       clx_push *push)
+                                       clx_contact_force *force)
 {
     double roll[3];
     const double lever = law->rolling * c->radius;
     const double spring = 2.25 * clx_law_stiffness(law, c) * lever * lever;
-    const double most = lever * push->pressed;
+    const double most = lever * force->pressed;
     v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
     clx_law_turn(c, dt, torque);
     v3_axpy(torque, torque, -spring * dt, roll);
@@ -308,5 +308,5 @@ static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
     }
     const double dashpot =
         fmin(2.0 * law->damping_ratio * sqrt(inertia[1] * spring), CLX_LAW_STOPS * inertia[0] / dt);
-    v3_axpy(push->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
+    v3_axpy(force->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
 }

@@ -12,7 +12,7 @@
 
 #include "base/parallel.h"
 #include "dem/fluid.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -225,14 +225,14 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load)
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_load *load)
 {
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
-    for (int32_t k = near->in_begin[g]; k < near->in_begin[g + 1]; ++k) {
-        const clx_pushed *push = &near->push[near->in[k]];
-        force += lanes_load(push->force);
-        torque += lanes_load(push->torque_b);
+    for (int32_t k = inner->in_begin[g]; k < inner->in_begin[g + 1]; ++k) {
+        const clx_pair_force *force = &inner->force[inner->in[k]];
+        force += lanes_load(force->force);
+        torque += lanes_load(force->torque_b);
     }
     lanes_store(load->force, force);
     lanes_store(load->torque, torque);
@@ -241,17 +241,17 @@ void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load)
 /// Sum of what contacts do to grain g.
 static inline clx_load load_of(const clast_dem *dem, int64_t g)
 {
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     clx_load load;
-    clx_move_incoming(near, g, &load);
+    clx_move_incoming(inner, g, &load);
     const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
     const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
     for (int64_t i = first; i < last; ++i) {
         clx_lanes own = lanes_all(0.0);
         clx_lanes turning = lanes_all(0.0);
-        for (int32_t k = near->begin[i]; k < near->begin[i + 1]; ++k) {
-            own -= lanes_load(near->push[k].force);
-            turning -= lanes_load(near->push[k].torque_a);
+        for (int32_t k = inner->begin[i]; k < inner->begin[i + 1]; ++k) {
+            own -= lanes_load(inner->force[k].force);
+            turning -= lanes_load(inner->force[k].torque_a);
         }
         lanes_store(load.force, lanes_load(load.force) + own);
         lanes_store(load.torque, lanes_load(load.torque) + turning);
@@ -281,7 +281,7 @@ static int flag_of(clast_dem *dem, int64_t first, int n)
 {
     int flag = 0;
     for (int64_t i = first; i < first + n; ++i) {
-        flag |= dem->travel[i] > dem->near.until[i] ? CLX_MOVE_NEAR_DUE : 0;
+        flag |= dem->travel[i] > dem->inner.until[i] ? CLX_MOVE_INNER_DUE : 0;
         flag |= is_grain_due(dem, i) ? CLX_MOVE_DUE : 0;
     }
     return flag;
@@ -344,7 +344,7 @@ clx_moving clx_move_begin(clast_dem *dem)
 bool clx_move_end(clast_dem *dem, int flag)
 {
     dem->list.is_due = dem->list.is_due || (flag & CLX_MOVE_DUE) != 0;
-    dem->near.is_due = dem->near.is_due || (flag & CLX_MOVE_NEAR_DUE) != 0;
+    dem->inner.is_due = dem->inner.is_due || (flag & CLX_MOVE_INNER_DUE) != 0;
     return (flag & CLX_MOVE_LOST) == 0;
 }
 

@@ -11,7 +11,7 @@ typedef struct clx_moving {
 } clx_moving;
 
 /// What a block of grains asks for.
-enum clx_move_flag { CLX_MOVE_LOST = 1, CLX_MOVE_DUE = 2, CLX_MOVE_NEAR_DUE = 4 };
+enum clx_move_flag { CLX_MOVE_LOST = 1, CLX_MOVE_DUE = 2, CLX_MOVE_INNER_DUE = 4 };
 
 /// Grains that move at once: two fours.
 enum { CLX_MOVE_MOST = 8 };
@@ -31,8 +31,8 @@ static inline int clx_lanes_from(int64_t i, int64_t end)
     return n > CLX_LANES && n < CLX_MOVE_MOST ? CLX_LANES : n;
 }
 
-/// Sum over what contacts with grains of lower number do to grain g (near.push), in their order.
-void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load);
+/// Sum over what contacts with grains of lower number do to grain g (inner.force), in their order.
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_load *load);
 
 /// A step's constants; what its blocks asked for goes to the lists. True unless a grain is lost.
 clx_moving clx_move_begin(clast_dem *dem);

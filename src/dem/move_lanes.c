@@ -202,14 +202,14 @@ CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const gr
         speed += lanes_root(lanes_dot(g->spin, g->spin)) * g->position[3] * (1.0 + 1e-6);
     }
     const clx_lanes travel = lanes_load(&dem->travel[i]) + dt * speed;
-    const clx_marks is_near_due = travel > lanes_load(&dem->near.until[i]);
+    const clx_marks is_inner_due = travel > lanes_load(&dem->inner.until[i]);
     const clx_marks may_be_due = ~(travel < lanes_load(&dem->list.limit[i]));
     lanes_store(&dem->travel[i], travel);
-    if (lanes_bits(is_lost | is_near_due | may_be_due) == 0) {
+    if (lanes_bits(is_lost | is_inner_due | may_be_due) == 0) {
         return 0; // most of the time
     }
     return (lanes_bits(is_lost) != 0 ? CLX_MOVE_LOST : 0) |
-           (lanes_bits(is_near_due) != 0 ? CLX_MOVE_NEAR_DUE : 0) |
+           (lanes_bits(is_inner_due) != 0 ? CLX_MOVE_INNER_DUE : 0) |
            (lanes_bits(may_be_due) != 0 ? CLX_MOVE_DUE : 0);
 }
 

@@ -1,21 +1,21 @@
 // A step of whole grains in one sweep over memory.
 //
-// A grain's load is known when the pairs of lower grains and its own are done, and no later pair
-// asks where it is. So a block of grains meets its neighbours and moves at once: what contacts do
-// stays in the first-level cache, grains in the second.
+// A grain's force and torque are known when the pairs of lower grains and its own are done, and no
+// later pair reads its position. So a block of grains is taken through contacts and motion at once:
+// pair forces stay in the first-level cache, grains in the second.
 //
-// Threads go through chunks of grains (chunk.c). A grain that one of an earlier chunk may push is
-// late: it stays where it is and moves when all chunks are done. The first chunk that may push it
-// adds to its load, as to that of any other; what later ones do to it is kept, in order, and
-// follows then. No other chunk reads a grain that is not late. So the sums have the order of
-// motion.c, and chunks and threads change no bit.
+// Threads go through chunks of grains (chunk.c). A grain that has a pair with one of an earlier
+// chunk is deferred: it stays where it is and moves when all chunks are done. The first chunk that
+// has a pair with it adds to its sum, as to that of any other grain; what later chunks contribute
+// is stored, in order, and added then. No other chunk reads a grain that is not deferred. So the
+// sums have the order of motion.c, and chunks and threads change no bit.
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "dem/chunk.h"
 #include "dem/move.h"
 #include <string.h>
 
-/// Grains of a block, whose pushes stay in the first-level cache.
+/// Grains of a block, whose pair forces stay in the first-level cache.
 enum { BLOCK = CLX_SWEEP_BLOCK };
 
 CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
@@ -24,13 +24,13 @@ CLX_INLINE void add(clx_load *to, const double force[4], const double torque[4])
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// A block of grains, its awake links and what all its links do.
+/// A block of grains, its awake pairs and what all its pairs do.
 typedef struct {
     clx_chunk *chunk;
     int64_t begin, end;
     int32_t n;
     const clx_awake *awake;
-    const clx_pushed *push;
+    const clx_pair_force *force;
 } block;
 
 /// Keeps what is done to a late grain.
@@ -45,28 +45,28 @@ CLX_INLINE void keep(clast_dem *dem, clx_chunk *chunk, int32_t grain, const doub
     chunk->highest = grain > chunk->highest ? grain : chunk->highest;
 }
 
-/// What the awake links do to the block's grains and to the others: onto their loads, or kept where
+/// What the awake pairs do to the block's grains and to the others: onto their loads, or kept where
 /// the grain is late.
 CLX_INLINE void spread(clast_dem *dem, block in, bool has_late)
 {
     const clx_sweeping *s = &dem->sweeping;
-    clx_load *load = dem->near.load;
+    clx_load *load = dem->inner.load;
     const int32_t first = in.chunk->begin;
     clx_load own[BLOCK] = {0};
     for (int32_t k = 0; k < in.n; ++k) {
         const clx_awake awake = in.awake[k];
-        const clx_pushed *push = &in.push[awake.at];
-        const int32_t b = awake.link->b;
-        clx_load *on_a = &own[awake.link->a - in.begin];
-        lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(push->force));
-        lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(push->torque_a));
+        const clx_pair_force *force = &in.force[awake.at];
+        const int32_t b = awake.pair->b;
+        clx_load *on_a = &own[awake.pair->a - in.begin];
+        lanes_store(on_a->force, lanes_load(on_a->force) - lanes_load(force->force));
+        lanes_store(on_a->torque, lanes_load(on_a->torque) - lanes_load(force->torque_a));
         if (b < 0) {
             continue;
         }
         if (has_late && clx_is_late(s, b, first)) {
-            keep(dem, in.chunk, b, push->force, push->torque_b);
+            keep(dem, in.chunk, b, force->force, force->torque_b);
         } else {
-            add(&load[b], push->force, push->torque_b);
+            add(&load[b], force->force, force->torque_b);
         }
     }
     for (int64_t g = in.begin; g < in.end; ++g) {
@@ -91,7 +91,7 @@ static void spread_all(clast_dem *dem, block in)
 
 static int move_and_clear(const clx_moving *c, int64_t g, int n)
 {
-    clx_load *load = &c->dem->near.load[g];
+    clx_load *load = &c->dem->inner.load[g];
     const int flag = clx_move_few(c, g, n, load);
     memset(load, 0, (size_t)n * sizeof *load);
     return flag;
@@ -123,11 +123,11 @@ static int sweep_block(const clx_moving *c, clx_chunk *chunk, int64_t begin, int
 {
     clast_dem *dem = c->dem;
     const int64_t room = (int64_t)worker * dem->sweeping.most;
-    clx_pushed *push = dem->sweeping.push + room;
+    clx_pair_force *force = dem->sweeping.force + room;
     clx_awake *awake = dem->sweeping.awake + room;
     const int32_t n =
-        clx_contacts_among(dem, dem->near.begin[begin], dem->near.begin[end], push, awake);
-    spread_all(dem, (block){chunk, begin, end, n, awake, push});
+        clx_contacts_among(dem, dem->inner.begin[begin], dem->inner.begin[end], force, awake);
+    spread_all(dem, (block){chunk, begin, end, n, awake, force});
     return move_block(c, chunk, begin, end);
 }
 
@@ -166,7 +166,7 @@ static void add_kept(clast_dem *dem, int32_t begin, int32_t end)
         for (int64_t k = from; k < from + n; ++k) {
             const int32_t g = s->kept_on[k];
             if (g >= begin && g < end) {
-                add(&dem->near.load[g], s->kept[k].force, s->kept[k].torque);
+                add(&dem->inner.load[g], s->kept[k].force, s->kept[k].torque);
             }
         }
     }
@@ -241,8 +241,8 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine)
     clx_sweeping *s = &dem->sweeping;
     clx_moving c = clx_move_begin(dem);
     int flag = 0;
-    if (!dem->all_round && !dem->near.is_packed) {
-        CLX_TRY(clx_near_pack(dem));
+    if (!dem->all_round && !dem->inner.is_packed) {
+        CLX_TRY(clx_inner_pack(dem));
     }
     const int32_t n_worker = clx_dem_is_serial(dem) ? 1 : clx_parallel_workers();
     if (s->n_worker != n_worker) {

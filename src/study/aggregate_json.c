@@ -33,6 +33,11 @@ READER(read_d_agg, d_agg)
 READER(read_density, density)
 READER(read_gyration, radius_of_gyration)
 READER(read_settling, settling_velocity)
+READER(read_permeable, settling_velocity_permeable)
+READER(read_coat_porosity, coat_porosity)
+READER(read_coat_grain, coat_grain)
+READER(read_permeability, permeability)
+READER(read_drag, drag_permeable)
 READER(read_porosity, porosity[k])
 READER(read_envelope, envelope[k].volume)
 
@@ -48,6 +53,11 @@ static const struct {
     {"density", read_density},
     {"radius_of_gyration", read_gyration},
     {"settling_velocity", read_settling},
+    {"settling_velocity_permeable", read_permeable},
+    {"coat_porosity", read_coat_porosity},
+    {"coat_grain", read_coat_grain},
+    {"permeability", read_permeability},
+    {"drag_permeable", read_drag},
 };
 enum { N_NUMBER = sizeof numbers / sizeof numbers[0] };
 
@@ -134,6 +144,7 @@ static json_t *one_repeat(const clast_aggregate_result *r)
     (void)json_object_set_new(object, "n_contact", json_integer(r->n_contact));
     (void)json_object_set_new(object, "n_cluster", json_integer(r->n_cluster));
     (void)json_object_set_new(object, "n_lost", json_integer(r->n_lost));
+    (void)json_object_set_new(object, "permeable", json_string(clast_permeable_text(r->permeable)));
     (void)json_object_set_new(object, "stopped_by", json_string(stop_name(r->stop)));
     for (int i = 1; i < N_NUMBER; ++i) {
         set(object, numbers[i].name, numbers[i].read(r, 0));

@@ -1,6 +1,7 @@
 /* Unit: aggregates whose geometry is known. */
 #include "aggregates.h"
 
+#include <clast/settling.h>
 #include <stdio.h>
 
 static double distance(const double a[3], const double b[3])
@@ -62,6 +63,50 @@ static void spheres_never_overlap(void **state)
     support_aggregate_free(&s);
 }
 
+/* A coat of equal spheres on a core: its grain is their diameter, its porosity that of the shell,
+ * and the velocity lies between the solid body's and that of no drag; and why there is none. */
+static void coat_has_a_permeability(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *options;
+        clast_permeable_range range;
+    } runs[] = {
+        {"core_size=4e-5;n_particle=200;size_low=1e-5;size_high=1e-5", CLAST_PERMEABLE_YES},
+        {"core_size=4e-5;n_particle=200;size_low=1e-5;size_high=1e-5;mode=cluster",
+         CLAST_PERMEABLE_YES},
+        {"core_size=4e-5;n_particle=200;size_low=1e-5;size_high=1e-5;permeability=kozeny_carman",
+         CLAST_PERMEABLE_POROSITY},
+        {"core_size=1e-3;n_particle=20;size_low=1e-4;size_high=1e-4", CLAST_PERMEABLE_THIN},
+        {"core_size=1e-2;n_particle=200;size_low=3e-3;size_high=3e-3", CLAST_PERMEABLE_REYNOLDS}};
+    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; ++i) {
+        support_aggregate s;
+        clast_aggregate_result r;
+        support_aggregate_make(&s, NULL, 1, "size_law=uniform;envelope_every=1000");
+        support_aggregate_options(&s.config, runs[i].options);
+        clast_aggregate *a = support_aggregate_run(&s, 0);
+        CHECK_OK(clast_aggregate_measure(a, &r));
+        assert_string_equal(clast_permeable_text(r.permeable), clast_permeable_text(runs[i].range));
+        assert_true(isnan(r.settling_velocity_permeable) == (r.permeable != CLAST_PERMEABLE_YES));
+        CHECK_REL(r.coat_grain, s.config.size_low, 1e-12);
+        if (i == 0) {
+            const double core = CLAST_PI / 6.0 * 64e-15;
+            const double shell = r.envelope[0].volume - core;
+            CHECK_REL(r.coat_porosity, 1.0 - 200.0 * CLAST_PI / 6.0 * 1e-15 / shell, 1e-9);
+            CHECK_REL(r.drag_permeable,
+                      clast_drag_permeable(0.5 * r.d_agg / sqrt(r.permeability), 4e-5 / r.d_agg),
+                      1e-9);
+        }
+        if (r.permeable == CLAST_PERMEABLE_YES) {
+            assert_true(r.settling_velocity_permeable > r.settling_velocity);
+            assert_true(r.settling_velocity_permeable <
+                        1.01 * r.settling_velocity / r.drag_permeable);
+        }
+        clast_aggregate_destroy(a);
+        support_aggregate_free(&s);
+    }
+}
+
 /// Creates, grows, restores and measures; frees all.
 static clast_status whole_life(void *context)
 {
@@ -110,6 +155,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_spheres_touch_with_the_known_porosity),
         cmocka_unit_test(spheres_never_overlap),
+        cmocka_unit_test(coat_has_a_permeability),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

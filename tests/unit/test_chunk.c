@@ -8,14 +8,14 @@
 
 enum { N = 4000, WORKERS = 3 };
 
-/* A bed that has moved, with its near list. */
+/* A bed that has moved, with its inner list. */
 static clast_dem *make(void)
 {
     clast_parallel_set_threads(1); // which learns no pace
     clast_dem *dem = scene_pour(N, 3e-3, 8e-3, 0.15);
     assert_non_null(dem);
     CHECK_OK(clast_dem_step(dem, 40));
-    if (dem->near.is_due || dem->list.is_due) {
+    if (dem->inner.is_due || dem->list.is_due) {
         CHECK_OK(clast_dem_step(dem, 1));
     }
     CHECK_OK(clx_chunks_weigh(dem, WORKERS));
@@ -96,7 +96,7 @@ static void shares_follow_paces(void **state)
     clast_dem_destroy(dem);
 }
 
-/* A grain is late where a link leads to it, or to one of its four, from before the border. */
+/* A grain is late where a pair leads to it, or to one of its four, from before the border. */
 static void late_is_what_lower_grains_reach(void **state)
 {
     (void)state;
@@ -106,11 +106,11 @@ static void late_is_what_lower_grains_reach(void **state)
     for (int g = 0; g < N; ++g) {
         lowest[g] = INT32_MAX;
     }
-    for (int32_t k = 0; k < dem->near.n; ++k) {
-        const clx_link *link = clx_near_link(dem, k);
-        for (int32_t g = link->b / CLX_LANES * CLX_LANES;
-             link->b >= 0 && g < N && g / CLX_LANES == link->b / CLX_LANES; ++g) {
-            lowest[g] = link->a < lowest[g] ? link->a : lowest[g];
+    for (int32_t k = 0; k < dem->inner.n; ++k) {
+        const clx_dem_pair *pair = clx_inner_pair(dem, k);
+        for (int32_t g = pair->b / CLX_LANES * CLX_LANES;
+             pair->b >= 0 && g < N && g / CLX_LANES == pair->b / CLX_LANES; ++g) {
+            lowest[g] = pair->a < lowest[g] ? pair->a : lowest[g];
         }
     }
     for (int32_t border = 0; border < N; border += 10 * CLX_SWEEP_BLOCK) {

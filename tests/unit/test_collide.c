@@ -266,7 +266,7 @@ static void radii_follow_their_law(void **state)
         CHECK_REL(monomers[i] > 0 ? radius[i] : cbrt(10.0) * 1e-6, cbrt(10.0) * 1e-6, 1e-14);
     }
     p = singles(10);
-    c.radius_law = CLAST_RADIUS_FRACTAL;
+    c.radius_law = CLAST_RADIUS_FRACTAL_COLLISION;
     c.monomer_radius = 1e-6;
     CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
     for (int i = 0; i < 10; ++i) {
@@ -318,6 +318,8 @@ static estimate collect(const char *name, double volume, int32_t block, int32_t 
     c.medium.particle_density = 2500.0;
     c.medium.gravity = 9.81;
     c.medium.efficiency = 1.0;
+    c.medium.mean_free_path = 66e-9;
+    c.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; /* the process is tested, not the kernel */
     for (int r = 0; r < COLLECTOR_REPEATS; ++r) {
         clast_population p = singles(N);
         const clast_collide_cells cells = one_cell(&volume);

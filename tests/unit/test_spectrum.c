@@ -293,6 +293,7 @@ static void sources_and_sinks_keep_their_books(void **state)
     k.medium.density = 1000.0;
     k.medium.particle_density = 2000.0;
     k.medium.gravity = 10.0;
+    k.medium.settling_law = CLAST_SETTLING_STOKES; /* for the closed form; Re = 0.004 */
     c.settling_depth = 0.02;
     clast_spectrum r = evolve(&c, &k);
     const double w = 2.0 / 9.0 * 1000.0 * 10.0 * 1e-10 / 1e-3; /* Stokes */

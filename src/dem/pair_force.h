@@ -17,21 +17,22 @@ static inline void clx_approach(const clx_grain *a, const clx_grain *b, const cl
     m->twirl = 0.5 * (v3_dot(a->spin, t->normal) + v3_dot(b->spin, t->normal));
 }
 
-static inline void clx_add_push(const clx_dem_touch *t, const clx_push *push, bool normal_torque,
-                                clx_load *on_a, clx_load *on_b)
+static inline void clx_add_contact_force(const clx_dem_touch *t, const clx_contact_force *force,
+                                         bool normal_torque, clx_load *on_a, clx_load *on_b)
 {
-    double force[3];
+    double total[3];
     double turning[3];
     double torque[3];
-    v3_axpy(force, push->tangential, push->normal, t->normal);
-    v3_add(on_b->force, on_b->force, force);
-    v3_sub(on_a->force, on_a->force, force);
-    v3_copy(turning, normal_torque ? force : push->tangential);
+    v3_axpy(total, force->tangential, force->normal, t->normal);
+    v3_add(on_b->force, on_b->force, total);
+    v3_sub(on_a->force, on_a->force, total);
+    v3_copy(turning, normal_torque ? total : force->tangential);
     v3_cross(torque, t->arm_b, turning);
-    v3_add(torque, torque, push->rolling); // one sum a contact: the gathered one has the same bytes
+    v3_add(torque, torque,
+           force->rolling); // one sum a contact: the gathered one has the same bytes
     v3_add(on_b->torque, on_b->torque, torque);
     v3_cross(torque, t->arm_a, turning);
-    v3_add(torque, torque, push->rolling);
+    v3_add(torque, torque, force->rolling);
     v3_sub(on_a->torque, on_a->torque, torque);
 }
 
@@ -90,16 +91,16 @@ static inline double clx_rolling_inertia(const clx_grain *a, const clx_grain *b)
     return b->mass > 0.0 ? ia * ib / (ia + ib) : ia;
 }
 
-/// What the law remembers of a link beside its displacement, or NULL where it does not.
-static inline clx_extra *clx_link_extra(const clast_dem *dem, const clx_link *link)
+/// What the law remembers of a pair beside its displacement, or NULL where it does not.
+static inline clx_extra *clx_pair_extra(const clast_dem *dem, const clx_dem_pair *pair)
 {
     if (!dem->law.has_extra) {
         return NULL;
     }
-    const clx_near *near = &dem->near;
-    const int64_t k = near->is_packed
-                          ? near->link[(const clx_near_pair *)(const void *)link - near->pair]
-                          : link - dem->list.link;
+    const clx_inner_list *inner = &dem->inner;
+    const int64_t k =
+        inner->is_packed ? inner->index[(const clx_packed_pair *)(const void *)pair - inner->packed]
+                         : pair - dem->list.pair;
     return &dem->list.extra[k];
 }
 
@@ -115,14 +116,14 @@ static inline double clx_item_curve(const clast_dem *dem, int32_t item)
 
 /// Length of the neck that still holds a pair apart; 0 for laws that have none, and pairs that did
 /// not touch.
-static inline double clx_link_neck(const clast_dem *dem, const clx_link *link)
+static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    if (!dem->law.has_neck || link->touches == 0) {
+    if (!dem->law.has_neck || pair->touches == 0) {
         return 0.0;
     }
-    const double ra = clx_item_curve(dem, link->a);
-    const double rb = link->b >= 0 ? clx_item_curve(dem, link->b) : 0.0;
-    return -clx_jkr_tear(&dem->law, link->b >= 0 ? ra * rb / (ra + rb) : ra);
+    const double ra = clx_item_curve(dem, pair->a);
+    const double rb = pair->b >= 0 ? clx_item_curve(dem, pair->b) : 0.0;
+    return -clx_jkr_tear(&dem->law, pair->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
 /// What fluid that is moved along makes of a grain's inertia: 1 + C_m rho_f / rho.
@@ -131,22 +132,22 @@ static inline double clx_heavier(const clast_dem *dem, const clx_motion *m)
     return 1.0 + dem->config.added_mass * dem->config.fluid_density / m->density;
 }
 
-/// Reduced mass of a link with the fluid that its grains move along.
-static inline double clx_heavier_mass(const clast_dem *dem, const clx_link *link)
+/// Reduced mass of a pair with the fluid that its grains move along.
+static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    const int32_t a = clx_item_grain(dem, link->a);
+    const int32_t a = clx_item_grain(dem, pair->a);
     const double of_a = dem->grain[a].mass * clx_heavier(dem, &dem->motion[a]);
-    if (link->b < 0) {
+    if (pair->b < 0) {
         return of_a;
     }
-    const int32_t b = clx_item_grain(dem, link->b);
+    const int32_t b = clx_item_grain(dem, pair->b);
     const double of_b = dem->grain[b].mass * clx_heavier(dem, &dem->motion[b]);
     return of_a * of_b / (of_a + of_b);
 }
 
-/// A pair that touches; `extra` as clx_link_extra.
-static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *extra,
-                                 const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
+/// A pair that touches; `extra` as clx_pair_extra.
+static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p, clx_extra *extra,
+                                      const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
 {
     const clx_law *law = &dem->law;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
@@ -155,7 +156,7 @@ static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *e
                               law->rolling > 0.0 || law->is_wet;
     const double ra = needs_radius ? clx_item_curve(dem, p->a) : 0.0;
     clx_meeting m;
-    clx_push push;
+    clx_contact_force force;
     m.overlap = -t->distance;
     v3_copy(m.normal, t->normal);
     clx_approach(a, b, t, &m);
@@ -188,13 +189,13 @@ static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *e
         on_a->torque[3] += load[0];
         on_b->torque[3] += load[1];
     }
-    clx_law_force(law, &m, dem->config.time_step, p->slide, &push);
-    v3_set(push.rolling, 0.0, 0.0, 0.0);
+    clx_law_force(law, &m, dem->config.time_step, p->slide, &force);
+    v3_set(force.rolling, 0.0, 0.0, 0.0);
     if (law->has_roll_spring) {
         const double inertia[2] = {clx_reduced_inertia(a, b), clx_rolling_inertia(a, b)};
-        clx_law_roll_spring(law, &m, inertia, dem->config.time_step, extra->roll, &push);
+        clx_law_roll_spring(law, &m, inertia, dem->config.time_step, extra->roll, &force);
     } else if (law->rolling > 0.0) {
-        clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &push);
+        clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &force);
     }
-    clx_add_push(t, &push, dem->config.normal_torque, on_a, on_b);
+    clx_add_contact_force(t, &force, dem->config.normal_torque, on_a, on_b);
 }
