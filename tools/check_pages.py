@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every page of docs/theory says when not to use its method, and every source that it names is an entry of its references.
+"""Every page of docs/theory ends with when not to use its method, and every source that it names is an entry of its references.
 
 usage: tools/check_pages.py [PAGE...]
 
@@ -36,6 +36,9 @@ def faults_of(path):
         faults.append("no section '## When not to use this' that says something")
     if references is None:
         return [*faults, "no section '## References'"]
+    titles = re.findall(r"^## (.*)$", text, re.M)
+    if titles[-2:-1] != ["When not to use this"]:
+        faults.append("its last two sections are not 'When not to use this' and the references")
     body = text.replace(references, "")
     entries = re.findall(r"^- \[([^\]\n]+)\]", references, re.M)
     cited = set(KEY.findall(body))
