@@ -544,10 +544,9 @@ static void unit_weights_change_nothing(void **state)
 
 static clast_status collide_once(void *context)
 {
-    (void)context;
     const double volume = 100.0;
     clast_population p = singles(50);
-    const clast_collide_config c = kernel("additive");
+    const clast_collide_config c = kernel(context);
     const clast_collide_cells cells = one_cell(&volume);
     return clast_collide(&p, &cells, 0.5, 3, &c, NULL);
 }
@@ -555,7 +554,9 @@ static clast_status collide_once(void *context)
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
-    support_refuse_each_allocation(collide_once, NULL);
+    static char name[2][16] = {"additive", "shear_laminar"}; // without ranges and with
+    support_refuse_each_allocation(collide_once, name[0]);
+    support_refuse_each_allocation(collide_once, name[1]);
 }
 
 static void wrong_cells_are_refused(void **state)
