@@ -30,6 +30,20 @@ static void add_estimate(json_t *out, const clast_decomposition *r, const char *
     }
 }
 
+static void add_within(json_t *out, const clast_within_cells *w)
+{
+    const bool seen = w->radius > 0.0;
+    cli_json_bool(out, "structure_below_cells", w->is_structured);
+    cli_json_number(out, "cell_size", w->even > 0.0 ? w->cell : (double)NAN);
+    cli_json_number(out, "pair_integral_even_cells", w->even);
+    cli_json_number(out, "r_within", seen ? w->radius : (double)NAN);
+    cli_json_count(out, "n_within", w->n_pair);
+    cli_json_number(out, "g_within", seen ? w->g : (double)NAN);
+    cli_json_number(out, "g_within_low", seen ? w->g_low : (double)NAN);
+    cli_json_number(out, "g_within_high", seen ? w->g_high : (double)NAN);
+    cli_json_number(out, "structure_length", w->length > 0.0 ? w->length : (double)NAN);
+}
+
 json_t *cli_decompose_pairs_json(const clast_decomposition *r)
 {
     const clast_pairs *p = &r->pairs;
@@ -54,6 +68,7 @@ json_t *cli_decompose_pairs_json(const clast_decomposition *r)
     cli_json_number(out, "window", i->window);
     cli_json_count(out, "n_window", i->n_pair);
     cli_json_number(out, "fit_p", i->fit_p);
+    add_within(out, &r->within);
     add_estimate(out, r, "", &r->events_by_pairs);
     add_estimate(out, r, "_by_cells", &r->events_by_cells);
     cli_json_bool(out, "disagree", r->disagree);
@@ -69,6 +84,34 @@ static void print_interval(const clast_estimate *e)
     } else {
         (void)printf("at least %.6g", e->low);
     }
+}
+
+/// Whether the cells hide structure, and what a kernel that brings its own g(r) may multiply.
+static void print_within(const clast_decomposition *r)
+{
+    const clast_within_cells *w = &r->within;
+    const int d = r->dimension;
+    if (w->radius == 0.0) {
+        (void)printf("fewer than 10 pairs lie closer than half a cell: the points do not tell "
+                     "whether structure lies below the cells\n");
+        return;
+    }
+    (void)printf("%s below the cells (edge %.3g m): %lld pairs within %.3g m are %.3g [%.3g, %.3g] "
+                 "times those of even cells",
+                 w->is_structured ? "structure lies" : "no structure is seen", w->cell,
+                 (long long)w->n_pair, w->radius, w->g, w->g_low, w->g_high);
+    if (!w->is_structured) {
+        (void)printf("; a kernel with its own g(r) may multiply these events\n");
+        return;
+    }
+    if (w->length > 0.0) {
+        (void)printf(", up to a distance of %.3g m", w->length);
+    }
+    (void)printf(
+        "\na kernel with its own g(r) (cloud_turbulence) may multiply the even cells' pair "
+        "integral alone, %.6g 1/m^%d: with events by pairs this structure counts twice; a "
+        "kernel without takes those by pairs\n",
+        w->even, d);
 }
 
 void cli_decompose_pairs_print(const clast_decomposition *r)
@@ -102,6 +145,7 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
                            "points would do cannot be told\n",
                      i->n_needed);
     }
+    print_within(r);
     if (r->disagree) {
         (void)printf("warning: events by pairs and by cells have no number in common; the cells "
                      "hide structure, or points keep apart: look at g(r)\n");

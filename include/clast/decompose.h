@@ -171,6 +171,18 @@ typedef struct clast_cells {
                            ///< -1 found uniform; -2, -3 .. too few points to be tested
 } clast_cells;
 
+/// What pairs show within the cells, whose points the cells take as even.
+typedef struct clast_within_cells {
+    bool is_structured; ///< pairs closer than half a cell are more than even cells would hold
+    double cell;        ///< edge of a cell, V^(1/d), mean over the pairs in cells [m]
+    double even;        ///< pair integral of even cells, sum n (n - 1) / (2 V), no cap, nothing
+                        ///< extrapolated: what a kernel with a g(r) of its own multiplies [1/m^d]
+    double radius;  ///< least distance with 10 pairs within it: below, the points say nothing [m]
+    int64_t n_pair; ///< closer than that
+    double g, g_low, g_high; ///< those over what even cells would hold, with the 95 % interval
+    double length;           ///< structure is seen up to there [m]; 0: none
+} clast_within_cells;
+
 typedef struct clast_decomposition {
     int64_t n, n_outside; ///< points used and left out
     int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
@@ -206,6 +218,7 @@ typedef struct clast_decomposition {
     clast_estimate events_by_cells, events_by_pairs; ///< the same of both, beta dt n (n - 1) / 2
                                                      ///< times the integral; with pairs
     clast_estimator estimator;                       ///< of the two: which one `events` is
+    clast_within_cells within;                       ///< with pairs, else {0}
     bool disagree;  ///< both are resolved and their intervals have no number in common
     bool resolved;  ///< the points show all of their own structure that counts: the bias of events
                     ///< is at most 2 %

@@ -2,6 +2,7 @@
 // density. [docs/theory/pairs.md section 5]
 #include "cloud/pair_events.h"
 
+#include "cloud/pair_within.h"
 #include "cloud/resolution.h"
 
 #include <math.h>
@@ -70,6 +71,7 @@ clast_status clx_pair_events(const clast_domain *domain, const clast_cloud *clou
                                 &result->events_by_pairs, &result->disagree);
     // a cell at its cap gives less than its pairs: the two numbers are not of the same thing
     result->disagree = result->disagree && result->n_capped == 0 && factor > 0.0;
+    clx_pair_within(result);
     if (is_pairs) {
         CLX_CHECK(isfinite(result->events_by_pairs.value), CLAST_E_LIMIT,
                   "%lld pairs within %g m: too few to count events by; ask for --estimator cells, "

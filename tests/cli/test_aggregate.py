@@ -52,6 +52,44 @@ class Results(Case):
         self.assertLess(middle["low"], middle["mean"])
         self.assertLess(middle["mean"], middle["high"])
 
+    def test_approach_is_a_key_and_refuses_what_it_does_not_ask(self):
+        """Central rays on a sphere all end at one distance; lines over the cross-section and walks make looser aggregates."""
+        file = self.folder / "walk.yaml"
+        file.write_text("core: sphere\ncore_size: 1 um\ncoat: [sphere]\nsize: [1 um]\nreplicate: 300\napproach: diffusive\n")
+        porosity = []
+        for name in ("central", "ballistic", "diffusive"):
+            found = clast("aggregate", file, "--approach", name, "--json").json
+            self.assertLess(found["max_overlap"], 1e-18)
+            porosity.append(found["porosity"]["surface_hull"])
+        self.assertEqual(clast("aggregate", file, "--json").json["porosity"]["surface_hull"], porosity[2])
+        self.assertTrue(porosity[0] < porosity[1] < porosity[2])
+        refused = clast("aggregate", file, "--rays", 2)
+        self.assertEqual(refused.code, 2)
+        self.assertIn("approach: diffusive makes one walk a particle; leave out rays, orientations", refused.err)
+        refused = clast("aggregate", file, "--approach", "ballistic", "--contact", "march")
+        self.assertIn("the published march is central only", refused.err)
+
+    def test_a_permeable_coat_settles_faster_and_says_when_it_cannot(self):
+        grains = ("aggregate", "--core", "sphere", "--core-size", "1um", "--coat", "sphere", "--size", "1um", "--replicate", 300)
+        found = clast(*grains, "--json").json
+        self.assertGreater(found["settling_velocity_permeable"], found["settling_velocity"])
+        self.assertAlmostEqual(found["settling_velocity"] / found["settling_velocity_permeable"], found["drag_permeable"], places=2)
+        self.assertAlmostEqual(found["coat_grain"], 1e-6, places=12)
+        self.assertRegex(clast(*grains).out, r"settling, permeable coat +0\.00\d+ m/s")
+        found = clast(*grains, "--permeability", "kozeny_carman", "--json").json
+        self.assertIsNone(found["settling_velocity_permeable"])
+        self.assertEqual(found["repeats"][0]["permeable"], "the coat's porosity is outside of the law of permeability")
+
+    def test_clusters_of_clusters_have_no_dimension_by_growth(self):
+        """Their grains are in no order of growth: the row said -29.9."""
+        run = self.folder / "clusters"
+        result = clast("aggregate", "--mode", "cluster", "--coat", "sphere", "--size", "1um", "--replicate", 200,
+                       "--approach", "ballistic", "--envelope-every", 1000, "-o", run, *QUICK)
+        self.assertEqual(result.code, 0, result.err)
+        text = (run / "structure.csv").read_text()
+        self.assertNotIn("fractal_growth", text)
+        self.assertIn("fractal_correlation", text)
+
     def test_the_folder_holds_the_run(self):
         run = self.folder / "run"
         result = clast(*SPHERES, "--replicate", 20, "--repeats", 2, "-o", run, "--printable", *QUICK)

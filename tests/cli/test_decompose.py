@@ -346,6 +346,33 @@ class Pairs(Case):
         self.assertEqual(sum(pairs["count"]), pairs["n_pair"])
         self.assertTrue(pairs["g_low"][-1] <= pairs["g"][-1] <= pairs["g_high"][-1])
 
+    def test_close_pairs_lie_below_the_cells(self):
+        """500 pairs of sd 1 mm: one cell with 500 events at its cap, and g(r) of 4e4 was a warning alone."""
+        rng = random.Random(3)
+        first = [[rng.random() for _ in range(3)] for _ in range(500)]
+        second = [[min(1, max(0, x + rng.gauss(0, 1e-3))) for x in p] for p in first]
+        path = self.folder / "close.csv"
+        write_points(path, first + second)
+        command = ("decompose", path, "--domain", "box:0,0,0,1,1,1", "--beta-dt", "4e-6", "--pairs")
+        words = clast(*command)
+        self.assertEqual(words.code, 0, words.err)
+        self.assertRegex(words.out, r"structure lies below the cells \(edge [0-9.]+ m\): \d+ pairs within 0\.00\d+ m are ")
+        self.assertRegex(words.out, r"its own g\(r\) .* may multiply the even cells' pair integral alone, [0-9.e+]+ 1/m\^3: .* counts twice")
+        pairs = json.loads(clast(*command, "--json").out)["pairs"]
+        self.assertTrue(pairs["structure_below_cells"])
+        self.assertGreater(pairs["g_within_low"], 1e3)
+        self.assertLess(pairs["structure_length"], 8e-3)
+        self.assertGreater(pairs["pair_integral_even_cells"], 4.9e5)
+        words = clast("decompose", self.even(), "--domain", "box:0,0,0,1,1,1", "--pairs")
+        self.assertIn("no structure is seen below the cells", words.out)
+        self.assertIn("a kernel with its own g(r) may multiply these events", words.out)
+
+    def even(self):
+        rng = random.Random(5)
+        path = self.folder / "even.csv"
+        write_points(path, [[rng.random() for _ in range(3)] for _ in range(1000)])
+        return path
+
     def test_estimator_says_which_events_count(self):
         command = ("decompose", self.sheet(), "--domain", "box:0,0,0,1,1,1", "--beta-dt", "1e-6", "--json", "--estimator")
         cells, pairs, auto = (clast(*command, e).json for e in ("cells", "pairs", "auto"))

@@ -272,7 +272,7 @@ static void check_lane(const clx_batch *p, int k, const double slide[3],
     const clx_dem_pair *pair = p->pair[k];
     const bool is_apart = p->meet.gap[k] >= 0.0;
     assert_int_equal(pair->touches, is_apart ? 0 : 1);
-    assert_true(pair->wake == (is_apart ? p->travel[k] + p->meet.gap[k] : 0.0));
+    assert_true(pair->active_from == (is_apart ? p->travel[k] + p->meet.gap[k] : 0.0));
     for (int c = 0; c < 3; ++c) {
         assert_true(p->to[k]->force[c] == alone->force[c]);
         assert_true(p->to[k]->torque_a[c] == alone->torque_a[c]);

@@ -1,0 +1,113 @@
+/* Unit: structure below the cells, of clouds whose structure is known. */
+#include "support.h"
+
+#include "math/rng.h"
+#include <stdlib.h>
+
+static clast_decomposition decompose(const clast_cloud *cloud, const char *domain, double beta_dt)
+{
+    clast_decompose_config config;
+    clast_decomposition made = {0};
+    CHECK_OK(clast_fields_default(clast_decompose_fields, &config));
+    CHECK_OK(clast_field_set_si(clast_fields_find(clast_decompose_fields, "domain"), &config,
+                                domain, false));
+    config.pairs = true;
+    config.beta_dt = beta_dt;
+    CHECK_OK(clast_decompose(cloud, &config, &made));
+    clast_fields_free(clast_decompose_fields, &config);
+    return made;
+}
+
+/* n points of the unit cube. Of the first `share` every second lies beside the one before it, sd
+ * away on each axis; the rest are even, with a blob one in four lies in a blob of that sd. */
+static clast_cloud cloud_of(int64_t n, double share, double sd, double blob, uint64_t seed)
+{
+    clast_cloud cloud = {0};
+    CHECK_OK(clast_cloud_alloc(n, 3, &cloud));
+    for (int64_t i = 0; i < n; ++i) {
+        clx_rng rng = clx_rng_at(seed, CLX_STREAM_TEST, (uint64_t)i);
+        const bool is_second = i % 2 == 1 && (double)i < share * (double)n;
+        for (int k = 0; k < 3; ++k) {
+            double *x = &cloud.x[3 * i + k];
+            const double first = is_second ? x[-3] : blob > 0.0 && i % 4 == 2 ? 0.5 : (double)NAN;
+            const double own = is_second ? sd : blob;
+            *x = isnan(first) ? clx_rng_uniform(&rng) : first + own * clx_rng_normal(&rng);
+            *x = fmin(1.0, fmax(0.0, *x));
+        }
+    }
+    return cloud;
+}
+
+/* 500 pairs of sd 1e-3 in the unit cube: one cell of even points, 500 events at its cap, g(r) 4e4
+ * and more at 1 mm. Pairs lie sqrt(2) sd apart on each axis: all but 1 % within 5 mm. */
+static void close_pairs_lie_below_the_cells(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 5; ++seed) {
+        clast_cloud cloud = cloud_of(1000, 1.0, 1e-3, 0.0, seed);
+        clast_decomposition r = decompose(&cloud, "box:0,0,0,1,1,1", 4e-6);
+        const clast_within_cells *w = &r.within;
+        assert_true(w->is_structured);
+        assert_true(w->g_low < w->g && w->g < w->g_high && w->g_low > 1e3);
+        assert_true(w->length > 2e-3 && w->length < 8e-3);
+        if (r.cells.n == 1) {
+            CHECK_REL(w->cell, 1.0, 1e-12);
+            CHECK_REL(w->even, 499500.0, 1e-12);
+        }
+        clast_decomposition_free(&r);
+        clast_cloud_free(&cloud);
+    }
+}
+
+/* A tenth of the points in pairs is found as well. */
+static void few_close_pairs_lie_below_the_cells(void **state)
+{
+    (void)state;
+    clast_cloud cloud = cloud_of(1000, 0.1, 2e-3, 0.0, 7);
+    clast_decomposition r = decompose(&cloud, "box:0,0,0,1,1,1", 0.0);
+    assert_true(r.within.is_structured);
+    clast_decomposition_free(&r);
+    clast_cloud_free(&cloud);
+}
+
+/* Even points: of 40 clouds none shows structure, and g within is 1 in its interval but for the few
+ * that 95 % allow. */
+static void even_points_have_none(void **state)
+{
+    (void)state;
+    int outside = 0;
+    for (uint64_t seed = 0; seed < 40; ++seed) {
+        clast_cloud cloud = cloud_of(1000, 0.0, 0.0, 0.0, 100 + seed);
+        clast_decomposition r = decompose(&cloud, "box:0,0,0,1,1,1", 0.0);
+        assert_false(r.within.is_structured);
+        assert_true(r.within.length == 0.0 && r.within.radius > 0.0);
+        outside += r.within.g_low > 1.0 || r.within.g_high < 1.0;
+        clast_decomposition_free(&r);
+        clast_cloud_free(&cloud);
+    }
+    assert_true(outside <= 12); /* the radius is where 10 pairs happen to lie */
+}
+
+/* A blob that the cells resolve lies in them, not below. */
+static void resolved_structure_lies_in_the_cells(void **state)
+{
+    (void)state;
+    clast_cloud cloud = cloud_of(20000, 0.0, 0.0, 0.15, 3);
+    clast_decomposition r = decompose(&cloud, "box:0,0,0,1,1,1", 0.0);
+    assert_true(r.cells.n > 1 && r.resolved);
+    assert_false(r.within.is_structured);
+    assert_true(r.within.even <= 1.05 * r.events_by_cells.high);
+    clast_decomposition_free(&r);
+    clast_cloud_free(&cloud);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(close_pairs_lie_below_the_cells),
+        cmocka_unit_test(few_close_pairs_lie_below_the_cells),
+        cmocka_unit_test(even_points_have_none),
+        cmocka_unit_test(resolved_structure_lies_in_the_cells),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
