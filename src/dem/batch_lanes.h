@@ -1,7 +1,8 @@
 #pragma once
-// Contacts of one kind side by side, in as many lanes as the file that includes this has: batch.c
-// four, batch_wide.c eight. Each line is that of touch.h, law.h or contacts.c, in their order, so
-// that the bits are theirs whatever the lanes. `from` is the first contact of the batch.
+// Contacts of one kind in SIMD lanes; the lane width is that of the file that includes this: four
+// in batch.c, eight in batch_avx512.c. Each line is that of touch.h, law.h or contacts.c, in the
+// same order, so that scalar code and all lane widths give the same bits. `from` is the first
+// contact of the batch.
 #include "dem/batch.h"
 #include "math/lanes.h"
 #include <stddef.h>
@@ -49,7 +50,7 @@ CLX_INLINE void read_periods(clx_dem_pair *const pair[CLX_LANES], clx_lanes peri
     period[1] = __builtin_convertvector((ints)both >> 16, clx_lanes);
 }
 
-/// Offsets of b from a, with the radii as fourths of a and b.
+/// Offsets of b from a, with the radii as fourth components of a and b.
 CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_lanes a[4],
                         clx_lanes b[4], clx_lanes r[3])
 {
@@ -72,7 +73,7 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
     }
 }
 
-CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)
+CLX_INLINE void contact_of_spheres(const clast_dem *dem, clx_batch *p, int from)
 {
     clx_lanes a[4], b[4], r[3], n[3], arm[3];
     const clx_lanes zero = lanes_all(0.0);
@@ -95,7 +96,7 @@ CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)
     store3(p->arm_b[0] + from, arm);
 }
 
-/// As clx_pair_contact does for one.
+/// Rounding, as in clx_pair_contact.
 CLX_INLINE void add_rounding(const clast_dem *dem, clx_dem_pair *const pair[CLX_LANES],
                              clx_meet_lanes *m)
 {
@@ -109,7 +110,7 @@ CLX_INLINE void add_rounding(const clast_dem *dem, clx_dem_pair *const pair[CLX_
 }
 
 /// Returns which lanes are answered, as bits.
-CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool edges)
+CLX_INLINE int contact_of_facets(const clast_dem *dem, clx_batch *p, int from, bool edges)
 {
     clx_lanes a[4], b[4], r[3], arm[3];
     clx_meet_lanes m;
@@ -129,10 +130,10 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
     return lanes_bits(good);
 }
 
-// The law goes in three stages, each for both halves of a batch before the next: a stage waits for
-// its roots and divisions, and meanwhile the other half goes on.
+// The law is computed in three stages, each for both halves of a batch before the next: while one
+// half waits for its roots and divisions, the other goes on.
 
-/// Contacts side by side and what the law has worked out for them so far.
+/// Contacts in lanes, and the law's intermediate results.
 typedef struct {
     clx_lanes active_from, slide[3]; ///< of the pairs
     clx_lanes velocity[3];           ///< of b's surface relative to a's at the contact point
@@ -140,9 +141,9 @@ typedef struct {
     clx_lanes normal_force, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
     clx_lanes inverse;               ///< of the tangential stiffness, negative
-    clx_lanes load[2];               ///< exact steps: what the contact adds to a and b
-    clx_lanes spring[2], damping[2]; ///< exact steps: shares that are taken, normal and tangential
-} meetings;
+    clx_lanes load[2];               ///< exact steps: the contact's stability load on a and b
+    clx_lanes spring[2], damping[2]; ///< exact steps: reductions, normal and tangential
+} contact_lanes;
 
 /// From a to b.
 CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
@@ -155,14 +156,14 @@ CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
 
 /// Velocities, reduced mass and friction; the pairs' displacements.
 CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
-                         meetings *m)
+                         contact_lanes *m)
 {
-    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb with masses
+    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb: fourth component is the mass
     clx_lanes normal[3], arm[3], slide[4];
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
-    collect(p->a + from, offsetof(clx_grain, spin), wa);
-    collect(p->b + from, offsetof(clx_grain, spin), wb);
+    collect(p->a + from, offsetof(clx_grain, omega), wa);
+    collect(p->b + from, offsetof(clx_grain, omega), wb);
     load3(p->meet.point[0] + from, arm);
     lanes_cross(u, wa, arm);
     load3(p->arm_b[0] + from, arm);
@@ -226,10 +227,11 @@ CLX_INLINE void limit(const clx_law *law, clx_lanes held, clx_lanes *spring, clx
 
 /// clx_hold_pair and clx_law_hold
 CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
-                     meetings *m)
+                     contact_lanes *m)
 {
     const clx_law *law = &dem->law;
-    clx_lanes va[4], vb[4], ra[4], rb[4], of_a[2], of_b[2], normal[3]; // with masses, with radii
+    clx_lanes va[4], vb[4], ra[4], rb[4], of_a[2], of_b[2],
+        normal[3]; // v: with masses; r: with radii
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
     collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), ra);
@@ -256,7 +258,7 @@ CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool ha
 }
 
 /// clx_law_turn
-CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
+CLX_INLINE void rotate_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
 {
     clx_lanes across[3], turned[3];
     const clx_lanes old = lanes_dot(slide, slide);
@@ -270,9 +272,9 @@ CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes
     }
 }
 
-/// clx_law_force, but for slip.
-CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
-                      meetings *m)
+/// clx_law_force up to Coulomb's limit.
+CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                           contact_lanes *m)
 {
     clx_lanes along[3], normal[3], slide[3];
     const clx_law *law = &dem->law;
@@ -302,7 +304,7 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
     }
-    turn_slide(normal, m->twirl * dt, slide);
+    rotate_slide(normal, m->twirl * dt, slide);
     lanes_axpy(slide, slide, lanes_all(dt), along);
     for (int c = 0; c < 3; ++c) {
         m->slide[c] = slide[c];
@@ -311,8 +313,8 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     }
 }
 
-/// The slip of clx_law_force.
-CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide[3])
+/// Coulomb's limit of clx_law_force.
+CLX_INLINE void slip(const contact_lanes *m, clx_lanes tangential[3], clx_lanes slide[3])
 {
     const clx_lanes size2 = lanes_dot(m->tangential, m->tangential);
     const clx_marks slips = size2 > m->limit * m->limit;
@@ -350,9 +352,9 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
     return (clx_lanes)(m & (clx_marks)x);
 }
 
-/// Slip, and what comes of it all; nothing where contacts are apart.
-CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
-                         const meetings *m)
+/// Coulomb's limit, then the pair forces; 0 where contacts are apart.
+CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                             const contact_lanes *m)
 {
     clx_lanes out[4][4]; // force, torque on b and on a, the pair's active_from and slide
     clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
@@ -382,7 +384,7 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
 CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls,
                                bool is_exact)
 {
-    meetings m[CLX_BATCH / CLX_LANES];
+    contact_lanes m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
         approach(dem, p, h * CLX_LANES, has_walls, &m[h]);
         if (is_exact) {
@@ -390,14 +392,14 @@ CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool ha
         }
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        press(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        law_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        deal_out(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        write_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
     }
 }
 
-/// The kinds of force_of_lanes, each compiled for itself.
+/// force_of_lanes, compiled apart for each case.
 CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (dem->law.is_exact) {

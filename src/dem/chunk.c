@@ -1,8 +1,8 @@
-// Who sweeps over which grains.
+// How the grains of a sweep are divided among threads.
 //
-// Each thread begins with one run of grains, since what lies on a border of two costs more, as long
-// as its pace in the last steps asks for. One that is done takes half of what is left of another:
-// threads are never equally fast. Nothing that is computed depends on where the borders are.
+// Each thread begins with one contiguous chunk, since grains at a border of two cost more; its
+// length follows the thread's speed in the last steps. A thread that is done steals half of what is
+// left of another's chunk: threads are never equally fast. No result depends on the borders.
 #include "dem/chunk.h"
 
 #include "base/lines.h"
@@ -10,14 +10,14 @@
 
 enum { BLOCK = CLX_SWEEP_BLOCK };
 
-/// Chunks a thread, those that it took of others among them.
+/// Chunks a thread, stolen ones among them.
 enum { MOST = 8 };
 
-/// Grains that must be left of a chunk for half of them to be taken: with fewer, what the new
-/// border costs is more than what the wait does.
+/// Grains that must be left of a chunk for half of them to be stolen: with fewer, the new border
+/// costs more than the wait.
 enum { LEAST = 6 * BLOCK };
 
-/// Part of what is left of a chunk that its thread takes at once.
+/// One part in so many of what is left of a chunk is what its thread claims at once.
 enum { SHARE = 16 };
 
 /// Weight of the last step in a thread's pace.
@@ -52,7 +52,7 @@ static inline int64_t end_of(uint64_t left)
     return (int64_t)(left >> 32);
 }
 
-/// Notes that grain a has a pair to b.
+/// Notes that grains a and b have a pair.
 static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 {
     _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
@@ -62,8 +62,8 @@ static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
     }
 }
 
-/// Work of blocks of grains, and the lowest neighbours of all. Moving a grain costs about as much
-/// as five pairs that sleep, and one that touches as twelve (profile of P1).
+/// Work of blocks of grains, and the lowest neighbour of each group of four. Moving a grain costs
+/// about as much as five skipped pairs, a touching pair as twelve (profile of P1).
 static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     enum { MOVE = 5, TOUCH = 12 };
@@ -86,8 +86,8 @@ static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-/// Room for all that the threads do to deferred grains. Only what is touched takes memory, so
-/// nothing is copied when it grows.
+/// Capacity for all contributions to deferred grains. Pages that are never written take no memory,
+/// so nothing is copied when it grows.
 static clast_status reserve_contributions(clx_sweeping *s, int64_t n)
 {
     clast_status status = CLAST_OK;
@@ -214,7 +214,7 @@ void clx_chunks_begin(clast_dem *dem)
                              : grain_at(dem, share * (double)s->before[blocks_of(dem)]);
         }
         set_chunk(&s->chunk[c], begin, end);
-        atomic_store_explicit(&s->chunk[c].is_taken, c >= n, memory_order_relaxed);
+        atomic_store_explicit(&s->chunk[c].is_claimed, c >= n, memory_order_relaxed);
         begin = end;
     }
     atomic_store(&s->n_chunk, n);
@@ -236,14 +236,14 @@ bool clx_chunk_next(clx_chunk *chunk, int64_t *begin, int64_t *end)
     return true;
 }
 
-/// Chunks in use; those who found no room for one more have counted on.
+/// Chunks in use; threads that found no free one have counted on.
 static int32_t chunks_of(const clx_sweeping *s)
 {
     const int32_t n = atomic_load(&s->n_chunk);
     return n < MOST * s->n_worker ? n : MOST * s->n_worker;
 }
 
-/// The chunk with most left, and how that was; NULL: none has enough.
+/// The chunk with most grains left, and its `left` then; NULL: none has enough.
 static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
 {
     clx_chunk *best = NULL;
@@ -259,8 +259,8 @@ static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
     return best;
 }
 
-/// The second half of what is left of some chunk.
-static clx_chunk *take_half(clx_sweeping *s)
+/// Steals the second half of what is left of some chunk.
+static clx_chunk *steal_half(clx_sweeping *s)
 {
     uint64_t left = 0;
     if (richest(s, chunks_of(s), &left) == NULL) {
@@ -280,15 +280,15 @@ static clx_chunk *take_half(clx_sweeping *s)
     return NULL;
 }
 
-clx_chunk *clx_chunk_take(clx_sweeping *s, int32_t worker)
+clx_chunk *clx_chunk_claim(clx_sweeping *s, int32_t worker)
 {
     for (int32_t k = 0; k < s->n_worker; ++k) {
         clx_chunk *chunk = &s->chunk[(worker + k) % s->n_worker];
-        if (!atomic_exchange(&chunk->is_taken, true)) {
+        if (!atomic_exchange(&chunk->is_claimed, true)) {
             return chunk;
         }
     }
-    return take_half(s);
+    return steal_half(s);
 }
 
 void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double seconds)
@@ -297,7 +297,7 @@ void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double second
     s->pace[worker].seconds += seconds;
 }
 
-static void learn(clx_pace *pace)
+static void update_speed(clx_pace *pace)
 {
     if (pace->work > 0 && pace->seconds > 0.0) {
         const double speed = (double)pace->work / pace->seconds;
@@ -307,7 +307,7 @@ static void learn(clx_pace *pace)
     pace->seconds = 0.0;
 }
 
-/// By their first grains; few, and nearly in order.
+/// Insertion sort by first grain: there are few, nearly in order.
 static void sort(clx_chunk *chunk, int32_t n)
 {
     for (int32_t k = 1; k < n; ++k) {
@@ -335,6 +335,6 @@ void clx_chunks_end(clast_dem *dem)
         }
     }
     for (int32_t w = 0; w < s->n_worker; ++w) {
-        learn(&s->pace[w]);
+        update_speed(&s->pace[w]);
     }
 }

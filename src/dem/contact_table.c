@@ -11,12 +11,12 @@ static const struct {
                {"normal_x", "-"},   {"normal_y", "-"},  {"normal_z", "-"}};
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
-/// One contact: its numbers, from a copy, so that nothing goes on; false if it is none.
+/// Numbers of one contact, from copies, so that its history stays; false if it is none.
 static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N_COLUMN])
 {
     clx_dem_pair copy = *pair;
-    const clx_extra *own = clx_pair_extra(dem, pair);
-    clx_extra extra = own != NULL ? *own : (clx_extra){0};
+    const clx_contact_history *own = clx_pair_history(dem, pair);
+    clx_contact_history history = own != NULL ? *own : (clx_contact_history){0};
     clx_dem_touch t;
     clx_force_torque on_a = {0};
     clx_force_torque on_b = {0};
@@ -24,7 +24,7 @@ static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N
     if (!clx_pair_holds(dem, pair, &t)) {
         return false;
     }
-    clx_add_pair_force(dem, &copy, &extra, &t, &on_a, &on_b);
+    clx_add_pair_force(dem, &copy, &history, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
         v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, pair), on_a.force);
     }

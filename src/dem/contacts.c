@@ -1,9 +1,9 @@
-// What all contacts do, once a step.
+// Pair forces of all contacts, once a step.
 //
-// Awake pairs are sorted by how they are answered, without a branch that a processor could guess
-// wrongly, and go on four at a time (batch.h); what lanes cannot answer goes one by one. A contact
-// writes its own slots only, so blocks run in any order. Loads are summed afterwards, in motion.c
-// or sweep.c.
+// Active pairs are sorted by kind of contact search, without a branch that could be mispredicted,
+// and go on four or eight at a time in SIMD lanes (batch.h); what lanes cannot answer goes through
+// scalar code. A pair writes its own slots only, so blocks run in any order. Pair forces are summed
+// afterwards, in motion.c or sweep.c.
 #include "dem/batch.h"
 
 #include "base/parallel.h"
@@ -14,13 +14,13 @@
 
 enum { BLOCK = 256 };
 
-/// How a pair of whole grains is answered.
+/// Kind of contact search of a pair of whole grains.
 static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_dem_pair *pair)
 {
     static const uint8_t remembered[] = {CLX_BATCH_ANY, CLX_BATCH_FACES, CLX_BATCH_FACES,
                                          CLX_BATCH_EDGES};
     if (pair->slot == 0) {
-        return CLX_BATCH_SPHERES; // else clx_inner_find had given it a memory
+        return CLX_BATCH_SPHERES; // else clx_inner_find had assigned it a warm start
     }
     if (pair->kind == CLX_FACET_NONE && grain[pair->a].kind == CLAST_SHAPE_ELLIPSOID &&
         grain[pair->b].kind == CLAST_SHAPE_ELLIPSOID) {
@@ -29,15 +29,15 @@ static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_dem_pair 
     return (clx_batch_kind)remembered[pair->kind];
 }
 
-/// Lane k alone, by the plain way.
+/// Contact of lane k by scalar code.
 static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
     clx_dem_pair *pair = p->pair[k];
-    clx_contact_memory *memory = clx_inner_memory(dem, pair);
-    clx_dem_touch_find(dem, pair, memory, &t);
-    if (memory != NULL) {
-        pair->kind = memory->kind & 3U;
+    clx_contact_memory *warm_start = clx_inner_warm_start(dem, pair);
+    clx_dem_touch_find(dem, pair, warm_start, &t);
+    if (warm_start != NULL) {
+        pair->kind = warm_start->kind & 3U;
     }
     p->meet.gap[k] = t.distance;
     for (int c = 0; c < 3; ++c) {
@@ -47,8 +47,9 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
     }
 }
 
-/// Remembered common normals; returns which lanes are answered.
-static int ask_normals(const clast_dem *dem, clx_batch *p)
+/// Contacts of ellipsoids from the common normals of the last step; returns which lanes are
+/// answered.
+static int reuse_normals(const clast_dem *dem, clx_batch *p)
 {
     int answered = 0;
     const clx_convex *a[CLX_BATCH];
@@ -61,15 +62,15 @@ static int ask_normals(const clast_dem *dem, clx_batch *p)
         answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
     }
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *memory = clx_inner_memory(dem, p->pair[k]);
+        clx_contact_memory *warm_start = clx_inner_warm_start(dem, p->pair[k]);
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
-            memory->seen[0][c] = (float)p->meet.normal[c][k];
+            warm_start->seen[0][c] = (float)p->meet.normal[c][k];
         }
     }
     return answered;
 }
 
-/// Lanes that lanes could not answer, one by one.
+/// Contacts of the lanes that were not answered, by scalar code.
 static void find_rest(clast_dem *dem, clx_batch *p, int answered)
 {
     const int last = p->n - 1;
@@ -88,7 +89,7 @@ static void find_rest(clast_dem *dem, clx_batch *p, int answered)
     }
 }
 
-/// Where the pairs of a batch meet.
+/// Contacts of a batch.
 static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
     int answered = 0;
@@ -104,7 +105,7 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
         return;
     case CLX_BATCH_ELLIPSOIDS:
         clx_batch_offsets(dem, p);
-        answered = ask_normals(dem, p);
+        answered = reuse_normals(dem, p);
         clx_batch_arms(p);
         break;
     default:
@@ -116,12 +117,12 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
 }
 
-static void part(const clast_dem *dem, const clx_batch *p, int k)
+static void end_contact(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_dem_pair *pair = p->pair[k];
-    clx_extra *extra = clx_pair_extra(dem, pair);
-    if (extra != NULL) {
-        *extra = (clx_extra){0};
+    clx_contact_history *history = clx_pair_history(dem, pair);
+    if (history != NULL) {
+        *history = (clx_contact_history){0};
     }
     pair->active_from = p->travel[k] + p->meet.gap[k];
     pair->touches = 0;
@@ -129,13 +130,13 @@ static void part(const clast_dem *dem, const clx_batch *p, int k)
     *p->to[k] = (clx_pair_force){0};
 }
 
-/// What a pair that touches does, by the plain way.
+/// Force of a pair that touches, by scalar code.
 static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
                           clx_pair_force *out)
 {
     clx_force_torque on_a = {0};
     clx_force_torque on_b = {0};
-    clx_add_pair_force(dem, pair, clx_pair_extra(dem, pair), t, &on_a, &on_b);
+    clx_add_pair_force(dem, pair, clx_pair_history(dem, pair), t, &on_a, &on_b);
     *out = (clx_pair_force){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);
@@ -155,12 +156,12 @@ static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
     force_of_pair(dem, p->pair[k], &t, p->to[k]);
 }
 
-/// By the laws that lanes do not know.
+/// Forces by the laws that have no code for lanes.
 static void force_of_each(clast_dem *dem, const clx_batch *p)
 {
     for (int k = 0; k < p->n; ++k) {
         if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_pair_neck(dem, p->pair[k]))) {
-            part(dem, p, k);
+            end_contact(dem, p, k);
         } else {
             p->pair[k]->touches = 1;
             force_of_lane(dem, p, k);
@@ -168,8 +169,8 @@ static void force_of_each(clast_dem *dem, const clx_batch *p)
     }
 }
 
-/// Pairs of the inner list that are gone through at once; how far ahead a pair, its memory
-/// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
+/// Pairs of a piece of the inner list; how far ahead pairs, and their warm starts and grains, are
+/// prefetched: a bed of 4000 hulls does not stay in a second-level cache.
 enum {
     PAIR_AHEAD = 16,
     REST_AHEAD = CLX_BATCH,
@@ -180,19 +181,19 @@ enum {
     LINE = 64
 };
 
-/// A piece of the inner list, and which of its pairs are active, by how they are answered.
+/// A piece of the inner list, and its active pairs by kind of contact search.
 typedef struct {
     const int32_t *index;
     clx_packed_pair *packed;       ///< the same pairs, packed, or NULL
     int64_t n_left;                ///< pairs from there to the end of the inner list
     clx_pair_force *force;         ///< of each pair
-    double travel[PIECE];          ///< what each pair's grains have gone
+    double travel[PIECE];          ///< path of each pair's two grains
     int n[CLX_N_BATCH];            ///< active pairs
-    uint16_t at[CLX_N_BATCH][ROW]; ///< their places, the last of a kind repeated
+    uint16_t at[CLX_N_BATCH][ROW]; ///< their indices, the last of a kind repeated
 } piece;
 
-// Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
-// of it is dropped.
+// Always inlined: a function that does nothing but prefetch looks free of effects to GCC, which
+// then drops its calls.
 CLX_INLINE void fetch_two(const void *record)
 {
     __builtin_prefetch(record);
@@ -205,8 +206,8 @@ CLX_INLINE void fetch_three(const void *record)
     __builtin_prefetch((const char *)record + 2 * LINE);
 }
 
-/// Asks for what a batch of whole grains reads: two lines of a sphere; three of another grain and
-/// of the pair's memory.
+/// Prefetches what a batch of whole grains reads: two lines of a sphere; three of another grain and
+/// of the pair's warm start.
 CLX_INLINE void fetch_batch(const clast_dem *dem, const piece *s, const uint16_t *at,
                             bool are_spheres)
 {
@@ -216,7 +217,7 @@ CLX_INLINE void fetch_batch(const clast_dem *dem, const piece *s, const uint16_t
         fetch_two(&dem->grain[pair->b]);
         if (!are_spheres) {
             __builtin_prefetch((const char *)&dem->grain[pair->b] + 2 * LINE);
-            fetch_three(&dem->list.memory[pair->slot]);
+            fetch_three(&dem->list.warm_start[pair->slot]);
         }
     }
 }
@@ -232,7 +233,7 @@ CLX_INLINE clx_dem_pair *pair_of(const clast_dem *dem, const piece *s, bool is_p
     return is_packed ? &s->packed[i].pair : &dem->list.pair[s->index[i]];
 }
 
-/// Asks for a packed pair some places ahead, and for the other grain of one nearer by.
+/// Prefetches a packed pair some way ahead, and the other grain of one less far ahead.
 CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_packed_pair *packed)
 {
     const int32_t b = packed[GRAIN_AHEAD].pair.b;
@@ -240,7 +241,7 @@ CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_packed_pair *pack
     fetch_three(&grain[b < 0 ? 0 : b]);
 }
 
-/// Sorts out which of n pairs are active, without a branch that depends on it; returns how many.
+/// Lists the active ones of n pairs, without a branch that depends on it; returns how many.
 CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
                           clx_active_pair *active)
 {
@@ -301,7 +302,8 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
         p->b[k] = !has_walls || b >= 0 ? &grain[grain_of(dem, is_packed, b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = is_packed ? &s->packed[at[k]].memory : clx_pair_memory(dem, pair);
+        p->meet.memory[k] =
+            is_packed ? &s->packed[at[k]].warm_start : clx_pair_warm_start(dem, pair);
     }
 }
 
@@ -324,8 +326,8 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
     }
 }
 
-/// What the pairs of the piece do; its active pairs, and how many they are.
-static int meet_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
+/// Forces of the active pairs of the piece; lists those, and returns how many they are.
+static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
     const int n_active = sort_active(dem, n, s, active);
@@ -359,7 +361,7 @@ int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_
     int32_t n_active = 0;
     for (int32_t at = begin; at < end; at += PIECE) {
         begin_piece(dem, at, force + (at - begin), &s);
-        const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, active + n_active);
+        const int n = find_piece(dem, end - at < PIECE ? end - at : PIECE, &s, active + n_active);
         for (int k = 0; k < n && at > begin; ++k) {
             active[n_active + k].at += at - begin;
         }
@@ -368,15 +370,15 @@ int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_
     return n_active;
 }
 
-static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
+static void find_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
     clx_active_pair active[PIECE];
     piece s;
     (void)worker;
     begin_piece(dem, begin, dem->inner.force + begin, &s);
-    memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of pairs that sleep
-    (void)meet_piece(dem, (int)(end - begin), &s, active);
+    memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of skipped pairs
+    (void)find_piece(dem, (int)(end - begin), &s, active);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.
@@ -390,7 +392,7 @@ static void contain_block(int64_t begin, int64_t end, int32_t worker, void *cont
         int32_t at = inner->begin[i];
         if (at == inner->begin[i + 1] ||
             !clx_pair_is_container(dem, &dem->list.pair[inner->index[at]])) {
-            continue; // they stand first
+            continue; // pairs with the container come first
         }
         const int32_t n = clx_container_meet(dem, (int32_t)i, touch);
         for (; at < inner->begin[i + 1]; ++at) {
@@ -410,11 +412,11 @@ static void contain_block(int64_t begin, int64_t end, int32_t worker, void *cont
 
 /// Grains below which one thread works alone. A guess, not measured: a step of 1500 grains takes
 /// about as long as waking a thread ten times.
-enum { FEW = 1500 };
+enum { SERIAL_BELOW = 1500 };
 
 bool clx_dem_is_serial(const clast_dem *dem)
 {
-    return clx_parallel_workers() == 1 || dem->n_grain < FEW;
+    return clx_parallel_workers() == 1 || dem->n_grain < SERIAL_BELOW;
 }
 
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context)
@@ -430,7 +432,7 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 void clx_contacts(clast_dem *dem)
 {
-    clx_dem_for(dem, dem->inner.n, PIECE, meet_block, dem);
+    clx_dem_for(dem, dem->inner.n, PIECE, find_block, dem);
     if (dem->container != NULL) {
         clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }

@@ -46,23 +46,23 @@ static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
     return body;
 }
 
-static void take(const clx_contact *c, clx_dem_touch *t)
+static void touch_from_contact(const clx_contact *c, clx_dem_touch *t)
 {
     static const double nowhere[3] = {0.0, 0.0, 0.0};
-    clx_touch_take(c, nowhere, t);
+    clx_touch_from_contact(c, nowhere, t);
     v3_set(t->arm_b, 0.0, 0.0, 0.0);
 }
 
 void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
-                               clx_contact_memory *memory, clx_dem_touch *touch)
+                               clx_contact_memory *warm_start, clx_dem_touch *touch)
 {
     clx_convex ball;
     clx_contact contact;
     const clx_placed body = place(dem, pair->a, &ball);
     const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
-    if (clx_triangle_contact(t, &body, 0.0, memory, &contact)) {
+    if (clx_triangle_contact(t, &body, 0.0, warm_start, &contact)) {
         (void)clx_triangle_push(t, &body, &contact);
-        take(&contact, touch);
+        touch_from_contact(&contact, touch);
     } else {
         touch->distance = contact.gap;
     }
@@ -75,7 +75,7 @@ typedef struct {
     int32_t n;
     double normal[CLX_CONTAINER_TOUCHES][3]; ///< of pairs that touched before
     double slide[CLX_CONTAINER_TOUCHES][3];
-    clx_extra extra[CLX_CONTAINER_TOUCHES];
+    clx_contact_history history[CLX_CONTAINER_TOUCHES];
     int64_t old[CLX_CONTAINER_TOUCHES];
     int32_t n_old;
 } candidates;
@@ -110,24 +110,24 @@ static void insert(candidates *p, const clx_contact *c, int64_t pair)
 }
 
 /// History of a pair that touched a step ago, for the triangle whose force has this direction now.
-static void remember(candidates *p, clx_dem_pair *pair, clx_extra *extra, const clx_contact *c,
-                     bool is_near, int64_t k)
+static void remember(candidates *p, clx_dem_pair *pair, clx_contact_history *history,
+                     const clx_contact *c, bool is_near, int64_t k)
 {
     if (pair->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
         v3_copy(p->normal[p->n_old], c->normal);
         v3_copy(p->slide[p->n_old], pair->slide);
-        p->extra[p->n_old] = extra != NULL ? *extra : (clx_extra){0};
+        p->history[p->n_old] = history != NULL ? *history : (clx_contact_history){0};
         p->old[p->n_old++] = k;
     }
     pair->touches = 0;
     v3_set(pair->slide, 0.0, 0.0, 0.0);
-    if (extra != NULL) {
-        *extra = (clx_extra){0};
+    if (history != NULL) {
+        *history = (clx_contact_history){0};
     }
 }
 
 static void inherit(const candidates *p, const clx_contact *c, int64_t k, double slide[3],
-                    clx_extra *extra)
+                    clx_contact_history *history)
 {
     double best = SAME_NORMAL;
     int32_t from = -1;
@@ -141,8 +141,8 @@ static void inherit(const candidates *p, const clx_contact *c, int64_t k, double
     if (from >= 0) {
         v3_copy(slide, p->slide[from]);
     }
-    if (from >= 0 && extra != NULL) {
-        *extra = p->extra[from];
+    if (from >= 0 && history != NULL) {
+        *history = p->history[from];
     }
 }
 
@@ -164,8 +164,9 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
             continue;
         }
         const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
-        const bool is_near = clx_triangle_contact(t, &body, near, clx_pair_memory(dem, pair), &c);
-        remember(&p, pair, clx_pair_extra(dem, pair), &c, is_near, k);
+        const bool is_near =
+            clx_triangle_contact(t, &body, near, clx_pair_warm_start(dem, pair), &c);
+        remember(&p, pair, clx_pair_history(dem, pair), &c, is_near, k);
         pair->active_from = travel + fmax(c.gap, 0.0);
         if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
             insert(&p, &c, k);
@@ -174,9 +175,9 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
     for (int32_t m = 0; m < p.n; ++m) {
         clx_dem_pair *pair = &dem->list.pair[p.pair[m]];
         pair->touches = 1;
-        inherit(&p, &p.contact[m], p.pair[m], pair->slide, clx_pair_extra(dem, pair));
+        inherit(&p, &p.contact[m], p.pair[m], pair->slide, clx_pair_history(dem, pair));
         touch[m] = (clx_container_touch){.pair = p.pair[m]};
-        take(&p.contact[m], &touch[m].touch);
+        touch_from_contact(&p.contact[m], &touch[m].touch);
         if (dem->item != NULL) {
             clx_touch_lever(dem, pair, &touch[m].touch);
         }
@@ -188,11 +189,11 @@ clast_status clx_container_find(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
     clx_neighbour_list *l = &dem->list;
-    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;
     const double *x = l->anchor[i].position;
-    const int32_t n = clx_wall_mesh_near(dem->container, x, reach, 0, NULL);
+    const int32_t n = clx_wall_mesh_near(dem->container, x, cutoff, 0, NULL);
     CLX_TRY(clx_grow(&l->triangle, &l->triangle_capacity, n, sizeof *l->triangle));
-    (void)clx_wall_mesh_near(dem->container, x, reach, n, l->triangle);
+    (void)clx_wall_mesh_near(dem->container, x, cutoff, n, l->triangle);
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
     for (int32_t k = 0; k < n; ++k) {
         l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->triangle[k]};

@@ -1,7 +1,7 @@
 #pragma once
 // Grains against a container's triangles. A triangle is a wall with a number of its own, after the
-// planes and the cylinder, so that every pair keeps its friction; which triangles touch is decided
-// for all of an item's triangles at once.
+// planes and the cylinder, so that every pair has its own contact history; which triangles touch is
+// decided for all of an item's triangles at once.
 #include "dem/touch.h"
 
 enum { CLX_CONTAINER_TOUCHES = 16 };
@@ -26,10 +26,10 @@ static inline const clx_wall_triangle *clx_pair_triangle(const clast_dem *dem,
 int64_t clx_container_end(const clast_dem *dem, int32_t i);
 
 /// Which triangles an item touches now: of contacts within 25 degrees the deepest stands for all,
-/// none leans over an edge farther than the neighbour's plane (contact/wall_mesh.h). Friction goes
-/// with the contact from triangle to triangle. Marks the pairs; at most CLX_CONTAINER_TOUCHES.
+/// none leans over an edge farther than the neighbour's plane (contact/wall_mesh.h). The history
+/// goes with the contact from triangle to triangle. Marks the pairs; at most CLX_CONTAINER_TOUCHES.
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES]);
 
-/// Pairs of a stale item with the triangles about it.
+/// Finds pairs of a stale item with the triangles about it.
 clast_status clx_container_find(clast_dem *dem, int32_t i);

@@ -104,7 +104,7 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
               (long long)number, sqrt(n));
     const clast_shape *shape = &dem->body[g->shape].shape;
     const clx_hull_core *core = dem->body[g->shape].core;
-    const double radius = g->scale * dem->body[g->shape].reach;
+    const double radius = g->scale * dem->body[g->shape].bounding_radius;
     CLX_TRY(check_fit(dem, g, radius, number));
     CLX_CHECK(core == NULL || dem->config.rounding == 0.0 ||
                   dem->config.rounding < 0.5 * g->scale * core->inner,
@@ -148,14 +148,14 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     double in_body[3];
     double momentum[3];
     *g = (clx_grain){.mass = from->density * volume,
-                     .radius = s * body->reach,
+                     .radius = s * body->bounding_radius,
                      .round_radius = cbrt(3.0 * volume / (4.0 * CLAST_PI)),
                      .scale = s,
                      .shape = from->shape,
                      .kind = (int32_t)body->shape.kind};
     v3_copy(g->position, from->position);
     v3_copy(g->velocity, from->velocity);
-    v3_copy(g->spin, from->spin);
+    v3_copy(g->omega, from->spin);
     *m = (clx_motion){.inertia_factor = from->density * s * s * s * s * s,
                       .volume = volume,
                       .density = from->density};
@@ -248,7 +248,7 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         if (dem->n_started < dem->n_grain) {
             CLX_TRY(clx_check_starts(dem));
         }
-        CLX_TRY(clx_fluid_look(dem));
+        CLX_TRY(clx_fluid_update_slabs(dem));
         CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
@@ -295,6 +295,6 @@ void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grai
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};
     v3_copy(grain->position, g->position);
     v3_copy(grain->velocity, g->velocity);
-    v3_copy(grain->spin, g->spin);
+    v3_copy(grain->spin, g->omega);
     memcpy(grain->orientation, m->orientation, sizeof m->orientation);
 }

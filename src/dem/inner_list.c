@@ -1,15 +1,15 @@
-// The pairs that a step looks at.
+// The inner list: the pairs of the neighbour list that a step reads (a dual pair list).
 //
-// Most listed pairs sleep: they cannot touch before the paths of both grains have grown to
-// `active_from`. Each grain gets some path in advance (`until`); pairs whose active_from lies
-// beyond what both may go are left out until a grain has used up its advance. A pair that is here
-// and still sleeps costs a comparison, one that is not costs nothing, and whether it is here
-// changes no result.
+// A pair of the neighbour list is skipped until the paths of its grains add up to `active_from`:
+// before that it cannot touch. Each grain gets some path in advance (`until`); pairs whose
+// `active_from` lies beyond the advances of both are left out until a grain has used up its own. A
+// skipped pair of the inner list costs a comparison, one that is left out costs nothing; which of
+// the two it is changes no result.
 //
-// A sweep works on copies that stand in a row, pairs with their memories: memory hands out what it
-// is asked for in order several times faster than lines here and there. A new inner list is packed
-// out of the old one where it can; the list has all back before it is brought up to date, and
-// whenever somebody outside may look.
+// A sweep works on copies in one array, pairs with their warm starts: reading in order is several
+// times faster than reading cache lines here and there. A new inner list is packed from the old
+// array where it can be; the neighbour list gets all copies back before it is refreshed, and
+// whenever clast_dem_step returns.
 #include "dem/dem.h"
 
 #include "base/lines.h"
@@ -36,11 +36,11 @@ void clx_inner_free(clx_inner_list *inner)
     *inner = (clx_inner_list){0};
 }
 
-/// Items that are gone through at once, 64, so that few blocks have a pair that wants a memory;
-/// pairs that are copied at once.
+/// Items of a block, so few that most blocks have no pair without a warm start; pairs of a block
+/// of copies.
 enum { BLOCK = 64, PACK = 1024 };
 
-static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
+static void set_until(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
     const double dt = dem->config.time_step;
@@ -49,14 +49,14 @@ static void advance(int64_t begin, int64_t end, int32_t worker, void *context)
         const clx_grain *grain = &dem->grain[g];
         const double speed =
             v3_norm(grain->velocity) +
-            (grain->kind == CLAST_SHAPE_SPHERE ? 0.0 : v3_norm(grain->spin) * grain->radius);
+            (grain->kind == CLAST_SHAPE_SPHERE ? 0.0 : v3_norm(grain->omega) * grain->radius);
         const double ahead = LOOK_AHEAD * dt * speed;
         const double least = LEAST * grain->radius;
         dem->inner.until[g] = dem->travel[g] + (ahead > least ? ahead : least);
     }
 }
 
-/// Where an item's pairs stood in what was packed before.
+/// The range of an item's pairs in the old array.
 typedef struct {
     int32_t at, end;
 } old_range;
@@ -67,7 +67,7 @@ static old_range old_of(const clx_inner_list *inner, int64_t i)
                             : (old_range){0};
 }
 
-/// Pair k of the list, out of the old row where it stands at the range's begin.
+/// Pair k of the list: its copy where the old range begins with it.
 static inline const clx_dem_pair *pair_now(const clast_dem *dem, int64_t k, old_range *old)
 {
     const clx_packed_row *row = &dem->inner.old;
@@ -77,8 +77,8 @@ static inline const clx_dem_pair *pair_now(const clast_dem *dem, int64_t k, old_
     return &dem->list.pair[k];
 }
 
-/// Pairs of a block of items that may become active, to where the block's listed pairs begin; how
-/// many come before each item's, and whether one of them has no memory yet and needs it.
+/// Writes the numbers of a block's pairs that may become active to where its pairs begin in the
+/// neighbour list; how many come before each item's, and whether one still needs a warm start.
 static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
@@ -102,10 +102,10 @@ static void pick_block(int64_t begin, int64_t end, int32_t worker, void *context
             wants = wants || (may_be_active && pair->slot == 0 && !clx_pair_is_round(dem, pair));
         }
     }
-    *block = (clx_inner_block){.n = n, .wants_memory = wants};
+    *block = (clx_inner_block){.n = n, .needs_warm_start = wants};
 }
 
-/// Numbers of the pairs that may become active: what the blocks found, one after the other.
+/// Numbers of the pairs that may become active: those of all blocks, in order.
 static clast_status pick(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -170,18 +170,19 @@ done:
     return status;
 }
 
-/// A place for the memory of every pair that may be asked.
-static clast_status give_slots(clast_dem *dem)
+/// A slot for the warm start of every pair of the inner list that needs one.
+static clast_status assign_slots(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_neighbour_list *l = &dem->list;
     const clx_inner_list *inner = &dem->inner;
     for (int32_t i = 0; i < dem->n_item && !dem->all_round; i += BLOCK) {
         const int32_t end = inner->begin[i + BLOCK < dem->n_item ? i + BLOCK : dem->n_item];
-        for (int32_t k = inner->begin[i]; k < end && inner->block[i / BLOCK].wants_memory; ++k) {
+        for (int32_t k = inner->begin[i]; k < end && inner->block[i / BLOCK].needs_warm_start;
+             ++k) {
             clx_dem_pair *pair = &l->pair[inner->index[k]];
             if (pair->slot == 0 && !clx_pair_is_round(dem, pair)) {
-                CLX_TRY(clx_neighbour_list_give_slot(l, pair));
+                CLX_TRY(clx_neighbour_list_assign_slot(l, pair));
             }
         }
     }
@@ -189,21 +190,21 @@ done:
     return status;
 }
 
-/// Out of the list.
-static inline void take(const clx_neighbour_list *l, int32_t k, clx_packed_pair *packed)
+/// Copies a pair and its warm start from the neighbour list.
+static inline void copy_from_list(const clx_neighbour_list *l, int32_t k, clx_packed_pair *packed)
 {
     packed->pair = l->pair[k];
     if (packed->pair.slot != 0) {
-        packed->memory = l->memory[packed->pair.slot].record;
+        packed->warm_start = l->warm_start[packed->pair.slot].record;
     }
 }
 
-/// Back into the list.
-static inline void give(clx_neighbour_list *l, int32_t k, const clx_packed_pair *packed)
+/// Copies them back.
+static inline void copy_to_list(clx_neighbour_list *l, int32_t k, const clx_packed_pair *packed)
 {
     l->pair[k] = packed->pair;
     if (packed->pair.slot != 0) {
-        l->memory[packed->pair.slot].record = packed->memory;
+        l->warm_start[packed->pair.slot].record = packed->warm_start;
     }
 }
 
@@ -212,13 +213,13 @@ static void pack_block(int64_t begin, int64_t end, int32_t worker, void *context
     clast_dem *dem = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        take(&dem->list, dem->inner.index[k], &dem->inner.packed[k]);
+        copy_from_list(&dem->list, dem->inner.index[k], &dem->inner.packed[k]);
     }
 }
 
-/// Rows of a block of items out of the old ones, which are in order: what has left goes back to the
-/// list, what is new comes from there.
-static void pack_again(int64_t begin, int64_t end, int32_t worker, void *context)
+/// Copies of a block of items, merged from the old ones in order: pairs that have left go back to
+/// the neighbour list, new ones come from there.
+static void repack_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
     const clx_inner_list *inner = &dem->inner;
@@ -227,16 +228,16 @@ static void pack_again(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     for (int32_t k = inner->begin[begin]; k < inner->begin[end]; ++k) {
         for (; at < row->begin[end] && row->index[at] < inner->index[k]; ++at) {
-            give(&dem->list, row->index[at], &row->packed[at]);
+            copy_to_list(&dem->list, row->index[at], &row->packed[at]);
         }
         if (at < row->begin[end] && row->index[at] == inner->index[k]) {
             inner->packed[k] = row->packed[at++];
         } else {
-            take(&dem->list, inner->index[k], &inner->packed[k]);
+            copy_from_list(&dem->list, inner->index[k], &inner->packed[k]);
         }
     }
     for (; at < row->begin[end]; ++at) {
-        give(&dem->list, row->index[at], &row->packed[at]);
+        copy_to_list(&dem->list, row->index[at], &row->packed[at]);
     }
 }
 
@@ -245,7 +246,7 @@ static void unpack_block(int64_t begin, int64_t end, int32_t worker, void *conte
     clast_dem *dem = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
-        give(&dem->list, dem->inner.index[k], &dem->inner.packed[k]);
+        copy_to_list(&dem->list, dem->inner.index[k], &dem->inner.packed[k]);
     }
 }
 
@@ -278,8 +279,8 @@ void clx_inner_unpack(clast_dem *dem)
     }
 }
 
-/// What is packed becomes the old row, whose room is used for the next, or the other way round.
-static void turn_rows(clx_inner_list *inner)
+/// Swaps the array of copies with the old one, whose capacity the next one uses.
+static void swap_rows(clx_inner_list *inner)
 {
     const clx_packed_row row = {.n = inner->n,
                                 .index = inner->index,
@@ -304,7 +305,7 @@ clast_status clx_inner_find(clast_dem *dem)
     clx_inner_list *inner = &dem->inner;
     const int64_t n_grain = dem->n_grain;
     if (inner->is_packed) {
-        turn_rows(inner);
+        swap_rows(inner);
     }
     CLX_TRY(clx_grow(&inner->begin, &inner->item_capacity, (int64_t)dem->n_item + 1,
                      sizeof *inner->begin));
@@ -312,19 +313,19 @@ clast_status clx_inner_find(clast_dem *dem)
     CLX_TRY(
         clx_grow_lines(&inner->total, &inner->total_capacity, n_grain + 1, sizeof *inner->total));
     memset(inner->total, 0, (size_t)n_grain * sizeof *inner->total);
-    clx_dem_for(dem, n_grain, BLOCK, advance, dem);
+    clx_dem_for(dem, n_grain, BLOCK, set_until, dem);
     CLX_TRY(pick(dem));
-    CLX_TRY(give_slots(dem));
+    CLX_TRY(assign_slots(dem));
     if (inner->is_packed) {
         CLX_TRY(grow_row(inner));
-        clx_dem_for(dem, dem->n_item, BLOCK, pack_again, dem);
+        clx_dem_for(dem, dem->n_item, BLOCK, repack_block, dem);
     }
     inner->is_due = false;
     inner->is_gathered = false;
     dem->sweeping.n_worker = 0;
 done:
     if (status != CLAST_OK && inner->is_packed) {
-        turn_rows(inner); // what is packed is still whole
+        swap_rows(inner); // what is packed is still whole
     }
     return status;
 }

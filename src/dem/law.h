@@ -31,7 +31,7 @@ typedef struct clx_law {
     double alpha;             ///< damping of Hertz's law [Antypov2011]
     double friction[2];       ///< between grains, at walls
     double rolling;
-    bool has_extra;                ///< contacts remember more than their displacement (clx_extra)
+    bool has_history;                ///< contacts remember more than their displacement (clx_contact_history)
     bool is_wet;                   ///< restitution by the impact's Stokes number
     double restitution, viscosity; ///< dry; of the fluid [Pa s]
     bool has_roll_spring;          ///< model C

@@ -46,11 +46,11 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     double momentum[3];
     v3_copy(momentum, motion->angular);
     if (g->kind == CLAST_SHAPE_SPHERE) {
-        v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, g->spin);
+        v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, g->omega);
     } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
-        m3_mul_t(in_body, dem->grain[i].turn, g->spin);
+        m3_mul_t(in_body, dem->grain[i].turn, g->omega);
         m3_mul(l, dem->body[g->shape].inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
         m3_mul(momentum, dem->grain[i].turn, l);
@@ -59,7 +59,7 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     m->mean_height += g->mass * g->position[2];
     m->top = fmax(m->top, g->position[2]);
     m->max_speed = fmax(m->max_speed, v3_norm(g->velocity));
-    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->spin);
+    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->omega);
     m->potential_energy += dem->config.gravity *
                            (g->mass - dem->config.fluid_density * motion->volume) * g->position[2];
     if (dem->body[g->shape].shape.own.is_mixed) {
@@ -220,7 +220,7 @@ uint64_t clast_dem_hash(const clast_dem *dem)
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         h = mix(h, dem->grain[i].position, 3);
         h = mix(h, dem->grain[i].velocity, 3);
-        h = mix(h, dem->grain[i].spin, 3);
+        h = mix(h, dem->grain[i].omega, 3);
         h = mix(h, dem->motion[i].orientation, 4);
     }
     for (int64_t k = 0; k < dem->list.n_pair; ++k) {
@@ -228,7 +228,7 @@ uint64_t clast_dem_hash(const clast_dem *dem)
             const double who[2] = {dem->list.pair[k].a, dem->list.pair[k].b};
             h = mix(h, who, 2);
             h = mix(h, dem->list.pair[k].slide, 3);
-            h = dem->law.has_extra ? mix(h, dem->list.extra[k].roll, 4) : h;
+            h = dem->law.has_history ? mix(h, dem->list.history[k].roll, 4) : h;
         }
     }
     return h;

@@ -1,5 +1,5 @@
-// Four grains a step on, or eight. Each line is that of motion.c, in its order, so that the bits
-// are its.
+// Motion of four or eight grains in SIMD lanes. Each line is that of motion.c, in the same order,
+// so that the bits are the same.
 #include "dem/move.h"
 
 CLX_INLINE void multiply(const clx_lanes a[4], const clx_lanes b[4], clx_lanes out[4])
@@ -45,22 +45,22 @@ CLX_INLINE clx_marks turn_by(const clx_lanes w[3], double dt, const clx_lanes q[
     return ~(s < 0.01);
 }
 
-/// Four grains on their way.
+/// Four grains in motion.
 typedef struct {
-    clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
-    clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
-    clx_lanes inverse[9];                                 ///< of the shapes' inertia
-    clx_marks is_fast;                                    ///< turns too fast for the series
+    clx_lanes position[4], velocity[4], omega[4], turn[9]; ///< fourth: radius, mass, scale
+    clx_lanes orientation[4], angular[4];                  ///< fourth: the inverse factor
+    clx_lanes inverse[9];                                  ///< of the shapes' inertia
+    clx_marks is_fast;                                     ///< turns too fast for the series
 } grains;
 
-CLX_INLINE void spin_of(const grains *g, const clx_lanes turn[9], clx_lanes spin[3])
+CLX_INLINE void angular_velocity_of(const grains *g, const clx_lanes turn[9], clx_lanes omega[3])
 {
     clx_lanes in_body[3], w[3];
     lanes_mul_t(in_body, turn, g->angular);
     lanes_mul(w, g->inverse, in_body);
-    lanes_mul(spin, turn, w);
+    lanes_mul(omega, turn, w);
     for (int c = 0; c < 3; ++c) {
-        spin[c] = g->angular[3] * spin[c];
+        omega[c] = g->angular[3] * omega[c];
     }
 }
 
@@ -77,19 +77,19 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
     g->inverse[8] = (clx_lanes){inverse[0][8], inverse[1][8], inverse[2][8], inverse[3][8]};
 }
 
-/// Spins, orientations and torques.
+/// Angular velocities, orientations and torques.
 CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_force_torque total[CLX_LANES],
                           grains *g, clx_lanes torque[4])
 {
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     lanes_gather(torque, total[0].torque, total[1].torque, total[2].torque, total[3].torque);
-    lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
+    lanes_gather(g->omega, from[0].omega, from[1].omega, from[2].omega, from[3].omega);
     lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                  m[3].orientation);
 }
 
-/// turn_body as far as the spin of the middle of the step.
+/// turn_body as far as the angular velocity of the middle of the step.
 CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_force_torque total[CLX_LANES],
                           grains *g)
 {
@@ -100,21 +100,21 @@ CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_force_torque
     for (int k = 0; k < 3; ++k) {
         g->angular[k] = c->damping * (g->angular[k] + dt * torque[k]);
     }
-    g->is_fast = turn_by(g->spin, 0.5 * dt, g->orientation, half);
+    g->is_fast = turn_by(g->omega, 0.5 * dt, g->orientation, half);
     matrix(half, middle);
-    spin_of(g, middle, g->spin);
+    angular_velocity_of(g, middle, g->omega);
 }
 
 /// The rest of turn_body.
 CLX_INLINE void turn_whole(double dt, grains *g)
 {
     clx_lanes q[4];
-    g->is_fast |= turn_by(g->spin, dt, g->orientation, q);
+    g->is_fast |= turn_by(g->omega, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
     matrix(q, g->turn);
-    spin_of(g, g->turn, g->spin);
+    angular_velocity_of(g, g->turn, g->omega);
 }
 
 CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
@@ -125,9 +125,9 @@ CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
     read_turn(c->dem, i, total, g, torque);
     const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
     for (int k = 0; k < 3; ++k) {
-        g->spin[k] = c->damping * (g->spin[k] + scale * torque[k]);
+        g->omega[k] = c->damping * (g->omega[k] + scale * torque[k]);
     }
-    g->is_fast = turn_by(g->spin, dt, g->orientation, q);
+    g->is_fast = turn_by(g->omega, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
@@ -166,7 +166,7 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
     clx_motion *m = &dem->motion[i];
     lanes_scatter(g->position, to[0].position, to[1].position, to[2].position, to[3].position);
     lanes_scatter(g->velocity, to[0].velocity, to[1].velocity, to[2].velocity, to[3].velocity);
-    lanes_scatter(g->spin, to[0].spin, to[1].spin, to[2].spin, to[3].spin);
+    lanes_scatter(g->omega, to[0].omega, to[1].omega, to[2].omega, to[3].omega);
     lanes_scatter(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                   m[3].orientation);
     if (is_round) {
@@ -193,7 +193,7 @@ bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
            (n_round == n || (n_round == 0 && dem->config.gyroscopic));
 }
 
-/// Paths, and what the grains ask for.
+/// Adds to the paths; returns clx_move_flag.
 CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const grains *g)
 {
     clast_dem *dem = c->dem;
@@ -201,7 +201,7 @@ CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const gr
     clx_lanes speed = lanes_root(lanes_dot(g->velocity, g->velocity));
     const clx_marks is_lost = ~(speed * dt <= c->stride * g->position[3]);
     if (!is_round) {
-        speed += lanes_root(lanes_dot(g->spin, g->spin)) * g->position[3] * (1.0 + 1e-6);
+        speed += lanes_root(lanes_dot(g->omega, g->omega)) * g->position[3] * (1.0 + 1e-6);
     }
     const clx_lanes travel = lanes_load(&dem->travel[i]) + dt * speed;
     const clx_marks is_inner_due = travel > lanes_load(&dem->inner.until[i]);
@@ -215,8 +215,8 @@ CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const gr
            (lanes_bits(may_be_due) != 0 ? CLX_MOVE_DUE : 0);
 }
 
-/// Two fours go through each stage before the next: while one waits for its sums, the other goes
-/// on.
+/// Two groups of four go through each stage before the next: while one waits for its sums, the
+/// other goes on.
 CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_force_torque *total,
                      bool is_round, int *flag)
 {

@@ -1,10 +1,10 @@
 // Neighbour lists, brought up to date item by item.
 //
 // Each item has a margin, half its skin. While two items stay within their margins of the anchors
-// where they last looked around, no pair that is not listed can touch. When some item has used up
-// its margin, all that have used half of it look again, and only they: a grain that falls pays for
-// itself, the bed below does not. Then old and new pairs are merged in order, which costs a pass
-// over memory.
+// where their neighbours were last searched, no pair that is not listed can touch. When some item
+// has used up its margin, all that have used half of it search again, and only they: a falling
+// grain costs its own search, the bed below none. Then old and new pairs are merged in order, which
+// costs a pass over memory.
 #include "dem/neighbour_list.h"
 
 #include "base/lines.h"
@@ -18,9 +18,9 @@ void clx_neighbour_list_free(clx_neighbour_list *list)
 {
     clx_free(list->pair);
     clx_free(list->other);
-    clx_free(list->extra);
-    clx_free(list->other_extra);
-    clx_free(list->memory);
+    clx_free(list->history);
+    clx_free(list->other_history);
+    clx_free(list->warm_start);
     clx_free(list->free_slot);
     clx_free(list->begin);
     clx_free(list->anchor);
@@ -131,8 +131,8 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
             r[c] += n * dem->period[c];
         }
     }
-    const double reach = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
-    if (v3_norm2(r) >= reach * reach) {
+    const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
+    if (v3_norm2(r) >= cutoff * cutoff) {
         return CLAST_OK;
     }
     const clx_found found =
@@ -161,9 +161,9 @@ static clast_status find_items(clast_dem *dem, int32_t i)
     clast_status status = CLAST_OK;
     const clx_neighbour_list *l = &dem->list;
     clx_dem_grid_walk walk;
-    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;
     for (int32_t level = 0; level < l->grid.n_level; ++level) {
-        bool is_in = clx_dem_grid_begin(&l->grid, level, l->anchor[i].position, reach, &walk);
+        bool is_in = clx_dem_grid_begin(&l->grid, level, l->anchor[i].position, cutoff, &walk);
         for (; is_in; is_in = clx_dem_grid_next(&l->grid, &walk)) {
             CLX_TRY(find_in_cell(dem, i, &walk));
         }
@@ -222,13 +222,13 @@ done:
     return status;
 }
 
-/// Whether an old pair stays without being found again: both its ends stayed where they were.
+/// Whether an old pair stays without being found again: neither of its items has searched.
 static bool stays(const clx_neighbour_list *l, const clx_dem_pair *old)
 {
     return l->is_stale[old->a] == 0 && (old->b < 0 || l->is_stale[old->b] == 0);
 }
 
-static clx_dem_pair fresh(const clx_found *f)
+static clx_dem_pair new_pair(const clx_found *f)
 {
     return (clx_dem_pair){
         .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .active_from = -INFINITY};
@@ -239,46 +239,46 @@ static bool is_same(const clx_dem_pair *old, const clx_found *f)
     return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
-clast_status clx_neighbour_list_give_slot(clx_neighbour_list *l, clx_dem_pair *pair)
+clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *l, clx_dem_pair *pair)
 {
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
         pair->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
     } else {
         const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
-        CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
-        CLX_TRY(clx_grow_lines(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
+        CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld warm starts", (long long)n);
+        CLX_TRY(clx_grow_lines(&l->warm_start, &l->slot_capacity, n + 1, sizeof *l->warm_start));
         CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
         l->n_slot = n + 1;
         pair->slot = (uint32_t)n & CLX_MOST_SLOTS;
     }
     pair->kind = CLX_FACET_NONE;
-    l->memory[pair->slot] = (clx_memory_slot){0};
+    l->warm_start[pair->slot] = (clx_warm_start_slot){0};
 done:
     return status;
 }
 
-/// Keeps an old pair, with its memory.
-static void keep(clx_neighbour_list *l, int64_t old, int64_t n)
+/// Copies an old pair with its contact history to the new list.
+static void keep_pair(clx_neighbour_list *l, int64_t old, int64_t n)
 {
     l->other[n] = l->pair[old];
-    if (l->other_extra != NULL) {
-        l->other_extra[n] = l->extra[old];
+    if (l->other_history != NULL) {
+        l->other_history[n] = l->history[old];
     }
 }
 
-static void drop(clx_neighbour_list *l, int64_t old)
+static void drop_pair(clx_neighbour_list *l, int64_t old)
 {
     if (l->pair[old].slot != 0) { // free_slot has room for all slots
         l->free_slot[l->n_free++] = (int32_t)l->pair[old].slot;
     }
 }
 
-static void start(clx_neighbour_list *l, const clx_found *f, int64_t n)
+static void start_pair(clx_neighbour_list *l, const clx_found *f, int64_t n)
 {
-    l->other[n] = fresh(f);
-    if (l->other_extra != NULL) {
-        l->other_extra[n] = (clx_extra){0};
+    l->other[n] = new_pair(f);
+    if (l->other_history != NULL) {
+        l->other_history[n] = (clx_contact_history){0};
     }
 }
 
@@ -288,26 +288,26 @@ static int64_t merge_item(clx_neighbour_list *l, int64_t old, int64_t old_end, i
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
     while (old < old_end || f < f_end) {
-        const bool take_old = f == f_end || (old < old_end && l->pair[old].b < l->sorted[f].b);
-        if (take_old) {
+        const bool old_is_first = f == f_end || (old < old_end && l->pair[old].b < l->sorted[f].b);
+        if (old_is_first) {
             if (stays(l, &l->pair[old])) {
-                keep(l, old, n++);
+                keep_pair(l, old, n++);
             } else {
-                drop(l, old);
+                drop_pair(l, old);
             }
             ++old;
             continue;
         }
         if (old < old_end && l->pair[old].b == l->sorted[f].b) {
             if (is_same(&l->pair[old], &l->sorted[f])) {
-                keep(l, old, n++);
+                keep_pair(l, old, n++);
             } else {
-                drop(l, old);
-                start(l, &l->sorted[f], n++);
+                drop_pair(l, old);
+                start_pair(l, &l->sorted[f], n++);
             }
             ++old;
         } else {
-            start(l, &l->sorted[f], n++);
+            start_pair(l, &l->sorted[f], n++);
         }
         ++f;
     }
@@ -322,12 +322,12 @@ static void swap_buffers(clx_neighbour_list *l)
     l->capacity = l->other_capacity;
     l->other = pair;
     l->other_capacity = capacity;
-    clx_extra *const extra = l->extra;
-    const int64_t extra_capacity = l->extra_capacity;
-    l->extra = l->other_extra;
-    l->extra_capacity = l->other_extra_capacity;
-    l->other_extra = extra;
-    l->other_extra_capacity = extra_capacity;
+    clx_contact_history *const history = l->history;
+    const int64_t history_capacity = l->history_capacity;
+    l->history = l->other_history;
+    l->history_capacity = l->other_history_capacity;
+    l->other_history = history;
+    l->other_history_capacity = history_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
@@ -337,9 +337,9 @@ static clast_status merge(clast_dem *dem)
     int64_t n = 0;
     CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_pair + l->n_found + 1,
                            sizeof *l->other));
-    if (dem->law.has_extra) {
-        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_pair + l->n_found + 1,
-                         sizeof *l->other_extra));
+    if (dem->law.has_history) {
+        CLX_TRY(clx_grow(&l->other_history, &l->other_history_capacity, l->n_pair + l->n_found + 1,
+                         sizeof *l->other_history));
     }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {

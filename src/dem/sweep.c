@@ -24,7 +24,7 @@ CLX_INLINE void add(clx_force_torque *to, const double force[4], const double to
     lanes_store(to->torque, lanes_load(to->torque) + lanes_load(torque));
 }
 
-/// A block of grains, its active pairs and what all its pairs do.
+/// A block of grains, its active pairs and their forces.
 typedef struct {
     clx_chunk *chunk;
     int64_t begin, end;
@@ -33,7 +33,7 @@ typedef struct {
     const clx_pair_force *force;
 } block;
 
-/// Keeps what is done to a deferred grain.
+/// Stores a contribution to a deferred grain.
 CLX_INLINE void defer(clast_dem *dem, clx_chunk *chunk, int32_t grain, const double force[4],
                       const double torque[4])
 {
@@ -47,7 +47,7 @@ CLX_INLINE void defer(clast_dem *dem, clx_chunk *chunk, int32_t grain, const dou
 
 /// Adds the pair forces of the active pairs to the sums of the block's grains and the others, or
 /// stores them where the grain is deferred.
-CLX_INLINE void spread(clast_dem *dem, block in, bool has_deferred)
+CLX_INLINE void add_forces_of(clast_dem *dem, block in, bool has_deferred)
 {
     const clx_sweeping *s = &dem->sweeping;
     clx_force_torque *total = dem->inner.total;
@@ -80,24 +80,24 @@ CLX_INLINE void spread(clast_dem *dem, block in, bool has_deferred)
 }
 
 CLX_FOR_EACH_MACHINE
-static void spread_all(clast_dem *dem, block in)
+static void add_forces(clast_dem *dem, block in)
 {
     if (in.chunk->begin > 0) {
-        spread(dem, in, true);
+        add_forces_of(dem, in, true);
     } else {
-        spread(dem, in, false);
+        add_forces_of(dem, in, false);
     }
 }
 
 static int move_and_clear(const clx_moving *c, int64_t g, int n)
 {
     clx_force_torque *total = &c->dem->inner.total[g];
-    const int flag = clx_move_few(c, g, n, total);
+    const int flag = clx_move_group(c, g, n, total);
     memset(total, 0, (size_t)n * sizeof *total);
     return flag;
 }
 
-/// Grains that are not deferred, as many at once as there are.
+/// Moves the grains that are not deferred, up to eight side by side.
 static int move_block(const clx_moving *c, clx_chunk *chunk, int64_t begin, int64_t end)
 {
     clx_sweeping *s = &c->dem->sweeping;
@@ -128,7 +128,7 @@ static int sweep_block(const clx_moving *c, clx_chunk *chunk, int64_t begin, int
     clx_active_pair *active = dem->sweeping.active + offset;
     const int32_t n =
         clx_contacts_among(dem, dem->inner.begin[begin], dem->inner.begin[end], force, active);
-    spread_all(dem, (block){chunk, begin, end, n, active, force});
+    add_forces(dem, (block){chunk, begin, end, n, active, force});
     return move_block(c, chunk, begin, end);
 }
 
@@ -141,8 +141,8 @@ static void sweep_chunks(int64_t begin, int64_t end, int32_t worker, void *conte
     int64_t work = 0;
     (void)begin;
     (void)end;
-    for (clx_chunk *chunk = clx_chunk_take(s, worker); chunk != NULL;
-         chunk = clx_chunk_take(s, worker)) {
+    for (clx_chunk *chunk = clx_chunk_claim(s, worker); chunk != NULL;
+         chunk = clx_chunk_claim(s, worker)) {
         int64_t g = 0;
         int64_t last = 0;
         while (clx_chunk_next(chunk, &g, &last)) {
@@ -173,8 +173,8 @@ static void add_contributions(clast_dem *dem, int32_t begin, int32_t end)
     }
 }
 
-/// Four grains, by the line: they have left the second-level cache.
-CLX_INLINE void ask_for(const clast_dem *dem, int64_t g)
+/// Prefetches four grains, line by line: they have left the second-level cache.
+CLX_INLINE void prefetch_grains(const clast_dem *dem, int64_t g)
 {
     enum { LINE = 64 };
     const char *grain = (const char *)&dem->grain[g];
@@ -187,10 +187,10 @@ CLX_INLINE void ask_for(const clast_dem *dem, int64_t g)
     }
 }
 
-/// Late fours that are asked for in advance.
+/// How many groups of deferred grains ahead are prefetched.
 enum { AHEAD = 3 };
 
-/// The deferred fours of a piece.
+/// Deferred groups of four grains, divided into pieces.
 typedef struct {
     const clx_moving *moving;
     int32_t n_piece;
@@ -210,7 +210,7 @@ static void move_deferred(int64_t begin, int64_t end, int32_t worker, void *cont
         for (int64_t f = first; f < last; ++f) {
             const int64_t left = dem->n_grain - s->deferred[f];
             if (f + AHEAD < last) {
-                ask_for(dem, s->deferred[f + AHEAD]);
+                prefetch_grains(dem, s->deferred[f + AHEAD]);
             }
             flag |=
                 move_and_clear(w->moving, s->deferred[f], left < CLX_LANES ? (int)left : CLX_LANES);

@@ -1,10 +1,9 @@
 #pragma once
-// Where two items of a pair meet: closed forms for spheres and walls, the convex contacts for the
-// rest.
+// Contact of a pair's two items: closed forms for spheres and walls, src/contact for the rest.
 #include "contact/convex.h"
 #include "dem/dem.h"
 
-/// A meeting seen from a: arms are from the grains' centres to the contact point.
+/// A contact as seen from a: arms are from the grains' centres to the contact point.
 typedef struct clx_dem_touch {
     double distance;  ///< signed; < 0: overlap. When > 0 it may be a lower bound
     double normal[3]; ///< from a to b; only for an overlap
@@ -66,7 +65,8 @@ static inline void clx_touch_wall(const clast_dem *dem, const clx_dem_pair *pair
     v3_set(t->arm_b, 0.0, 0.0, 0.0);
 }
 
-static inline void clx_touch_take(const clx_contact *c, const double offset[3], clx_dem_touch *t)
+static inline void clx_touch_from_contact(const clx_contact *c, const double offset[3],
+                                          clx_dem_touch *t)
 {
     t->distance = c->gap;
     v3_scale(t->normal, -1.0, c->normal);
@@ -75,48 +75,48 @@ static inline void clx_touch_take(const clx_contact *c, const double offset[3], 
 }
 
 /// Two items of which one at least is no sphere.
-void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_contact_memory *memory,
-                      clx_dem_touch *t);
+void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair,
+                      clx_contact_memory *warm_start, clx_dem_touch *t);
 
 /// An item that is no sphere at a wall.
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
-                           clx_contact_memory *memory, clx_dem_touch *t);
+                           clx_contact_memory *warm_start, clx_dem_touch *t);
 
 /// An item at a triangle of the container, as if that stood alone.
 void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
-                               clx_contact_memory *memory, clx_dem_touch *t);
+                               clx_contact_memory *warm_start, clx_dem_touch *t);
 
-/// @param memory  of the pair; not read where both are round
+/// @param warm_start  of the pair; not read where both are spheres
 static inline void clx_dem_touch_find(const clast_dem *dem, const clx_dem_pair *pair,
-                                      clx_contact_memory *memory, clx_dem_touch *t)
+                                      clx_contact_memory *warm_start, clx_dem_touch *t)
 {
     const bool is_round = clx_pair_is_round(dem, pair);
     if (pair->b >= 0) {
         if (is_round) {
             clx_touch_spheres(dem, pair, t);
         } else {
-            clx_touch_convex(dem, pair, memory, t);
+            clx_touch_convex(dem, pair, warm_start, t);
         }
     } else if (pair->b < -dem->n_wall) {
-        clx_container_touch_again(dem, pair, memory, t);
+        clx_container_touch_again(dem, pair, warm_start, t);
     } else if (is_round) {
         clx_touch_wall(dem, pair, t);
     } else {
-        clx_touch_convex_wall(dem, pair, memory, t);
+        clx_touch_convex_wall(dem, pair, warm_start, t);
     }
     if (dem->item != NULL && (t->distance < 0.0 || dem->law.has_neck)) {
         clx_touch_lever(dem, pair, t);
     }
 }
 
-/// The same for measuring: the pair's memory is not renewed.
+/// The same for measuring: the pair's warm start is not renewed.
 static inline void clx_find_again(const clast_dem *dem, const clx_dem_pair *pair, clx_dem_touch *t)
 {
-    clx_contact_memory memory = {0};
+    clx_contact_memory warm_start = {0};
     if (pair->slot != 0) {
-        memory = dem->list.memory[pair->slot].record;
+        warm_start = dem->list.warm_start[pair->slot].record;
     }
-    clx_dem_touch_find(dem, pair, &memory, t);
+    clx_dem_touch_find(dem, pair, &warm_start, t);
 }
 
 /// Whether a pair is a contact: it touched in the last step and has not parted since; a JKR neck

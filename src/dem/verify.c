@@ -1,8 +1,9 @@
-// Remembered contacts beside cold ones, while a run goes on.
+// Contacts of a run beside contacts found without warm start.
 //
-// Every so many steps each listed pair of bodies that are no spheres is asked without its memory,
-// where the step's contacts have just been found and nothing has moved since. A pair that the step
-// asked must have that gap; one that sleeps must be as far apart as its `active_from` promises.
+// Every so many steps the contact of each listed pair of bodies that are no spheres is found
+// without its warm start, when the step's contacts have just been found and nothing has moved
+// since. An active pair must have that gap; a skipped one must be as far apart as its `active_from`
+// promises.
 #include "dem/container.h"
 #include "dem/dem.h"
 

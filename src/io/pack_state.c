@@ -37,11 +37,11 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     if (d->held != NULL) {
         a[n++] = (array){"/pack/held", CLX_H5_F64, d->n_grain, 1, d->held};
     }
-    if (d->extra != NULL) {
-        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_pair, CLX_SAVED_EXTRA, d->extra};
+    if (d->history != NULL) {
+        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_pair, CLX_SAVED_HISTORY, d->history};
     }
-    if (d->memory != NULL) {
-        a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_pair, d->memory_width, d->memory};
+    if (d->warm_start != NULL) {
+        a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_pair, d->warm_start_width, d->warm_start};
     }
     return n;
 }
@@ -196,14 +196,14 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
         CLX_TRY(clx_alloc(&d->held, d->n_grain, sizeof *d->held));
     }
     if (clx_h5_has(h5, "/pack/extra")) {
-        CLX_TRY(clx_alloc(&d->extra, CLX_SAVED_EXTRA * d->n_pair, sizeof *d->extra));
+        CLX_TRY(clx_alloc(&d->history, CLX_SAVED_HISTORY * d->n_pair, sizeof *d->history));
     }
     if (clx_h5_has(h5, "/pack/memory")) {
         CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));
         CLX_CHECK(shape[0] == d->n_pair && shape[1] > 0 && shape[1] < 4096, CLAST_E_FORMAT,
-                  "the checkpoint's contact memories do not match its links");
-        d->memory_width = (int32_t)shape[1];
-        CLX_TRY(clx_alloc(&d->memory, shape[0] * shape[1], 1));
+                  "the checkpoint's warm starts do not match its links");
+        d->warm_start_width = (int32_t)shape[1];
+        CLX_TRY(clx_alloc(&d->warm_start, shape[0] * shape[1], 1));
     }
 done:
     return status;

@@ -1,4 +1,4 @@
-/* Property: in a bed that moves, remembered contacts are those found without memory; and the mode
+/* Property: in a bed that moves, contacts with warm starts are those found without; and the mode
  * that says so sees one that is not. */
 #include "support.h"
 
@@ -38,10 +38,10 @@ static void broken_memories_and_promises_are_seen(void **state)
     for (int64_t k = 0; k < dem->list.n_pair; ++k) {
         clx_dem_pair *pair = &dem->list.pair[k];
         if (pair->touches != 0 && pair->slot != 0 &&
-            dem->list.memory[pair->slot].record.kind == 1) {
-            dem->list.memory[pair->slot].record.data[3] += 2e-8; /* the face's place */
+            dem->list.warm_start[pair->slot].record.kind == 1) {
+            dem->list.warm_start[pair->slot].record.data[3] += 2e-8; /* the face's place */
         } else if (pair->touches == 0 && pair->b >= 0) {
-            pair->wake += 0.02; /* farther than any listed pair */
+            pair->active_from += 0.02; /* farther than any listed pair */
         }
     }
     clx_verify(dem);
@@ -74,8 +74,8 @@ static void rows_keep_what_the_list_would(void **state)
         const clx_dem_pair *b = &one->list.pair[k];
         assert_memory_equal(a, b, sizeof *a);
         if (a->slot != 0) {
-            assert_memory_equal(&rows->list.memory[a->slot].record,
-                                &one->list.memory[b->slot].record, sizeof(clx_contact_memory));
+            assert_memory_equal(&rows->list.warm_start[a->slot].record,
+                                &one->list.warm_start[b->slot].record, sizeof(clx_contact_memory));
         }
         n_touching += a->touches;
     }

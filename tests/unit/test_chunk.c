@@ -44,28 +44,28 @@ static void go_on(clx_chunk *chunk, int n, uint8_t *is_seen)
 
 /* Worker 1 does its chunk, then that of worker 2, who never comes, then takes what it can of worker
  * 0, who is slow; both go on in turn. */
-static void every_grain_is_taken_once(void **state)
+static void every_grain_is_swept_once(void **state)
 {
     (void)state;
     static uint8_t is_seen[N];
     clast_dem *dem = make();
     clx_sweeping *s = &dem->sweeping;
-    int n_taken = 0;
+    int n_claimed = 0;
     memset(is_seen, 0, sizeof is_seen);
     clx_chunks_begin(dem);
-    clx_chunk *slow = clx_chunk_take(s, 0);
+    clx_chunk *slow = clx_chunk_claim(s, 0);
     assert_non_null(slow);
     assert_int_equal(slow->begin, 0);
     go_on(slow, 1, is_seen);
-    for (clx_chunk *c = clx_chunk_take(s, 1); c != NULL; c = clx_chunk_take(s, 1)) {
-        ++n_taken;
+    for (clx_chunk *c = clx_chunk_claim(s, 1); c != NULL; c = clx_chunk_claim(s, 1)) {
+        ++n_claimed;
         go_on(slow, 1, is_seen);
         go_on(c, N, is_seen);
     }
-    assert_true(n_taken > 2); // its own, worker 2's, and a part of worker 0's
+    assert_true(n_claimed > 2); // its own, worker 2's, and a part of worker 0's
     go_on(slow, N, is_seen);
-    assert_null(clx_chunk_take(s, 0));
-    assert_null(clx_chunk_take(s, 2));
+    assert_null(clx_chunk_claim(s, 0));
+    assert_null(clx_chunk_claim(s, 2));
     for (int g = 0; g < N; ++g) {
         assert_int_equal(is_seen[g], 1);
     }
@@ -98,7 +98,7 @@ static void shares_follow_paces(void **state)
 }
 
 /* A grain is deferred where a pair leads to it, or to one of its four, from before the border. */
-static void late_is_what_lower_grains_reach(void **state)
+static void grains_with_pairs_of_earlier_chunks_are_deferred(void **state)
 {
     (void)state;
     static int32_t lowest[N];
@@ -127,9 +127,9 @@ static void late_is_what_lower_grains_reach(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_grain_is_taken_once),
+        cmocka_unit_test(every_grain_is_swept_once),
         cmocka_unit_test(shares_follow_paces),
-        cmocka_unit_test(late_is_what_lower_grains_reach),
+        cmocka_unit_test(grains_with_pairs_of_earlier_chunks_are_deferred),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -220,7 +220,7 @@ static clx_grain random_grain(clx_rng *rng)
 {
     clx_grain g = {.mass = 1e-4 * (1.0 + clx_rng_uniform(rng)), .radius = 4e-3};
     fill3(rng, 0.1, g.velocity);
-    fill3(rng, 10.0, g.spin);
+    fill3(rng, 10.0, g.omega);
     g.round_radius = 3.5e-3;
     g.held = 12.0 * clx_rng_uniform(rng);
     return g;
@@ -243,12 +243,12 @@ static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, doubl
                      .mass = p->pair[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
                      .friction = dem->law.friction[p->pair[k]->b < 0]};
     v3_copy(m.normal, n);
-    v3_cross(u, a->spin, arm_a);
+    v3_cross(u, a->omega, arm_a);
     v3_add(u, u, a->velocity);
-    v3_cross(w, b->spin, arm_b);
+    v3_cross(w, b->omega, arm_b);
     v3_add(w, w, b->velocity);
     v3_sub(m.velocity, w, u);
-    m.twirl = 0.5 * (v3_dot(a->spin, n) + v3_dot(b->spin, n));
+    m.twirl = 0.5 * (v3_dot(a->omega, n) + v3_dot(b->omega, n));
     if (dem->law.is_exact) {
         double load[2];
         clx_dem_touch t;
@@ -311,7 +311,7 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
 {
     clast_dem *dem = NULL;
     clast_dem_config config;
-    clx_pair_force room[CLX_BATCH] = {0};
+    clx_pair_force written[CLX_BATCH] = {0};
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
     config.contact_scheme = (int32_t)scheme;
@@ -327,7 +327,7 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
         double slide[CLX_BATCH][3];
         for (int k = 0; k < n_pair; ++k) {
             const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &pair[k]);
-            p.to[k] = &room[k];
+            p.to[k] = &written[k];
             v3_copy(slide[k], pair[k].slide);
             if (!is_apart) {
                 force_of_pair(dem, &p, k, slide[k], &alone[k]);

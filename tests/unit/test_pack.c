@@ -155,8 +155,9 @@ static void check_same_saves(clast_pack *one, clast_pack *other)
                CLX_SAVED_ANCHOR * sizeof(double));
     check_same("pair", a.dem.id, b.dem.id, a.dem.n_pair, CLX_SAVED_ID * sizeof(int32_t));
     check_same("link", a.dem.pair, b.dem.pair, a.dem.n_pair, CLX_SAVED_PAIR * sizeof(double));
-    if (a.dem.memory != NULL) {
-        check_same("memory", a.dem.memory, b.dem.memory, a.dem.n_pair, (size_t)a.dem.memory_width);
+    if (a.dem.warm_start != NULL) {
+        check_same("warm start", a.dem.warm_start, b.dem.warm_start, a.dem.n_pair,
+                   (size_t)a.dem.warm_start_width);
     }
     clx_pack_saved_free(&a);
     clx_pack_saved_free(&b);
