@@ -265,10 +265,8 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
     }
     if (n->is_plain) {
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
-    } else if (shown->resolved) {
-        n->pairs = shown->value * share;
-    } else if (shown->is_by_pairs && n->cells->n > 1) {
-        n->pairs = shown->value * share; // a guess
+    } else if (shown->resolved || (shown->is_by_pairs && n->cells->n > 1)) {
+        n->pairs = shown->value * share; // not resolved: a guess
     } else if (!shown->is_by_pairs) {
         n->pairs = fmax(n->pairs, shown->low * share); // of repeated points there is no bound
     }
