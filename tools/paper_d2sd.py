@@ -285,7 +285,7 @@ def table_clouds(_, share):
                     "2 (mean of f at its points / integral of f^2 - 1), is taken off in the bias alone. Intervals are of Poisson clouds.", ""]
 
 
-MATRIX = ((100, 16), (300, 20), (1000, 24), (3000, 12), (10000, 6), (100000, 2))
+MATRIX = ((100, 16), (300, 20), (1000, 24), (3000, 12), (10000, 6), (100000, 1))
 PLACES = (("2", "box"), ("3", "box"), ("3", "cylinder"), ("3", "surface"))
 MATRIX_CSV = pathlib.Path("docs/validation/d2sd_matrix.csv")
 
@@ -312,6 +312,16 @@ def matrix_sums(rows):
             f"{excluded / clouds:.3f} | {sum(w * s for w, s in open_rows) / sum(w for w, _ in open_rows):.3f} |")
 
 
+def matrix_bad(rows):
+    """Rows whose resolved clouds, 3 or more, are off by more than 2 % beyond two standard errors."""
+    judged = [r for r in rows if float(r["resolved"]) * int(r["clouds"]) >= 3]
+    bad = [r for r in judged if abs(float(r["bias"])) - 2 * float(r["bias_error"]) > 0.02]
+    named = [f"{r['density']} {r['d']} {r['place']} n = {r['n']}: {100 * float(r['bias']):+.1f} % ({float(r['resolved']):.2f} resolved, "
+             f"{float(r['covered']):.2f} covered)" for r in sorted(bad, key=lambda r: -abs(float(r["bias"])))]
+    return [f"Wanted: a bias of 2 % at most, 93 to 97 % covered. Of {len(judged)} rows with 3 resolved clouds or more {len(bad)} are off by more than 2 % and two",
+            "of their standard errors: " + "; ".join(named) + "."]
+
+
 def table_matrix(_, share):
     """Densities by places by numbers of points: bench_resolution."""
     rows = []
@@ -328,7 +338,8 @@ def matrix_lines(rows):
     sizes = sorted({r["n"] for r in rows}, key=float)
     lines = ["## What is called resolved: densities by places by numbers of points, by default", "",
              "Poisson clouds; truth: squared mean number times the exact integral of the squared density (of inertia_01, the points of a",
-             "synthetic turbulent flow, the exact one of its smoothed pool of 40,000). All figures: `d2sd_matrix.csv`.", "",
+             "synthetic turbulent flow, the exact one of its smoothed pool of 40,000). Bias: for the number of points drawn. `--estimator auto`,",
+             "the default: cells where they resolve a cloud, else pairs by distance. The rule was set on other seeds. All figures: `d2sd_matrix.csv`.", "",
              "| n | clouds | resolved | mean bias of these | worst bias of a row with 8 resolved clouds or more, beyond 2 of its errors | 95 % intervals that cover | two-sided "
              "intervals that exclude the truth, of all | lower bounds that hold, of those not resolved |", "| --- |" + " --- |" * 7]
     lines += [matrix_sums([r for r in rows if r["n"] == n]) for n in sizes]
@@ -341,6 +352,7 @@ def matrix_lines(rows):
             cells = [matrix_cell(found[name, d, place, n]) if (name, d, place, n) in found else "" for n in sizes]
             if any(cells):
                 lines.append(f"| {name} | {d} {place} | " + " | ".join(cells) + " |")
+    lines += ["", *matrix_bad(rows)]
     return lines + ["", "Names: blob, sheet, line: share of the points and standard deviation (tenth_03: a tenth in sd 0.03; no share: all), the rest",
                     "uniform; frame: within 0.20 of the walls, or half within 0.07; plume: sd^2 = 0.02^2 + 0.01 z; power: x^-0.25 along each axis;",
                     "cascade: halvings. The cylinder has diameter and length 1; the surface is the unit cube turned about all axes.", ""]

@@ -73,8 +73,7 @@ static bool map_sphere(const clast_domain *d, const double *x, double *u)
     return r <= 1.0;
 }
 
-/// Coordinates along a placed domain's own axes, from its centre.
-static void to_local(const clast_domain *d, const double *x, double local[3])
+void clx_domain_to_local(const clast_domain *d, const double *x, double local[3])
 {
     const double from[3] = {x[0] - d->centre[0], x[1] - d->centre[1], x[2] - d->centre[2]};
     for (int k = 0; k < 3; ++k) {
@@ -99,7 +98,7 @@ bool clast_domain_map(const clast_domain *d, const double *x, double *u)
     }
     double local[3] = {0};
     if (d->is_placed) {
-        to_local(d, x, local);
+        clx_domain_to_local(d, x, local);
         x = local;
     }
     if (d->kind == CLAST_DOMAIN_SPHERE) {

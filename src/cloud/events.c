@@ -251,21 +251,23 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
 {
     const double all = count_all(n);
     const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
+    r->estimator = shown->is_by_pairs && (shown->resolved || n->cells->n > 1)
+                       ? CLAST_ESTIMATOR_PAIRS
+                       : CLAST_ESTIMATOR_CELLS;
     r->resolved = shown->resolved;
     r->points_needed = shown->n_factor * (double)r->n;
     r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
     if (shown->resolved && is_one_cell(n, shown, all)) {
+        r->estimator = CLAST_ESTIMATOR_CELLS;
         r->cells_bias = 0.0;
         n->is_certified = true;
         return;
     }
     if (n->is_plain) {
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
-    } else if (shown->resolved) {
-        n->pairs = shown->value * share;
-    } else if (shown->is_by_pairs) {
-        n->pairs = shown->value * share; // a guess
-    } else {
+    } else if (shown->resolved || (shown->is_by_pairs && n->cells->n > 1)) {
+        n->pairs = shown->value * share; // not resolved: a guess
+    } else if (!shown->is_by_pairs) {
         n->pairs = fmax(n->pairs, shown->low * share); // of repeated points there is no bound
     }
     n->is_certified = r->resolved;
@@ -396,7 +398,6 @@ static void settle(count *n, const clx_resolution *shown, clast_decomposition *r
     if (!r->resolved) {
         open_interval(n, shown, plain, r);
     }
-    r->estimator = shown->is_by_pairs ? CLAST_ESTIMATOR_PAIRS : CLAST_ESTIMATOR_CELLS;
 }
 
 static clast_status alloc_parts(count *n)

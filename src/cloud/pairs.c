@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "cloud/contract.h"
+#include "cloud/surface.h"
 #include "cloud/pair_cells.h"
 #include "cloud/pair_count.h"
 #include "cloud/pair_integral.h"
@@ -79,7 +80,11 @@ static clast_status select_points(const clast_pairs_config *config, job *w)
     for (int64_t i = 0; i < cloud->n; ++i) {
         if (w->inside[i]) {
             memmove(w->u + w->n * d, w->u + i * d, (size_t)d * sizeof *w->u);
-            memcpy(w->x + w->n++ * d, cloud->x + i * d, (size_t)d * sizeof *w->x);
+            memcpy(w->x + w->n * d, cloud->x + i * d, (size_t)d * sizeof *w->x);
+            if (w->domain->is_placed) { // the edge correction knows it in its own axes
+                clx_domain_to_local(w->domain, cloud->x + i * d, w->x + w->n * d);
+            }
+            ++w->n;
         }
     }
     CLX_CHECK(w->n == cloud->n || config->outside == CLAST_OUTSIDE_DROP, CLAST_E_FORMAT,

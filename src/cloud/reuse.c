@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "cloud/bins.h"
+#include "cloud/uniformity_tree.h"
 #include "math/morton.h"
 #include "math/special.h"
 #include <math.h>
@@ -141,20 +142,6 @@ double clx_blocks_change(const clx_blocks *before, const clx_blocks *now)
     return least;
 }
 
-/// Last of the cells [low, high) whose key is at most `at`; low's is.
-static int32_t last_until(const uint64_t *key, int32_t low, int32_t high, uint64_t at)
-{
-    while (high - low > 1) {
-        const int32_t middle = low + (high - low) / 2;
-        if (key[middle] <= at) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 /// About 4 boxes a cell, so that few cells are left to search in each.
 static clast_status make_table(const clast_cells *cells, int32_t d, clx_cell_cache *cache)
 {
@@ -229,7 +216,8 @@ static int32_t cell_at(const refill *r, const double *u)
     }
     const uint64_t at = clx_morton_of(u, d);
     const uint64_t box = at >> (d * (CLX_MORTON_LEVELS - cache->levels));
-    const int32_t c = last_until(cells->key, cache->first[box], cache->first[box + 1] + 1, at);
+    const int32_t c =
+        clx_uniformity_tree_last(cells->key, cache->first[box], cache->first[box + 1] + 1, at);
     if (r->sample->domain->kind != CLAST_DOMAIN_MESH) {
         return c;
     }

@@ -13,3 +13,6 @@ struct clast_domain_surface {
 
 /// True for a box and for a mesh, whose unit cube is its bounding box.
 bool clx_domain_is_boxed(const clast_domain *domain);
+
+/// Coordinates of a 3-D point along a placed domain's own axes, from its centre.
+void clx_domain_to_local(const clast_domain *domain, const double *x, double local[3]);

@@ -339,11 +339,8 @@ done:
     return status;
 }
 
-int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double *u, int32_t d)
+int32_t clx_uniformity_tree_last(const uint64_t *key, int32_t low, int32_t high, uint64_t at)
 {
-    const uint64_t at = clx_morton_of(u, d);
-    int32_t low = 0; // key[low] <= at < key[high]
-    int32_t high = n;
     while (high - low > 1) {
         const int32_t middle = low + (high - low) / 2;
         if (key[middle] <= at) {
@@ -353,6 +350,11 @@ int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double 
         }
     }
     return low;
+}
+
+int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double *u, int32_t d)
+{
+    return clx_uniformity_tree_last(key, 0, n, clx_morton_of(u, d));
 }
 
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells)

@@ -43,6 +43,9 @@ clast_status clx_uniformity_tree_split(const clx_uniformity_tree_points *points,
                                        const clx_uniformity_tree_config *config,
                                        clx_uniformity_tree_cells *cells, int32_t *of_point);
 
+/// Last of the cells [low, high) whose key is at most `at`; low's is.
+int32_t clx_uniformity_tree_last(const uint64_t *key, int32_t low, int32_t high, uint64_t at);
+
 /// Cell of the point u [d] of the unit cube, given the keys of all cells; O(log n).
 int32_t clx_uniformity_tree_locate(const uint64_t *key, int32_t n, const double *u, int32_t d);
 void clx_uniformity_tree_free(clx_uniformity_tree_cells *cells);

@@ -186,6 +186,7 @@ static void decompose_block(outcome *o, const char *mesh)
     clast_decompose_config config;
     clx_rng rng = clx_rng_at(3, CLX_STREAM_TEST, 0);
     CHECK_OK(clast_fields_default(clast_decompose_fields, &config));
+    config.estimator = CLAST_ESTIMATOR_CELLS;
     CHECK_OK(clast_field_set(clast_fields_find(clast_decompose_fields, "domain"), &config,
                              "box:0,0,0,1,1,1", false));
     CHECK_OK(

@@ -360,6 +360,34 @@ static void a_pole_is_not_resolved(void **state)
     assert_true(resolved <= 2); // 12 without the ladder
 }
 
+/* A cylinder that lies anywhere has the pairs of one that stands at the origin. */
+static void placed_domains_have_the_same_pairs(void **state)
+{
+    (void)state;
+    const clast_domain own = domain_of("cylinder:1,1");
+    const clast_domain placed = domain_of("cylinder:5,-2,7,1,0,0,1,1");
+    const bool axis[3] = {true, true, true};
+    clast_cloud cloud = blob(800, 0.5, 0.1, axis, 91); // in the cube about (1/2, 1/2, 1/2)
+    clast_cloud moved = blob(800, 0.5, 0.1, axis, 91);
+    for (int i = 0; i < 800; ++i) {
+        double *x = cloud.x + 3 * i;
+        x[0] = 0.7 * (2.0 * x[0] - 1.0);
+        x[1] = 0.7 * (2.0 * x[1] - 1.0);
+        moved.x[3 * i] = 5.0 + x[2];
+        moved.x[3 * i + 1] = -2.0 + x[0];
+        moved.x[3 * i + 2] = 7.0 + x[1];
+    }
+    clast_pairs a = count(&own, &cloud, 0.0);
+    clast_pairs b = count(&placed, &moved, 0.0);
+    assert_int_equal(a.n_pair, b.n_pair);
+    CHECK_REL(b.integral.estimate.value, a.integral.estimate.value, 1e-6);
+    CHECK_REL(b.integral.estimate.low, a.integral.estimate.low, 1e-6);
+    clast_pairs_free(&a);
+    clast_pairs_free(&b);
+    clast_cloud_free(&cloud);
+    clast_cloud_free(&moved);
+}
+
 /* Eight places with ten points each have no density: no bound is given. */
 static void repeated_points_have_no_bound(void **state)
 {
@@ -528,6 +556,7 @@ int main(void)
         cmocka_unit_test(a_thin_sheet_is_resolved),
         cmocka_unit_test(a_pole_is_not_resolved),
         cmocka_unit_test(repeated_points_have_no_bound),
+        cmocka_unit_test(placed_domains_have_the_same_pairs),
         cmocka_unit_test(threads_do_not_change_bytes),
         cmocka_unit_test(allocations_are_refused),
         cmocka_unit_test(bad_input_is_refused),
