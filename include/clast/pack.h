@@ -128,6 +128,8 @@ typedef struct clast_pack_hull {
     double volume_added; ///< V of the hull / V of the surface - 1; NAN: the surface is open
 } clast_pack_hull;
 
+#define CLAST_PACK_CORE 2.0 ///< grain sizes from the side walls at which a bed's core begins
+
 typedef struct clast_pack_result {
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] of a run (clast_pack_run); else none
@@ -147,9 +149,11 @@ typedef struct clast_pack_result {
     double untrimmed; ///< bulk porosity with nothing left out at the ends
     double trim;      ///< left out at both ends [m]
     clast_bed_walls walls; ///< how far the bed's side walls are, in grain sizes
-    double mass_wanted;    ///< [kg]
-    int32_t n_loose;       ///< grains with fewer than four contacts, those with walls counted
-    bool is_moving;        ///< some grain is as fast as still_speed or faster
+    double wall_share;  ///< of the bulk porosity, by what lies farther than CLAST_PACK_CORE grain
+                        ///< sizes from them; NAN: not known (too narrow, none, a surface)
+    double mass_wanted; ///< [kg]
+    int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
+    bool is_moving;     ///< some grain is as fast as still_speed or faster
     double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
     bool fell;   ///< it was still falling then: it sank by more than two mean diameters
     double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none

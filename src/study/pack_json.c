@@ -69,6 +69,7 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "porosity_untrimmed", r->untrimmed);
     put(o, "grain_size", r->walls.size);
     put(o, "wall_ratio", r->walls.ratio);
+    put(o, "wall_share", r->wall_share);
     put(o, "flatness_mean", r->flatness[0]);
     put(o, "flatness_deviation", r->flatness[1]);
     put(o, "elongation_mean", r->elongation[0]);

@@ -41,9 +41,11 @@ class Pack(Case):
         for name in FILES + ["manifest.json"]:
             self.assertTrue((run / name).exists(), name)
         self.assertEqual(list(run.glob("checkpoint-*")), [])
-        porosity = clast("porosity", run, "--method", "spheres", "--json")
+        porosity = clast("porosity", run, "--method", "spheres", "--core", 2, "--json")
         self.assertEqual(porosity.code, 0, porosity.err)
-        self.assertAlmostEqual(json.loads(porosity.out)["bulk"], out["porosity_bulk"], 12)
+        self.assertAlmostEqual(porosity.json["bulk"], out["porosity_bulk"], 12)
+        self.assertAlmostEqual(out["wall_ratio"], 20 / 6, 12)
+        self.assertAlmostEqual(porosity.json["wall_share"], out["wall_share"], 12)
 
     def test_stopped_and_killed_runs_end_in_the_same_bytes(self):
         whole = self.folder / "whole"
@@ -638,6 +640,7 @@ class Pack(Case):
                        "--shaking-time", "0s", "--quiet")
         self.assertEqual(result.code, 0, result.err)
         self.assertRegex(result.out, r"none: the bed is [\d.]+ mm high and 31.5 mm are left out at both ends; give a smaller --trim")
+        self.assertRegex(result.out, "side walls +none: the bed is periodic")
 
     def cup(self):
         """A hexagonal cup with a bottom and no lid, 80 mm wide above and 50 mm below, off the axis."""
@@ -659,7 +662,7 @@ class Pack(Case):
                        "--shaking-time", "0.02s", "--quiet", "--json", "-o", run)
         self.assertEqual(result.code, 0, result.err)
         out = json.loads(result.out)
-        self.assertEqual(out["n_outside"], 0)
+        self.assertEqual((out["n_outside"], out["wall_ratio"], out["wall_share"]), (0, None, None))
         self.assertTrue(out["converged"])
         self.assertGreater(out["porosity_bulk"], 0.3)
         self.assertLess(out["porosity_bulk"], 0.7)
