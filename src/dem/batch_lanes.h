@@ -257,7 +257,7 @@ CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool ha
     limit(law, held, &m->spring[1], &m->damping[1]);
 }
 
-/// clx_law_turn
+/// clx_law_rotate
 CLX_INLINE void rotate_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
 {
     clx_lanes across[3], turned[3];

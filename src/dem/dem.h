@@ -1,8 +1,9 @@
 #pragma once
 // What a simulation holds, in records that a contact reads in as few cache lines as it can.
 //
-// A grain is one body. What collides are items: the grain itself, or each sphere of a clump. Items
-// of a grain stand together and in its order; without clumps item i is grain i and `item` is NULL.
+// A grain is one body. Contacts are between items: the grain itself, or each sphere of a clump.
+// Items of a grain stand together and in its order; without clumps item i is grain i and `item` is
+// NULL.
 //
 // A pair of items lies in the neighbour list of its lower item `a` (half list), sorted by `b`;
 // walls are items -1, -2, ... The record stays as long as the pair is listed, and with it the
@@ -42,11 +43,11 @@ typedef struct clx_motion {
     double drag[2]; ///< Stokes' and Newton's corrections of Ganser's law
 } clx_motion;
 
-/// Where an item was when its neighbours were last looked for.
+/// Where an item was when its neighbours were last searched.
 typedef struct clx_anchor {
     double position[3];
     double orientation[4];
-    double margin; ///< half its skin: how far it may move before it looks again
+    double margin; ///< half its skin: how far it may move before its neighbours are searched again
 } clx_anchor;
 
 /// A sphere of a clump, a part of a rigid grain, or a whole grain.
@@ -83,8 +84,8 @@ typedef struct clx_warm_start_slot {
     double spare[6];
 } clx_warm_start_slot;
 
-/// What the low 16 bits of a number of periods leave open; which it is, the offset tells to within
-/// a period (clx_pair_offset).
+/// Two numbers of periods with the same low 16 bits differ by a multiple of this; the offset, known
+/// to within a period, decides (clx_pair_offset).
 #define CLX_PERIOD_TURN 65536.0
 #define CLX_TO_WHOLE    0x1.8p52 ///< added and taken off again: rounds to a whole number
 
@@ -222,10 +223,10 @@ typedef struct clx_dem_body {
     clx_dem_part *part; ///< [n_part] of a rigid grain
 } clx_dem_body;
 
-/// Share of what is left of a margin that an item may go before it is asked again. What it has
-/// moved grows by at most 1.05 times its path (2.1 |dq| for the angle), so that the step in which a
-/// margin is used up is found whenever it was asked before: a resumed run refreshes in the same
-/// steps.
+/// Share of what is left of a margin that an item's path may use before its margin is checked
+/// again. What it has moved grows by at most 1.05 times its path (2.1 |dq| for the angle), so that
+/// the step in which a margin is used up is found whenever it was checked before: a resumed run
+/// refreshes in the same steps.
 #define CLX_SURE 0.94
 
 enum { CLX_MAX_LEVEL = 24 };
@@ -272,7 +273,7 @@ typedef struct clx_neighbour_list {
     int64_t *begin;     ///< [n_item + 1] first pair of each item
     clx_anchor *anchor; ///< [n_item]
     double *limit;      ///< [n_item] below this travel an item is surely within its margin
-    uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
+    uint8_t *is_stale;  ///< [n_item] its neighbours are searched in this refresh
     int64_t item_capacity;
     int32_t *triangle; ///< triangles of the container about one item
     int64_t triangle_capacity;
@@ -302,7 +303,7 @@ struct clast_dem {
     bool has_parts;     ///< some shape is a rigid grain: items have turns of their own
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
-    int32_t n_started; ///< grains that have been looked at for overlaps among those added with them
+    int32_t n_started; ///< grains that were checked for overlaps with those added beside them
     int64_t grain_capacity;
     clx_grain *grain;   ///< [n_grain]
     clx_motion *motion; ///< [n_grain]

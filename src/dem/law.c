@@ -104,9 +104,9 @@ double clx_law_time(const clx_law *law, double mass, double radius)
     return law->kind == CLAST_DEM_LINEAR ? law->time : hertz_time(law, mass, radius);
 }
 
-double clx_law_speed(const clx_law *law, double mass, double radius, double reach)
+double clx_law_speed(const clx_law *law, double mass, double radius, double bounding)
 {
-    const double d = 0.5 * reach;
+    const double d = 0.5 * bounding;
     return law->kind == CLAST_DEM_LINEAR
                ? d * sqrt(law->stiffness)
                : sqrt(16.0 / 15.0 * law->young * sqrt(radius * d) * d * d / mass);

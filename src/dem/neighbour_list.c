@@ -63,7 +63,7 @@ static void set_anchor(clast_dem *dem, int32_t i)
     v3_copy(at->position, clx_item_position(dem, i));
     memcpy(at->orientation, dem->motion[g].orientation, sizeof at->orientation);
     at->margin = dem->config.skin * radius + fmin(flight, radius);
-    for (int c = 0; c < 2; ++c) { // a pair may only meet in one image: see check_fit
+    for (int c = 0; c < 2; ++c) { // a pair may only touch in one image: see check_fit
         if (dem->period[c] > 0.0) {
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }

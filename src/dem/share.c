@@ -1,6 +1,6 @@
 // Several contacts of one pair of bodies: each takes its share of the pair's stiffness.
 //
-// k_n of the laws is that of a pair of bodies. Where clumps meet in n spheres at once, n springs
+// k_n of the laws is that of a pair of bodies. Where clumps touch in n spheres at once, n springs
 // would stand side by side; each gets 1/n [Kodam2009]. Springs, dashpots, Coulomb's limit and
 // attraction all scale alike and the tangential displacement does not, so it is the forces that are
 // divided.
