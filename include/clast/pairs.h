@@ -27,7 +27,8 @@ typedef struct clast_estimate {
 /// Integral of f^2 over the domain, f the probability density of a point [1/m^d]: of n points
 /// drawn from f, n (n - 1) / 2 times it is the expected number of pairs per volume of encounter.
 typedef struct clast_pair_integral {
-    clast_estimate estimate; ///< for the density f that the points were drawn from, n given
+    clast_estimate estimate; ///< for the density f that the points were drawn from, n given; low is
+                             ///< NAN where repeated points make up too many of the pairs
     double scale;    ///< narrowest structure that the pairs show, as a standard deviation [m]:
                      ///< INFINITY where they look uniform up to the greatest distance
     double window;   ///< greatest distance of the pairs that decide it [m]

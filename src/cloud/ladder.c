@@ -308,8 +308,7 @@ static void choose_rungs(const ladder_walk *w, clx_ladder *ladder)
 {
     int32_t last = 0;
     ladder->n_repeated = (double)w->tally[DEEPEST];
-    while (last < DEEPEST - 1 &&
-           (double)(w->tally[last + 1] - w->tally[DEEPEST]) >= least_pairs) {
+    while (last < DEEPEST - 1 && (double)(w->tally[last + 1] - w->tally[DEEPEST]) >= least_pairs) {
         ++last;
     }
     ladder->first = last < CLX_LADDER_RUNGS ? 0 : last + 1 - CLX_LADDER_RUNGS;

@@ -5,10 +5,10 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "cloud/contract.h"
-#include "cloud/surface.h"
 #include "cloud/pair_cells.h"
 #include "cloud/pair_count.h"
 #include "cloud/pair_integral.h"
+#include "cloud/surface.h"
 #include <clast/decompose.h>
 #include <math.h>
 #include <string.h>
