@@ -199,7 +199,8 @@ static clast_status write_table(const clast_run_folder *run, const char *name,
 /// it.
 static const char *unit_of(const cli_bed_runs *runs, const quantity *q)
 {
-    static const char *const length[] = {"z_low", "z_high", "top", "max_overlap", "pore_mean"};
+    static const char *const length[] = {"z_low",     "z_high",     "top",       "max_overlap",
+                                         "pore_mean", "grain_size", "core_depth"};
     const bool is_metre = strcmp(runs->unit, "m") == 0;
     if (strcmp(q->group, "stress") == 0) {
         return strcmp(q->key, "stress_ratio") == 0 ? "-" : "Pa";

@@ -2,6 +2,7 @@
 #include "box_model.h"
 
 #include "json.h"
+#include "ranges.h"
 #include "results.h"
 
 #include <math.h>
@@ -216,6 +217,7 @@ static json_t *summary_of(const cli_box *box, const char *kernel, int32_t repeat
         cli_json_number(out, "mass_error", r->mass_error);
     }
     cli_json_number(out, "exact_gel_time", r->exact_gel_time);
+    cli_range_json(out, &r->range);
     cli_json_number(out, "wall_s", wall);
     return out;
 }
@@ -476,6 +478,7 @@ clast_status cli_box_run(const cli_box_job *job, bool *force)
     }
     if (status == CLAST_OK) {
         json_t *out = summary_of(job->box, kernel, repeats, &r, cli_clock() - begun);
+        cli_range_warn(common, &r.range);
         if (folder != NULL) {
             status = write_results(job, &r, out, folder);
         }

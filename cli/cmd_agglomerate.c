@@ -3,6 +3,7 @@
 #include "command.h"
 #include "json.h"
 #include "points.h"
+#include "ranges.h"
 #include "results.h"
 
 #include <math.h>
@@ -41,7 +42,7 @@ static const clast_field own[] = {
 };
 #undef COLUMN
 
-enum { MAX_FIELD = 140, MAX_DETAIL = 6000 };
+enum { MAX_FIELD = 160, MAX_DETAIL = 9000 };
 static clast_field fields[MAX_FIELD];
 static char details[MAX_DETAIL];
 
@@ -75,6 +76,12 @@ static void join_details(void)
     for (int k = 0; k < CLAST_N_KERNEL && used < sizeof details; ++k) {
         used += (size_t)snprintf(details + used, sizeof details - used, "%-20s %s   [%s]\n",
                                  table[k].name, table[k].formula, table[k].source);
+    }
+    if (used < sizeof details) {
+        used += (size_t)snprintf(details + used, sizeof details - used,
+                                 "\nwhere it holds (a pair's quantity; beyond: an error, or "
+                                 "--out-of-range extrapolate)\n");
+        used += used < sizeof details ? cli_range_table(details + used, sizeof details - used) : 0;
     }
     if (used > 0 && used < sizeof details) {
         details[used - 1] = '\0';
@@ -209,6 +216,7 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
         set_column(exact, "M2", h, "exact_M2");
         (void)json_object_set_new(out, "exact", exact);
     }
+    cli_range_json(out, &r->range);
     cli_json_number(out, "wall_s", wall);
     return out;
 }
@@ -330,6 +338,7 @@ static clast_status run(const cli_common *common, void *values)
     }
     if (status == CLAST_OK) {
         json_t *out = summary(c, &result, cli_clock() - begun);
+        cli_range_warn(common, &result.range);
         cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
         (void)json_object_set_new(out, "seed",
                                   json_integer((json_int_t)c->agglomerate.decompose.seed));

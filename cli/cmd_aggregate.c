@@ -61,9 +61,6 @@ static clast_status run(const cli_common *common, void *context)
         config->resume[0] != '\0'
             ? resume(common, config, &monitor, &report)
             : clast_aggregate_run(config, common->output, common->comm, &monitor, &report);
-    if (common->comm->rank == 0 && status == CLAST_OK && report.folder != NULL) {
-        status = clast_report_write_run(report.folder);
-    }
     if (report.n > 0) {
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;

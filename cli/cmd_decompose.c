@@ -139,7 +139,9 @@ static void json_events(json_t *out, const clast_decomposition *r)
     static const char *const key[2][4] = {
         {"events", "events_low", "events_high", "events_cross"},
         {"pair_integral", "pair_integral_low", "pair_integral_high", "pair_integral_cross"}};
-    const double value[4] = {r->events, r->events_low, r->events_high, r->events_cross};
+    const bool is_bound = !isnan(r->events_low); // not of repeated points
+    const double value[4] = {is_bound ? r->events : (double)NAN, r->events_low,
+                             is_bound ? r->events_high : (double)NAN, r->events_cross};
     const int given = r->beta_dt > 0.0 ? 0 : 1;
     for (int k = 0; k < 4; ++k) {
         cli_json_number(out, key[given][k], value[k]);
@@ -204,11 +206,6 @@ static void print_resolved(const clast_decomposition *r)
     if (r->resolved) {
         return;
     }
-    if (isnan(r->events_low)) {
-        (void)printf("not resolved, and no bound: so many points repeat the place of another, and "
-                     "there is no density at such a place; leave copies out\n");
-        return;
-    }
     (void)printf("not resolved: the points do not show their own structure, the lower bound alone "
                  "holds (97.5 %%)");
     if (isfinite(r->cells_bias)) {
@@ -258,23 +255,26 @@ static void print_passes(const clast_decomposition *r)
 
 static void print_events(const clast_decomposition *r)
 {
-    char low[32] = "-";
-    char high[32] = "-";
-    if (!isnan(r->events_low)) {
-        (void)snprintf(low, sizeof low, "%.6g", r->events_low);
+    if (isnan(r->events_low)) {
+        (void)printf("%d cell%s, no %s: so many points repeat the place of another, and there is "
+                     "no density at such a place; leave copies out\n",
+                     r->cells.n, cli_plural(r->cells.n),
+                     r->beta_dt > 0.0 ? "number of events" : "pair integral");
+        return;
     }
+    char high[32] = "-";
     if (r->resolved) {
         (void)snprintf(high, sizeof high, "%.6g", r->events_high);
     }
     (void)printf("%d cell%s, ", r->cells.n, cli_plural(r->cells.n));
     if (r->beta_dt > 0.0) {
-        (void)printf("events %.6g [%s, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
-                     r->events, low, high, r->beta_dt, r->dimension, r->n_capped,
+        (void)printf("events %.6g [%.6g, %s] with beta dt %.6g m^%d, %d cell%s at the cap\n",
+                     r->events, r->events_low, high, r->beta_dt, r->dimension, r->n_capped,
                      cli_plural(r->n_capped));
     } else {
-        (void)printf("pair integral %.6g [%s, %s] 1/m^%d, events per beta dt (none is given: "
+        (void)printf("pair integral %.6g [%.6g, %s] 1/m^%d, events per beta dt (none is given: "
                      "--beta-dt)\n",
-                     r->events, low, high, r->dimension);
+                     r->events, r->events_low, high, r->dimension);
     }
     print_resolved(r);
     if (r->estimator == CLAST_ESTIMATOR_PAIRS && r->pairs.n == 0) {

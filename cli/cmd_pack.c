@@ -100,6 +100,23 @@ static void print_motion(const clast_pack_result *r)
     }
 }
 
+/// How far the side walls are: a narrow bed is looser for them.
+static void print_walls(const clast_pack_result *r)
+{
+    const clast_bed_walls *walls = &r->walls;
+    if (isinf(walls->ratio)) {
+        (void)printf("%-26s none: the bed is periodic\n", "side walls");
+    } else if (isfinite(walls->ratio)) {
+        (void)printf("%-26s %.4g grain sizes (of %.4g mm, mean by volume) from the axis, which "
+                     "loosen the bed",
+                     "side walls", walls->ratio, 1e3 * walls->size);
+        if (isfinite(r->wall_share)) {
+            (void)printf(": %.4f of the bulk porosity is theirs", r->wall_share);
+        }
+        (void)puts("");
+    }
+}
+
 static void print_text(const clast_pack_result *r)
 {
     print_hulls(r);
@@ -125,6 +142,7 @@ static void print_text(const clast_pack_result *r)
     } else {
         print_no_porosity(r);
     }
+    print_walls(r);
     (void)printf("%-26s %.3f touching grains a grain (%lld contacts of grains, %lld with walls)\n",
                  "coordination", r->dem.coordination, (long long)r->dem.n_contact,
                  (long long)r->dem.n_wall_contact);

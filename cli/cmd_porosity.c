@@ -19,6 +19,7 @@ typedef struct {
     double cut;
     bool at_slice, local;
     int32_t rings;
+    double core;
     int64_t pores;
     char *columns;
     bool force;
@@ -34,31 +35,36 @@ static const clast_field fields[] = {
     {FIELD(CLAST_FIELD_TEXT, bed), 0, 0, 0, "-",
      "container: cylinder:RADIUS[,X,Y], box:X0,Y0,X1,Y1, periodic:X0,Y0,X1,Y1 (x and y), "
      "periodic:X0,Y0,Z0,X1,Y1,Z1 (all directions) or mesh:FILE,UNIT; none: the run's",
-     "", .group = "bed and container"},
+     "", .group = "bed and container", .common = true},
     {FIELD(CLAST_FIELD_TEXT, floor), 0, 0, 0, "-", "height of the bottom, with --bed (as 5mm)",
      "0"},
     {FIELD(CLAST_FIELD_CHOICE, method), CLAST_POROSITY_EXACT, 0, 1, "-",
      "true shapes, or each grain as the sphere of its volume (published)", "exact|spheres",
-     .group = "bulk porosity"},
+     .group = "bulk porosity", .common = true},
     {FIELD(CLAST_FIELD_TEXT, layer), 0, 0, 0, "-",
      "height of a slice (as 1mm); 0: 1 mm as published, or a tenth of the mean diameter of a run "
      "without unit, whose lengths are bare numbers here too",
-     "0"},
+     "0", .common = true},
     {FIELD(CLAST_FIELD_F64, cut), 0.5, 0, 1, "-",
-     "the bed ends where the porosity rises through this (n_cut)", NULL},
+     "the bed ends where the porosity rises through this (n_cut)", NULL, .common = true},
     {FIELD(CLAST_FIELD_TEXT, trim), 0, 0, 0, "-",
-     "left out at both ends (h_pd; published for periodic beds: 31.5mm)", "0"},
+     "left out at both ends (h_pd; published for periodic beds: 31.5mm)", "0", .common = true},
     {FIELD(CLAST_FIELD_BOOL, at_slice), 0, 0, 1, "-",
      "end the bed with a slice, as the reference program; else between slices", NULL},
+    {FIELD(CLAST_FIELD_F64, core), 0, 0, 1e6, "-",
+     "porosity without the side walls' share too: of what is farther from them than this many "
+     "grain sizes (2 to 3 where the bed is wide enough); 0: not",
+     NULL, .common = true},
     {FIELD(CLAST_FIELD_TEXT, gap), 0, 0, 0, "-",
      "grains this close touch (as 10um), where the run does not know its contacts", "0",
-     .group = "more measures"},
+     .group = "more measures", .common = true},
     {FIELD(CLAST_FIELD_BOOL, local), 0, 0, 1, "-",
-     "porosity around each grain too, by radical Voronoi cells of equal-volume spheres", NULL},
+     "porosity around each grain too, by radical Voronoi cells of equal-volume spheres", NULL,
+     .common = true},
     {FIELD(CLAST_FIELD_I32, rings), 0, 0, 100000, "-",
-     "porosity over the radius of a cylinder too, in this many rings", NULL},
+     "porosity over the radius of a cylinder too, in this many rings", NULL, .common = true},
     {FIELD(CLAST_FIELD_I64, pores), 0, 0, 1e8, "-",
-     "sizes of pores too, from this many even points of the bed", NULL},
+     "sizes of pores too, from this many even points of the bed", NULL, .common = true},
     {FIELD(CLAST_FIELD_TEXT, columns), 0, 0, 0, "-",
      "spheres: what the file's columns are, such as id,x,y,z,d (x, y, z, r or d; others are passed "
      "over); none: by their names",
@@ -142,6 +148,8 @@ typedef struct {
     clast_table stress; ///< without columns where forces are not known, as the next
     clast_table stress_profile;
     clast_porosity_bulk bulk;
+    clast_bed_walls walls;
+    clast_porosity_core core; ///< where asked for
     double mean_coordination; ///< NAN where contacts are not known
     clast_overlaps overlaps;
 } findings;
@@ -208,6 +216,11 @@ static clast_status measure(subject *s, const clast_porosity_options *options, d
     if (status == CLAST_OK) {
         status = clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk);
         status = status == CLAST_OK ? check_bed(&f->bulk) : status;
+    }
+    f->walls = clast_bed_side_walls(bed, assembly);
+    if (status == CLAST_OK && config->core > 0.0) {
+        status =
+            clast_porosity_core_measure(assembly, bed, options, &f->bulk, config->core, &f->core);
     }
     if (status == CLAST_OK) {
         status = measure_contacts(s, gap, f);
@@ -284,6 +297,16 @@ static json_t *to_json(const clast_assembly *assembly, const porosity_config *co
     cli_json_number(object, "z_high", f->bulk.z_high);
     cli_json_number(object, "top", f->bulk.top);
     cli_json_number(object, "solid", f->bulk.solid);
+    cli_json_number(object, "grain_size", f->walls.size);
+    if (isfinite(f->walls.ratio)) {
+        cli_json_number(object, "wall_ratio", f->walls.ratio);
+    }
+    if (config->core > 0.0) {
+        cli_json_number(object, "core_depth", f->core.depth);
+        cli_json_number(object, "core", f->core.porosity);
+        cli_json_number(object, "core_error", f->core.error);
+        cli_json_number(object, "wall_share", f->core.share);
+    }
     cli_json_number(object, "coordination", f->mean_coordination);
     if (f->overlaps.n >= 0) {
         cli_json_count(object, "n_overlap", f->overlaps.n);
@@ -396,6 +419,28 @@ static clast_status open_results(const cli_common *common, const porosity_config
     return status == CLAST_OK ? cli_results_open(run, fields, config, NULL, inputs) : status;
 }
 
+/// What the side walls do to the bulk porosity.
+static void print_walls(const porosity_config *config, const clast_bed *bed, const char *unit,
+                        const findings *f)
+{
+    if (bed->kind == CLAST_BED_MESH) {
+        (void)printf("side walls          a surface: its distance in grain sizes is not known\n");
+    } else if (!isfinite(f->walls.ratio)) {
+        (void)printf("side walls          none: the bed is periodic\n");
+    } else {
+        (void)printf("side walls          %.4g grain sizes (of %.4g %s, mean by volume) from the "
+                     "axis%s\n",
+                     f->walls.ratio, f->walls.size, unit,
+                     config->core > 0.0 ? "" : ", which loosen the bed; --core 2 leaves them out");
+    }
+    if (config->core > 0.0) {
+        (void)printf(
+            "core                %.6f   +- %.2g, farther than %g grain sizes from the side "
+            "walls; their share of the bulk porosity is %.4f\n",
+            f->core.porosity, f->core.error, config->core, f->core.share);
+    }
+}
+
 static clast_status print(const cli_common *common, const porosity_config *config,
                           const clast_assembly *assembly, const clast_bed *bed, const findings *f)
 {
@@ -417,6 +462,7 @@ static clast_status print(const cli_common *common, const porosity_config *confi
         (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n",
                      f->bulk.top, unit, config->cut);
     }
+    print_walls(config, bed, unit, f);
     if (f->overlaps.n > 0) {
         (void)printf(
             "overlaps            %d pair%s of grains, the deepest by %.3g %% of the smaller "

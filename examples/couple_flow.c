@@ -95,7 +95,8 @@ int main(void)
         status = make_cells(workspace, &square, &mesh_config, &mesh);
         if (status == CLAST_OK) {
             const clast_workspace_step now = {dt, (uint64_t)step};
-            const clast_collide_cells cells = {mesh->cells.n, cell, volume, NULL, NULL};
+            const clast_collide_cells cells = {
+                .n = mesh->cells.n, .of_particle = cell, .volume = volume};
             status = clast_workspace_collide(workspace, &particles, &cells, now, &config, &n_event);
         }
         if (status == CLAST_OK && step % EVERY == 0) {

@@ -135,8 +135,10 @@ class coupling
         all.mass = p.mass.data();
         all.velocity = p.velocity.data();
         all.owner = p.owner.data();
-        const clast_collide_cells cells{mesh->cells.n, cell.data(), volume.data(), nullptr,
-                                        nullptr};
+        clast_collide_cells cells{};
+        cells.n = mesh->cells.n;
+        cells.of_particle = cell.data();
+        cells.volume = volume.data();
         std::int64_t n_event = 0;
         check(clast_workspace_collide(workspace.get(), &all, &cells, now, &how, &n_event));
         return n_event;

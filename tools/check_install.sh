@@ -45,13 +45,16 @@ first=$("$work/by_pkg_config")
 same() { # WHAT COMMAND...: it gives the answer of the first
     answer=$("${@:2}") && [ "$answer" = "$first" ] || { echo "$1 gives '$answer', pkg-config '$first'"; exit 1; }
 }
-cc -std=c17 examples/couple_flow.c $(pkg-config --cflags --libs clast) -lm -o "$work/flow"
-"$work/flow" > "$work/flow.txt" && [ -s "$work/flow.txt" ] || { echo "examples/couple_flow.c fails from the installed package"; exit 1; }
+for example in examples/*.c; do
+    name=$(basename "$example" .c)
+    cc -std=c17 "$example" $(pkg-config --cflags --libs clast) -lm -o "$work/$name"
+    "$work/$name" > "$work/$name.txt" && [ -s "$work/$name.txt" ] || { echo "$example fails from the installed package"; exit 1; }
+done
 if command -v g++ > /dev/null; then
     g++ -std=c++17 -x c++ "$user" -x none $(pkg-config --cflags --libs clast) -o "$work/by_cpp"
     same "C++" "$work/by_cpp"
     g++ -std=c++17 -ffp-contract=off examples/couple_flow.cpp $(pkg-config --cflags --libs clast) -o "$work/flow_cpp"
-    "$work/flow_cpp" | cmp - "$work/flow.txt" || { echo "examples/couple_flow.cpp gives another output than couple_flow.c"; exit 1; }
+    "$work/flow_cpp" | cmp - "$work/couple_flow.txt" || { echo "examples/couple_flow.cpp gives another output than couple_flow.c"; exit 1; }
 else
     echo "SKIPPED: g++ is not here, no C++ program was linked"
 fi
@@ -95,4 +98,4 @@ offered=$(bash -c '. "$1"; COMP_WORDS=(clast agg); COMP_CWORD=1; $(complete -p c
                    echo "${COMPREPLY[*]}"' bash "$(find "$prefix" -path '*bash-completion*' -type f)")
 [ "$offered" = "agglomerate aggregate" ] || [ "$offered" = "aggregate agglomerate" ] ||
     { echo "bash completion of 'clast agg' offers '$offered'"; exit 1; }
-echo "installed: command, library by pkg-config, CMake and add_subdirectory, shared and static ($first), the examples of a flow, manual page, completion"
+echo "installed: command, library by pkg-config, CMake and add_subdirectory, shared and static ($first), the examples, manual page, completion"

@@ -9,8 +9,8 @@ import re
 import sys
 
 LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "contact": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
-         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8, "study": 9,
-         "report": 9}
+         "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8, "report": 9,
+         "study": 10}
 OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
 READERS = re.compile(r"\b(strto(?:d|f|ld)|atof|v?[fs]?scanf)\s*\(")
 PRINTERS = re.compile(r"\b(?:vs|s|f|vf)n?printf\s*\((?:[^;\"]|\"(?:[^\"\\]|\\.)*\")*?;", re.S)

@@ -3,6 +3,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 mkdir -p build/docs docs/api
+python3 tools/check_pages.py
 doxygen docs/Doxyfile 2> build/docs/doxygen.log || true
 if grep -q 'warning:' build/docs/doxygen.log; then head -40 build/docs/doxygen.log; echo "docs: doxygen warns"; exit 1; fi
 {

@@ -24,6 +24,7 @@ import subprocess
 import tempfile
 
 import chart
+import pooled
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHARED = ROOT.parent / "shared/data"
@@ -314,6 +315,61 @@ def rounding(record):
     return table(("rounding", "porosity", "difference to exact"), rows)
 
 
+def t_between(first, second):
+    """Two-sided p-value of two means (pooled spread), and the sign of second - first; one value a side has no spread of its own."""
+    n, m = len(first), len(second)
+    squares = sum((v - mean(g)) ** 2 for g in (first, second) for v in g)
+    t = (mean(second) - mean(first)) / math.sqrt(squares / (n + m - 2) * (1 / n + 1 / m))
+    return pooled.student_tails(t, n + m - 2), 1 if t > 0 else -1
+
+
+def between_groups(groups):
+    """p-value of equal means of several groups (one-way analysis of variance)."""
+    values = [v for g in groups for v in g]
+    within = sum((v - mean(g)) ** 2 for g in groups for v in g)
+    among = sum(len(g) * (mean(g) - mean(values)) ** 2 for g in groups)
+    df = len(groups) - 1, len(values) - len(groups)
+    return 1 - pooled.f_below(among / df[0] / (within / df[1]), *df)
+
+
+def pooled_text(record):
+    """Every comparison of this page that asks for no difference, each row and all rows of a table as one test."""
+    rows = []
+
+    def add(name, pairs, groups=None):
+        found = [(*t_between(a, b), len(a), len(b)) for a, b in pairs if a and b and len(a) + len(b) > 2]
+        if not found:
+            return
+        if groups is not None:  # they share a reference, so their p-values are not independent
+            way, one = f"analysis of variance over {len(groups)} groups", between_groups(groups)
+        elif len(found) > 1:
+            way, one = "Stouffer", pooled.stouffer([f[:2] for f in found])[0]
+        else:
+            way, one = "t", found[0][0]
+        rows.append((name, ", ".join(f"{n} beside {m}" for _, _, n, m in found), ", ".join(f"{f[0]:.2g}" for f in found), way, one))
+
+    add("Table 6: ours, 3 kg, against the paper", [(TABLE_6[c], record.porosities("table6", curve=c)) for c in TABLE_6])
+    add("Table 11 scaled down: forms drawn against as they are",
+        [[record.porosities("table11-small", form_law=law) for law in ("false", "true")]])
+    for study, key, values, name in (("rounding-small", "rounding", ("0", "1 um", "3 um", "10 um"), "rounded edges against exact ones"),
+                                     ("table7-small", "width", ("70 mm", "85 mm", "100 mm"), "Table 7 scaled down: wider against 70 mm"),
+                                     ("table4-small", "faces", ("0", "100", "50"), "Table 4 scaled down: fewer faces against 300")):
+        groups = [g for g in (record.porosities(study, **{key: v}) for v in values) if len(g) > 1]
+        add(name, [(groups[0], g) for g in groups[1:]], groups)
+    for study, key, values, name in (("steps-small", "contact_scheme", ("explicit", "exact"), "exact steps against explicit ones, same seeds"),):
+        first, second = (both_ways(record, study, key, value)[0] for value in values)
+        off = [second[seed] - first[seed] for seed in first if seed in second]
+        if len(off) > 1:
+            p = pooled.student_tails(mean(off) / (spread(off) / math.sqrt(len(off))), len(off) - 1)
+            rows.append((name, f"{len(off)} pairs", f"{p:.2g}", "paired t", p))
+    n_row = sum(len(r[2].split(",")) for r in rows)
+    least = min(float(p) for r in rows for p in r[2].split(","))
+    text = table(("question", "beds", "p of each row", "pooled by", "pooled p"), [(*r[:4], f"{r[4]:.2g}") for r in rows])
+    return (f"{text}\n\nThat is {n_row} comparisons in {len(rows)} questions, one of them below 0.05 expected by sampling error in {100 * (1 - .95 ** len(rows)):.0f} % "
+            f"of such pages. The least p of a row is {least:.2g} ({min(1, n_row * least):.2g} by Bonferroni), Fisher's over the questions "
+            f"{pooled.fisher([r[4] for r in rows]):.2g}.")
+
+
 def cases(command):
     if not (SHARED / "sediment").exists():
         return "Not run: the two scans are not here."
@@ -412,7 +468,7 @@ def known(command):
     voro = [[tuple(map(float, line.split()[1:])) for line in text] for text in lines]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "spheres.csv"
+        path, cells = pathlib.Path(folder) / "spheres.csv", pathlib.Path(folder) / "cells"
 
         def profile(spheres, *arguments):
             path.write_text("x,y,z,radius\n" + "".join(f"{x!r},{y!r},{z!r},0.5\n" for x, y, z in spheres), encoding="ascii")
@@ -426,9 +482,9 @@ def known(command):
         for name, spheres, bed, low, high, counted in (
                 ("1000 spheres in a box (voro++), -3..3, -3..3, 2..7", voro[0], "box:-5,-5,5,5", 2, 7, .631),
                 ("2300 spheres in a cylinder (voro++), -3..3, -3..3, 3..14", voro[1], "cylinder:6", 3, 14, .632)):
-            profile(spheres, "--bed", bed, "--layer", 0.1, "--cut", 0.9, "--local", "-o", folder)
+            profile(spheres, "--bed", bed, "--layer", 0.1, "--cut", 0.9, "--local", "--force", "-o", cells)
             inside = []
-            for cell in read_csv(pathlib.Path(folder) / "local.csv"):
+            for cell in read_csv(cells / "local.csv"):
                 x, y, z = spheres[int(cell["grain"])]
                 inside += [cell] if max(abs(x), abs(y)) < 3 and low < z < high else []
             rows.append((name + f": {len(inside)} radical Voronoi cells", f"{1 - counted:.3f} (cut at the sides)",
@@ -579,6 +635,14 @@ bed that fell through still water takes the options. Small boxes, one form, one 
 Fewer than three beds a side settle nothing: their own spread is then a poor estimate of the scatter, and the interval with it.
 
 {rounding(record)}
+
+## All rows together
+
+Each interval above judges its own row. Here all rows of a question are one test: two-sided p-values of t tests with pooled spread, joined by Stouffer's rule, or one
+analysis of variance where rows share a reference. A p-value says how often beds without a difference differ as far; two or three beds a side
+would hide a difference of 0.01 more often than not, so a large p is no proof of equality.
+
+{pooled_text(record)} Table 6 asks more than sampling error: our stones are not the paper's.
 
 ## Cases A and P of the reference program (two Rhine scans)
 

@@ -4,7 +4,7 @@
 set -eu
 group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
-       libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev zlib1g-dev fonts-dejavu-core)
+       libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev libpng-dev libtiff-dev zlib1g-dev fonts-dejavu-core)
 sundials=("${build[@]}" libsundials-dev)
 mpi=("${build[@]}" libopenmpi-dev openmpi-bin)
 dev=("${build[@]}" libcmocka-dev python3)

@@ -13,6 +13,7 @@ tools/check_format.sh
 say "spelling"
 tools/list_files.sh '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs -0 codespell --ignore-words=tools/spelling.txt
 say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py
+say "pages of the theory"; python3 tools/check_pages.py; python3 tools/pooled.py
 say "headers in C and C++"; tools/check_headers.sh
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
 tools/build.sh dev > build-dev.log 2>&1 || { grep -E 'error|warning' build-dev.log | head -40; exit 1; }

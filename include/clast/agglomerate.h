@@ -58,6 +58,7 @@ typedef struct clast_agglomeration {
     int32_t n_rebuilt; ///< decompositions after the first, first repeat
     int32_t n_cell;    ///< last, first repeat
     bool has_exact, has_fixed;
+    clast_range_report range; ///< of the cells' runs, not of the fixed mesh
 } clast_agglomeration;
 
 /// Evolves the cloud; see docs/theory/agglomeration.md.

@@ -39,6 +39,7 @@
 #include <clast/harmonics_file.h>
 #include <clast/hull.h>
 #include <clast/kernel.h>
+#include <clast/kernel_range.h>
 #include <clast/local_porosity.h>
 #include <clast/manifest.h>
 #include <clast/memory.h>
@@ -81,6 +82,7 @@
 #include <clast/statistics.h>
 #include <clast/statistics_charts.h>
 #include <clast/status.h>
+#include <clast/sticking.h>
 #include <clast/stress.h>
 #include <clast/structure.h>
 #include <clast/study.h>

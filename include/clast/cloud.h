@@ -20,7 +20,7 @@ typedef struct clast_cloud {
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
 CLAST_API void clast_cloud_free(clast_cloud *cloud);
 
-/// Which columns of a table hold what; an empty list or text: nothing does.
+/// Which columns of a table hold what; an empty list, an empty text or NULL: nothing does.
 typedef struct clast_cloud_columns {
     clast_text_list columns;          ///< coordinates; an item may be a list itself, "x,y,z"
     clast_text_list velocity_columns; ///< as many as coordinates
@@ -28,7 +28,7 @@ typedef struct clast_cloud_columns {
     char *unit; ///< of coordinates whose columns name none ("mm"); NULL or "": metres
 } clast_cloud_columns;
 
-/// Numbers of the named column; *column is NULL for an empty name.
+/// Numbers of the named column; *column is NULL for a name that is empty or NULL.
 ///
 /// @return CLAST_E_FORMAT when the table has no such column of numbers: the columns it has, or the
 /// first row without a number, with a guess

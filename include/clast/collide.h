@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/field.h>
 #include <clast/kernel.h>
+#include <clast/kernel_range.h>
+#include <clast/sticking.h>
 
 CLAST_BEGIN
 
@@ -22,8 +24,10 @@ typedef struct clast_population {
 } clast_population;
 
 typedef enum {
-    CLAST_RADIUS_VOLUME, ///< a^3 = a1^3 + a2^3: drops, or measured radii that merge
-    CLAST_RADIUS_FRACTAL ///< a = a0 (i / k_f)^(1 / D_f)
+    CLAST_RADIUS_VOLUME,            ///< a^3 = a1^3 + a2^3: drops, or measured radii that merge
+    CLAST_RADIUS_FRACTAL_COLLISION, ///< a = a0 (i / k_f)^(1 / D_f), k_f of collision radii
+    CLAST_RADIUS_FRACTAL_GYRATION   ///< the same law gives the radius of gyration; of i > 1 a is
+                                    ///< sqrt((D_f + 2) / D_f) times it    [Rogak1992]
 } clast_radius_law;
 
 typedef enum {
@@ -32,10 +36,17 @@ typedef enum {
     CLAST_COLLISIONS_POISSON ///< Poisson number of events a sub-step, rates frozen in it
 } clast_collisions;
 
+typedef enum {
+    CLAST_OUT_OF_RANGE_ERROR,      ///< ends when over 0.1 % of the collisions lie out of a range
+    CLAST_OUT_OF_RANGE_EXTRAPOLATE ///< tells it alone
+} clast_out_of_range;
+
 typedef struct clast_collide_config {
     uint32_t kernel; ///< mask, clast_kernel_parse
     clast_medium medium;
-    double alpha; ///< share of collisions that stick
+    double alpha;            ///< share of collisions that stick; a factor on what `sticking` says
+    clast_sticking sticking; ///< zeros: alpha alone
+    int32_t out_of_range;    ///< clast_out_of_range
     int32_t radius_law, collisions;
     double monomer_radius, fractal_dimension, fractal_prefactor; ///< a0 [m], D_f, k_f
     double leap;   ///< Poisson: collisions that no particle exceeds on average in a sub-step
@@ -45,6 +56,8 @@ typedef struct clast_collide_config {
     bool keep_positions;  ///< an aggregate stays where its heavier part was, else at the centre of
                           ///< mass
     uint64_t seed;
+    double count_unit; ///< monomers that 1 in clast_population.monomers stands for in the radius
+                       ///< laws; 0: 1
 } clast_collide_config;
 
 /// Cells of one step; borrowed.
@@ -54,6 +67,7 @@ typedef struct clast_collide_cells {
     const double *volume;       ///< [n] m^d, > 0
     const clast_medium *medium; ///< [n], or NULL: the configuration's
     double *events;             ///< [n] out: collisions of real particles that stuck, or NULL
+    clast_range_use *range;     ///< grows by this step's collisions, or NULL
 } clast_collide_cells;
 
 /// Lets the particles of each cell collide for a time dt.
@@ -72,7 +86,9 @@ typedef struct clast_collide_cells {
 /// @param n_event  out, events drawn, sum over cells (without weights: collisions); may be NULL
 /// @return CLAST_E_CONFIG for a configuration out of the ranges of clast_agglomerate_fields (of
 /// what it uses) or a medium that lacks what the kernel needs, CLAST_E_ARGUMENT for arrays that are
-/// NULL, volumes not > 0, cells that there are not; nothing is then changed. CLAST_E_LIMIT beyond
+/// NULL, volumes not > 0, cells that there are not; nothing is then changed. CLAST_E_CONFIG too
+/// after the step where over 0.1 % of its collisions (of those of cells->range, if given) lie out
+/// of a range of kernel_range.h, but for CLAST_OUT_OF_RANGE_EXTRAPOLATE. CLAST_E_LIMIT beyond
 /// 50000 kinds in a cell with block = 0
 /// @note a cell of n particles of s kinds: O(s) per event; the same bytes for any thread count
 CLAST_API clast_status clast_collide(clast_population *population, const clast_collide_cells *cells,

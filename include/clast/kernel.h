@@ -8,12 +8,18 @@ CLAST_BEGIN
 
 /// A particle or an aggregate as kernels see it.
 typedef struct clast_collider {
-    double monomers;    ///< i
-    double radius;      ///< collision radius a [m]
-    double mass;        ///< [kg]
-    double velocity[3]; ///< [m/s]
-    double speed_rms;   ///< turbulent velocity of one component [m/s]; 0: from the medium's
+    double monomers;       ///< i
+    double radius;         ///< collision radius a [m]
+    double mass;           ///< [kg]
+    double velocity[3];    ///< [m/s]
+    double speed_rms;      ///< turbulent velocity of one component [m/s]; 0: from the medium's
+    double settling_speed; ///< as clast_settling_speed gives it, to save calls; 0: not known
 } clast_collider;
+
+typedef enum {
+    CLAST_SETTLING_STANDARD, ///< drag of clast_drag_sphere, slip
+    CLAST_SETTLING_STOKES    ///< creeping flow, slip
+} clast_settling_law;
 
 /// What the particles move in, and constants of the model kernels. SI.
 typedef struct clast_medium {
@@ -27,10 +33,11 @@ typedef struct clast_medium {
     double shear_constant;   ///< of shear_turbulent; 0: sqrt(8 pi / 15) = 1.2944
     double speed_rms;        ///< of the fluid, one component [m/s]
     double gravity;          ///< g [m/s^2]
-    double efficiency;       ///< E of settling [-]
+    double efficiency;       ///< E of settling [-]; 0: by clast_collision_efficiency's law
     double constant;         ///< K [m^d/s]
     double additive;         ///< b [m^d/s]
     double product;          ///< c [m^d/s]
+    int32_t settling_law;    ///< clast_settling_law
 } clast_medium;
 
 /// What a kernel needs, as bits of clast_kernel_info.needs.
@@ -43,14 +50,25 @@ typedef enum {
     CLAST_NEEDS_SHEAR = 32,
     CLAST_NEEDS_DISSIPATION = 64,
     CLAST_NEEDS_SPEED_RMS = 128,
-    CLAST_NEEDS_DENSITY = 256
+    CLAST_NEEDS_DENSITY = 256,
+    CLAST_NEEDS_SETTLING = 512 ///< settling speeds; it is faster to fill them in once a particle
 } clast_kernel_need;
+
+/// What brings particles together, as bits of clast_kernel_info.mechanisms: a sum of kernels may
+/// count each once.
+typedef enum {
+    CLAST_MECHANISM_BROWNIAN = 1,
+    CLAST_MECHANISM_SHEAR = 2, ///< of the mean flow
+    CLAST_MECHANISM_TURBULENCE = 4,
+    CLAST_MECHANISM_SETTLING = 8
+} clast_mechanism;
 
 /// One row of the table that feeds --help, the documents and the checks.
 typedef struct clast_kernel_info {
     const char *name, *formula, *source;
     uint32_t needs;
-    bool is_model; ///< a function of i and j alone, in any dimension
+    uint32_t mechanisms; ///< clast_mechanism; 0: a model kernel
+    bool is_model;       ///< a function of i and j alone, in any dimension
 } clast_kernel_info;
 
 enum { CLAST_N_KERNEL = 12 };
@@ -66,7 +84,8 @@ CLAST_API clast_status clast_kernel_parse(const char *text, uint32_t *mask);
 /// Everything that the kernels of a mask need.
 CLAST_API uint32_t clast_kernel_needs(uint32_t mask);
 
-/// Checks that the medium holds what the kernels need (> 0, finite).
+/// Checks that the medium holds what the kernels need (> 0, finite), and that no two of the kernels
+/// count the same mechanism. Whether they hold for the particles: kernel_range.h.
 ///
 /// @return CLAST_E_CONFIG names the kernel and what is missing
 CLAST_API clast_status clast_kernel_check(uint32_t mask, const clast_medium *medium);
@@ -77,8 +96,34 @@ CLAST_API clast_status clast_kernel_check(uint32_t mask, const clast_medium *med
 CLAST_API double clast_kernel_value(uint32_t mask, const clast_medium *medium,
                                     const clast_collider *a, const clast_collider *b);
 
-/// Stokes settling velocity [m/s] of a particle that is lighter in the fluid by its own solid
-/// volume: m (1 - rho_f / rho_p) g / (6 pi mu a).
+/// Settling speed [m/s] of a particle, weight less buoyancy against the drag of a sphere of its
+/// radius; < 0 where the fluid is denser.
+///
+/// By the standard drag curve (clast_drag_sphere), or Stokes' law; either is faster by the slip
+/// correction of a medium with a mean free path. Buoyancy is that of the solid, m /
+/// particle_density; of the sphere where that is 0.                [docs/theory/agglomeration.md
+/// section 1]
 CLAST_API double clast_settling_speed(const clast_medium *medium, const clast_collider *a);
+
+/// Share E of the particles in the swept cylinder pi (a1 + a2)^2 that a settling pair meets: the
+/// medium's constant, or where that is 0
+///
+///     E = 1 - (1 - E_i)(1 - E_c)    each (viscous + potential Re/60) / (1 + Re/60)
+///     inertia       (1 + 3/4 ln(2 St) / (St - 1.214))^-2, (St / (St + 1/2))^2
+///     interception  1 - 3/2 (1 + p)^-1 + 1/2 (1 + p)^-3, 1 - (1 + p)^-3
+///
+/// with the ratio of radii p <= 1, St = tau_small |w1 - w2| / a_large, Re = 2 a_large |w1 - w2| /
+/// nu. The smaller one is a point with inertia in the flow about the larger: p <= 0.5.
+/// [Langmuir1948; Friedlander1977]
+CLAST_API double clast_collision_efficiency(const clast_medium *medium, const clast_collider *a,
+                                            const clast_collider *b);
+
+/// Speed [m/s] at which a pair meets by the kernels of a mask: the sum over them of kernel over
+/// pi (a1 + a2)^2, without collision efficiency and clustering (the mean relative speed of straight
+/// paths).                                                                          [Costa2010]
+///
+/// @return 0 of the model kernels, which have no speed
+CLAST_API double clast_impact_speed(uint32_t mask, const clast_medium *medium,
+                                    const clast_collider *a, const clast_collider *b);
 
 CLAST_END

@@ -128,6 +128,8 @@ typedef struct clast_pack_hull {
     double volume_added; ///< V of the hull / V of the surface - 1; NAN: the surface is open
 } clast_pack_hull;
 
+#define CLAST_PACK_CORE 2.0 ///< grain sizes from the side walls at which a bed's core begins
+
 typedef struct clast_pack_result {
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] of a run (clast_pack_run); else none
@@ -143,9 +145,12 @@ typedef struct clast_pack_result {
     int32_t n_outside;     ///< grains whose centre is outside the container
     double porosity;       ///< bulk, by volume-equivalent spheres as published; NAN: none
     double z_low, z_high;  ///< its interval [m]
-    double top;         ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
-    double untrimmed;   ///< bulk porosity with nothing left out at the ends
-    double trim;        ///< left out at both ends [m]
+    double top;       ///< of the bed, where the porosity rises through the cut; NAN: no bed [m]
+    double untrimmed; ///< bulk porosity with nothing left out at the ends
+    double trim;      ///< left out at both ends [m]
+    clast_bed_walls walls; ///< how far the bed's side walls are, in grain sizes
+    double wall_share;  ///< of the bulk porosity, by what lies farther than CLAST_PACK_CORE grain
+                        ///< sizes from them; NAN: not known (too narrow, none, a surface)
     double mass_wanted; ///< [kg]
     int32_t n_loose;    ///< grains with fewer than four contacts, those with walls counted
     bool is_moving;     ///< some grain is as fast as still_speed or faster

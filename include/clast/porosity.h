@@ -127,4 +127,43 @@ CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, co
                                               const clast_table *profile,
                                               clast_porosity_bulk *bulk);
 
+/// Side walls beside the size of the grains: grains cannot lie as close at a wall, so a narrow bed
+/// is looser (docs/theory/porosity.md).
+typedef struct clast_bed_walls {
+    double size;   ///< diameter of equal volume, mean by volume: sum V d / sum V [m]
+    double radius; ///< 2 area / circumference: radius of a cylinder, half the width of a square
+                   ///< box; INFINITY: periodic, no side walls; NAN: a surface [m]
+    double ratio;  ///< radius / size
+} clast_bed_walls;
+
+/// NAN throughout for beds or assemblies that do not hold together.
+CLAST_API clast_bed_walls clast_bed_side_walls(const clast_bed *bed,
+                                               const clast_assembly *assembly);
+
+typedef struct clast_porosity_core {
+    double depth;    ///< left out at the side walls: middle of the ramp [m]
+    double porosity; ///< of what is farther from them
+    double error;    ///< standard error, as if its points were random: an upper bound for even ones
+    double share;    ///< of the side walls: bulk porosity - that of the core
+} clast_porosity_core;
+
+/// Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.
+///
+/// A place counts by w, which rises from 0 at n_size - 1/2 grain sizes (clast_bed_side_walls) from
+/// the nearest side wall to 1 at n_size + 1/2: grains stand in layers there, and one layer's width
+/// evens out what a sharp cut would find. Porosity is 1 - (integral of w over the solid) /
+/// (integral of w). Grains that lie on the ramp are stood for by 512 even points each, others are
+/// exact.
+///
+/// @param options  of the bulk
+/// @param n_size   1/2 at least
+/// @param core     written only on success
+/// @return CLAST_E_USAGE for a bed that is periodic (no side walls) or a surface, CLAST_E_GEOMETRY
+///         when nothing is as far from the walls
+CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembly,
+                                                   const clast_bed *bed,
+                                                   const clast_porosity_options *options,
+                                                   const clast_porosity_bulk *bulk, double n_size,
+                                                   clast_porosity_core *core);
+
 CLAST_END

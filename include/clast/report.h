@@ -31,6 +31,9 @@ CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run
                                           const clast_report_config *config, const char *path);
 
 /// FOLDER/report.html of one run, as a command does at its end.
-CLAST_API clast_status clast_report_write_run(const char *folder);
+///
+/// @param place  NULL for a run that has ended; for the caller's own that is about to, the folder
+///               that it will lie in, which the page names
+CLAST_API clast_status clast_report_write_run(const char *folder, const char *place);
 
 CLAST_END

@@ -46,6 +46,19 @@ CLAST_API double clast_drag_coefficient(double reynolds, const clast_drag *drag)
 ///     C_D = 24 / Re (1 + 0.15 Re^0.687) + 0.42 / (1 + 42500 Re^-1.16)             [Clift1971]
 CLAST_API double clast_drag_sphere(double reynolds);
 
+/// Reynolds number at which clast_drag_sphere gives this Best number, C_D Re^2, to rounding.
+///
+/// @param best  4/3 rho_f |rho - rho_f| g d^3 / mu^2 for a falling sphere; 24 Re of Stokes' law
+/// @return 0 for 0, NaN for less
+CLAST_API double clast_drag_sphere_reynolds(double best);
+
+/// Cunningham's slip correction C with Davies' constants, by which drag in a gas is less.
+///
+///     C = 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn))                                      [Davies1945]
+///
+/// @param knudsen  mean free path of the gas over the radius; 0: no slip
+CLAST_API double clast_slip_correction(double knudsen);
+
 /// Factor on the drag of a body among others that settle at this local porosity, with no net flow:
 ///
 ///     e^-(n + 1),  n = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2 / 2)                   [DiFelice1994]

@@ -62,6 +62,7 @@ typedef struct clast_spectrum {
     double exact_gel_time; ///< product kernel alone: 1 / (c M2(0)) [s]; else NaN
     double mass_error;     ///< largest, relative to what was there and came in
     int64_t n_evaluation;  ///< of the right-hand side; events of Monte Carlo
+    clast_range_report range;
 } clast_spectrum;
 
 /// Whether this library was built with the time integrator of the sectional solver (SUNDIALS).

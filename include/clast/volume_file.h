@@ -15,8 +15,9 @@ typedef struct clast_volume_options {
 /// True for the first bytes of a NRRD or TIFF file.
 CLAST_API bool clast_volume_is_known(const void *bytes, size_t n);
 
-/// Reads a volume from memory: NRRD (attached data, raw or gzip), TIFF (a page a slice, 8, 16 or 32
-/// bits, plain or deflated strips), or bare values whose sizes the options give.
+/// Reads a volume from memory: NRRD (attached data, raw or gzip), TIFF (a page a slice, by libtiff,
+/// where clast was built with it: CLAST_E_USAGE if not), or bare values whose sizes the options
+/// give.
 ///
 /// @param volume  must be empty; written only on success
 /// @return CLAST_E_FORMAT, CLAST_E_LIMIT beyond 2^31 voxels, CLAST_E_MEMORY

@@ -6,7 +6,9 @@
 // joined to the border; e, the distance to E; the wrap is e >= L. Both distances are carried from
 // nodes near the surface in question, whose own signed distance w is known to second order:
 // min over q of |p - q| + w(q) is an upper bound for every q, since distances grow by no more than
-// one per unit of way. The grid is run at two spacings; their difference is the stated error.
+// one per unit of way. The grid is run at two spacings; their difference is the stated error,
+// beside what both have in common: a node aside of the way by t sees a surface of curvature 1/R
+// farther off by t^2/2R, and is itself t^2/2L farther (docs/theory/envelope.md).
 #include "assembly/wrap.h"
 
 #include "assembly/distance_field.h"
@@ -224,6 +226,27 @@ static void count_layers(int64_t begin, int64_t end, int32_t worker, void *conte
     }
 }
 
+/// Greatest curvature of spheres and ellipsoids [1/m]: a / c^2. The edges of a surface have none
+/// that is finite; there the difference of two grids stands alone.
+static double greatest_curvature(const clast_assembly *a)
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < a->n_grain; ++i) {
+        const clast_shape *shape = &a->shape[a->shape_id[i]];
+        double least = INFINITY; // radius of curvature
+        if (shape->kind == CLAST_SHAPE_SPHERE) {
+            least = shape->semi_axes[0];
+        } else if (shape->kind == CLAST_SHAPE_ELLIPSOID) {
+            least = shape->semi_axes[2] * shape->semi_axes[2] / shape->semi_axes[0];
+        }
+        for (int32_t k = 0; k < shape->spheres.n && shape->kind == CLAST_SHAPE_CLUMP; ++k) {
+            least = fmin(least, shape->spheres.radius[k]);
+        }
+        most = fmax(most, 1.0 / (a->scale[i] * least));
+    }
+    return most;
+}
+
 /// Volume, and by how much the border's carried distances may move it.
 static clast_status wrap_volume(const clast_assembly *assembly, double length, int32_t n_cell,
                                 double *volume, double *common)
@@ -244,7 +267,8 @@ static clast_status wrap_volume(const clast_assembly *assembly, double length, i
     const double h = w.grid.h;
     const double surface = cut * h * h; // cut cells fill a layer of thickness h
     *volume = sum * h * h * h;
-    *common = 0.75 * h * h / length * surface; // twice sqrt(3/4 h^2)^2 / 2 L
+    // t^2 / 2 = 3/8 h^2: over L on both ways, over the grains' own radius on the way from them
+    *common = 0.375 * h * h * (2.0 / length + greatest_curvature(assembly)) * surface;
 done:
     wrap_free(&w);
     return status;

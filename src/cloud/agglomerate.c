@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "cloud/contract.h"
+#include "cloud/kernel_range.h"
 #include "cloud/size_classes.h"
 #include <math.h>
 #include <string.h>
@@ -28,11 +29,36 @@ const clast_field clast_agglomerate_fields[] = {
      "kinds of particles above which a cell is dealt into random blocks; 0: never", NULL},
     {DEEP(CLAST_FIELD_BOOL, self_collisions, self_collisions), 0, 0, 0, "-",
      "the particles of one weighted parcel collide with each other too", NULL},
-    {DEEP(CLAST_FIELD_F64, alpha, alpha), 1.0, 0.0, 1.0, "-", "share of collisions that stick",
-     NULL},
+    {DEEP(CLAST_FIELD_CHOICE, out_of_range, out_of_range), 0, 0, 0, "-",
+     "kernels and sticking beyond where they hold (the table above)", "error|extrapolate"},
+    {DEEP(CLAST_FIELD_F64, alpha, alpha), 1.0, 0.0, 1.0, "-",
+     "share of collisions that stick; with another law of sticking a factor on it", NULL,
+     .group = "sticking"},
+    {DEEP(CLAST_FIELD_CHOICE, sticking, sticking.law), 0, 0, 0, "-",
+     "share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts",
+     "constant|viscous|liquid|contact"},
+    {DEEP(CLAST_FIELD_F64, film_viscosity, sticking.film_viscosity), 0.0, 0.0, 1e12, "Pa s",
+     "viscous, liquid: of the liquid on the particles", NULL},
+    {DEEP(CLAST_FIELD_F64, film_thickness, sticking.film_thickness), 0.0, 0.0, 1.0, "m",
+     "viscous: h of the film", NULL},
+    {DEEP(CLAST_FIELD_F64, asperity, sticking.asperity), 0.0, 0.0, 1.0, "m",
+     "viscous: height h_a of the roughness", NULL},
+    {DEEP(CLAST_FIELD_F64, restitution, sticking.restitution), 0.0, 0.0, 1.0, "-",
+     "viscous: e of the dry solids", NULL},
+    {DEEP(CLAST_FIELD_F64, critical_stokes, sticking.critical_stokes), 1.3, 0.0, 1e12, "-",
+     "liquid: St_cr, where half of the collisions stick", NULL},
+    {DEEP(CLAST_FIELD_F64, stokes_exponent, sticking.stokes_exponent), 0.8, 0.0, 100.0, "-",
+     "liquid: q of 1 / (1 + (St / St_cr)^q)", NULL},
+    {DEEP(CLAST_FIELD_F64, adhesion, sticking.adhesion), 0.0, 0.0, 1e6, "-",
+     "contact: work of adhesion of the surfaces [J/m^2]", NULL},
+    {DEEP(CLAST_FIELD_F64, young, sticking.young), 0.0, 0.0, 1e15, "Pa",
+     "contact: Young's modulus of the particles", NULL},
+    {DEEP(CLAST_FIELD_F64, poisson, sticking.poisson), 0.25, -0.999, 0.5, "-",
+     "contact: Poisson's ratio of the particles", NULL},
     {DEEP(CLAST_FIELD_CHOICE, radius_law, radius_law), 0, 0, 0, "-",
-     "radius of an aggregate: of the summed volume, or a0 (i / k_f)^(1 / D_f)", "volume|fractal",
-     .group = "radii of aggregates"},
+     "collision radius of an aggregate: of the summed volume, a0 (i / k_f)^(1 / D_f), or from that "
+     "law of the radius of gyration",
+     "volume|fractal-collision|fractal-gyration", .group = "radii of aggregates"},
     {DEEP(CLAST_FIELD_F64, monomer_radius, monomer_radius), 0.0, 0.0, 1e300, "m",
      "radius a0 of a monomer where no column gives radii", NULL, .common = true},
     {DEEP(CLAST_FIELD_F64, fractal_dimension, fractal_dimension), 1.8, 1.0, 3.0, "-", "D_f", NULL},
@@ -61,8 +87,10 @@ const clast_field clast_agglomerate_fields[] = {
     {DEEP(CLAST_FIELD_F64, speed_rms, medium.speed_rms), 0.0, 0.0, 1e6, "m/s",
      "turbulent velocity of the fluid, one component", NULL},
     {DEEP(CLAST_FIELD_F64, gravity, medium.gravity), 9.80665, 0.0, 1e6, "m/s^2", "gravity g", NULL},
-    {DEEP(CLAST_FIELD_F64, efficiency, medium.efficiency), 1.0, 0.0, 1.0, "-",
-     "collision efficiency E of settling", NULL},
+    {DEEP(CLAST_FIELD_F64, efficiency, medium.efficiency), 0.0, 0.0, 1.0, "-",
+     "collision efficiency E of settling; 0: by Stokes number and ratio of radii", NULL},
+    {DEEP(CLAST_FIELD_CHOICE, settling_law, medium.settling_law), 0, 0, 0, "-",
+     "drag of settling spheres: the standard curve, or Stokes'", "standard|stokes"},
     {FIELD(CLAST_FIELD_CHOICE, rebuild), 0, 0, 0, "-",
      "when later snapshots get new cells: when the cloud has changed, always, never",
      "changed|always|never", .group = "cells in time"},
@@ -330,7 +358,10 @@ static clast_status all_runs(const clast_agglomerate_input *input,
     for (int32_t repeat = 0; repeat < config->repeats; ++repeat) {
         for (int fixed = made->has_fixed ? 1 : 0; fixed >= 0; --fixed) {
             clx_evolution_free(run);
-            *run = (clx_evolution){.input = input, .config = config, .is_fixed = fixed == 1};
+            *run = (clx_evolution){.input = input,
+                                   .config = config,
+                                   .is_fixed = fixed == 1,
+                                   .range = fixed == 1 ? NULL : &made->range};
             CLX_TRY(one_run(run, repeat, made->history.n_row, c));
         }
         if (repeat == 0) {
@@ -373,7 +404,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
 {
     CLX_ARGUMENTS(input, config, result);
     clast_status status = CLAST_OK;
-    clast_agglomeration made = {0};
+    clast_agglomeration made = {.range = clx_range_begin()};
     clx_evolution run = {0};
     columns c = {0};
     CLX_TRY(check_arguments(input, config, result));

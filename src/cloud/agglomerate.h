@@ -16,9 +16,11 @@ typedef struct clx_evolution {
     double *volume;       ///< [n_cell]
     clast_medium *medium; ///< [n_cell], or NULL without field columns
     int32_t n_cell;
-    int64_t at;      ///< the last snapshot
-    bool is_rebuilt; ///< there
-    double n_event;  ///< collisions of real particles since the start
+    int64_t at;                ///< the last snapshot
+    bool is_rebuilt;           ///< there
+    double n_event;            ///< collisions of real particles since the start
+    double time;               ///< since the start [s]
+    clast_range_report *range; ///< grows; NULL beside, on the user's mesh
 } clx_evolution;
 
 /// Checks input against configuration and makes the population of the first snapshot.

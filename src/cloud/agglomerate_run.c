@@ -2,6 +2,8 @@
 #include "cloud/agglomerate.h"
 
 #include "base/alloc.h"
+#include "cloud/collide.h"
+#include "cloud/kernel_range.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
 #include <math.h>
@@ -90,8 +92,8 @@ static clast_status check_needs(const clx_evolution *r)
     clast_status status = CLAST_OK;
     const clast_collide_config *c = &r->collide;
     const clast_cloud *cloud = &r->input->snapshot[0];
-    const uint32_t needs = clast_kernel_needs(c->kernel);
-    const bool is_fractal = c->radius_law == CLAST_RADIUS_FRACTAL;
+    const uint32_t needs = clx_collide_needs(c);
+    const bool is_fractal = c->radius_law != CLAST_RADIUS_VOLUME;
     CLX_CHECK(!(is_fractal && cloud->radius != NULL), CLAST_E_CONFIG,
               "fractal radii follow from the numbers of monomers: leave the radius column out");
     CLX_CHECK((needs & CLAST_NEEDS_RADIUS) == 0 || cloud->radius != NULL || c->monomer_radius > 0.0,
@@ -128,9 +130,7 @@ static double first_radius(const clx_evolution *r, int64_t i)
     if (r->input->snapshot[0].radius != NULL) {
         return r->input->snapshot[0].radius[i];
     }
-    return c->radius_law == CLAST_RADIUS_FRACTAL
-               ? c->monomer_radius * pow(n / c->fractal_prefactor, 1.0 / c->fractal_dimension)
-               : c->monomer_radius * cbrt(n);
+    return clx_aggregate_radius(c, n);
 }
 
 /// From a column, or solid volume times density; in monomers where no kernel looks at masses.
@@ -184,6 +184,24 @@ done:
     return status;
 }
 
+/// The particles of a cell at the start against the ranges.
+static clast_status look_at_start(clx_evolution *r)
+{
+    const uint32_t rows = clx_ranges_of_one(clx_ranges_of(&r->collide));
+    const clast_population *p = &r->population;
+    for (int64_t i = 0; i < p->n && rows != 0; ++i) {
+        const clast_medium *medium =
+            r->medium != NULL && r->cell[i] >= 0 ? &r->medium[r->cell[i]] : &r->collide.medium;
+        const clast_collider one = clx_population_collider(p, i);
+        const clast_collider pair[2] = {one, one};
+        if (r->cell[i] >= 0) {
+            clx_range_add(rows, &r->collide, medium, pair, p->weight != NULL ? p->weight[i] : 1.0,
+                          &r->range->start);
+        }
+    }
+    return clx_range_start(&r->config->collide, r->range);
+}
+
 clast_status clx_evolution_begin(clx_evolution *r)
 {
     clast_status status = CLAST_OK;
@@ -191,6 +209,7 @@ clast_status clx_evolution_begin(clx_evolution *r)
     r->collide = r->config->collide;
     r->collide.seed = r->config->decompose.seed;
     r->collide.keep_positions = r->input->n_snapshot > 1;
+    r->collide.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; // the run holds it against them
     CLX_TRY(clast_kernel_parse(r->config->kernel, &r->collide.kernel));
     if (r->input->domain != NULL) {
         r->domain = *r->input->domain;
@@ -511,15 +530,23 @@ clast_status clx_evolution_step(clx_evolution *r, double dt, uint64_t number)
     clast_status status = CLAST_OK;
     double *events = NULL;
     CLX_TRY(fill_media(r));
+    if (r->range != NULL && r->time == 0.0) {
+        CLX_TRY(look_at_start(r));
+    }
     CLX_TRY(clx_alloc(&events, r->n_cell, sizeof *events));
     const clast_collide_cells cells = {.n = r->n_cell,
                                        .of_particle = r->cell,
                                        .volume = r->volume,
                                        .medium = r->medium,
-                                       .events = events};
+                                       .events = events,
+                                       .range = r->range != NULL ? &r->range->collisions : NULL};
     CLX_TRY(clast_collide(&r->population, &cells, dt, number, &r->collide, NULL));
     for (int32_t c = 0; c < r->n_cell; ++c) {
         r->n_event += events[c];
+    }
+    r->time += dt;
+    if (r->range != NULL) {
+        CLX_TRY(clx_range_up_to(&r->config->collide, r->time, r->range));
     }
 done:
     clx_free(events);

@@ -55,7 +55,7 @@ static void join(const clast_text_list *list, char text[NAMES_SIZE])
 
 clast_status clast_cloud_column(const clast_table *table, const char *name, double **column)
 {
-    CLX_ARGUMENTS(table, name, column);
+    CLX_ARGUMENTS(table, column);
     CLX_WHOLE(table, table);
     clast_status status = CLAST_OK;
     double *found = NULL;

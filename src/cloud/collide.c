@@ -4,17 +4,46 @@
 #include "base/alloc.h"
 #include "base/field.h"
 #include "base/parallel.h"
+#include "cloud/kernel_range.h"
 #include <clast/agglomerate.h>
 #include <math.h>
 
 enum { KIND_LIMIT = 50000, CELLS_A_BLOCK = 1 };
 
+double clx_aggregate_radius(const clast_collide_config *c, double monomers)
+{
+    if (c->radius_law == CLAST_RADIUS_VOLUME ||
+        (c->radius_law == CLAST_RADIUS_FRACTAL_GYRATION && monomers <= 1.0)) {
+        return c->monomer_radius * cbrt(monomers);
+    }
+    const double d = c->fractal_dimension;
+    const double radius = c->monomer_radius * pow(monomers / c->fractal_prefactor, 1.0 / d);
+    return c->radius_law == CLAST_RADIUS_FRACTAL_GYRATION ? sqrt((d + 2.0) / d) * radius : radius;
+}
+
+clast_collider clx_population_collider(const clast_population *p, int64_t i)
+{
+    clast_collider seen = {
+        .monomers = (double)p->monomers[i], .radius = p->radius[i], .mass = p->mass[i]};
+    for (int32_t k = 0; k < p->dimension && p->velocity != NULL; ++k) {
+        seen.velocity[k] = p->velocity[i * p->dimension + k];
+    }
+    seen.speed_rms = p->speed_rms != NULL ? p->speed_rms[i] : 0.0;
+    return seen;
+}
+
+uint32_t clx_collide_needs(const clast_collide_config *c)
+{
+    return clast_kernel_needs(c->kernel) |
+           (c->sticking.law != CLAST_STICKING_CONSTANT ? CLAST_NEEDS_RADIUS | CLAST_NEEDS_MASS : 0);
+}
+
 static double merged_radius(const clast_population *p, const clast_collide_config *c, int64_t i,
                             int64_t j)
 {
-    if (c->radius_law == CLAST_RADIUS_FRACTAL) {
+    if (c->radius_law != CLAST_RADIUS_VOLUME) {
         const double n = (double)(p->monomers[i] + p->monomers[j]);
-        return c->monomer_radius * pow(n / c->fractal_prefactor, 1.0 / c->fractal_dimension);
+        return clx_aggregate_radius(c, c->count_unit > 0.0 ? c->count_unit * n : n);
     }
     const double a = p->radius[i];
     const double b = p->radius[j];
@@ -80,7 +109,8 @@ typedef struct {
     const clast_collide_config *config;
     double dt;
     uint64_t step;
-    uint32_t needs;
+    uint32_t needs, ranges;
+    clast_range_use *range; ///< [n_cell], or NULL where no kernel has ranges
     clx_collide_scratch scratch;
     int64_t *start; ///< [n_cell + 1] in scratch.order
     int64_t *n_event;
@@ -107,6 +137,7 @@ static void evolve_cell(const step_context *s, int32_t c)
                        .deal = 1.0,
                        .scale = s->config->alpha / s->cells->volume[c],
                        .needs = s->needs,
+                       .ranges = s->ranges,
                        .rng = &rng};
     if (n < 1 || (n < 2 && !(s->config->self_collisions && s->population->weight != NULL))) {
         return;
@@ -122,6 +153,9 @@ static void evolve_cell(const step_context *s, int32_t c)
     }
     s->n_event[c] = block.n_event;
     s->n_real[c] = block.n_real;
+    if (s->range != NULL) {
+        s->range[c] = block.range;
+    }
 }
 
 static void evolve_cells(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -156,6 +190,17 @@ static void sort_by_cell(step_context *s)
     s->start[0] = 0;
 }
 
+/// Whether all kernels have an impact speed.
+static bool has_speed(uint32_t kernel)
+{
+    bool is_any_model = false;
+    for (int k = 0; k < CLAST_N_KERNEL; ++k) {
+        is_any_model =
+            is_any_model || ((kernel >> k & 1U) != 0 && clast_kernel_table()[k].is_model);
+    }
+    return !is_any_model;
+}
+
 clast_status clx_collide_config_check(const clast_collide_config *config)
 {
     clast_status status = CLAST_OK;
@@ -174,8 +219,15 @@ clast_status clx_collide_config_check(const clast_collide_config *config)
     CLX_TRY(clx_fields_check_part(fields, offsetof(clast_agglomerate_config, collide),
                                   offsetof(clast_agglomerate_config, collide) + sizeof used,
                                   &used));
-    CLX_CHECK(config->radius_law != CLAST_RADIUS_FRACTAL || config->monomer_radius > 0.0,
+    CLX_CHECK(config->radius_law == CLAST_RADIUS_VOLUME || config->monomer_radius > 0.0,
               CLAST_E_CONFIG, "monomer_radius: fractal radii need one > 0");
+    CLX_CHECK(config->count_unit >= 0.0 && isfinite(config->count_unit), CLAST_E_CONFIG,
+              "count_unit: %g is no number of monomers", config->count_unit);
+    CLX_TRY(clast_sticking_check(&config->sticking));
+    CLX_CHECK(config->sticking.law == CLAST_STICKING_CONSTANT || has_speed(config->kernel),
+              CLAST_E_CONFIG,
+              "sticking by impact needs a kernel of a mechanism: constant, additive and product "
+              "have no speeds");
 done:
     return status;
 }
@@ -265,6 +317,19 @@ done:
     return status;
 }
 
+/// Adds what the cells' collisions were against the ranges.
+static clast_status tell_ranges(const step_context *s)
+{
+    clast_range_use step = {0};
+    clast_range_use *use = s->cells->range != NULL ? s->cells->range : &step;
+    for (int32_t c = 0; c < s->cells->n && s->range != NULL; ++c) {
+        clx_range_merge(use, &s->range[c]);
+    }
+    return s->config->out_of_range == CLAST_OUT_OF_RANGE_EXTRAPOLATE
+               ? CLAST_OK
+               : clast_range_check(use, "of the collisions");
+}
+
 static clast_status run_step(step_context *s, int64_t *total)
 {
     clast_status status = CLAST_OK;
@@ -283,6 +348,7 @@ static clast_status run_step(step_context *s, int64_t *total)
     if (total != NULL) {
         *total = sum;
     }
+    CLX_TRY(tell_ranges(s));
 done:
     return status;
 }
@@ -297,7 +363,11 @@ clast_status clast_collide(clast_population *population, const clast_collide_cel
         .population = population, .cells = cells, .config = config, .dt = dt, .step = step};
     CLX_TRY(check_step(population, cells, dt, step, config));
     const int64_t n = population->n;
-    s.needs = clast_kernel_needs(config->kernel);
+    s.needs = clx_collide_needs(config);
+    s.ranges = clx_ranges_of(config);
+    if (s.ranges != 0) {
+        CLX_TRY(clx_alloc(&s.range, cells->n, sizeof *s.range));
+    }
     CLX_TRY(clx_alloc(&s.scratch.order, n, sizeof *s.scratch.order));
     CLX_TRY(clx_alloc(&s.scratch.next, n, sizeof *s.scratch.next));
     CLX_TRY(clx_alloc(&s.scratch.frozen, n, sizeof *s.scratch.frozen));
@@ -318,6 +388,7 @@ done:
     clx_free(s.start);
     clx_free(s.n_event);
     clx_free(s.n_real);
+    clx_free(s.range);
     clx_free(s.is_too_many);
     return status;
 }

@@ -31,6 +31,8 @@ typedef struct clx_block {
     int64_t n;
     clx_kind *kind;
     int64_t n_kind;
+    uint32_t ranges; ///< rows of the table of ranges that its events are held against
+    clast_range_use range;
     double deal;  ///< what dealing into blocks leaves out; 1 without
     double scale; ///< alpha / V, times deal
     uint32_t needs;
@@ -51,6 +53,10 @@ clx_kind clx_block_as_seen(const clx_block *block, int64_t particle);
 double clx_block_kernel(const clx_block *block, const clx_kind *x, const clx_kind *y);
 double clx_block_self_rate(const clx_block *block, const clx_kind *kind);
 
+/// clx_population_stick, and pair_up where i == j, of an event of the block: also held against the
+/// ranges.
+int clx_block_stick(clx_block *block, int64_t i, int64_t j, int64_t live[2]);
+
 /// Takes dead particles out of the members.
 void clx_block_drop_dead(clx_block *block);
 
@@ -69,6 +75,15 @@ int clx_population_stick(clast_population *population, const clast_collide_confi
 /// Lets the particles of one parcel stick to each other, two by two.
 void clx_population_pair_up(clast_population *population, const clast_collide_config *config,
                             int64_t i, double *n_real);
+
+/// Radius of an aggregate of so many monomers by the configuration's law, from monomers of a0.
+double clx_aggregate_radius(const clast_collide_config *config, double monomers);
+
+/// A particle as ranges see it.
+clast_collider clx_population_collider(const clast_population *population, int64_t i);
+
+/// What the kernels and the sticking need of particles.
+uint32_t clx_collide_needs(const clast_collide_config *config);
 
 /// Ranges of the members that this configuration uses; a caller may leave the others at 0.
 clast_status clx_collide_config_check(const clast_collide_config *config);

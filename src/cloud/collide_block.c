@@ -1,10 +1,12 @@
 // Events in one well-mixed block, kind by kind. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "cloud/kernel_range.h"
+#include "cloud/settling_pair.h"
 #include <math.h>
 
-/// The kind of a particle, without members.
-clx_kind clx_block_as_seen(const clx_block *b, int64_t i)
+/// The kind of a particle, without members and settling speed.
+static clx_kind kind_of(const clx_block *b, int64_t i)
 {
     const clast_population *p = b->population;
     const double weight = p->weight != NULL ? p->weight[i] : 1.0;
@@ -22,6 +24,20 @@ clx_kind clx_block_as_seen(const clx_block *b, int64_t i)
     if ((b->needs & CLAST_NEEDS_SPEED_RMS) != 0 && p->speed_rms != NULL) {
         seen->speed_rms = p->speed_rms[i];
     }
+    return kind;
+}
+
+static void let_settle(const clx_block *b, clx_kind *kind)
+{
+    if ((b->needs & CLAST_NEEDS_SETTLING) != 0) {
+        kind->as.settling_speed = clast_settling_speed(b->medium, &kind->as);
+    }
+}
+
+clx_kind clx_block_as_seen(const clx_block *b, int64_t i)
+{
+    clx_kind kind = kind_of(b, i);
+    let_settle(b, &kind);
     return kind;
 }
 
@@ -64,7 +80,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
 {
     b->n_kind = 0;
     for (int64_t m = 0; m < b->n; ++m) {
-        const clx_kind seen = clx_block_as_seen(b, b->member[m]);
+        const clx_kind seen = kind_of(b, b->member[m]);
         const int64_t k = find_kind(b, &seen);
         if (k == b->n_kind) {
             if (k == limit) {
@@ -74,14 +90,25 @@ bool clx_block_sort(clx_block *b, int64_t limit)
         }
         put(b, k, b->member[m]);
     }
+    for (int64_t k = 0; k < b->n_kind && (b->needs & CLAST_NEEDS_SETTLING) != 0; ++k) {
+        let_settle(b, &b->kind[k]);
+    }
     return true;
+}
+
+static double pair_rate(const clx_block *b, const clast_collider *x, const clast_collider *y)
+{
+    const clast_collide_config *c = b->config;
+    const double value = clx_kernel_sum(c->kernel, b->medium, x, y);
+    return c->sticking.law == CLAST_STICKING_CONSTANT ? value
+                                                      : value * clx_sticking_of(c, b->medium, x, y);
 }
 
 /// Rate of a pair over scale.
 double clx_block_kernel(const clx_block *b, const clx_kind *x, const clx_kind *y)
 {
-    return fmax(x->weight, y->weight) *
-           clast_kernel_value(b->config->kernel, b->medium, &x->as, &y->as);
+    const double most = x->weight > y->weight ? x->weight : y->weight; // fmax is a call
+    return most * pair_rate(b, &x->as, &y->as);
 }
 
 /// Twice the rate, over scale, at which the particles of one parcel collide: rows count pairs
@@ -91,8 +118,28 @@ double clx_block_self_rate(const clx_block *b, const clx_kind *kind)
     if (!b->config->self_collisions || kind->weight <= 1.0) {
         return 0.0;
     }
-    return 2.0 * (kind->weight - 1.0) / b->deal *
-           clast_kernel_value(b->config->kernel, b->medium, &kind->as, &kind->as);
+    return 2.0 * (kind->weight - 1.0) / b->deal * pair_rate(b, &kind->as, &kind->as);
+}
+
+int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
+{
+    const double before = b->n_real;
+    clast_collider pair[2];
+    int n_live = 1;
+    if (b->ranges != 0) { // as they are before they stick
+        pair[0] = clx_population_collider(b->population, i);
+        pair[1] = clx_population_collider(b->population, j);
+    }
+    if (i == j) {
+        clx_population_pair_up(b->population, b->config, i, &b->n_real);
+        live[0] = i;
+    } else {
+        n_live = clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
+    }
+    if (b->ranges != 0) {
+        clx_range_add(b->ranges, b->config, b->medium, pair, b->n_real - before, &b->range);
+    }
+    return n_live;
 }
 
 static double row_of(const clx_block *b, int64_t k)
@@ -205,7 +252,8 @@ static void one_self_event(clx_block *b, int64_t kind)
     const int64_t i = take(b, kind);
     drop_if_empty(b, kind);
     unload(b, &gone);
-    clx_population_pair_up(b->population, b->config, i, &b->n_real);
+    int64_t live[2];
+    (void)clx_block_stick(b, i, i, live);
     load(b, i);
     ++b->n_event;
 }
@@ -231,7 +279,7 @@ static bool one_event(clx_block *b, double total)
     unload(b, &gone[0]);
     unload(b, &gone[1]);
     int64_t live[2];
-    const int n_live = clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
+    const int n_live = clx_block_stick(b, i, j, live);
     for (int k = 0; k < n_live; ++k) {
         load(b, live[k]);
     }
@@ -301,12 +349,8 @@ static bool frozen_event(clx_block *b, double total)
         }
         const int64_t i = pick_frozen(b, first);
         const int64_t j = second != WITHIN ? pick_frozen(b, second) : i;
-        if (second == WITHIN) {
-            clx_population_pair_up(b->population, b->config, i, &b->n_real);
-        } else if (i != j) {
-            (void)clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
-        }
         if (second == WITHIN || i != j) {
+            (void)clx_block_stick(b, i, j, live);
             ++b->n_event;
             return true;
         }

@@ -2,6 +2,7 @@
 // collide most (collectors) meeting the whole cell. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "cloud/kernel_range.h"
 #include <math.h>
 
 static const double MIXING = 0.1; ///< collisions a particle makes on average between two deals
@@ -46,6 +47,7 @@ static clx_block block_of(const deal *d, int64_t k)
     b.scale *= b.deal;
     b.n_event = 0;
     b.n_real = 0.0;
+    b.range = (clast_range_use){0};
     return b;
 }
 
@@ -159,6 +161,7 @@ static void evolve_blocks(deal *d, int64_t parity, bool is_stale, double delta)
         clx_block_evolve(&b, delta);
         d->cell->n_event += b.n_event;
         d->cell->n_real += b.n_real;
+        clx_range_merge(&d->cell->range, &b.range);
     }
 }
 
@@ -260,16 +263,12 @@ static void meet(deal *d, int64_t c, int64_t m)
     for (int k = 0; k < n_slot; ++k) {
         shift_rows(d, slot[k], -1.0, slot);
     }
-    if (c == m) {
-        clx_population_pair_up(p, b->config, b->member[c], &b->n_real);
-    } else {
-        int64_t live[2];
-        (void)clx_population_stick(p, b->config, b->member[c], b->member[m], live, &b->n_real);
-        if (p->monomers[b->member[c]] == 0) {
-            const int64_t held = b->member[c];
-            b->member[c] = b->member[m];
-            b->member[m] = held;
-        }
+    int64_t live[2];
+    (void)clx_block_stick(b, b->member[c], b->member[m], live);
+    if (p->monomers[b->member[c]] == 0) {
+        const int64_t held = b->member[c];
+        b->member[c] = b->member[m];
+        b->member[m] = held;
     }
     for (int k = 0; k < n_slot; ++k) {
         b->kind[slot[k]] = clx_block_as_seen(b, b->member[slot[k]]);

@@ -2,7 +2,9 @@
 #include <clast/kernel.h>
 
 #include "base/status.h"
+#include "cloud/settling_pair.h"
 #include "cloud/turbulent_kernel.h"
+#include <clast/settling.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,11 +35,9 @@ static double contact(const clast_collider *a, const clast_collider *b)
     return a->radius + b->radius;
 }
 
-/// Cunningham's slip factor with Davies' constants.                          [Davies1945]
 static double slip(const clast_medium *m, const clast_collider *a)
 {
-    const double kn = m->mean_free_path / a->radius;
-    return kn > 0.0 ? 1.0 + kn * (1.257 + 0.4 * exp(-1.1 / kn)) : 1.0;
+    return m->mean_free_path > 0.0 ? clast_slip_correction(m->mean_free_path / a->radius) : 1.0;
 }
 
 static double diffusion(const clast_medium *m, const clast_collider *a)
@@ -82,20 +82,11 @@ static double shear_turbulent(const clast_medium *m, const clast_collider *a,
     return sqrt(8.0 * CLAST_PI / 15.0 * m->dissipation * m->density / m->viscosity) * r * r * r;
 }
 
-double clast_settling_speed(const clast_medium *m, const clast_collider *a)
-{
-    if (m == NULL || a == NULL) {
-        return (double)NAN;
-    }
-    return a->mass * (1.0 - m->density / m->particle_density) * m->gravity /
-           (6.0 * CLAST_PI * m->viscosity * a->radius);
-}
-
 static double settling(const clast_medium *m, const clast_collider *a, const clast_collider *b)
 {
     const double r = contact(a, b);
-    return CLAST_PI * r * r * m->efficiency *
-           fabs(clast_settling_speed(m, a) - clast_settling_speed(m, b));
+    return CLAST_PI * r * r * clast_collision_efficiency(m, a, b) *
+           fabs(clx_settling_speed_of(m, a) - clx_settling_speed_of(m, b));
 }
 
 /// Velocity variance of a particle: its own, or the fluid's damped by its Stokes response time,
@@ -106,7 +97,7 @@ static double variance(const clast_medium *m, const clast_collider *a)
         return a->speed_rms * a->speed_rms;
     }
     const double u2 = m->speed_rms * m->speed_rms;
-    const double tau = a->mass / (6.0 * CLAST_PI * m->viscosity * a->radius);
+    const double tau = clx_response_time(m, a);
     return u2 > 0.0 ? u2 / (1.0 + 1.5 * tau * m->dissipation / u2) : 0.0;
 }
 
@@ -128,41 +119,45 @@ static double ballistic(const clast_medium *m, const clast_collider *a, const cl
     return CLAST_PI * r * r * sqrt(speed2);
 }
 
-#define SOLID (CLAST_NEEDS_RADIUS | CLAST_NEEDS_MASS)
+#define SOLID      (CLAST_NEEDS_RADIUS | CLAST_NEEDS_MASS)
+#define FALLS      (SOLID | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY | CLAST_NEEDS_SETTLING)
+#define TURBULENCE CLAST_MECHANISM_TURBULENCE
 static const clast_kernel_info info[CLAST_N_KERNEL] = {
-    {"constant", "K", "Smoluchowski 1916", 0, true},
-    {"additive", "b (i + j)", "Golovin 1963", 0, true},
-    {"product", "c i j", "McLeod 1962", 0, true},
+    {"constant", "K", "Smoluchowski 1916", 0, 0, true},
+    {"additive", "b (i + j)", "Golovin 1963", 0, 0, true},
+    {"product", "c i j", "McLeod 1962", 0, 0, true},
     {"brownian",
      "4 pi (D1 + D2) (a1 + a2), D = k T C / (6 pi mu a), C slip (1 without a mean free path)",
      "Smoluchowski 1917; slip Davies 1945",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, false},
+     CLAST_NEEDS_RADIUS | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, CLAST_MECHANISM_BROWNIAN,
+     false},
     {"brownian_free", "(a1 + a2)^2 sqrt(8 pi k T (1/m1 + 1/m2))", "kinetic theory",
-     SOLID | CLAST_NEEDS_TEMPERATURE, false},
+     SOLID | CLAST_NEEDS_TEMPERATURE, CLAST_MECHANISM_BROWNIAN, false},
     {"brownian_transition",
      "brownian (1 + Kn) / (1 + 2 Kn (1 + Kn)), Kn = brownian / (2 brownian_free)", "Dahneke 1983",
-     SOLID | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, false},
+     SOLID | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, CLAST_MECHANISM_BROWNIAN, false},
     {"shear_laminar", "4/3 G (a1 + a2)^3", "Smoluchowski 1917",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_SHEAR, false},
+     CLAST_NEEDS_RADIUS | CLAST_NEEDS_SHEAR, CLAST_MECHANISM_SHEAR, false},
     {"shear_turbulent", "sqrt(8 pi/15) sqrt(eps/nu) (a1 + a2)^3", "Saffman and Turner 1956",
      CLAST_NEEDS_RADIUS | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY,
-     false},
-    {"settling", "pi (a1 + a2)^2 |w1 - w2| E, w = m (1 - rho/rho_p) g / (6 pi mu a)",
-     "Stokes settling", SOLID | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY, false},
+     TURBULENCE, false},
+    {"settling",
+     "pi (a1 + a2)^2 |w1 - w2| E, w by drag and slip, E --efficiency or by St and a1/a2",
+     "Clift and Gauvin 1971, Davies 1945; E Langmuir 1948", FALLS, CLAST_MECHANISM_SETTLING, false},
     {"inertial",
      "sqrt(8 pi) (a1 + a2)^2 sqrt(u1'^2 + u2'^2), u'^2 own or U^2 / (1 + 1.5 tau eps / U^2)",
-     "Abrahamson 1975", SOLID | CLAST_NEEDS_SPEED_RMS | CLAST_NEEDS_VISCOSITY, false},
+     "Abrahamson 1975", SOLID | CLAST_NEEDS_SPEED_RMS | CLAST_NEEDS_VISCOSITY, TURBULENCE, false},
     {"ballistic", "pi (a1 + a2)^2 |u1 - u2|", "O'Rourke 1981",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_VELOCITY, false},
+     CLAST_NEEDS_RADIUS | CLAST_NEEDS_VELOCITY,
+     CLAST_MECHANISM_SHEAR | TURBULENCE | CLAST_MECHANISM_SETTLING, false},
     {"cloud_turbulence", "2 pi (a1 + a2)^2 <|w_r|> g12", "Ayala, Rosa and Wang 2008",
-     SOLID | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY |
-         CLAST_NEEDS_SPEED_RMS,
+     FALLS | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_SPEED_RMS, TURBULENCE | CLAST_MECHANISM_SETTLING,
      false}};
 
 static const rate value[CLAST_N_KERNEL] = {
     constant,      additive,        product,  brownian, brownian_free, brownian_transition,
     shear_laminar, shear_turbulent, settling, inertial, ballistic,     clx_turbulent_kernel};
-enum { CLOUD_TURBULENCE = 11 };
+enum { SETTLING = 8, CLOUD_TURBULENCE = 11 };
 
 const clast_kernel_info *clast_kernel_table(void)
 {
@@ -219,6 +214,27 @@ uint32_t clast_kernel_needs(uint32_t mask)
     return needs;
 }
 
+/// Names the first two kernels of a sum that count the same mechanism.
+static clast_status check_mechanisms(uint32_t mask)
+{
+    for (int k = 0; k < CLAST_N_KERNEL; ++k) {
+        for (int l = 0; l < k && (mask >> k & 1U) != 0; ++l) {
+            if ((mask >> l & 1U) != 0 && (info[k].mechanisms & info[l].mechanisms) != 0) {
+                static const char *const name[] = {"Brownian motion", "shear", "turbulence",
+                                                   "settling"};
+                int both = 0;
+                while ((info[k].mechanisms & info[l].mechanisms & 1U << both) == 0) {
+                    ++both;
+                }
+                return clx_fail(CLAST_E_CONFIG,
+                                "kernel %s+%s counts %s twice: both hold it; take one of them",
+                                info[l].name, info[k].name, name[both]);
+            }
+        }
+    }
+    return CLAST_OK;
+}
+
 clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
 {
     CLX_ARGUMENTS(m);
@@ -253,21 +269,44 @@ clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
                         "dissipation %g",
                         m->speed_rms, m->dissipation);
     }
-    return CLAST_OK;
+    return check_mechanisms(mask);
+}
+
+double clx_kernel_sum(uint32_t mask, const clast_medium *medium, const clast_collider *a,
+                      const clast_collider *b)
+{
+    double sum = 0.0;
+    for (int k = 0; mask != 0; ++k, mask >>= 1) {
+        sum += (mask & 1U) != 0 ? value[k](medium, a, b) : 0.0;
+    }
+    return sum;
 }
 
 double clast_kernel_value(uint32_t mask, const clast_medium *medium, const clast_collider *a,
                           const clast_collider *b)
 {
-    if (medium == NULL || a == NULL || b == NULL) {
-        return (double)NAN;
-    }
-    double sum = 0.0;
-    if (mask >> (sizeof value / sizeof value[0]) != 0) {
+    if (medium == NULL || a == NULL || b == NULL || mask >> CLAST_N_KERNEL != 0) {
         return (double)NAN; // a kernel that there is not
     }
-    for (int k = 0; mask != 0; ++k, mask >>= 1) {
-        sum += (mask & 1U) != 0 ? value[k](medium, a, b) : 0.0;
+    return clx_kernel_sum(mask, medium, a, b);
+}
+
+double clast_impact_speed(uint32_t mask, const clast_medium *medium, const clast_collider *a,
+                          const clast_collider *b)
+{
+    if (medium == NULL || a == NULL || b == NULL || mask >> CLAST_N_KERNEL != 0) {
+        return (double)NAN;
+    }
+    const double section = CLAST_PI * contact(a, b) * contact(a, b);
+    double sum = 0.0;
+    for (int k = 0; k < CLAST_N_KERNEL; ++k) {
+        if ((mask >> k & 1U) == 0 || info[k].is_model) {
+            continue;
+        }
+        sum += k == SETTLING
+                   ? fabs(clx_settling_speed_of(medium, a) - clx_settling_speed_of(medium, b))
+               : k == CLOUD_TURBULENCE ? clx_turbulent_speed(medium, a, b)
+                                       : value[k](medium, a, b) / section;
     }
     return sum;
 }

@@ -4,6 +4,8 @@
 #include "cloud/sectional.h"
 
 #include "base/alloc.h"
+#include "cloud/collide.h"
+#include "cloud/kernel_range.h"
 #include <math.h>
 
 enum { MOST_SECTIONS = 4000 };
@@ -18,6 +20,8 @@ void clx_sectional_free(clx_sectional *s)
     clx_free(s->fragment);
     clx_free(s->sink);
     clx_free(s->source);
+    clx_free(s->as);
+    clx_free(s->is_outside);
     *s = (clx_sectional){0};
 }
 
@@ -74,10 +78,7 @@ void clx_sectional_add(const clx_sectional *s, double v, double number, double *
 clast_collider clx_collider_of_size(const clast_collide_config *c, double x)
 {
     const double solid = c->monomer_radius;
-    clast_collider seen = {.monomers = x, .mass = x};
-    seen.radius = c->radius_law == CLAST_RADIUS_FRACTAL
-                      ? solid * pow(x / c->fractal_prefactor, 1.0 / c->fractal_dimension)
-                      : solid * cbrt(x);
+    clast_collider seen = {.monomers = x, .mass = x, .radius = clx_aggregate_radius(c, x)};
     if (solid > 0.0 && c->medium.particle_density > 0.0) {
         seen.mass = 4.0 / 3.0 * CLAST_PI * solid * solid * solid * c->medium.particle_density * x;
     }
@@ -87,19 +88,74 @@ clast_collider clx_collider_of_size(const clast_collide_config *c, double x)
 static void fill_pairs(const clast_collide_config *collide, clx_sectional *s)
 {
     const int64_t n = s->n;
+    const bool is_law = collide->sticking.law != CLAST_STICKING_CONSTANT;
     for (int32_t j = 0; j < s->n; ++j) {
-        const clast_collider a = clx_collider_of_size(collide, s->x[j]);
+        const clast_collider *a = &s->as[j];
         for (int32_t k = j; k < s->n; ++k) {
-            const clast_collider b = clx_collider_of_size(collide, s->x[k]);
+            const clast_collider *b = &s->as[k];
             const double v = s->x[j] + s->x[k];
             const int32_t i = v > s->x[n - 1] * (1.0 + 1e-12) ? s->n : pivot_below(s, v);
             const bool is_between = i < s->n - 1;
             s->rate[j * n + k] =
-                collide->alpha * clast_kernel_value(collide->kernel, &collide->medium, &a, &b);
+                collide->alpha * clast_kernel_value(collide->kernel, &collide->medium, a, b);
+            if (is_law) {
+                s->rate[j * n + k] *= clx_sticking_of(collide, &collide->medium, a, b);
+            }
             s->lower[j * n + k] = i;
             s->share[j * n + k] = is_between ? (s->x[i + 1] - v) / (s->x[i + 1] - s->x[i]) : 1.0;
         }
     }
+}
+
+/// Marks pairs out of a range.
+static clast_status fill_ranges(const clast_collide_config *collide, clx_sectional *s)
+{
+    clast_status status = CLAST_OK;
+    const int64_t n = s->n;
+    if (s->ranges == 0) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clx_alloc(&s->is_outside, n * n, sizeof *s->is_outside));
+    for (int32_t j = 0; j < s->n; ++j) {
+        for (int32_t k = j; k < s->n; ++k) {
+            const clast_collider pair[2] = {s->as[j], s->as[k]};
+            clast_range_use use = {0};
+            clx_range_add(s->ranges, collide, &collide->medium, pair, 1.0, &use);
+            s->is_outside[j * n + k] = use.outside > 0.0;
+        }
+    }
+done:
+    return status;
+}
+
+static double rate_at(const clx_sectional *s, const double *y, int32_t j, int32_t k)
+{
+    return (j == k ? 0.5 : 1.0) * s->rate[(int64_t)j * s->n + k] * y[j] * y[k] * s->monomers /
+           s->x[j] * s->monomers / s->x[k];
+}
+
+void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *collide,
+                          const double *y, double weight, clast_range_use *use)
+{
+    static const double TELLING = 1e-6; // share of all collisions that can be the farthest told
+    clast_range_use outside = {0};
+    double total = 0.0;
+    for (int32_t j = 0; j < s->n; ++j) {
+        for (int32_t k = j; k < s->n; ++k) {
+            total += fmax(0.0, rate_at(s, y, j, k));
+        }
+    }
+    for (int32_t j = 0; j < s->n && s->is_outside != NULL; ++j) {
+        for (int32_t k = j; k < s->n; ++k) {
+            const double rate = s->is_outside[(int64_t)j * s->n + k] ? rate_at(s, y, j, k) : 0.0;
+            if (rate > TELLING * total) {
+                const clast_collider pair[2] = {s->as[j], s->as[k]};
+                clx_range_add(s->ranges, collide, &collide->medium, pair, weight * rate, &outside);
+            }
+        }
+    }
+    outside.n = weight * total;
+    clx_range_merge(use, &outside);
 }
 
 /// Integral of v^e from a to b.
@@ -156,7 +212,17 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     CLX_TRY(clx_alloc(&s->breaks, n, sizeof *s->breaks));
     CLX_TRY(clx_alloc(&s->sink, n, sizeof *s->sink));
     CLX_TRY(clx_alloc(&s->source, n, sizeof *s->source));
+    CLX_TRY(clx_alloc(&s->as, n, sizeof *s->as));
+    const bool falls = config->settling_depth > 0.0;
+    for (int32_t i = 0; i < s->n; ++i) {
+        s->as[i] = clx_collider_of_size(collide, s->x[i]);
+        if (falls || (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0) {
+            s->as[i].settling_speed = clast_settling_speed(&collide->medium, &s->as[i]);
+        }
+    }
+    s->ranges = clx_ranges_of(collide) | (falls ? clx_ranges_of_settling(collide) : 0);
     fill_pairs(collide, s);
+    CLX_TRY(fill_ranges(collide, s));
     if (config->breakage_rate > 0.0) {
         CLX_TRY(clx_alloc(&s->fragment, n * n, sizeof *s->fragment));
         for (int32_t k = 1; k < s->n; ++k) { // the smallest do not break
@@ -170,8 +236,7 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     for (int32_t i = 0; i < s->n; ++i) {
         s->source[i] *= s->x[i];
         if (config->settling_depth > 0.0) {
-            const clast_collider a = clx_collider_of_size(collide, s->x[i]);
-            s->sink[i] = fabs(clast_settling_speed(&collide->medium, &a)) / config->settling_depth;
+            s->sink[i] = fabs(s->as[i].settling_speed) / config->settling_depth;
         }
     }
 done:

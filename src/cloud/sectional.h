@@ -19,6 +19,9 @@ typedef struct clx_sectional {
     double *source;   ///< [n] shares of the monomers at the start a time [1/s]
     double monomers;  ///< at the start [1/m^3]
     int64_t n_evaluation;
+    clast_collider *as; ///< [n] a particle of each pivot
+    uint32_t ranges;    ///< rows of the table of ranges that the run is held against
+    bool *is_outside;   ///< [n][n] pairs j <= k out of one of them; NULL where there are none
 } clx_sectional;
 
 /// Pivots from low to high: steps of `step` (0: none) until those of 1/per_octave octave are
@@ -43,6 +46,10 @@ void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *con
 /// had left the grid, else NaN.
 clast_status clx_sectional_solve(clx_sectional *s, const clast_spectrum_config *config,
                                  double *rows, double *gel_time);
+
+/// Rate of collisions at y [1/(m^3 s)] against the ranges, times a weight: added to `use`.
+void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *collide,
+                          const double *y, double weight, clast_range_use *use);
 
 /// A particle of x monomers as kernels see it.
 clast_collider clx_collider_of_size(const clast_collide_config *collide, double x);

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "cloud/collide.h"
+#include "cloud/kernel_range.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -60,13 +61,13 @@ static clast_status check_kernel(const clast_spectrum_config *config, const clas
     clast_status status = CLAST_OK;
     CLX_TRY(clast_kernel_check(c->kernel, &c->medium));
     const uint32_t needs =
-        clast_kernel_needs(c->kernel) |
+        clx_collide_needs(c) |
         (config->settling_depth > 0.0 ? CLAST_NEEDS_MASS | CLAST_NEEDS_RADIUS : 0);
     CLX_CHECK((needs & CLAST_NEEDS_VELOCITY) == 0, CLAST_E_CONFIG,
               "kernel: ballistic is a kernel of velocities, which a box does not have");
     CLX_CHECK((needs & (CLAST_NEEDS_RADIUS | CLAST_NEEDS_MASS)) == 0 || c->monomer_radius > 0.0,
               CLAST_E_CONFIG, "a box with this kernel or sink needs --monomer-radius");
-    CLX_CHECK(c->radius_law != CLAST_RADIUS_FRACTAL || c->monomer_radius > 0.0, CLAST_E_CONFIG,
+    CLX_CHECK(c->radius_law == CLAST_RADIUS_VOLUME || c->monomer_radius > 0.0, CLAST_E_CONFIG,
               "fractal radii need --monomer-radius");
     CLX_CHECK((needs & CLAST_NEEDS_MASS) == 0 || c->medium.particle_density > 0.0, CLAST_E_CONFIG,
               "a box with this kernel or sink needs masses: --particle-density");
@@ -158,6 +159,48 @@ static double sum_row(const clx_sectional *g, const double *y, double time, int3
     return (mass - added) / added;
 }
 
+/// The run against the ranges: particles and collisions at the start, collisions by the trapezoid
+/// rule up to each time.
+static clast_status look_at_start(const clast_collide_config *collide, const clx_sectional *g,
+                                  const double *rows, clast_range_report *range)
+{
+    clast_status status = CLAST_OK;
+    clast_range_report first = clx_range_begin();
+    const uint32_t of_one = clx_ranges_of_one(g->ranges);
+    for (int32_t i = 0; i < g->n && of_one != 0; ++i) {
+        const clast_collider pair[2] = {g->as[i], g->as[i]};
+        const double number = rows[i] / g->x[i];
+        if (number > 0.0) {
+            clx_range_add(of_one, collide, &collide->medium, pair, number, &range->start);
+        }
+    }
+    CLX_TRY(clx_range_start(collide, range));
+    if (g->ranges != 0) {
+        clx_sectional_ranges(g, collide, rows, 1.0, &first.collisions);
+        CLX_TRY(clx_range_up_to(collide, 0.0, &first));
+        range->time = fmin(range->time, first.time);
+    }
+done:
+    return status;
+}
+
+static clast_status look_at_rows(const clx_start *start, const clast_collide_config *collide,
+                                 const clx_sectional *g, const double *rows,
+                                 clast_range_report *range)
+{
+    clast_status status = CLAST_OK;
+    const double step = start->config->duration / start->config->n_step;
+    const int64_t width = g->n + CLX_N_BESIDE;
+    for (int32_t row = 1; row <= start->config->n_step && g->ranges != 0; ++row) {
+        for (int32_t end = row - 1; end <= row; ++end) {
+            clx_sectional_ranges(g, collide, rows + end * width, 0.5 * step, &range->collisions);
+        }
+        CLX_TRY(clx_range_up_to(collide, step * row, range));
+    }
+done:
+    return status;
+}
+
 static clast_status solve(const clx_start *start, const clast_collide_config *collide,
                           clx_sectional *g, clx_spectrum_sums *sums, clast_spectrum *made)
 {
@@ -174,7 +217,9 @@ static clast_status solve(const clx_start *start, const clast_collide_config *co
         rows[i] *= g->x[i] / g->monomers;
     }
     CLX_TRY(clx_sectional_rates(config, collide, g));
+    CLX_TRY(look_at_start(collide, g, rows, &made->range));
     CLX_TRY(clx_sectional_solve(g, config, rows, &made->gel_time));
+    CLX_TRY(look_at_rows(start, collide, g, rows, &made->range));
     for (int32_t row = 0; row < sums->n_row; ++row) {
         const double time = config->duration / config->n_step * row;
         const double error = sum_row(g, rows + (int64_t)row * width, time, row, sums);
@@ -368,7 +413,8 @@ clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
     clx_start start = {0};
     clx_sectional grid = {0};
     clx_spectrum_sums sums = {0};
-    clast_spectrum made = {.gel_time = (double)NAN, .exact_gel_time = (double)NAN};
+    clast_spectrum made = {
+        .gel_time = (double)NAN, .exact_gel_time = (double)NAN, .range = clx_range_begin()};
     CLX_TRY(check(config, collide, result));
     CLX_TRY(clx_start_begin(config, start_table, &start));
     CLX_TRY(make_grid(&start, &grid));
@@ -376,7 +422,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
     if (config->solver == CLAST_SOLVER_SECTIONAL) {
         CLX_TRY(solve(&start, collide, &grid, &sums, &made));
     } else {
-        CLX_TRY(clx_spectrum_sample(&start, collide, &grid, &sums, &made.n_evaluation));
+        CLX_TRY(clx_spectrum_sample(&start, collide, &grid, &sums, &made));
     }
     CLX_TRY(make_history(&start, &grid, &sums, &made.history));
     CLX_TRY(add_exact(config, collide, &made));

@@ -31,4 +31,4 @@ typedef struct clx_spectrum_sums {
 /// Monte Carlo runs into sums.
 clast_status clx_spectrum_sample(const clx_start *start, const clast_collide_config *collide,
                                  const clx_sectional *grid, clx_spectrum_sums *sums,
-                                 int64_t *n_event);
+                                 clast_spectrum *made);

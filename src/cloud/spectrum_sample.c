@@ -2,6 +2,8 @@
 #include "cloud/spectrum.h"
 
 #include "base/alloc.h"
+#include "cloud/collide.h"
+#include "cloud/kernel_range.h"
 #include "math/rng.h"
 #include <math.h>
 
@@ -27,10 +29,11 @@ static clast_status begin(const clast_collide_config *collide, sampling *s)
     s->volume = (double)n / s->start->concentration;
     s->collide = *collide;
     s->collide.keep_positions = true;
-    // the kernels of whole numbers, and the fractal law, as functions of the size
+    s->collide.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; // the run holds it against them
+    s->collide.count_unit = s->unit;
+    // the kernels of whole numbers as functions of the size
     s->collide.medium.additive *= s->unit;
     s->collide.medium.product *= s->unit * s->unit;
-    s->collide.monomer_radius *= pow(s->unit, 1.0 / collide->fractal_dimension);
     *p = (clast_population){.n = n, .dimension = 3};
     CLX_TRY(clx_alloc(&p->x, 3 * n, sizeof *p->x));
     CLX_TRY(clx_alloc(&p->monomers, n, sizeof *p->monomers));
@@ -100,24 +103,41 @@ static void count(sampling *s, int32_t row, clx_spectrum_sums *sums)
     }
 }
 
+/// The particles at the start against the ranges.
+static clast_status look_at_start(const sampling *s, const clast_collide_config *collide,
+                                  clast_range_report *range)
+{
+    const uint32_t rows = clx_ranges_of_one(clx_ranges_of(collide));
+    for (int64_t i = 0; i < s->population.n && rows != 0; ++i) {
+        const clast_collider one = clx_population_collider(&s->population, i);
+        const clast_collider pair[2] = {one, one};
+        clx_range_add(rows, collide, &collide->medium, pair, 1.0, &range->start);
+    }
+    return clx_range_start(collide, range);
+}
+
 clast_status clx_spectrum_sample(const clx_start *start, const clast_collide_config *collide,
                                  const clx_sectional *grid, clx_spectrum_sums *sums,
-                                 int64_t *n_event)
+                                 clast_spectrum *made)
 {
     clast_status status = CLAST_OK;
     sampling s = {.start = start, .grid = grid};
     const clast_spectrum_config *config = start->config;
     CLX_TRY(begin(collide, &s));
-    const clast_collide_cells cells = {.n = 1, .of_particle = s.cell, .volume = &s.volume};
+    const clast_collide_cells cells = {
+        .n = 1, .of_particle = s.cell, .volume = &s.volume, .range = &made->range.collisions};
     for (int32_t run = 0; run < config->repeats; ++run) {
         draw_sizes(&s, collide, run);
+        CLX_TRY(look_at_start(&s, collide, &made->range));
         count(&s, 0, sums);
         for (int32_t row = 1; row < sums->n_row; ++row) {
             int64_t n = 0;
             const uint64_t step = (uint64_t)run * (uint64_t)config->n_step + (uint64_t)row;
             CLX_TRY(clast_collide(&s.population, &cells, config->duration / config->n_step, step,
                                   &s.collide, &n));
-            *n_event += n;
+            made->n_evaluation += n;
+            CLX_TRY(
+                clx_range_up_to(collide, config->duration / config->n_step * row, &made->range));
             count(&s, row, sums);
         }
     }

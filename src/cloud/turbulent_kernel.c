@@ -3,6 +3,7 @@
 // sections 3 and 4; docs/theory/agglomeration.md section 1.2]
 #include "cloud/turbulent_kernel.h"
 
+#include "cloud/settling_pair.h"
 #include <math.h>
 
 /// Scales of the flow: the fluid's velocity correlation is
@@ -112,19 +113,51 @@ static double clustering(const scales *s, double gravity, double contact, const 
     return fmax(1.0, pow(ratio, 0.5 * power));
 }
 
+double clx_kolmogorov_length(const clast_medium *m)
+{
+    const double nu = m->viscosity / m->density;
+    return pow(nu * nu * nu / m->dissipation, 0.25);
+}
+
+/// Settling speeds, the faster first, and response times.
+static void order(const clast_medium *m, const clast_collider *a, const clast_collider *b,
+                  double v[2], double tau[2])
+{
+    const double va = clx_settling_speed_of(m, a);
+    const double vb = clx_settling_speed_of(m, b);
+    const bool a_first = va >= vb;
+    v[0] = a_first ? va : vb;
+    v[1] = a_first ? vb : va;
+    tau[0] = v[0] / m->gravity;
+    tau[1] = v[1] / m->gravity;
+}
+
+/// <|w_r|>.
+static double radial_speed(const scales *s, double contact, const double v[2], const double tau[2])
+{
+    const double along = s->d[0] * exp(-contact / s->e[0]) - s->d[1] * exp(-contact / s->e[1]);
+    const double turbulent =
+        single(s, v[0], tau[0]) + single(s, v[1], tau[1]) - 2.0 * along * joint(s, v, tau);
+    const double settling = CLAST_PI / 8.0 * (v[0] - v[1]) * (v[0] - v[1]);
+    return sqrt(2.0 / CLAST_PI * (fmax(0.0, turbulent) + settling));
+}
+
+double clx_turbulent_speed(const clast_medium *m, const clast_collider *a, const clast_collider *b)
+{
+    const scales s = scales_of(m);
+    double v[2];
+    double tau[2];
+    order(m, a, b, v, tau);
+    return 2.0 * radial_speed(&s, a->radius + b->radius, v, tau);
+}
+
 double clx_turbulent_kernel(const clast_medium *m, const clast_collider *a, const clast_collider *b)
 {
     const scales s = scales_of(m);
     const double contact = a->radius + b->radius;
-    const double va = clast_settling_speed(m, a);
-    const double vb = clast_settling_speed(m, b);
-    const bool a_first = va >= vb;
-    const double v[2] = {a_first ? va : vb, a_first ? vb : va};
-    const double tau[2] = {v[0] / m->gravity, v[1] / m->gravity};
-    const double along = s.d[0] * exp(-contact / s.e[0]) - s.d[1] * exp(-contact / s.e[1]);
-    const double turbulent =
-        single(&s, v[0], tau[0]) + single(&s, v[1], tau[1]) - 2.0 * along * joint(&s, v, tau);
-    const double settling = CLAST_PI / 8.0 * (v[0] - v[1]) * (v[0] - v[1]);
-    const double speed = sqrt(2.0 / CLAST_PI * (fmax(0.0, turbulent) + settling));
+    double v[2];
+    double tau[2];
+    order(m, a, b, v, tau);
+    const double speed = radial_speed(&s, contact, v, tau);
     return 2.0 * CLAST_PI * contact * contact * speed * clustering(&s, m->gravity, contact, tau);
 }

@@ -1,12 +1,12 @@
-// Contacts four after four, and eight at once where the machine has such vectors (batch_wide.c).
+// Contacts in four SIMD lanes, or in eight where the machine has them (batch_avx512.c).
 #include "dem/batch.h"
 
+#include "dem/batch_avx512.h"
 #include "dem/batch_lanes.h"
-#include "dem/batch_wide.h"
 
 #if CLX_MAKES_WIDE
-/// Whether the batch goes through lanes of eight: with four pairs half of them would be idle.
-static inline bool is_wide(const clx_batch *p)
+/// Whether the batch goes through eight lanes: with four pairs half of them would be idle.
+static inline bool uses_eight(const clx_batch *p)
 {
     return CLX_IS_WIDE && p->n > CLX_LANES;
 }
@@ -39,32 +39,32 @@ void clx_batch_arms(clx_batch *p)
 CLX_FOR_EACH_MACHINE
 static void spheres(const clast_dem *dem, clx_batch *p, int from)
 {
-    meet_spheres(dem, p, from);
+    contact_of_spheres(dem, p, from);
 }
 
 CLX_FOR_EACH_MACHINE
 static int faces(const clast_dem *dem, clx_batch *p, int from)
 {
-    return meet_facets(dem, p, from, false);
+    return contact_of_facets(dem, p, from, false);
 }
 
 CLX_FOR_EACH_MACHINE
 static int edges(const clast_dem *dem, clx_batch *p, int from)
 {
-    return meet_facets(dem, p, from, true);
+    return contact_of_facets(dem, p, from, true);
 }
 
 CLX_FOR_EACH_MACHINE
-static void push(const clast_dem *dem, const clx_batch *p, bool has_walls)
+static void force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
-    push_kind(dem, p, has_walls);
+    batch_force(dem, p, has_walls);
 }
 
 void clx_batch_spheres(const clast_dem *dem, clx_batch *p)
 {
 #if CLX_MAKES_WIDE
-    if (is_wide(p)) {
-        clx_wide_spheres(dem, p);
+    if (uses_eight(p)) {
+        clx_avx512_spheres(dem, p);
         return;
     }
 #endif
@@ -76,8 +76,8 @@ void clx_batch_spheres(const clast_dem *dem, clx_batch *p)
 int clx_batch_faces(const clast_dem *dem, clx_batch *p)
 {
 #if CLX_MAKES_WIDE
-    if (is_wide(p)) {
-        return clx_wide_faces(dem, p);
+    if (uses_eight(p)) {
+        return clx_avx512_faces(dem, p);
     }
 #endif
     const int first = faces(dem, p, 0);
@@ -87,21 +87,21 @@ int clx_batch_faces(const clast_dem *dem, clx_batch *p)
 int clx_batch_edges(const clast_dem *dem, clx_batch *p)
 {
 #if CLX_MAKES_WIDE
-    if (is_wide(p)) {
-        return clx_wide_edges(dem, p);
+    if (uses_eight(p)) {
+        return clx_avx512_edges(dem, p);
     }
 #endif
     const int first = edges(dem, p, 0);
     return p->n > CLX_LANES ? first | edges(dem, p, CLX_LANES) << CLX_LANES : first;
 }
 
-void clx_batch_push(const clast_dem *dem, const clx_batch *p, bool has_walls)
+void clx_batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
 #if CLX_MAKES_WIDE
-    if (is_wide(p)) {
-        clx_wide_push(dem, p, has_walls);
+    if (uses_eight(p)) {
+        clx_avx512_force(dem, p, has_walls);
         return;
     }
 #endif
-    push(dem, p, has_walls);
+    force(dem, p, has_walls);
 }

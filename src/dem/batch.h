@@ -1,11 +1,11 @@
 #pragma once
-// Contacts of one kind, up to eight side by side.
+// Contacts of one kind, up to eight in SIMD lanes.
 #include "contact/facet_lanes.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 
 typedef enum {
-    CLX_BATCH_FACES,   ///< hulls whose memory is a face with a vertex
-    CLX_BATCH_EDGES,   ///< hulls whose memory is a pair of edges
+    CLX_BATCH_FACES,   ///< hulls whose warm start is a face with a vertex
+    CLX_BATCH_EDGES,   ///< hulls whose warm start is a pair of edges
     CLX_BATCH_SPHERES, ///< whole grains
     CLX_BATCH_ELLIPSOIDS,
     CLX_BATCH_ANY, ///< all others, one by one
@@ -13,19 +13,20 @@ typedef enum {
 } clx_batch_kind;
 
 typedef struct clx_batch {
-    int n; ///< contacts in it, 1 to CLX_BATCH; the places beyond repeat the last
-    clx_pushed *to[CLX_BATCH]; ///< where what they do is written
-    clx_link *link[CLX_BATCH]; ///< awake
-    double travel[CLX_BATCH];  ///< of both grains
+    int n;                         ///< contacts in it, 1 to CLX_BATCH; lanes beyond repeat the last
+    clx_pair_force *to[CLX_BATCH]; ///< where their forces are written
+    clx_dem_pair *pair[CLX_BATCH]; ///< active
+    double travel[CLX_BATCH];      ///< of both grains
     const clx_grain *a[CLX_BATCH], *b[CLX_BATCH];
-    clx_pair_batch meet;        ///< where they meet; the offset is of whole grains
+    clx_pair_batch meet;        ///< contacts; the offset is of whole grains
     double arm_b[3][CLX_BATCH]; ///< from b's centre to the contact point
 } clx_batch;
 
-/// Where pairs of spheres meet, and arms.
+/// Contacts of spheres, and arms.
 void clx_batch_spheres(const clast_dem *dem, clx_batch *batch);
 
-/// Remembered facets of hulls, with rounding, and arms. Returns which lanes are answered, as bits.
+/// Contacts of hulls from the facets of their warm starts, with rounding, and arms. Returns which
+/// lanes are answered, as bits.
 int clx_batch_faces(const clast_dem *dem, clx_batch *batch);
 int clx_batch_edges(const clast_dem *dem, clx_batch *batch);
 
@@ -33,14 +34,14 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *batch);
 void clx_batch_offsets(const clast_dem *dem, clx_batch *batch);
 void clx_batch_arms(clx_batch *batch);
 
-/// Whether clx_batch_push can do this law.
+/// Whether clx_batch_force has code for this law.
 static inline bool clx_batch_has_law(const clx_law *law)
 {
     return law->kind == CLAST_DEM_LINEAR && law->cohesion == CLAST_DEM_DRY && law->rolling == 0.0 &&
            !law->is_wet;
 }
 
-/// What contacts do by the linear law: the twin of clx_law_force, with its bits. Writes their
-/// pushes, displacements and whether they touch; where one is apart, when it may wake. Walls are
-/// looked for if there may be any.
-void clx_batch_push(const clast_dem *dem, const clx_batch *batch, bool has_walls);
+/// Pair forces by the linear law: clx_law_force in lanes, with the same bits. Writes forces,
+/// displacements and whether pairs touch; where one is apart, its active_from. `has_walls`: some b
+/// may be a wall.
+void clx_batch_force(const clast_dem *dem, const clx_batch *batch, bool has_walls);

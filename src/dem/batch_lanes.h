@@ -1,7 +1,8 @@
 #pragma once
-// Contacts of one kind side by side, in as many lanes as the file that includes this has: batch.c
-// four, batch_wide.c eight. Each line is that of touch.h, law.h or contacts.c, in their order, so
-// that the bits are theirs whatever the lanes. `from` is the first contact of the batch.
+// Contacts of one kind in SIMD lanes; the lane width is that of the file that includes this: four
+// in batch.c, eight in batch_avx512.c. Each line is that of touch.h, law.h or contacts.c, in the
+// same order, so that scalar code and all lane widths give the same bits. `from` is the first
+// contact of the batch.
 #include "dem/batch.h"
 #include "math/lanes.h"
 #include <stddef.h>
@@ -38,18 +39,18 @@ CLX_INLINE void collect(const clx_grain *const grain[CLX_LANES], size_t at, clx_
 }
 
 /// Images of b, along x and y, as the low bits of numbers of periods.
-CLX_INLINE void read_periods(clx_link *const link[CLX_LANES], clx_lanes period[2])
+CLX_INLINE void read_periods(clx_dem_pair *const pair[CLX_LANES], clx_lanes period[2])
 {
     words both;
     for (int k = 0; k < CLX_LANES; ++k) {
-        const int16_t *n = link[k]->period;
+        const int16_t *n = pair[k]->period;
         both[k] = (uint32_t)(uint16_t)n[0] | (uint32_t)(uint16_t)n[1] << 16;
     }
     period[0] = __builtin_convertvector((ints)(both << 16) >> 16, clx_lanes);
     period[1] = __builtin_convertvector((ints)both >> 16, clx_lanes);
 }
 
-/// Offsets of b from a, with the radii as fourths of a and b.
+/// Offsets of b from a, with the radii as fourth components of a and b.
 CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_lanes a[4],
                         clx_lanes b[4], clx_lanes r[3])
 {
@@ -64,7 +65,7 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
         return;
     }
     clx_lanes period[2];
-    read_periods(p->link + from, period);
+    read_periods(p->pair + from, period);
     for (int c = 0; c < 2; ++c) {
         const clx_lanes turns = (-r[c] * dem->inverse_period[c] - period[c]) / CLX_PERIOD_TURN;
         const clx_lanes n = period[c] + CLX_PERIOD_TURN * (turns + CLX_TO_WHOLE - CLX_TO_WHOLE);
@@ -72,7 +73,7 @@ CLX_INLINE void offsets(const clast_dem *dem, const clx_batch *p, int from, clx_
     }
 }
 
-CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)
+CLX_INLINE void contact_of_spheres(const clast_dem *dem, clx_batch *p, int from)
 {
     clx_lanes a[4], b[4], r[3], n[3], arm[3];
     const clx_lanes zero = lanes_all(0.0);
@@ -95,21 +96,21 @@ CLX_INLINE void meet_spheres(const clast_dem *dem, clx_batch *p, int from)
     store3(p->arm_b[0] + from, arm);
 }
 
-/// As clx_pair_contact does for one.
-CLX_INLINE void add_rounding(const clast_dem *dem, clx_link *const link[CLX_LANES],
+/// Rounding, as in clx_pair_contact.
+CLX_INLINE void add_rounding(const clast_dem *dem, clx_dem_pair *const pair[CLX_LANES],
                              clx_meet_lanes *m)
 {
     clx_lanes a, b;
     for (int k = 0; k < CLX_LANES; ++k) {
-        a[k] = dem->convex[link[k]->a].round;
-        b[k] = dem->convex[link[k]->b].round;
+        a[k] = dem->convex[pair[k]->a].round;
+        b[k] = dem->convex[pair[k]->b].round;
     }
     m->gap = m->gap - (a + b);
     lanes_axpy(m->point, m->point, 0.5 * (b - a), m->normal);
 }
 
 /// Returns which lanes are answered, as bits.
-CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool edges)
+CLX_INLINE int contact_of_facets(const clast_dem *dem, clx_batch *p, int from, bool edges)
 {
     clx_lanes a[4], b[4], r[3], arm[3];
     clx_meet_lanes m;
@@ -117,7 +118,7 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
     const clx_marks good =
         edges ? clx_edges_again(&p->meet, from, r, &m) : clx_faces_again(&p->meet, from, r, &m);
     if (dem->config.rounding > 0.0) {
-        add_rounding(dem, p->link + from, &m);
+        add_rounding(dem, p->pair + from, &m);
     }
     for (int c = 0; c < 3; ++c) {
         arm[c] = m.point[c] - r[c];
@@ -129,20 +130,20 @@ CLX_INLINE int meet_facets(const clast_dem *dem, clx_batch *p, int from, bool ed
     return lanes_bits(good);
 }
 
-// The law goes in three stages, each for both halves of a batch before the next: a stage waits for
-// its roots and divisions, and meanwhile the other half goes on.
+// The law is computed in three stages, each for both halves of a batch before the next: while one
+// half waits for its roots and divisions, the other goes on.
 
-/// Contacts side by side and what the law has worked out for them so far.
+/// Contacts in lanes, and the law's intermediate results.
 typedef struct {
-    clx_lanes wake, slide[3]; ///< of the links
-    clx_lanes velocity[3];    ///< of b's surface relative to a's at the contact point
+    clx_lanes active_from, slide[3]; ///< of the pairs
+    clx_lanes velocity[3];           ///< of b's surface relative to a's at the contact point
     clx_lanes mass, friction, twirl;
-    clx_lanes push, limit, tangential[3];
+    clx_lanes normal_force, limit, tangential[3];
     clx_lanes drag[3];               ///< what damping takes off the tangential force
     clx_lanes inverse;               ///< of the tangential stiffness, negative
-    clx_lanes load[2];               ///< exact steps: what the contact adds to a and b
-    clx_lanes spring[2], damping[2]; ///< exact steps: shares that are taken, normal and tangential
-} meetings;
+    clx_lanes load[2];               ///< exact steps: the contact's stability load on a and b
+    clx_lanes spring[2], damping[2]; ///< exact steps: reductions, normal and tangential
+} contact_lanes;
 
 /// From a to b.
 CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
@@ -153,16 +154,16 @@ CLX_INLINE void load_normal(const clx_batch *p, int from, clx_lanes normal[3])
     }
 }
 
-/// Velocities, reduced mass and friction; the links' displacements.
+/// Velocities, reduced mass and friction; the pairs' displacements.
 CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
-                         meetings *m)
+                         contact_lanes *m)
 {
-    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb with masses
+    clx_lanes va[4], vb[4], wa[4], wb[4], u[3], w[3]; // va, vb: fourth component is the mass
     clx_lanes normal[3], arm[3], slide[4];
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
-    collect(p->a + from, offsetof(clx_grain, spin), wa);
-    collect(p->b + from, offsetof(clx_grain, spin), wb);
+    collect(p->a + from, offsetof(clx_grain, omega), wa);
+    collect(p->b + from, offsetof(clx_grain, omega), wb);
     load3(p->meet.point[0] + from, arm);
     lanes_cross(u, wa, arm);
     load3(p->arm_b[0] + from, arm);
@@ -177,16 +178,17 @@ CLX_INLINE void approach(const clast_dem *dem, const clx_batch *p, int from, boo
     if (has_walls) {
         clx_lanes is_wall;
         for (int k = 0; k < CLX_LANES; ++k) {
-            is_wall[k] = p->link[from + k]->b < 0 ? 1.0 : 0.0;
+            is_wall[k] = p->pair[from + k]->b < 0 ? 1.0 : 0.0;
         }
         m->mass = lanes_pick(is_wall > 0.0, va[3], m->mass);
         m->friction = lanes_pick(is_wall > 0.0, lanes_all(dem->law.friction[1]), m->friction);
     }
     for (int k = 0; k < 4; ++k) {
-        slide[k] = lanes_row(&p->link[from + k]->wake, &p->link[from + k + CLX_BEYOND]->wake);
+        slide[k] = lanes_row(&p->pair[from + k]->active_from,
+                             &p->pair[from + k + CLX_BEYOND]->active_from);
     }
     lanes_transpose(slide);
-    m->wake = slide[0];
+    m->active_from = slide[0];
     for (int c = 0; c < 3; ++c) {
         m->slide[c] = slide[c + 1];
     }
@@ -225,10 +227,11 @@ CLX_INLINE void limit(const clx_law *law, clx_lanes held, clx_lanes *spring, clx
 
 /// clx_hold_pair and clx_law_hold
 CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool has_walls,
-                     meetings *m)
+                     contact_lanes *m)
 {
     const clx_law *law = &dem->law;
-    clx_lanes va[4], vb[4], ra[4], rb[4], of_a[2], of_b[2], normal[3]; // with masses, with radii
+    clx_lanes va[4], vb[4], ra[4], rb[4], of_a[2], of_b[2],
+        normal[3]; // v: with masses; r: with radii
     collect(p->a + from, offsetof(clx_grain, velocity), va);
     collect(p->b + from, offsetof(clx_grain, velocity), vb);
     collect(p->a + from, offsetof(clx_grain, turn) + 8 * sizeof(double), ra);
@@ -254,8 +257,8 @@ CLX_INLINE void hold(const clast_dem *dem, const clx_batch *p, int from, bool ha
     limit(law, held, &m->spring[1], &m->damping[1]);
 }
 
-/// clx_law_turn
-CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
+/// clx_law_rotate
+CLX_INLINE void rotate_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes slide[3])
 {
     clx_lanes across[3], turned[3];
     const clx_lanes old = lanes_dot(slide, slide);
@@ -269,9 +272,9 @@ CLX_INLINE void turn_slide(const clx_lanes normal[3], clx_lanes angle, clx_lanes
     }
 }
 
-/// clx_law_force, but for slip.
-CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
-                      meetings *m)
+/// clx_law_force up to Coulomb's limit.
+CLX_INLINE void law_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                           contact_lanes *m)
 {
     clx_lanes along[3], normal[3], slide[3];
     const clx_law *law = &dem->law;
@@ -291,17 +294,17 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     load_normal(p, from, normal);
     const clx_lanes apart = lanes_dot(m->velocity, normal);
     lanes_axpy(along, m->velocity, -apart, normal);
-    clx_lanes push = elastic - normal_damping * apart;
+    clx_lanes force = elastic - normal_damping * apart;
     if (law->clip) {
-        push = lanes_pick(push < 0.0, lanes_all(0.0), push);
+        force = lanes_pick(force < 0.0, lanes_all(0.0), force);
     }
-    m->push = push;
-    m->limit = m->friction * lanes_size(push);
+    m->normal_force = force;
+    m->limit = m->friction * lanes_size(force);
     m->inverse = -1.0 / kt;
     for (int c = 0; c < 3; ++c) {
         slide[c] = m->slide[c];
     }
-    turn_slide(normal, m->twirl * dt, slide);
+    rotate_slide(normal, m->twirl * dt, slide);
     lanes_axpy(slide, slide, lanes_all(dt), along);
     for (int c = 0; c < 3; ++c) {
         m->slide[c] = slide[c];
@@ -310,8 +313,8 @@ CLX_INLINE void press(const clast_dem *dem, const clx_batch *p, int from, bool i
     }
 }
 
-/// The slip of clx_law_force.
-CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide[3])
+/// Coulomb's limit of clx_law_force.
+CLX_INLINE void slip(const contact_lanes *m, clx_lanes tangential[3], clx_lanes slide[3])
 {
     const clx_lanes size2 = lanes_dot(m->tangential, m->tangential);
     const clx_marks slips = size2 > m->limit * m->limit;
@@ -323,24 +326,24 @@ CLX_INLINE void slip(const meetings *m, clx_lanes tangential[3], clx_lanes slide
     }
 }
 
-/// Forces, torques and the links' wakes and displacements. Lanes that repeat another write the same
-/// bytes to the same place.
-CLX_INLINE void write(clx_pushed *const to[CLX_LANES], clx_link *const link[CLX_LANES],
+/// Forces, torques, and what is renewed of the pairs (active_from, slide). Lanes that repeat
+/// another write the same bytes to the same place.
+CLX_INLINE void write(clx_pair_force *const to[CLX_LANES], clx_dem_pair *const pair[CLX_LANES],
                       clx_marks touching, clx_lanes out[4][4])
 {
     for (int i = 0; i < 4; ++i) {
         lanes_transpose(out[i]);
     }
     for (int k = 0; k < 4; ++k) {
-        clx_pushed *p = to[k];
-        clx_pushed *beyond = to[k + CLX_BEYOND];
-        lanes_put_row(&link[k]->wake, &link[k + CLX_BEYOND]->wake, out[3][k]);
+        clx_pair_force *p = to[k];
+        clx_pair_force *beyond = to[k + CLX_BEYOND];
+        lanes_put_row(&pair[k]->active_from, &pair[k + CLX_BEYOND]->active_from, out[3][k]);
         lanes_put_row(p->force, beyond->force, out[0][k]);
         lanes_put_row(p->torque_b, beyond->torque_b, out[1][k]);
         lanes_put_row(p->torque_a, beyond->torque_a, out[2][k]);
     }
     for (int k = 0; k < CLX_LANES; ++k) {
-        link[k]->touches = (uint32_t)touching[k] & 1U;
+        pair[k]->touches = (uint32_t)touching[k] & 1U;
     }
 }
 
@@ -349,20 +352,20 @@ CLX_INLINE clx_lanes where(clx_marks m, clx_lanes x)
     return (clx_lanes)(m & (clx_marks)x);
 }
 
-/// Slip, and what comes of it all; nothing where contacts are apart.
-CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
-                         const meetings *m)
+/// Coulomb's limit, then the pair forces; 0 where contacts are apart.
+CLX_INLINE void write_forces(const clast_dem *dem, const clx_batch *p, int from, bool is_exact,
+                             const contact_lanes *m)
 {
-    clx_lanes out[4][4]; // force, torque on b and on a, the link's wake and slide
+    clx_lanes out[4][4]; // force, torque on b and on a, the pair's active_from and slide
     clx_lanes normal[3], tangential[3], slide[3], turning[3], arm[3];
     clx_lanes *force = out[0];
     const clx_lanes gap = lanes_load(p->meet.gap + from);
     const clx_marks touching = ~(gap >= 0.0);
     slip(m, tangential, slide);
     load_normal(p, from, normal);
-    out[3][0] = lanes_pick(touching, m->wake, lanes_load(p->travel + from) + gap);
+    out[3][0] = lanes_pick(touching, m->active_from, lanes_load(p->travel + from) + gap);
     for (int c = 0; c < 3; ++c) {
-        force[c] = where(touching, tangential[c] + m->push * normal[c]);
+        force[c] = where(touching, tangential[c] + m->normal_force * normal[c]);
         out[3][c + 1] = where(touching, slide[c]);
         turning[c] = dem->config.normal_torque ? force[c] : where(touching, tangential[c]);
     }
@@ -375,12 +378,13 @@ CLX_INLINE void deal_out(const clast_dem *dem, const clx_batch *p, int from, boo
         out[1][3] = where(touching, m->load[1]);
         out[2][3] = where(touching, -m->load[0]);
     }
-    write(p->to + from, p->link + from, touching, out);
+    write(p->to + from, p->pair + from, touching, out);
 }
 
-CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls, bool is_exact)
+CLX_INLINE void force_of_lanes(const clast_dem *dem, const clx_batch *p, bool has_walls,
+                               bool is_exact)
 {
-    meetings m[CLX_BATCH / CLX_LANES];
+    contact_lanes m[CLX_BATCH / CLX_LANES];
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
         approach(dem, p, h * CLX_LANES, has_walls, &m[h]);
         if (is_exact) {
@@ -388,21 +392,21 @@ CLX_INLINE void push_lanes(const clast_dem *dem, const clx_batch *p, bool has_wa
         }
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        press(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        law_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
     }
     for (int h = 0; h * CLX_LANES < p->n; ++h) {
-        deal_out(dem, p, h * CLX_LANES, is_exact, &m[h]);
+        write_forces(dem, p, h * CLX_LANES, is_exact, &m[h]);
     }
 }
 
-/// The kinds of push_lanes, each compiled for itself.
-CLX_INLINE void push_kind(const clast_dem *dem, const clx_batch *p, bool has_walls)
+/// force_of_lanes, compiled apart for each case.
+CLX_INLINE void batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
     if (dem->law.is_exact) {
-        push_lanes(dem, p, true, true);
+        force_of_lanes(dem, p, true, true);
     } else if (has_walls) {
-        push_lanes(dem, p, true, false);
+        force_of_lanes(dem, p, true, false);
     } else {
-        push_lanes(dem, p, false, false);
+        force_of_lanes(dem, p, false, false);
     }
 }

@@ -76,7 +76,7 @@ done:
     return status;
 }
 
-static clast_status take_part(const clast_shape *shape, const clast_part *from, clx_dem_part *part)
+static clast_status read_part(const clast_shape *shape, const clast_part *from, clx_dem_part *part)
 {
     clast_status status = CLAST_OK;
     clast_mesh own = {0};
@@ -103,7 +103,7 @@ done:
     return status;
 }
 
-static clast_status take_parts(const clast_dem *dem, clx_dem_body *made)
+static clast_status read_parts(const clast_dem *dem, clx_dem_body *made)
 {
     clast_status status = CLAST_OK;
     const clast_parts *parts = &made->shape.parts;
@@ -112,7 +112,7 @@ static clast_status take_parts(const clast_dem *dem, clx_dem_body *made)
               made->shape.name);
     CLX_TRY(clx_alloc(&made->part, parts->n, sizeof *made->part));
     for (; made->n_part < parts->n; ++made->n_part) {
-        CLX_TRY(take_part(&made->shape, &parts->part[made->n_part], &made->part[made->n_part]));
+        CLX_TRY(read_part(&made->shape, &parts->part[made->n_part], &made->part[made->n_part]));
     }
 done:
     return status;
@@ -134,13 +134,13 @@ clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32
     CLX_CHECK(is_rigid || !shape->own.is_mixed, CLAST_E_USAGE,
               "shape %s has parts of several densities, and no parts", shape->name);
     CLX_TRY(clast_shape_copy(shape, &made.shape));
-    made.reach = shape->bounding_radius + v3_norm(shape->own.centre);
+    made.bounding_radius = shape->bounding_radius + v3_norm(shape->own.centre);
     memcpy(made.inertia, shape->own.is_mixed ? shape->own.inertia : shape->inertia,
            sizeof made.inertia);
     CLX_CHECK(invert(made.inertia, made.inverse_inertia), CLAST_E_GEOMETRY,
               "shape %s has no moments of inertia", shape->name);
     if (is_rigid) {
-        CLX_TRY(take_parts(dem, &made));
+        CLX_TRY(read_parts(dem, &made));
     } else if (shape->kind == CLAST_SHAPE_MESH) {
         CLX_TRY(check_convex(shape->name, &shape->mesh));
         CLX_TRY(clx_hull_core_create(&made.shape.mesh, &made.core));
@@ -165,7 +165,7 @@ void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measur
     if (dem == NULL || measures == NULL) {
         return;
     }
-    measures[0] = dem->body[shape].reach;
+    measures[0] = dem->body[shape].bounding_radius;
     measures[1] = dem->body[shape].shape.volume;
 }
 
@@ -204,7 +204,7 @@ static clx_convex convex_of(const clast_dem *dem, int32_t i)
     return clx_convex_ellipsoid(axes);
 }
 
-/// From now on items have convex shapes and links have memories.
+/// From now on items have convex shapes and pairs have warm starts.
 clast_status clx_items_begin_convex(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -225,7 +225,7 @@ clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain 
         need += dem->has_items ? n_item_of(dem, grain[i].shape) : 1;
     }
     CLX_CHECK(need <= INT32_MAX, CLAST_E_LIMIT, "%lld spheres of clumps", (long long)need);
-    CLX_TRY(clx_list_reserve(&dem->list, need));
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, need));
     if (!dem->all_round) {
         CLX_TRY(clx_realloc(&dem->convex, dem->list.item_capacity + 1, sizeof *dem->convex));
     }

@@ -1,8 +1,8 @@
-// Who sweeps over which grains.
+// How the grains of a sweep are divided among threads.
 //
-// Each thread begins with one run of grains, since what lies on a border of two costs more, as long
-// as its pace in the last steps asks for. One that is done takes half of what is left of another:
-// threads are never equally fast. Nothing that is computed depends on where the borders are.
+// Each thread begins with one contiguous chunk, since grains at a border of two cost more; its
+// length follows the thread's speed in the last steps. A thread that is done steals half of what is
+// left of another's chunk: threads are never equally fast. No result depends on the borders.
 #include "dem/chunk.h"
 
 #include "base/lines.h"
@@ -10,14 +10,14 @@
 
 enum { BLOCK = CLX_SWEEP_BLOCK };
 
-/// Chunks a thread, those that it took of others among them.
+/// Chunks a thread, stolen ones among them.
 enum { MOST = 8 };
 
-/// Grains that must be left of a chunk for half of them to be taken: with fewer, what the new
-/// border costs is more than what the wait does.
+/// Grains that must be left of a chunk for half of them to be stolen: with fewer, the new border
+/// costs more than the wait.
 enum { LEAST = 6 * BLOCK };
 
-/// Part of what is left of a chunk that its thread takes at once.
+/// One part in so many of what is left of a chunk is what its thread claims at once.
 enum { SHARE = 16 };
 
 /// Weight of the last step in a thread's pace.
@@ -29,11 +29,11 @@ void clx_sweeping_free(clx_sweeping *s)
     clx_free(s->pace);
     clx_free(s->before);
     clx_free(s->lowest);
-    clx_free(s->late);
-    clx_free(s->push);
-    clx_free(s->awake);
-    clx_free(s->kept);
-    clx_free(s->kept_on);
+    clx_free(s->deferred);
+    clx_free(s->force);
+    clx_free(s->active);
+    clx_free(s->contribution);
+    clx_free(s->contribution_to);
     *s = (clx_sweeping){0};
 }
 
@@ -52,7 +52,7 @@ static inline int64_t end_of(uint64_t left)
     return (int64_t)(left >> 32);
 }
 
-/// Notes that grain a has a link to b.
+/// Notes that grains a and b have a pair.
 static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 {
     _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
@@ -62,44 +62,46 @@ static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
     }
 }
 
-/// Work of blocks of grains, and the lowest neighbours of all. Moving a grain costs about as much
-/// as five links that sleep, and one that touches as twelve (profile of P1).
+/// Work of blocks of grains, and the lowest neighbour of each group of four. Moving a grain costs
+/// about as much as five skipped pairs, a touching pair as twelve (profile of P1).
 static void weigh(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     enum { MOVE = 5, TOUCH = 12 };
     clast_dem *dem = context;
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     clx_sweeping *s = &dem->sweeping;
     (void)worker;
     for (int64_t block = begin; block < end; ++block) {
         const int64_t first = block * BLOCK;
         const int64_t last = first + BLOCK < dem->n_grain ? first + BLOCK : dem->n_grain;
-        int64_t work = MOVE * (last - first) + near->begin[last] - near->begin[first];
-        for (int32_t k = near->begin[first]; k < near->begin[last]; ++k) {
-            const clx_link *link = clx_near_link(dem, k);
-            work += TOUCH * (int64_t)link->touches;
-            if (link->b >= 0) {
-                note_low(s, link->a, link->b);
+        int64_t work = MOVE * (last - first) + inner->begin[last] - inner->begin[first];
+        for (int32_t k = inner->begin[first]; k < inner->begin[last]; ++k) {
+            const clx_dem_pair *pair = clx_inner_pair(dem, k);
+            work += TOUCH * (int64_t)pair->touches;
+            if (pair->b >= 0) {
+                note_low(s, pair->a, pair->b);
             }
         }
         s->before[block + 1] = work;
     }
 }
 
-/// Room for all that the threads do to late grains. Only what is touched takes memory, so nothing
-/// is copied when it grows.
-static clast_status reserve_kept(clx_sweeping *s, int64_t n)
+/// Capacity for all contributions to deferred grains. Pages that are never written take no memory,
+/// so nothing is copied when it grows.
+static clast_status reserve_contributions(clx_sweeping *s, int64_t n)
 {
     clast_status status = CLAST_OK;
-    if (s->kept_capacity[0] < n || s->kept_capacity[1] < n) {
-        clx_free(s->kept);
-        clx_free(s->kept_on);
-        s->kept = NULL;
-        s->kept_on = NULL;
-        s->kept_capacity[0] = 0;
-        s->kept_capacity[1] = 0;
-        CLX_TRY(clx_grow_lines(&s->kept, &s->kept_capacity[0], n + n / 4, sizeof *s->kept));
-        CLX_TRY(clx_grow_lines(&s->kept_on, &s->kept_capacity[1], n + n / 4, sizeof *s->kept_on));
+    if (s->contribution_capacity[0] < n || s->contribution_capacity[1] < n) {
+        clx_free(s->contribution);
+        clx_free(s->contribution_to);
+        s->contribution = NULL;
+        s->contribution_to = NULL;
+        s->contribution_capacity[0] = 0;
+        s->contribution_capacity[1] = 0;
+        CLX_TRY(clx_grow_lines(&s->contribution, &s->contribution_capacity[0], n + n / 4,
+                               sizeof *s->contribution));
+        CLX_TRY(clx_grow_lines(&s->contribution_to, &s->contribution_capacity[1], n + n / 4,
+                               sizeof *s->contribution_to));
     }
 done:
     return status;
@@ -125,13 +127,13 @@ static void weigh_all(clast_dem *dem)
     }
 }
 
-static int32_t most_links(const clast_dem *dem)
+static int32_t most_pairs(const clast_dem *dem)
 {
     int32_t most = 0;
     for (int32_t i = 0; i < dem->n_grain; i += BLOCK) {
         const int32_t end = i + BLOCK < dem->n_grain ? i + BLOCK : dem->n_grain;
-        const int32_t links = dem->near.begin[end] - dem->near.begin[i];
-        most = links > most ? links : most;
+        const int32_t pairs = dem->inner.begin[end] - dem->inner.begin[i];
+        most = pairs > most ? pairs : most;
     }
     return most;
 }
@@ -142,22 +144,22 @@ clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
     clx_sweeping *s = &dem->sweeping;
     const int64_t n_four = dem->n_grain / CLX_LANES + 1;
     s->n_worker = 0;
-    s->most = most_links(dem);
+    s->most = most_pairs(dem);
     CLX_TRY(
         clx_grow_lines(&s->chunk, &s->chunk_capacity, (int64_t)MOST * n_worker, sizeof *s->chunk));
     if (s->pace_capacity < n_worker) {
         CLX_TRY(clx_grow_lines(&s->pace, &s->pace_capacity, n_worker, sizeof *s->pace));
         memset(s->pace, 0, (size_t)s->pace_capacity * sizeof *s->pace);
     }
-    CLX_TRY(
-        clx_grow_lines(&s->push, &s->push_capacity, (int64_t)n_worker * s->most, sizeof *s->push));
-    CLX_TRY(clx_grow_lines(&s->awake, &s->awake_capacity, (int64_t)n_worker * s->most,
-                           sizeof *s->awake));
+    CLX_TRY(clx_grow_lines(&s->force, &s->force_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->force));
+    CLX_TRY(clx_grow_lines(&s->active, &s->active_capacity, (int64_t)n_worker * s->most,
+                           sizeof *s->active));
     if (n_worker > 1) {
         CLX_TRY(clx_grow(&s->before, &s->before_capacity, blocks_of(dem) + 1, sizeof *s->before));
         CLX_TRY(clx_grow(&s->lowest, &s->lowest_capacity, n_four, sizeof *s->lowest));
-        CLX_TRY(clx_grow(&s->late, &s->late_capacity, n_four, sizeof *s->late));
-        CLX_TRY(reserve_kept(s, (int64_t)dem->near.n + dem->n_grain));
+        CLX_TRY(clx_grow(&s->deferred, &s->deferred_capacity, n_four, sizeof *s->deferred));
+        CLX_TRY(reserve_contributions(s, (int64_t)dem->inner.n + dem->n_grain));
         weigh_all(dem);
     }
     s->n_worker = n_worker;
@@ -185,8 +187,8 @@ static int64_t grain_at(const clast_dem *dem, double work)
 static void set_chunk(clx_chunk *chunk, int64_t begin, int64_t end)
 {
     chunk->begin = (int32_t)begin;
-    chunk->n_late = 0;
-    chunk->n_kept = 0;
+    chunk->n_deferred = 0;
+    chunk->n_contribution = 0;
     chunk->highest = -1;
     chunk->flag = 0;
     atomic_store_explicit(&chunk->left, packed(begin, end), memory_order_release);
@@ -212,7 +214,7 @@ void clx_chunks_begin(clast_dem *dem)
                              : grain_at(dem, share * (double)s->before[blocks_of(dem)]);
         }
         set_chunk(&s->chunk[c], begin, end);
-        atomic_store_explicit(&s->chunk[c].is_taken, c >= n, memory_order_relaxed);
+        atomic_store_explicit(&s->chunk[c].is_claimed, c >= n, memory_order_relaxed);
         begin = end;
     }
     atomic_store(&s->n_chunk, n);
@@ -234,14 +236,14 @@ bool clx_chunk_next(clx_chunk *chunk, int64_t *begin, int64_t *end)
     return true;
 }
 
-/// Chunks in use; those who found no room for one more have counted on.
+/// Chunks in use; threads that found no free one have counted on.
 static int32_t chunks_of(const clx_sweeping *s)
 {
     const int32_t n = atomic_load(&s->n_chunk);
     return n < MOST * s->n_worker ? n : MOST * s->n_worker;
 }
 
-/// The chunk with most left, and how that was; NULL: none has enough.
+/// The chunk with most grains left, and its `left` then; NULL: none has enough.
 static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
 {
     clx_chunk *best = NULL;
@@ -257,8 +259,8 @@ static clx_chunk *richest(const clx_sweeping *s, int32_t n, uint64_t *how)
     return best;
 }
 
-/// The second half of what is left of some chunk.
-static clx_chunk *take_half(clx_sweeping *s)
+/// Steals the second half of what is left of some chunk.
+static clx_chunk *steal_half(clx_sweeping *s)
 {
     uint64_t left = 0;
     if (richest(s, chunks_of(s), &left) == NULL) {
@@ -278,15 +280,15 @@ static clx_chunk *take_half(clx_sweeping *s)
     return NULL;
 }
 
-clx_chunk *clx_chunk_take(clx_sweeping *s, int32_t worker)
+clx_chunk *clx_chunk_claim(clx_sweeping *s, int32_t worker)
 {
     for (int32_t k = 0; k < s->n_worker; ++k) {
         clx_chunk *chunk = &s->chunk[(worker + k) % s->n_worker];
-        if (!atomic_exchange(&chunk->is_taken, true)) {
+        if (!atomic_exchange(&chunk->is_claimed, true)) {
             return chunk;
         }
     }
-    return take_half(s);
+    return steal_half(s);
 }
 
 void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double seconds)
@@ -295,7 +297,7 @@ void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double second
     s->pace[worker].seconds += seconds;
 }
 
-static void learn(clx_pace *pace)
+static void update_speed(clx_pace *pace)
 {
     if (pace->work > 0 && pace->seconds > 0.0) {
         const double speed = (double)pace->work / pace->seconds;
@@ -305,7 +307,7 @@ static void learn(clx_pace *pace)
     pace->seconds = 0.0;
 }
 
-/// By their first grains; few, and nearly in order.
+/// Insertion sort by first grain: there are few, nearly in order.
 static void sort(clx_chunk *chunk, int32_t n)
 {
     for (int32_t k = 1; k < n; ++k) {
@@ -323,16 +325,16 @@ void clx_chunks_end(clast_dem *dem)
     const int32_t n = chunks_of(s);
     atomic_store(&s->n_chunk, n);
     sort(s->chunk, n);
-    s->n_late = 0;
+    s->n_deferred = 0;
     for (int32_t c = 0; c < n; ++c) {
         const clx_chunk *chunk = &s->chunk[c];
-        if (chunk->n_late > 0) {
-            memmove(s->late + s->n_late, s->late + chunk->begin / CLX_LANES,
-                    (size_t)chunk->n_late * sizeof *s->late);
-            s->n_late += chunk->n_late;
+        if (chunk->n_deferred > 0) {
+            memmove(s->deferred + s->n_deferred, s->deferred + chunk->begin / CLX_LANES,
+                    (size_t)chunk->n_deferred * sizeof *s->deferred);
+            s->n_deferred += chunk->n_deferred;
         }
     }
     for (int32_t w = 0; w < s->n_worker; ++w) {
-        learn(&s->pace[w]);
+        update_speed(&s->pace[w]);
     }
 }

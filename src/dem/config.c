@@ -100,8 +100,11 @@ clast_status clx_dem_check(const clast_dem_config *config)
     CLX_CHECK(config->height > 0.0, CLAST_E_CONFIG, "height %g m", config->height);
     CLX_CHECK(config->rolling_friction > 0.0 || config->rolling_model == CLAST_DEM_ROLL_TORQUE,
               CLAST_E_CONFIG, "rolling_model spring acts with rolling_friction above 0 alone");
-    CLX_CHECK(config->law == CLAST_DEM_LINEAR || config->contact_scheme == CLAST_DEM_EXPLICIT,
-              CLAST_E_CONFIG, "contact_scheme exact is for law linear: Hertz's has no exact step");
+    CLX_CHECK(
+        config->law == CLAST_DEM_LINEAR || config->contact_scheme == CLAST_DEM_EXPLICIT,
+        CLAST_E_CONFIG,
+        "contact_scheme exact is for law linear: Hertz's spring stiffens within a step, which "
+        "constants of a step do not follow; take contact_scheme explicit with law hertz");
     CLX_TRY(check_cohesion(config));
     CLX_TRY(check_fluid(config));
 done:

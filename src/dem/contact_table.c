@@ -1,7 +1,7 @@
 // Forces of contacts as a table.
 #include "base/alloc.h"
 #include "dem/dem.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 
 static const struct {
     const char *name, *unit;
@@ -11,29 +11,29 @@ static const struct {
                {"normal_x", "-"},   {"normal_y", "-"},  {"normal_z", "-"}};
 enum { N_COLUMN = sizeof columns / sizeof columns[0] };
 
-/// One contact: its numbers, from a copy, so that nothing goes on; false if it is none.
-static bool measure(const clast_dem *dem, const clx_link *link, double out[N_COLUMN])
+/// Numbers of one contact, from copies, so that its history stays; false if it is none.
+static bool measure(const clast_dem *dem, const clx_dem_pair *pair, double out[N_COLUMN])
 {
-    clx_link copy = *link;
-    const clx_extra *kept = clx_link_extra(dem, link);
-    clx_extra extra = kept != NULL ? *kept : (clx_extra){0};
+    clx_dem_pair copy = *pair;
+    const clx_contact_history *own = clx_pair_history(dem, pair);
+    clx_contact_history history = own != NULL ? *own : (clx_contact_history){0};
     clx_dem_touch t;
-    clx_load on_a = {0};
-    clx_load on_b = {0};
-    const int32_t a = clx_item_grain(dem, link->a);
-    if (!clx_link_holds(dem, link, &t)) {
+    clx_force_torque on_a = {0};
+    clx_force_torque on_b = {0};
+    const int32_t a = clx_item_grain(dem, pair->a);
+    if (!clx_pair_holds(dem, pair, &t)) {
         return false;
     }
-    clx_push_pair(dem, &copy, &extra, &t, &on_a, &on_b);
+    clx_add_pair_force(dem, &copy, &history, &t, &on_a, &on_b);
     if (dem->config.clump_contacts == CLAST_DEM_SHARED) {
-        v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, link), on_a.force);
+        v3_scale(on_a.force, 1.0 / clx_sub_contacts(dem, pair), on_a.force);
     }
     out[0] = a;
-    out[1] = link->b >= 0 ? clx_item_grain(dem, link->b) : -1;
+    out[1] = pair->b >= 0 ? clx_item_grain(dem, pair->b) : -1;
     out[2] = dem->grain[a].position[2];
     for (int k = 0; k < 3; ++k) {
         out[3 + k] = dem->grain[a].position[k] + t.arm_a[k];
-        out[6 + k] = link->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
+        out[6 + k] = pair->b >= 0 ? t.arm_a[k] - t.arm_b[k] : t.arm_a[k];
         out[9 + k] = -on_a.force[k];
         out[12 + k] = t.normal[k];
     }
@@ -46,17 +46,17 @@ clast_status clast_dem_contact_table(const clast_dem *dem, clast_table *table)
     clast_status status = CLAST_OK;
     clast_table made = {0};
     int64_t n = 0;
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        n += dem->list.link[k].touches != 0 ? 1 : 0;
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        n += dem->list.pair[k].touches != 0 ? 1 : 0;
     }
     CLX_TRY(clast_table_init(&made, "contacts", n));
     for (int c = 0; c < N_COLUMN; ++c) {
         CLX_TRY(clast_table_add_number(&made, columns[c].name, columns[c].unit, NULL));
     }
     int64_t row = 0;
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
         double value[N_COLUMN];
-        if (measure(dem, &dem->list.link[k], value)) {
+        if (measure(dem, &dem->list.pair[k], value)) {
             for (int c = 0; c < N_COLUMN; ++c) {
                 made.column[c].number[row] = value[c];
             }

@@ -1,9 +1,9 @@
-// What all contacts do, once a step.
+// Pair forces of all contacts, once a step.
 //
-// Awake pairs are sorted by how they are answered, without a branch that a processor could guess
-// wrongly, and go on four at a time (batch.h); what lanes cannot answer goes one by one. A contact
-// writes its own slots only, so blocks run in any order. Loads are summed afterwards, in motion.c
-// or sweep.c.
+// Active pairs are sorted by kind of contact search, without a branch that could be mispredicted,
+// and go on four or eight at a time in SIMD lanes (batch.h); what lanes cannot answer goes through
+// scalar code. A pair writes its own slots only, so blocks run in any order. Pair forces are summed
+// afterwards, in motion.c or sweep.c.
 #include "dem/batch.h"
 
 #include "base/parallel.h"
@@ -14,30 +14,30 @@
 
 enum { BLOCK = 256 };
 
-/// How a pair of whole grains is answered.
-static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_link *link)
+/// Kind of contact search of a pair of whole grains.
+static inline clx_batch_kind kind_of(const clx_grain *grain, const clx_dem_pair *pair)
 {
     static const uint8_t remembered[] = {CLX_BATCH_ANY, CLX_BATCH_FACES, CLX_BATCH_FACES,
                                          CLX_BATCH_EDGES};
-    if (link->slot == 0) {
-        return CLX_BATCH_SPHERES; // else clx_near_find had given it a memory
+    if (pair->slot == 0) {
+        return CLX_BATCH_SPHERES; // else clx_inner_find had assigned it a warm start
     }
-    if (link->kind == CLX_FACET_NONE && grain[link->a].kind == CLAST_SHAPE_ELLIPSOID &&
-        grain[link->b].kind == CLAST_SHAPE_ELLIPSOID) {
+    if (pair->kind == CLX_FACET_NONE && grain[pair->a].kind == CLAST_SHAPE_ELLIPSOID &&
+        grain[pair->b].kind == CLAST_SHAPE_ELLIPSOID) {
         return CLX_BATCH_ELLIPSOIDS;
     }
-    return (clx_batch_kind)remembered[link->kind];
+    return (clx_batch_kind)remembered[pair->kind];
 }
 
-/// Lane k alone, by the plain way.
+/// Contact of lane k by scalar code.
 static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
-    clx_link *link = p->link[k];
-    clx_contact_memory *memory = clx_near_memory(dem, link);
-    clx_dem_touch_find(dem, link, memory, &t);
-    if (memory != NULL) {
-        link->kind = memory->kind & 3U;
+    clx_dem_pair *pair = p->pair[k];
+    clx_contact_memory *warm_start = clx_inner_warm_start(dem, pair);
+    clx_dem_touch_find(dem, pair, warm_start, &t);
+    if (warm_start != NULL) {
+        pair->kind = warm_start->kind & 3U;
     }
     p->meet.gap[k] = t.distance;
     for (int c = 0; c < 3; ++c) {
@@ -47,29 +47,30 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
     }
 }
 
-/// Remembered common normals; returns which lanes are answered.
-static int ask_normals(const clast_dem *dem, clx_batch *p)
+/// Contacts of ellipsoids from the common normals of the last step; returns which lanes are
+/// answered.
+static int reuse_normals(const clast_dem *dem, clx_batch *p)
 {
     int answered = 0;
     const clx_convex *a[CLX_BATCH];
     const clx_convex *b[CLX_BATCH];
     for (int k = 0; k < CLX_BATCH; ++k) {
-        a[k] = &dem->convex[p->link[k]->a];
-        b[k] = &dem->convex[p->link[k]->b];
+        a[k] = &dem->convex[p->pair[k]->a];
+        b[k] = &dem->convex[p->pair[k]->b];
     }
     for (int from = 0; from < p->n; from += CLX_LANES) {
         answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
     }
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *memory = clx_near_memory(dem, p->link[k]);
+        clx_contact_memory *warm_start = clx_inner_warm_start(dem, p->pair[k]);
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
-            memory->seen[0][c] = (float)p->meet.normal[c][k];
+            warm_start->seen[0][c] = (float)p->meet.normal[c][k];
         }
     }
     return answered;
 }
 
-/// Lanes that lanes could not answer, one by one.
+/// Contacts of the lanes that were not answered, by scalar code.
 static void find_rest(clast_dem *dem, clx_batch *p, int answered)
 {
     const int last = p->n - 1;
@@ -88,7 +89,7 @@ static void find_rest(clast_dem *dem, clx_batch *p, int answered)
     }
 }
 
-/// Where the pairs of a batch meet.
+/// Contacts of a batch.
 static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
     int answered = 0;
@@ -104,7 +105,7 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
         return;
     case CLX_BATCH_ELLIPSOIDS:
         clx_batch_offsets(dem, p);
-        answered = ask_normals(dem, p);
+        answered = reuse_normals(dem, p);
         clx_batch_arms(p);
         break;
     default:
@@ -116,27 +117,27 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
     }
 }
 
-static void part(const clast_dem *dem, const clx_batch *p, int k)
+static void end_contact(const clast_dem *dem, const clx_batch *p, int k)
 {
-    clx_link *link = p->link[k];
-    clx_extra *extra = clx_link_extra(dem, link);
-    if (extra != NULL) {
-        *extra = (clx_extra){0};
+    clx_dem_pair *pair = p->pair[k];
+    clx_contact_history *history = clx_pair_history(dem, pair);
+    if (history != NULL) {
+        *history = (clx_contact_history){0};
     }
-    link->wake = p->travel[k] + p->meet.gap[k];
-    link->touches = 0;
-    v3_set(link->slide, 0.0, 0.0, 0.0);
-    *p->to[k] = (clx_pushed){0};
+    pair->active_from = p->travel[k] + p->meet.gap[k];
+    pair->touches = 0;
+    v3_set(pair->slide, 0.0, 0.0, 0.0);
+    *p->to[k] = (clx_pair_force){0};
 }
 
-/// What a pair that touches does, by the plain way.
-static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch *t,
-                       clx_pushed *out)
+/// Force of a pair that touches, by scalar code.
+static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
+                          clx_pair_force *out)
 {
-    clx_load on_a = {0};
-    clx_load on_b = {0};
-    clx_push_pair(dem, link, clx_link_extra(dem, link), t, &on_a, &on_b);
-    *out = (clx_pushed){0};
+    clx_force_torque on_a = {0};
+    clx_force_torque on_b = {0};
+    clx_add_pair_force(dem, pair, clx_pair_history(dem, pair), t, &on_a, &on_b);
+    *out = (clx_pair_force){0};
     v3_copy(out->force, on_b.force);
     v3_copy(out->torque_b, on_b.torque);
     v3_scale(out->torque_a, -1.0, on_a.torque);
@@ -144,7 +145,7 @@ static void push_alone(const clast_dem *dem, clx_link *link, const clx_dem_touch
     out->torque_a[3] = -on_a.torque[3];
 }
 
-static void push_one(const clast_dem *dem, const clx_batch *p, int k)
+static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
 {
     clx_dem_touch t = {.distance = p->meet.gap[k]};
     for (int c = 0; c < 3; ++c) {
@@ -152,47 +153,47 @@ static void push_one(const clast_dem *dem, const clx_batch *p, int k)
         t.arm_a[c] = p->meet.point[c][k];
         t.arm_b[c] = p->arm_b[c][k];
     }
-    push_alone(dem, p->link[k], &t, p->to[k]);
+    force_of_pair(dem, p->pair[k], &t, p->to[k]);
 }
 
-/// By the laws that lanes do not know.
-static void push_each(clast_dem *dem, const clx_batch *p)
+/// Forces by the laws that have no code for lanes.
+static void force_of_each(clast_dem *dem, const clx_batch *p)
 {
     for (int k = 0; k < p->n; ++k) {
-        if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_link_neck(dem, p->link[k]))) {
-            part(dem, p, k);
+        if (p->meet.gap[k] >= 0.0 && !(p->meet.gap[k] < clx_pair_neck(dem, p->pair[k]))) {
+            end_contact(dem, p, k);
         } else {
-            p->link[k]->touches = 1;
-            push_one(dem, p, k);
+            p->pair[k]->touches = 1;
+            force_of_lane(dem, p, k);
         }
     }
 }
 
-/// Links of the near list that are gone through at once; pairs ahead whose link, and whose memory
-/// and grains, are asked for in advance: a bed of 4000 hulls does not stay in a second-level cache.
+/// Pairs of a piece of the inner list; how far ahead pairs, and their warm starts and grains, are
+/// prefetched: a bed of 4000 hulls does not stay in a second-level cache.
 enum {
-    LINK_AHEAD = 16,
+    PAIR_AHEAD = 16,
     REST_AHEAD = CLX_BATCH,
     ROW = 512,
     PIECE = ROW - CLX_BATCH - REST_AHEAD,
-    PAIR_AHEAD = CLX_NEAR_AHEAD,
+    PACKED_AHEAD = CLX_PREFETCH_PAIRS,
     GRAIN_AHEAD = 8,
     LINE = 64
 };
 
-/// A piece of the near list, and which of its links are awake, by how they are answered.
+/// A piece of the inner list, and its active pairs by kind of contact search.
 typedef struct {
-    const int32_t *link;
-    clx_near_pair *pair;           ///< the same links, packed, or NULL
-    int64_t n_left;                ///< links from there to the end of the near list
-    clx_pushed *push;              ///< of each link
-    double travel[PIECE];          ///< what each link's grains have gone
-    int n[CLX_N_BATCH];            ///< awake links
-    uint16_t at[CLX_N_BATCH][ROW]; ///< their places, the last of a kind repeated
+    const int32_t *index;
+    clx_packed_pair *packed;       ///< the same pairs, packed, or NULL
+    int64_t n_left;                ///< pairs from there to the end of the inner list
+    clx_pair_force *force;         ///< of each pair
+    double travel[PIECE];          ///< path of each pair's two grains
+    int n[CLX_N_BATCH];            ///< active pairs
+    uint16_t at[CLX_N_BATCH][ROW]; ///< their indices, the last of a kind repeated
 } piece;
 
-// Always inlined: a function that does nothing but fetch looks free of effects to GCC, and a call
-// of it is dropped.
+// Always inlined: a function that does nothing but prefetch looks free of effects to GCC, which
+// then drops its calls.
 CLX_INLINE void fetch_two(const void *record)
 {
     __builtin_prefetch(record);
@@ -205,70 +206,71 @@ CLX_INLINE void fetch_three(const void *record)
     __builtin_prefetch((const char *)record + 2 * LINE);
 }
 
-/// Asks for what a batch of whole grains reads: two lines of a sphere; three of another grain and
-/// of the pair's memory.
+/// Prefetches what a batch of whole grains reads: two lines of a sphere; three of another grain and
+/// of the pair's warm start.
 CLX_INLINE void fetch_batch(const clast_dem *dem, const piece *s, const uint16_t *at,
                             bool are_spheres)
 {
-    const clx_link *links = dem->list.link;
+    const clx_dem_pair *pairs = dem->list.pair;
     for (int k = 0; k < CLX_BATCH; ++k) {
-        const clx_link *link = &links[s->link[at[k]]];
-        fetch_two(&dem->grain[link->b]);
+        const clx_dem_pair *pair = &pairs[s->index[at[k]]];
+        fetch_two(&dem->grain[pair->b]);
         if (!are_spheres) {
-            __builtin_prefetch((const char *)&dem->grain[link->b] + 2 * LINE);
-            fetch_three(&dem->list.memory[link->slot]);
+            __builtin_prefetch((const char *)&dem->grain[pair->b] + 2 * LINE);
+            fetch_three(&dem->list.warm_start[pair->slot]);
         }
     }
 }
 
-/// Grain of an item; where links are packed, items are grains.
+/// Grain of an item; where pairs are packed, items are grains.
 CLX_INLINE int32_t grain_of(const clast_dem *dem, bool is_packed, int32_t item)
 {
     return is_packed ? item : clx_item_grain(dem, item);
 }
 
-CLX_INLINE clx_link *link_of(const clast_dem *dem, const piece *s, bool is_packed, int i)
+CLX_INLINE clx_dem_pair *pair_of(const clast_dem *dem, const piece *s, bool is_packed, int i)
 {
-    return is_packed ? &s->pair[i].link : &dem->list.link[s->link[i]];
+    return is_packed ? &s->packed[i].pair : &dem->list.pair[s->index[i]];
 }
 
-/// Asks for a packed link some places ahead, and for the other grain of one nearer by.
-CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_near_pair *pair)
+/// Prefetches a packed pair some way ahead, and the other grain of one less far ahead.
+CLX_INLINE void fetch_packed(const clx_grain *grain, const clx_packed_pair *packed)
 {
-    const int32_t b = pair[GRAIN_AHEAD].link.b;
-    fetch_three(&pair[PAIR_AHEAD]);
+    const int32_t b = packed[GRAIN_AHEAD].pair.b;
+    fetch_three(&packed[PACKED_AHEAD]);
     fetch_three(&grain[b < 0 ? 0 : b]);
 }
 
-/// Sorts out which of n links are awake, without a branch that depends on it; returns how many.
-CLX_INLINE int sort_links(const clast_dem *dem, int n, bool is_packed, piece *s, clx_awake *awake)
+/// Lists the active ones of n pairs, without a branch that depends on it; returns how many.
+CLX_INLINE int sort_pairs(const clast_dem *dem, int n, bool is_packed, piece *s,
+                          clx_active_pair *active)
 {
     const clx_grain *grain = dem->grain;
     const double *travel = dem->travel;
     const bool has_container = dem->container != NULL;
-    clx_awake *to = awake;
+    clx_active_pair *to = active;
     uint16_t *end[CLX_N_BATCH];
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         end[kind] = s->at[kind];
     }
     for (int i = 0; i < n; ++i) {
-        const clx_link *link = link_of(dem, s, is_packed, i);
+        const clx_dem_pair *pair = pair_of(dem, s, is_packed, i);
         if (is_packed) {
-            fetch_packed(grain, &s->pair[i]);
-        } else if (i + LINK_AHEAD < s->n_left) {
-            __builtin_prefetch(&dem->list.link[s->link[i + LINK_AHEAD]]);
+            fetch_packed(grain, &s->packed[i]);
+        } else if (i + PAIR_AHEAD < s->n_left) {
+            __builtin_prefetch(&dem->list.pair[s->index[i + PAIR_AHEAD]]);
         }
-        const bool is_plain = (is_packed || dem->item == NULL) && link->b >= 0;
-        const clx_batch_kind kind = is_plain ? kind_of(grain, link) : CLX_BATCH_ANY;
-        const double other = link->b >= 0 ? travel[grain_of(dem, is_packed, link->b)] : 0.0;
-        const double path = travel[grain_of(dem, is_packed, link->a)] + other;
-        const int is_contained = !is_packed && has_container && clx_link_is_container(dem, link);
-        const int is_awake = !(path < link->wake) & !is_contained;
+        const bool is_plain = (is_packed || dem->item == NULL) && pair->b >= 0;
+        const clx_batch_kind kind = is_plain ? kind_of(grain, pair) : CLX_BATCH_ANY;
+        const double other = pair->b >= 0 ? travel[grain_of(dem, is_packed, pair->b)] : 0.0;
+        const double path = travel[grain_of(dem, is_packed, pair->a)] + other;
+        const int is_contained = !is_packed && has_container && clx_pair_is_container(dem, pair);
+        const int is_active = !(path < pair->active_from) & !is_contained;
         s->travel[i] = path;
         *end[kind] = (uint16_t)i;
-        *to = (clx_awake){.link = link, .at = i};
-        end[kind] += is_awake;
-        to += is_awake;
+        *to = (clx_active_pair){.pair = pair, .at = i};
+        end[kind] += is_active;
+        to += is_active;
     }
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         s->n[kind] = (int)(end[kind] - s->at[kind]);
@@ -276,43 +278,44 @@ CLX_INLINE int sort_links(const clast_dem *dem, int n, bool is_packed, piece *s,
             end[kind][k] = end[kind][-1];
         }
     }
-    return (int)(to - awake);
+    return (int)(to - active);
 }
 
-static int sort_awake(const clast_dem *dem, int n, piece *s, clx_awake *awake)
+static int sort_active(const clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
-    return s->pair != NULL ? sort_links(dem, n, true, s, awake)
-                           : sort_links(dem, n, false, s, awake);
+    return s->packed != NULL ? sort_pairs(dem, n, true, s, active)
+                             : sort_pairs(dem, n, false, s, active);
 }
 
-/// The batch of these links.
+/// The batch of these pairs.
 CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *at, bool is_packed,
                           bool has_walls, clx_batch *p)
 {
     const clx_grain *grain = dem->grain;
     for (int k = 0; k < CLX_BATCH; ++k) {
-        clx_link *link = link_of(dem, s, is_packed, at[k]);
-        const int32_t b = link->b;
-        p->to[k] = &s->push[at[k]];
-        p->link[k] = link;
+        clx_dem_pair *pair = pair_of(dem, s, is_packed, at[k]);
+        const int32_t b = pair->b;
+        p->to[k] = &s->force[at[k]];
+        p->pair[k] = pair;
         p->travel[k] = s->travel[at[k]];
-        p->a[k] = &grain[grain_of(dem, is_packed, link->a)];
+        p->a[k] = &grain[grain_of(dem, is_packed, pair->a)];
         p->b[k] = !has_walls || b >= 0 ? &grain[grain_of(dem, is_packed, b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] = is_packed ? &s->pair[at[k]].memory : clx_link_memory(dem, link);
+        p->meet.memory[k] =
+            is_packed ? &s->packed[at[k]].warm_start : clx_pair_warm_start(dem, pair);
     }
 }
 
-/// The batch that begins with the awake link `from` of a kind.
+/// The batch that begins with the active pair `from` of a kind.
 static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
                         clx_batch *p)
 {
     const uint16_t *at = s->at[kind] + from;
     p->n = s->n[kind] - from < CLX_BATCH ? s->n[kind] - from : CLX_BATCH;
     if (kind == CLX_BATCH_ANY) {
-        fill_from(dem, s, at, s->pair != NULL, true, p);
-    } else if (s->pair != NULL) {
+        fill_from(dem, s, at, s->packed != NULL, true, p);
+    } else if (s->packed != NULL) {
         fill_from(dem, s, at, true, false, p);
     } else if (kind == CLX_BATCH_SPHERES) {
         fetch_batch(dem, s, at + REST_AHEAD, true);
@@ -323,84 +326,84 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
     }
 }
 
-/// What the links of the piece do; its awake links, and how many they are.
-static int meet_piece(clast_dem *dem, int n, piece *s, clx_awake *awake)
+/// Forces of the active pairs of the piece; lists those, and returns how many they are.
+static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
-    const int n_awake = sort_awake(dem, n, s, awake);
+    const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
     for (int kind = 0; kind < CLX_N_BATCH; ++kind) {
         for (int from = 0; from < s->n[kind]; from += CLX_BATCH) {
             fill(dem, s, (clx_batch_kind)kind, from, &batch);
             find_all(dem, &batch, (clx_batch_kind)kind);
             if (has_law) {
-                clx_batch_push(dem, &batch, kind == CLX_BATCH_ANY);
+                clx_batch_force(dem, &batch, kind == CLX_BATCH_ANY);
             } else {
-                push_each(dem, &batch);
+                force_of_each(dem, &batch);
             }
         }
     }
-    return n_awake;
+    return n_active;
 }
 
-static void begin_piece(const clast_dem *dem, int64_t at, clx_pushed *push, piece *s)
+static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force, piece *s)
 {
-    s->link = dem->near.link + at;
-    s->pair = dem->near.is_packed ? dem->near.pair + at : NULL;
-    s->n_left = dem->near.n - at;
-    s->push = push;
+    s->index = dem->inner.index + at;
+    s->packed = dem->inner.is_packed ? dem->inner.packed + at : NULL;
+    s->n_left = dem->inner.n - at;
+    s->force = force;
 }
 
-int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
-                           clx_awake *awake)
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
+                           clx_active_pair *active)
 {
     piece s;
-    int32_t n_awake = 0;
+    int32_t n_active = 0;
     for (int32_t at = begin; at < end; at += PIECE) {
-        begin_piece(dem, at, push + (at - begin), &s);
-        const int n = meet_piece(dem, end - at < PIECE ? end - at : PIECE, &s, awake + n_awake);
+        begin_piece(dem, at, force + (at - begin), &s);
+        const int n = find_piece(dem, end - at < PIECE ? end - at : PIECE, &s, active + n_active);
         for (int k = 0; k < n && at > begin; ++k) {
-            awake[n_awake + k].at += at - begin;
+            active[n_active + k].at += at - begin;
         }
-        n_awake += n;
+        n_active += n;
     }
-    return n_awake;
+    return n_active;
 }
 
-static void meet_block(int64_t begin, int64_t end, int32_t worker, void *context)
+static void find_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    clx_awake awake[PIECE];
+    clx_active_pair active[PIECE];
     piece s;
     (void)worker;
-    begin_piece(dem, begin, dem->near.push + begin, &s);
-    memset(s.push, 0, (size_t)(end - begin) * sizeof *s.push); // of links that sleep
-    (void)meet_piece(dem, (int)(end - begin), &s, awake);
+    begin_piece(dem, begin, dem->inner.force + begin, &s);
+    memset(s.force, 0, (size_t)(end - begin) * sizeof *s.force); // of skipped pairs
+    (void)find_piece(dem, (int)(end - begin), &s, active);
 }
 
 /// Contacts of items with the container, which are decided for all triangles of an item at once.
 static void contain_block(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     clast_dem *dem = context;
-    const clx_near *near = &dem->near;
+    const clx_inner_list *inner = &dem->inner;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
         clx_container_touch touch[CLX_CONTAINER_TOUCHES];
-        int32_t at = near->begin[i];
-        if (at == near->begin[i + 1] ||
-            !clx_link_is_container(dem, &dem->list.link[near->link[at]])) {
-            continue; // they stand first
+        int32_t at = inner->begin[i];
+        if (at == inner->begin[i + 1] ||
+            !clx_pair_is_container(dem, &dem->list.pair[inner->index[at]])) {
+            continue; // pairs with the container come first
         }
         const int32_t n = clx_container_meet(dem, (int32_t)i, touch);
-        for (; at < near->begin[i + 1]; ++at) {
-            clx_link *link = &dem->list.link[near->link[at]];
-            if (!clx_link_is_container(dem, link)) {
+        for (; at < inner->begin[i + 1]; ++at) {
+            clx_dem_pair *pair = &dem->list.pair[inner->index[at]];
+            if (!clx_pair_is_container(dem, pair)) {
                 break;
             }
-            near->push[at] = (clx_pushed){0};
+            inner->force[at] = (clx_pair_force){0};
             for (int32_t k = 0; k < n; ++k) {
-                if (touch[k].link == near->link[at]) {
-                    push_alone(dem, link, &touch[k].touch, &near->push[at]);
+                if (touch[k].pair == inner->index[at]) {
+                    force_of_pair(dem, pair, &touch[k].touch, &inner->force[at]);
                 }
             }
         }
@@ -408,12 +411,12 @@ static void contain_block(int64_t begin, int64_t end, int32_t worker, void *cont
 }
 
 /// Grains below which one thread works alone. A guess, not measured: a step of 1500 grains takes
-/// about as long as ten wake-ups of a thread.
-enum { FEW = 1500 };
+/// about as long as waking a thread ten times.
+enum { SERIAL_BELOW = 1500 };
 
 bool clx_dem_is_serial(const clast_dem *dem)
 {
-    return clx_parallel_workers() == 1 || dem->n_grain < FEW;
+    return clx_parallel_workers() == 1 || dem->n_grain < SERIAL_BELOW;
 }
 
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context)
@@ -429,11 +432,11 @@ void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kern
 
 void clx_contacts(clast_dem *dem)
 {
-    clx_dem_for(dem, dem->near.n, PIECE, meet_block, dem);
+    clx_dem_for(dem, dem->inner.n, PIECE, find_block, dem);
     if (dem->container != NULL) {
         clx_dem_for(dem, dem->n_item, BLOCK, contain_block, dem);
     }
     if (dem->item != NULL && dem->config.clump_contacts == CLAST_DEM_SHARED) {
-        clx_dem_for(dem, dem->n_grain, BLOCK, clx_share_pushes, dem);
+        clx_dem_for(dem, dem->n_grain, BLOCK, clx_share_forces, dem);
     }
 }

@@ -2,13 +2,13 @@
 #include "dem/container.h"
 
 #include "base/alloc.h"
-#include "dem/list.h"
-#include "dem/push.h"
+#include "dem/neighbour_list.h"
+#include "dem/pair_force.h"
 #include "geom/whole.h"
 
-/// Pushes whose normals are closer than this cosine are one (25 degrees, as in
+/// Contacts whose normals are closer than this cosine are one (25 degrees, as in
 /// contact/wall_mesh.c).
-static const double SAME_PUSH = 0.9;
+static const double SAME_NORMAL = 0.9;
 
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)
 {
@@ -27,7 +27,7 @@ done:
 int64_t clx_container_end(const clast_dem *dem, int32_t i)
 {
     int64_t k = dem->list.begin[i];
-    while (k < dem->list.begin[i + 1] && clx_link_is_container(dem, &dem->list.link[k])) {
+    while (k < dem->list.begin[i + 1] && clx_pair_is_container(dem, &dem->list.pair[k])) {
         ++k;
     }
     return k;
@@ -46,55 +46,55 @@ static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
     return body;
 }
 
-static void take(const clx_contact *c, clx_dem_touch *t)
+static void touch_from_contact(const clx_contact *c, clx_dem_touch *t)
 {
     static const double nowhere[3] = {0.0, 0.0, 0.0};
-    clx_touch_take(c, nowhere, t);
+    clx_touch_from_contact(c, nowhere, t);
     v3_set(t->arm_b, 0.0, 0.0, 0.0);
 }
 
-void clx_container_touch_again(const clast_dem *dem, const clx_link *link,
-                               clx_contact_memory *memory, clx_dem_touch *touch)
+void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
+                               clx_contact_memory *warm_start, clx_dem_touch *touch)
 {
     clx_convex ball;
     clx_contact contact;
-    const clx_placed body = place(dem, link->a, &ball);
-    const clx_wall_triangle *t = clx_link_triangle(dem, link);
-    if (clx_triangle_contact(t, &body, 0.0, memory, &contact)) {
+    const clx_placed body = place(dem, pair->a, &ball);
+    const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
+    if (clx_triangle_contact(t, &body, 0.0, warm_start, &contact)) {
         (void)clx_triangle_push(t, &body, &contact);
-        take(&contact, touch);
+        touch_from_contact(&contact, touch);
     } else {
         touch->distance = contact.gap;
     }
 }
 
-/// Pushes of one item while they are sorted out.
+/// Contacts of one item before those that repeat a deeper one are dropped.
 typedef struct {
     clx_contact contact[CLX_CONTAINER_TOUCHES]; ///< deepest first
-    int64_t link[CLX_CONTAINER_TOUCHES];
+    int64_t pair[CLX_CONTAINER_TOUCHES];
     int32_t n;
-    double normal[CLX_CONTAINER_TOUCHES][3]; ///< of links that touched before
+    double normal[CLX_CONTAINER_TOUCHES][3]; ///< of pairs that touched before
     double slide[CLX_CONTAINER_TOUCHES][3];
-    clx_extra extra[CLX_CONTAINER_TOUCHES];
+    clx_contact_history history[CLX_CONTAINER_TOUCHES];
     int64_t old[CLX_CONTAINER_TOUCHES];
     int32_t n_old;
-} pushes;
+} candidates;
 
-/// Puts a contact in its place; none stays that pushes like a deeper one.
-static void insert(pushes *p, const clx_contact *c, int64_t link)
+/// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
+static void insert(candidates *p, const clx_contact *c, int64_t pair)
 {
     int32_t at = 0;
     while (at < p->n && p->contact[at].gap <= c->gap) {
-        if (v3_dot(p->contact[at].normal, c->normal) > SAME_PUSH) {
+        if (v3_dot(p->contact[at].normal, c->normal) > SAME_NORMAL) {
             return;
         }
         ++at;
     }
     int32_t kept = at;
     for (int32_t i = at; i < p->n; ++i) {
-        if (v3_dot(p->contact[i].normal, c->normal) <= SAME_PUSH) {
+        if (v3_dot(p->contact[i].normal, c->normal) <= SAME_NORMAL) {
             p->contact[kept] = p->contact[i];
-            p->link[kept++] = p->link[i];
+            p->pair[kept++] = p->pair[i];
         }
     }
     if (at >= CLX_CONTAINER_TOUCHES) {
@@ -103,33 +103,33 @@ static void insert(pushes *p, const clx_contact *c, int64_t link)
     p->n = kept < CLX_CONTAINER_TOUCHES ? kept + 1 : CLX_CONTAINER_TOUCHES;
     for (int32_t i = p->n - 1; i > at; --i) {
         p->contact[i] = p->contact[i - 1];
-        p->link[i] = p->link[i - 1];
+        p->pair[i] = p->pair[i - 1];
     }
     p->contact[at] = *c;
-    p->link[at] = link;
+    p->pair[at] = pair;
 }
 
-/// Friction of a link that touched a step ago, for whoever pushes that way now.
-static void remember(pushes *p, clx_link *link, clx_extra *extra, const clx_contact *c,
-                     bool is_near, int64_t k)
+/// History of a pair that touched a step ago, for the triangle whose force has this direction now.
+static void remember(candidates *p, clx_dem_pair *pair, clx_contact_history *history,
+                     const clx_contact *c, bool is_near, int64_t k)
 {
-    if (link->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
+    if (pair->touches != 0 && is_near && p->n_old < CLX_CONTAINER_TOUCHES) {
         v3_copy(p->normal[p->n_old], c->normal);
-        v3_copy(p->slide[p->n_old], link->slide);
-        p->extra[p->n_old] = extra != NULL ? *extra : (clx_extra){0};
+        v3_copy(p->slide[p->n_old], pair->slide);
+        p->history[p->n_old] = history != NULL ? *history : (clx_contact_history){0};
         p->old[p->n_old++] = k;
     }
-    link->touches = 0;
-    v3_set(link->slide, 0.0, 0.0, 0.0);
-    if (extra != NULL) {
-        *extra = (clx_extra){0};
+    pair->touches = 0;
+    v3_set(pair->slide, 0.0, 0.0, 0.0);
+    if (history != NULL) {
+        *history = (clx_contact_history){0};
     }
 }
 
-static void inherit(const pushes *p, const clx_contact *c, int64_t k, double slide[3],
-                    clx_extra *extra)
+static void inherit(const candidates *p, const clx_contact *c, int64_t k, double slide[3],
+                    clx_contact_history *history)
 {
-    double best = SAME_PUSH;
+    double best = SAME_NORMAL;
     int32_t from = -1;
     for (int32_t i = 0; i < p->n_old; ++i) {
         const double alike = p->old[i] == k ? 2.0 : v3_dot(p->normal[i], c->normal);
@@ -141,44 +141,45 @@ static void inherit(const pushes *p, const clx_contact *c, int64_t k, double sli
     if (from >= 0) {
         v3_copy(slide, p->slide[from]);
     }
-    if (from >= 0 && extra != NULL) {
-        *extra = p->extra[from];
+    if (from >= 0 && history != NULL) {
+        *history = p->history[from];
     }
 }
 
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES])
 {
-    pushes p = {.n = 0};
+    candidates p = {.n = 0};
     clx_convex ball;
     const clx_placed body = place(dem, i, &ball);
     const double travel = dem->travel[clx_item_grain(dem, i)];
     const double near = 0.1 * clx_item_radius(dem, i);
     for (int64_t k = dem->list.begin[i]; k < dem->list.begin[i + 1]; ++k) {
-        clx_link *link = &dem->list.link[k];
+        clx_dem_pair *pair = &dem->list.pair[k];
         clx_contact c;
-        if (!clx_link_is_container(dem, link)) {
+        if (!clx_pair_is_container(dem, pair)) {
             break;
         }
-        if (travel < link->wake) {
+        if (travel < pair->active_from) {
             continue;
         }
-        const clx_wall_triangle *t = clx_link_triangle(dem, link);
-        const bool is_near = clx_triangle_contact(t, &body, near, clx_link_memory(dem, link), &c);
-        remember(&p, link, clx_link_extra(dem, link), &c, is_near, k);
-        link->wake = travel + fmax(c.gap, 0.0);
+        const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
+        const bool is_near =
+            clx_triangle_contact(t, &body, near, clx_pair_warm_start(dem, pair), &c);
+        remember(&p, pair, clx_pair_history(dem, pair), &c, is_near, k);
+        pair->active_from = travel + fmax(c.gap, 0.0);
         if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
             insert(&p, &c, k);
         }
     }
     for (int32_t m = 0; m < p.n; ++m) {
-        clx_link *link = &dem->list.link[p.link[m]];
-        link->touches = 1;
-        inherit(&p, &p.contact[m], p.link[m], link->slide, clx_link_extra(dem, link));
-        touch[m] = (clx_container_touch){.link = p.link[m]};
-        take(&p.contact[m], &touch[m].touch);
+        clx_dem_pair *pair = &dem->list.pair[p.pair[m]];
+        pair->touches = 1;
+        inherit(&p, &p.contact[m], p.pair[m], pair->slide, clx_pair_history(dem, pair));
+        touch[m] = (clx_container_touch){.pair = p.pair[m]};
+        touch_from_contact(&p.contact[m], &touch[m].touch);
         if (dem->item != NULL) {
-            clx_touch_lever(dem, link, &touch[m].touch);
+            clx_touch_lever(dem, pair, &touch[m].touch);
         }
     }
     return p.n;
@@ -187,15 +188,15 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
 clast_status clx_container_find(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
-    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    clx_neighbour_list *l = &dem->list;
+    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;
     const double *x = l->anchor[i].position;
-    const int32_t n = clx_wall_mesh_near(dem->container, x, reach, 0, NULL);
-    CLX_TRY(clx_grow(&l->near, &l->near_capacity, n, sizeof *l->near));
-    (void)clx_wall_mesh_near(dem->container, x, reach, n, l->near);
+    const int32_t n = clx_wall_mesh_near(dem->container, x, cutoff, 0, NULL);
+    CLX_TRY(clx_grow(&l->triangle, &l->triangle_capacity, n, sizeof *l->triangle));
+    (void)clx_wall_mesh_near(dem->container, x, cutoff, n, l->triangle);
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + n, sizeof *l->found));
     for (int32_t k = 0; k < n; ++k) {
-        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->near[k]};
+        l->found[l->n_found++] = (clx_found){.a = i, .b = -1 - dem->n_wall - l->triangle[k]};
     }
 done:
     return status;

@@ -1,34 +1,35 @@
 #pragma once
 // Grains against a container's triangles. A triangle is a wall with a number of its own, after the
-// planes and the cylinder, so that every link keeps its friction; which triangles push is decided
-// for all of an item's triangles at once.
+// planes and the cylinder, so that every pair has its own contact history; which triangles touch is
+// decided for all of an item's triangles at once.
 #include "dem/touch.h"
 
 enum { CLX_CONTAINER_TOUCHES = 16 };
 
 typedef struct clx_container_touch {
     clx_dem_touch touch;
-    int64_t link;
+    int64_t pair;
 } clx_container_touch;
 
-static inline bool clx_link_is_container(const clast_dem *dem, const clx_link *link)
+static inline bool clx_pair_is_container(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    return link->b < -dem->n_wall;
+    return pair->b < -dem->n_wall;
 }
 
-static inline const clx_wall_triangle *clx_link_triangle(const clast_dem *dem, const clx_link *link)
+static inline const clx_wall_triangle *clx_pair_triangle(const clast_dem *dem,
+                                                         const clx_dem_pair *pair)
 {
-    return &dem->container->tri[-1 - link->b - dem->n_wall];
+    return &dem->container->tri[-1 - pair->b - dem->n_wall];
 }
 
-/// First link of the item that is not one with the container.
+/// First pair of the item that is not one with the container.
 int64_t clx_container_end(const clast_dem *dem, int32_t i);
 
-/// Which triangles push an item now: of pushes within 25 degrees the deepest stands for all, none
-/// leans over an edge farther than the neighbour's plane (contact/wall_mesh.h). Friction goes with
-/// the push from triangle to triangle. Marks the links; at most CLX_CONTAINER_TOUCHES.
+/// Which triangles an item touches now: of contacts within 25 degrees the deepest stands for all,
+/// none leans over an edge farther than the neighbour's plane (contact/wall_mesh.h). The history
+/// goes with the contact from triangle to triangle. Marks the pairs; at most CLX_CONTAINER_TOUCHES.
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES]);
 
-/// Links of a stale item with the triangles about it.
+/// Finds pairs of a stale item with the triangles about it.
 clast_status clx_container_find(clast_dem *dem, int32_t i);

@@ -3,7 +3,7 @@
 
 #include "base/lines.h"
 #include "dem/fluid.h"
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -33,9 +33,9 @@ void clast_dem_destroy(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_body; ++i) {
         clx_body_free(&dem->body[i]);
     }
-    clx_list_free(&dem->list);
+    clx_neighbour_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
-    clx_near_free(&dem->near);
+    clx_inner_free(&dem->inner);
     clx_sweeping_free(&dem->sweeping);
     clx_free(dem->body);
     clx_free(dem->grain);
@@ -104,7 +104,7 @@ static clast_status check_grain(const clast_dem *dem, const clast_dem_grain *g, 
               (long long)number, sqrt(n));
     const clast_shape *shape = &dem->body[g->shape].shape;
     const clx_hull_core *core = dem->body[g->shape].core;
-    const double radius = g->scale * dem->body[g->shape].reach;
+    const double radius = g->scale * dem->body[g->shape].bounding_radius;
     CLX_TRY(check_fit(dem, g, radius, number));
     CLX_CHECK(core == NULL || dem->config.rounding == 0.0 ||
                   dem->config.rounding < 0.5 * g->scale * core->inner,
@@ -126,14 +126,14 @@ static clast_status reserve(clast_dem *dem, int64_t n)
     if (n <= dem->grain_capacity) {
         return CLAST_OK;
     }
-    const int64_t room = n + n / 2 + 16;
-    const int64_t blocks = room / CLX_SWEEP_BLOCK + 1;
-    int64_t capacity[2] = {dem->grain_capacity, dem->grain_capacity};
-    CLX_TRY(clx_grow_lines(&dem->grain, &capacity[0], room, sizeof *dem->grain));
-    CLX_TRY(clx_grow_lines(&dem->motion, &capacity[1], room, sizeof *dem->motion));
-    CLX_TRY(clx_realloc(&dem->travel, room, sizeof *dem->travel));
+    const int64_t capacity = n + n / 2 + 16;
+    const int64_t blocks = capacity / CLX_SWEEP_BLOCK + 1;
+    int64_t records[2] = {dem->grain_capacity, dem->grain_capacity};
+    CLX_TRY(clx_grow_lines(&dem->grain, &records[0], capacity, sizeof *dem->grain));
+    CLX_TRY(clx_grow_lines(&dem->motion, &records[1], capacity, sizeof *dem->motion));
+    CLX_TRY(clx_realloc(&dem->travel, capacity, sizeof *dem->travel));
     CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
-    dem->grain_capacity = room;
+    dem->grain_capacity = capacity;
 done:
     return status;
 }
@@ -148,14 +148,14 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     double in_body[3];
     double momentum[3];
     *g = (clx_grain){.mass = from->density * volume,
-                     .radius = s * body->reach,
+                     .radius = s * body->bounding_radius,
                      .round_radius = cbrt(3.0 * volume / (4.0 * CLAST_PI)),
                      .scale = s,
                      .shape = from->shape,
                      .kind = (int32_t)body->shape.kind};
     v3_copy(g->position, from->position);
     v3_copy(g->velocity, from->velocity);
-    v3_copy(g->spin, from->spin);
+    v3_copy(g->omega, from->spin);
     *m = (clx_motion){.inertia_factor = from->density * s * s * s * s * s,
                       .volume = volume,
                       .density = from->density};
@@ -210,10 +210,10 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
 {
     clast_status status = CLAST_OK;
-    clx_near *near = &dem->near;
-    clx_near_unpack(dem);
-    if (!near->is_gathered) {
-        CLX_TRY(clx_near_gather(dem));
+    clx_inner_list *inner = &dem->inner;
+    clx_inner_unpack(dem);
+    if (!inner->is_gathered) {
+        CLX_TRY(clx_inner_gather(dem));
     }
     clx_contacts(dem);
     if (verifies) {
@@ -239,25 +239,25 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
         if (dem->list.is_due) {
-            clx_near_unpack(dem);
-            CLX_TRY(clx_list_refresh(dem));
+            clx_inner_unpack(dem);
+            CLX_TRY(clx_neighbour_list_refresh(dem));
         }
-        if (dem->near.is_due) {
-            CLX_TRY(clx_near_find(dem));
+        if (dem->inner.is_due) {
+            CLX_TRY(clx_inner_find(dem));
         }
         if (dem->n_started < dem->n_grain) {
             CLX_TRY(clx_check_starts(dem));
         }
-        CLX_TRY(clx_fluid_look(dem));
+        CLX_TRY(clx_fluid_update_slabs(dem));
         CLX_TRY(meet_and_move(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
-            clx_near_unpack(dem);
+            clx_inner_unpack(dem);
             return clx_explain_explosion(dem);
         }
     }
 done:
-    clx_near_unpack(dem);
+    clx_inner_unpack(dem);
     return status;
 }
 
@@ -295,6 +295,6 @@ void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grai
     *grain = (clast_dem_grain){.shape = g->shape, .scale = g->scale, .density = m->density};
     v3_copy(grain->position, g->position);
     v3_copy(grain->velocity, g->velocity);
-    v3_copy(grain->spin, g->spin);
+    v3_copy(grain->spin, g->omega);
     memcpy(grain->orientation, m->orientation, sizeof m->orientation);
 }

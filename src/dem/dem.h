@@ -1,12 +1,13 @@
 #pragma once
 // What a simulation holds, in records that a contact reads in as few cache lines as it can.
 //
-// A grain is one body. What collides are items: the grain itself, or each sphere of a clump. Items
-// of a grain stand together and in its order; without clumps item i is grain i and `item` is NULL.
+// A grain is one body. Contacts are between items: the grain itself, or each sphere of a clump.
+// Items of a grain stand together and in its order; without clumps item i is grain i and `item` is
+// NULL.
 //
-// A pair of items lies in the list of its lower item `a` (half list), sorted by `b`; walls are
-// items -1, -2, ... The record stays as long as the pair stays near, and with it the contact's
-// memory.
+// A pair of items lies in the neighbour list of its lower item `a` (half list), sorted by `b`;
+// walls are items -1, -2, ... The record stays as long as the pair is listed, and with it the
+// contact's history and warm start.
 #include "base/parallel.h"
 #include "base/status.h"
 #include "contact/convex.h"
@@ -16,19 +17,19 @@
 #include <assert.h>
 #include <clast/dem.h>
 
-/// What contacts read of a grain: 192 bytes, in fours of doubles that lanes load at once.
+/// What contacts read of a grain: 192 bytes, in groups of four doubles, one vector load each.
 typedef struct clx_grain {
     double position[3];
     double radius; ///< of the bounding sphere
     double velocity[3];
     double mass;
-    double spin[3]; ///< angular velocity, world axes
+    double omega[3]; ///< angular velocity, world axes [rad/s]
     double scale;
     double turn[3][3];   ///< rotation matrix, world = turn body
     double round_radius; ///< of the sphere of equal volume: R of Hertz's law
     int32_t shape;
     int32_t kind; ///< clast_shape_kind
-    double held;  ///< exact steps: sum of the contacts' loads in the last step (clx_law_hold)
+    double held;  ///< exact steps: sum of its contacts' stability loads in the last step
 } clx_grain;
 
 /// What only the integration reads.
@@ -42,11 +43,11 @@ typedef struct clx_motion {
     double drag[2]; ///< Stokes' and Newton's corrections of Ganser's law
 } clx_motion;
 
-/// Where an item was when its neighbours were last looked for.
+/// Where an item was when its neighbours were last searched.
 typedef struct clx_anchor {
     double position[3];
     double orientation[4];
-    double margin; ///< half its skin: how far it may move before it looks again
+    double margin; ///< half its skin: how far it may move before its neighbours are searched again
 } clx_anchor;
 
 /// A sphere of a clump, a part of a rigid grain, or a whole grain.
@@ -60,120 +61,122 @@ typedef struct clx_item {
 } clx_item;
 
 /// Two items near each other: 48 bytes.
-typedef struct clx_link {
+typedef struct clx_dem_pair {
     int32_t a, b;         ///< b > a, or -1 - wall
     int16_t period[2];    ///< b's image: position + n * width; the low 16 bits of n
     uint32_t touches : 1; ///< in the last step
-    uint32_t kind : 2;    ///< clx_facet_kind of its memory
-    uint32_t slot : 29;   ///< its memory's place in the list's `memory`; 0: it has none
-    double wake;          ///< no touch before travel a + travel b gets here
+    uint32_t kind : 2;    ///< clx_facet_kind of its warm start
+    uint32_t slot : 29;   ///< index of its warm start in the list; 0: it has none
+    double active_from;   ///< it cannot touch while travel a + travel b is less
     double slide[3];      ///< tangential displacement of b over a
-} clx_link;
+} clx_dem_pair;
 
-/// What only some laws remember of a contact.
-typedef struct clx_extra {
+/// Contact history of some laws, beside the tangential displacement.
+typedef struct clx_contact_history {
     double roll[3];     ///< torque of the rolling spring on b
     double restitution; ///< of its impact in a fluid; 0: it has not begun
-} clx_extra;
+} clx_contact_history;
 
-/// A contact's memory, three cache lines: two hold all of a face with a vertex.
-typedef struct clx_memory_slot {
+/// A pair's warm start, from which the contact search begins: three cache lines, of which two hold
+/// a face with a vertex.
+typedef struct clx_warm_start_slot {
     clx_contact_memory record;
     double spare[6];
-} clx_memory_slot;
+} clx_warm_start_slot;
 
-/// What the low 16 bits of a number of periods leave open; which it is, the offset tells to within
-/// a period (clx_link_offset).
+/// Two numbers of periods with the same low 16 bits differ by a multiple of this; the offset, known
+/// to within a period, decides (clx_pair_offset).
 #define CLX_PERIOD_TURN 65536.0
 #define CLX_TO_WHOLE    0x1.8p52 ///< added and taken off again: rounds to a whole number
 
 enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 
-/// A link and its memory in three cache lines, for a sweep.
-typedef struct clx_near_pair {
-    clx_link link; ///< first, so that a pointer to it is one to the pair
-    clx_contact_memory memory;
-} clx_near_pair;
-static_assert(sizeof(clx_near_pair) == 192, "a pair takes three lines");
+/// A pair and its warm start in three cache lines, for a sweep.
+typedef struct clx_packed_pair {
+    clx_dem_pair pair; ///< first, so that a pointer to it is one to the pair
+    clx_contact_memory warm_start;
+} clx_packed_pair;
+static_assert(sizeof(clx_packed_pair) == 192, "a pair takes three lines");
 
-/// Force and torque on a grain, in fours.
-typedef struct clx_load {
+/// Accumulator of force and torque on a grain: two vectors of four doubles.
+typedef struct clx_force_torque {
     double force[4];  ///< the fourth is 0
-    double torque[4]; ///< the fourth is 0; with exact steps the grain's `held`
-} clx_load;
+    double torque[4]; ///< the fourth is 0; with exact steps the grain's stability load
+} clx_force_torque;
 
-/// What a contact does to its grains: the force on b, and the torques.
-typedef struct clx_pushed {
+/// Contact force and torques of a pair.
+typedef struct clx_pair_force {
     double force[4];    ///< the fourth is 0
-    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's load on b
-    double torque_a[4]; ///< to be taken off
-} clx_pushed;
+    double torque_b[4]; ///< the fourth is 0; with exact steps the contact's stability load on b
+    double torque_a[4]; ///< to be subtracted from the sum of a
+} clx_pair_force;
 
-/// A link that is awake, and its place among those that were asked for.
-typedef struct clx_awake {
-    const clx_link *link;
+/// A pair that may touch in this step, and its index among those that were given.
+typedef struct clx_active_pair {
+    const clx_dem_pair *pair;
     int64_t at;
-} clx_awake;
+} clx_active_pair;
 
-/// What a block of items has in the near list.
-typedef struct clx_near_block {
+/// What a block of items has in the inner list.
+typedef struct clx_inner_block {
     int32_t n;
-    bool wants_memory; ///< some link has none yet and needs one
-} clx_near_block;
+    bool needs_warm_start; ///< some pair has no warm start yet and needs one
+} clx_inner_block;
 
-/// Packed links that are asked for in advance.
-enum { CLX_NEAR_AHEAD = 12 };
+/// How many packed pairs ahead are prefetched.
+enum { CLX_PREFETCH_PAIRS = 12 };
 
-/// Links that were packed, by their numbers in the list.
-typedef struct clx_near_row {
+/// Copies of pairs in the order of their numbers in the neighbour list.
+typedef struct clx_packed_row {
     int32_t n;
-    int32_t *link;       ///< [n] rising
-    int32_t *begin;      ///< [n_item + 1]
-    clx_near_pair *pair; ///< [n]
-    int64_t capacity, item_capacity, pair_capacity;
-} clx_near_row;
+    int32_t *index;          ///< [n] rising
+    int32_t *begin;          ///< [n_item + 1]
+    clx_packed_pair *packed; ///< [n]
+    int64_t capacity, item_capacity, packed_capacity;
+} clx_packed_row;
 
-/// The links that may touch before some grain's path exceeds its `until`: what a step looks at.
-typedef struct clx_near {
+/// The inner list: the pairs of the neighbour list that may touch before some grain's path exceeds
+/// its `until`. A step reads these alone.
+typedef struct clx_inner_list {
     int32_t n;
-    int32_t *link;     ///< [n] rising
-    clx_pushed *push;  ///< [n] of the last step, unless that was a sweep
-    int32_t *begin;    ///< [n_item + 1] first of each item's own
-    int32_t *in_begin; ///< [n_grain + 2] first of those that load a grain as b
-    int32_t *in;       ///< [n] their numbers, rising
-    double *until;     ///< [n_grain]
-    clx_load *load;    ///< [n_grain] of contacts that were found so far in a sweep; 0 between steps
-    int64_t capacity, push_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
-    clx_near_block *block;
-    clx_near_pair *pair; ///< [n + CLX_NEAR_AHEAD], the last all 0, while is_packed: the links and
-                         ///< memories of the list are out of date
-    clx_near_row old;    ///< what was packed before, while it is packed anew
-    int64_t load_capacity, block_capacity, pair_capacity;
+    int32_t *index;          ///< [n] rising
+    clx_pair_force *force;   ///< [n] of the last step, unless that was a sweep
+    int32_t *begin;          ///< [n_item + 1] first of each item's own
+    int32_t *in_begin;       ///< [n_grain + 2] first of the pairs whose b a grain is
+    int32_t *in;             ///< [n] their numbers, rising
+    double *until;           ///< [n_grain]
+    clx_force_torque *total; ///< [n_grain] sums of a sweep so far; 0 between steps
+    int64_t capacity, force_capacity, in_capacity, item_capacity, grain_capacity, until_capacity;
+    clx_inner_block *block;
+    clx_packed_pair *packed; ///< [n + CLX_PREFETCH_PAIRS], the last all 0, while is_packed: the
+                             ///< pairs and warm starts of the list are out of date
+    clx_packed_row old;      ///< the copies before, while the list is found anew
+    int64_t total_capacity, block_capacity, packed_capacity;
     bool is_due;
     bool is_packed;
     bool is_gathered; ///< `in` is there
-} clx_near;
+} clx_inner_list;
 
 struct clx_chunk;
 struct clx_pace;
 
-/// How a sweep is divided among threads (chunk.c), and what it keeps for later (sweep.c).
+/// How a sweep is divided among threads (chunk.c), and contributions to deferred grains (sweep.c).
 typedef struct clx_sweeping {
-    int32_t n_worker; ///< 0: to be weighed anew
+    int32_t n_worker; ///< 0: its work is to be counted anew
     _Atomic int32_t n_chunk;
-    struct clx_chunk *chunk; ///< [n_chunk], first the threads' own, then what others took of them
+    struct clx_chunk *chunk; ///< [n_chunk], first the threads' own, then what others stole
     struct clx_pace *pace;   ///< [n_worker]
     int64_t *before;         ///< [blocks + 1] work of all blocks of grains before
-    _Atomic int32_t *lowest; ///< [fours of grains] least grain with a link to one of the four
-    int32_t most;            ///< links of a block of grains
-    clx_pushed *push;        ///< [n_worker][most] of the block that a worker is at
-    clx_awake *awake;        ///< [n_worker][most] its awake links
-    int32_t *late;           ///< [n_late] fours that move when all chunks are done: first grains
-    int32_t n_late;
-    clx_load *kept;   ///< [n of near + n_grain] what is done to them
-    int32_t *kept_on; ///< grain of each
-    int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, late_capacity;
-    int64_t push_capacity, awake_capacity, kept_capacity[2];
+    _Atomic int32_t *lowest; ///< [groups of four grains] least grain in a pair with one of them
+    int32_t most;            ///< pairs of a block of grains
+    clx_pair_force *force;   ///< [n_worker][most] of the block that a worker is at
+    clx_active_pair *active; ///< [n_worker][most] its active pairs
+    int32_t *deferred;       ///< [n_deferred] first grains of the groups of four that move last
+    int32_t n_deferred;
+    clx_force_torque *contribution; ///< [n of inner + n_grain] forces and torques on them
+    int32_t *contribution_to;       ///< grain of each
+    int64_t chunk_capacity, pace_capacity, before_capacity, lowest_capacity, deferred_capacity;
+    int64_t force_capacity, active_capacity, contribution_capacity[2];
 } clx_sweeping;
 
 /// Volume of grains by height, for the porosity around one.
@@ -193,7 +196,7 @@ typedef struct clx_wall {
     double radius;    ///< cylinder about the z axis
 } clx_wall;
 
-/// Grains that a thread takes at once: moving them, sweeping over them.
+/// Grains of a block, the unit of work of a thread: of the motion, of a sweep.
 enum { CLX_MAX_WALL = 8, CLX_MOVE_BLOCK = 256, CLX_SWEEP_BLOCK = 48 };
 
 /// A convex part of a rigid grain, at scale 1.
@@ -210,7 +213,7 @@ typedef struct clx_dem_part {
 /// A shape and what mechanics needs of it.
 typedef struct clx_dem_body {
     clast_shape shape;
-    double reach;                 ///< radius of a ball about the centre of mass that holds it
+    double bounding_radius;       ///< radius of a ball about the centre of mass that holds it
     double inertia[3][3];         ///< about the centre of mass, at mean density 1 and scale 1
     double inverse_inertia[3][3]; ///< of that
     clx_hull_core *core;          ///< of a mesh, else NULL
@@ -220,10 +223,10 @@ typedef struct clx_dem_body {
     clx_dem_part *part; ///< [n_part] of a rigid grain
 } clx_dem_body;
 
-/// Share of what is left of a margin that an item may go before it is asked again. What it has
-/// moved grows by at most 1.05 times its path (2.1 |dq| for the angle), so that the step in which a
-/// margin is used up is found whenever it was asked before: a resumed run refreshes in the same
-/// steps.
+/// Share of what is left of a margin that an item's path may use before its margin is checked
+/// again. What it has moved grows by at most 1.05 times its path (2.1 |dq| for the angle), so that
+/// the step in which a margin is used up is found whenever it was checked before: a resumed run
+/// refreshes in the same steps.
 #define CLX_SURE 0.94
 
 enum { CLX_MAX_LEVEL = 24 };
@@ -237,7 +240,7 @@ typedef struct clx_cell {
 /// Cells over the anchors, one set a size level, in one hash table.
 typedef struct clx_dem_grid {
     int32_t n_level;
-    double reach[CLX_MAX_LEVEL];      ///< largest radius and margin of a level's items; 0: empty
+    double cutoff[CLX_MAX_LEVEL];     ///< largest radius and margin of a level's items; 0: empty
     double inverse[CLX_MAX_LEVEL][3]; ///< cells a metre
     int32_t n_cell[CLX_MAX_LEVEL][3]; ///< around a period, else 0
     int32_t capacity;
@@ -256,24 +259,24 @@ typedef struct clx_found {
 } clx_found;
 
 /// Neighbour lists and what their upkeep needs.
-typedef struct clx_list {
-    clx_link *link;  ///< [n_link] sorted by a, b
-    clx_link *other; ///< the buffer that the next refresh fills
-    int64_t n_link, capacity, other_capacity;
-    clx_extra *extra;       ///< [n_link] where the law has them (has_extra)
-    clx_extra *other_extra; ///< of the buffer
-    int64_t extra_capacity, other_extra_capacity;
-    clx_memory_slot *memory; ///< [n_slot] of the links that have one; the first is not in use
+typedef struct clx_neighbour_list {
+    clx_dem_pair *pair;  ///< [n_pair] sorted by a, b
+    clx_dem_pair *other; ///< the buffer that the next refresh fills
+    int64_t n_pair, capacity, other_capacity;
+    clx_contact_history *history;       ///< [n_pair] where the law has them (has_history)
+    clx_contact_history *other_history; ///< of the buffer
+    int64_t history_capacity, other_history_capacity;
+    clx_warm_start_slot *warm_start; ///< [n_slot] the first is not in use
     int64_t n_slot, slot_capacity;
     int32_t *free_slot; ///< [n_free]
     int64_t n_free, free_capacity;
     int64_t *begin;     ///< [n_item + 1] first pair of each item
     clx_anchor *anchor; ///< [n_item]
     double *limit;      ///< [n_item] below this travel an item is surely within its margin
-    uint8_t *is_stale;  ///< [n_item] looks for its neighbours in this refresh
+    uint8_t *is_stale;  ///< [n_item] its neighbours are searched in this refresh
     int64_t item_capacity;
-    int32_t *near; ///< triangles of the container about one item
-    int64_t near_capacity;
+    int32_t *triangle; ///< triangles of the container about one item
+    int64_t triangle_capacity;
     clx_dem_grid grid;
     clx_found *found, *sorted; ///< [n_found] as found; by a and b
     int64_t n_found, found_capacity, sorted_capacity;
@@ -281,7 +284,7 @@ typedef struct clx_list {
     int32_t n_known;      ///< items that have anchors
     int64_t n_refresh;
     bool is_due; ///< some item has used up its margin
-} clx_list;
+} clx_neighbour_list;
 
 struct clast_dem {
     clast_dem_config config;
@@ -300,7 +303,7 @@ struct clast_dem {
     bool has_parts;     ///< some shape is a rigid grain: items have turns of their own
     bool all_round;     ///< every item is a sphere
     int32_t n_grain;
-    int32_t n_started; ///< grains that have been looked at for overlaps among those added with them
+    int32_t n_started; ///< grains that were checked for overlaps with those added beside them
     int64_t grain_capacity;
     clx_grain *grain;   ///< [n_grain]
     clx_motion *motion; ///< [n_grain]
@@ -311,8 +314,8 @@ struct clast_dem {
     clx_convex *convex;        ///< [n_item], or NULL while all items are spheres
     double (*item_turn)[3][3]; ///< [n_item] rotation matrices, or NULL without rigid grains
     uint8_t *block_flag; ///< [blocks of CLX_SWEEP_BLOCK grains, at most] clx_move_flag of each
-    clx_list list;
-    clx_near near;
+    clx_neighbour_list list;
+    clx_inner_list inner;
     clx_sweeping sweeping;
     clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
@@ -359,32 +362,33 @@ static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
                                   : dem->grain[clx_item_grain(dem, i)].turn[0];
 }
 
-/// The contact memory of a link, or NULL.
-static inline clx_contact_memory *clx_link_memory(const clast_dem *dem, const clx_link *link)
+/// The warm start of a pair, or NULL.
+static inline clx_contact_memory *clx_pair_warm_start(const clast_dem *dem,
+                                                      const clx_dem_pair *pair)
 {
-    return link->slot != 0 ? &dem->list.memory[link->slot].record : NULL;
+    return pair->slot != 0 ? &dem->list.warm_start[pair->slot].record : NULL;
 }
 
-/// Link k of the near list, where it is up to date.
-static inline clx_link *clx_near_link(const clast_dem *dem, int32_t k)
+/// Pair k of the inner list, where it is up to date.
+static inline clx_dem_pair *clx_inner_pair(const clast_dem *dem, int32_t k)
 {
-    return dem->near.is_packed ? &dem->near.pair[k].link : &dem->list.link[dem->near.link[k]];
+    return dem->inner.is_packed ? &dem->inner.packed[k].pair : &dem->list.pair[dem->inner.index[k]];
 }
 
-/// The contact memory of a link of the near list, or NULL.
-static inline clx_contact_memory *clx_near_memory(const clast_dem *dem, clx_link *link)
+/// The warm start of a pair of the inner list, or NULL.
+static inline clx_contact_memory *clx_inner_warm_start(const clast_dem *dem, clx_dem_pair *pair)
 {
-    if (!dem->near.is_packed) {
-        return clx_link_memory(dem, link);
+    if (!dem->inner.is_packed) {
+        return clx_pair_warm_start(dem, pair);
     }
-    return link->slot != 0 ? &((clx_near_pair *)(void *)link)->memory : NULL;
+    return pair->slot != 0 ? &((clx_packed_pair *)(void *)pair)->warm_start : NULL;
 }
 
-/// Whether a link's meeting has a closed form: both are spheres, or a sphere and a wall.
-static inline bool clx_link_is_round(const clast_dem *dem, const clx_link *link)
+/// Whether a pair's contact has a closed form: both are spheres, or a sphere and a wall.
+static inline bool clx_pair_is_round(const clast_dem *dem, const clx_dem_pair *pair)
 {
     return dem->all_round ||
-           (clx_item_is_round(dem, link->a) && (link->b < 0 || clx_item_is_round(dem, link->b)));
+           (clx_item_is_round(dem, pair->a) && (pair->b < 0 || clx_item_is_round(dem, pair->b)));
 }
 
 /// Checks sizes and time step of a configuration.
@@ -405,7 +409,7 @@ double clx_rounding_factor(const clx_dem_body *body, double margin);
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
 
-/// Room for the items of n more grains; then items of the grain g, which is set.
+/// Capacity for the items of n more grains; then items of the grain g, which is set.
 clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain);
 void clx_items_add(clast_dem *dem, int32_t g);
 
@@ -423,48 +427,48 @@ void clx_dem_build_walls(clast_dem *dem);
 double clx_wall_distance(const clx_wall *wall, const double x[3], double normal[3]);
 
 /// Brings the lists up to date for the items that have used half of their margin.
-clast_status clx_list_refresh(clast_dem *dem);
-void clx_list_free(clx_list *list);
+clast_status clx_neighbour_list_refresh(clast_dem *dem);
+void clx_neighbour_list_free(clx_neighbour_list *list);
 
-/// A place for a link's memory, which begins empty.
-clast_status clx_list_give_slot(clx_list *list, clx_link *link);
+/// A slot for a pair's warm start, which begins empty.
+clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *list, clx_dem_pair *pair);
 
-/// Room for n items; new ones are stale.
-clast_status clx_list_reserve(clx_list *list, int64_t n_item);
+/// Capacity for n items; new ones are stale.
+clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item);
 
-/// Lists the links that may touch soon, and gives memories to those that need one.
-clast_status clx_near_find(clast_dem *dem);
-void clx_near_free(clx_near *near);
+/// Finds the pairs that may touch soon, and assigns warm starts to those that need one.
+clast_status clx_inner_find(clast_dem *dem);
+void clx_inner_free(clx_inner_list *inner);
 
-/// Copies the near list's links and memories side by side, and what they have become back.
-clast_status clx_near_pack(clast_dem *dem);
-void clx_near_unpack(clast_dem *dem);
+/// Copies the inner list's pairs and warm starts into one array in order, and back to the list.
+clast_status clx_inner_pack(clast_dem *dem);
+void clx_inner_unpack(clast_dem *dem);
 
-/// Which links load each grain as b, and room for what all links do (near.push).
-clast_status clx_near_gather(clast_dem *dem);
+/// Which pairs have each grain as b, and capacity for the forces of all pairs (inner.force).
+clast_status clx_inner_gather(clast_dem *dem);
 
 void clx_sweeping_free(clx_sweeping *sweeping);
 
 /// Whether one thread does all the work: there is no other, or too few grains for the threads'
-/// meetings to pay.
+/// synchronisation to pay.
 bool clx_dem_is_serial(const clast_dem *dem);
 
 /// clx_parallel_for, or the same blocks in this thread where that is as fast.
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context);
 
-/// What all contacts do (near.push), memories gone on by a step.
+/// All pair forces (inner.force); contact histories and warm starts are renewed.
 void clx_contacts(clast_dem *dem);
 
-/// The same for some links of the near list: the awake ones, places counted from `begin`, rising,
-/// and what each does at its place. Both have room for all. Returns how many; the others do nothing
-/// and nothing is written at their places.
-int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pushed *push,
-                           clx_awake *awake);
+/// The same for pairs [begin, end) of the inner list: lists the active ones, by rising index
+/// counted from `begin`, and writes their forces at those indices. Both arrays have capacity for
+/// all. Returns how many are active; nothing is written for skipped pairs.
+int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
+                           clx_active_pair *active);
 
-/// Compares what clx_contacts has just found with cold contacts.
+/// Compares the contacts that clx_contacts has just found with ones found without warm start.
 void clx_verify(clast_dem *dem);
 
-/// Sums what contacts do; velocities, positions and turns one step on. True when no grain moved
+/// Sums pair forces; velocities, positions and orientations one step on. True when no grain moved
 /// farther than its stride.
 bool clx_move(clast_dem *dem);
 
@@ -475,11 +479,11 @@ clast_status clx_sweep(clast_dem *dem, bool *is_fine);
 /// Whether an item has used up this share of its margin.
 bool clx_item_has_left(const clast_dem *dem, int32_t i, double share);
 
-/// Contacts that the pair of bodies of a touching link had in the last step.
-int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link);
+/// Contacts that the pair of bodies of a touching pair had in the last step.
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_dem_pair *pair);
 
 /// A kernel over grains: sub-contacts of clumps share their pair's stiffness.
-void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context);
+void clx_share_forces(int64_t begin, int64_t end, int32_t worker, void *context);
 
 /// Refuses grains that overlap others added since the last step by so much that
 /// they would fly apart faster than a run may go.

@@ -1,8 +1,8 @@
-// What a fluid at rest does to grains: drag, by the grains around, and torque.
+// Drag and torque of a fluid at rest, and hindrance by the grains around.
 //
 // Stokes' torque on a sphere that turns in a fluid at rest, 8 pi mu R^3 w    [Lamb1932 sec. 334],
-// with R that of the sphere of equal volume. Implicit in the spin, so that it never turns a grain
-// round, however small the grain or long the step.
+// with R that of the sphere of equal volume. Implicit in the angular velocity, so that it never
+// reverses a rotation, however small the grain or long the step.
 #include "dem/fluid.h"
 
 #include "base/alloc.h"
@@ -50,7 +50,7 @@ done:
     return status;
 }
 
-/// Place of a height among the slabs' middles: the lower one, and the share of the upper.
+/// Slab whose middle lies below a height, and the weight of the next in linear interpolation.
 static int32_t slab_of(const clx_slabs *s, double z, double *share)
 {
     const double at = fmin(fmax((z - s->low) / s->thick - 0.5, 0.0), (double)(s->n - 1));
@@ -60,7 +60,7 @@ static int32_t slab_of(const clx_slabs *s, double z, double *share)
 }
 
 /// Slabs of two of the largest grain's diameters over all grains' heights.
-static void lay_slabs(const clast_dem *dem, clx_slabs *s)
+static void set_slabs(const clast_dem *dem, clx_slabs *s)
 {
     const clast_dem_config *c = &dem->config;
     const double depth = c->depth > 0.0 ? c->depth : c->width;
@@ -79,14 +79,14 @@ static void lay_slabs(const clast_dem *dem, clx_slabs *s)
     s->volume = area * s->thick;
 }
 
-clast_status clx_fluid_look(clast_dem *dem)
+clast_status clx_fluid_update_slabs(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     clx_slabs *s = &dem->slabs;
     if (!dem->config.hindrance || dem->n_grain == 0) {
         return CLAST_OK;
     }
-    lay_slabs(dem, s);
+    set_slabs(dem, s);
     CLX_TRY(clx_grow(&s->solid, &s->capacity, s->n + 1, sizeof *s->solid));
     memset(s->solid, 0, (size_t)(s->n + 1) * sizeof *s->solid);
     for (int32_t i = 0; i < dem->n_grain; ++i) {
@@ -111,19 +111,19 @@ double clx_fluid_hindrance(const clast_dem *dem, const clx_grain *g, double reyn
     return clast_drag_hindrance(reynolds, 1.0 - solid / s->volume);
 }
 
-/// Torque over spin [N m s].
+/// Torque over angular velocity [N m s].
 static double resistance(const clast_dem *dem, const clx_grain *g)
 {
     const double r = g->round_radius;
     return 8.0 * CLAST_PI * dem->config.fluid_viscosity * r * r * r;
 }
 
-double clx_fluid_spin_factor(const clast_dem *dem, const clx_grain *g, double dt)
+double clx_fluid_rotation_factor(const clast_dem *dem, const clx_grain *g, double dt)
 {
     return 1.0 / (1.0 + dt * resistance(dem, g) * 2.5 / (g->mass * g->radius * g->radius));
 }
 
-void clx_fluid_slow(const clast_dem *dem, int64_t i, double dt, double x[3])
+void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double x[3])
 {
     const clx_grain *g = &dem->grain[i];
     const double share = dt * resistance(dem, g) * dem->motion[i].inverse_factor;

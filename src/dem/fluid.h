@@ -1,5 +1,5 @@
 #pragma once
-// What a fluid at rest does to grains.
+// Drag and torque of a fluid at rest.
 #include "dem/dem.h"
 #include <clast/settling.h>
 
@@ -16,12 +16,12 @@ clast_drag clx_fluid_form(const clast_dem *dem, const clast_shape *shape, double
 /// Refuses a grain that falls beyond the drag law's range of Reynolds numbers.
 clast_status clx_fluid_check(const clast_dem *dem, const clast_dem_grain *g, int64_t number);
 
-/// Volume of grains by height, where drag asks for it.
-clast_status clx_fluid_look(clast_dem *dem);
+/// Updates the volume of grains by height, which hindrance needs.
+clast_status clx_fluid_update_slabs(clast_dem *dem);
 
-/// Share of its spin that a sphere keeps in a step of dt [s].
-double clx_fluid_spin_factor(const clast_dem *dem, const clx_grain *g, double dt);
+/// Factor on a sphere's angular velocity in a step of dt [s].
+double clx_fluid_rotation_factor(const clast_dem *dem, const clx_grain *g, double dt);
 
-/// Slows grain i, no sphere: x is its angular momentum, or its spin, both [3] along world axes;
-/// solves (1 + dt k I^-1) x' = x, k = 8 pi mu R^3 [N m s].
-void clx_fluid_slow(const clast_dem *dem, int64_t i, double dt, double x[3]);
+/// Slows grain i, no sphere: x is its angular momentum, or its angular velocity, both [3] along
+/// world axes; solves (1 + dt k I^-1) x' = x, k = 8 pi mu R^3 [N m s].
+void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double x[3]);

@@ -1,6 +1,6 @@
 // Cells over the anchors of all items, one set a size level (each level doubles the radius), in one
 // hash table: small grains do not pay for large ones, and no domain is too tall.
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 
 #include "base/alloc.h"
 #include "base/parallel.h"
@@ -37,40 +37,40 @@ static clast_status reserve(clx_dem_grid *grid, int32_t n)
     if (n <= grid->capacity) {
         return CLAST_OK;
     }
-    const int32_t room = n + n / 2 + 16;
+    const int32_t capacity = n + n / 2 + 16;
     uint32_t n_bucket = 64;
-    while ((int64_t)n_bucket < 2 * (int64_t)room) {
+    while ((int64_t)n_bucket < 2 * (int64_t)capacity) {
         n_bucket *= 2;
     }
-    CLX_TRY(clx_realloc(&grid->cell, room, sizeof *grid->cell));
-    CLX_TRY(clx_realloc(&grid->entry, room, sizeof *grid->entry));
-    CLX_TRY(clx_realloc(&grid->by_level, room, sizeof *grid->by_level));
+    CLX_TRY(clx_realloc(&grid->cell, capacity, sizeof *grid->cell));
+    CLX_TRY(clx_realloc(&grid->entry, capacity, sizeof *grid->entry));
+    CLX_TRY(clx_realloc(&grid->by_level, capacity, sizeof *grid->by_level));
     CLX_TRY(clx_realloc(&grid->bucket, (int64_t)n_bucket + 2, sizeof *grid->bucket));
     grid->n_bucket = n_bucket;
-    grid->capacity = room;
+    grid->capacity = capacity;
 done:
     return status;
 }
 
-/// Levels, and the largest reach of an item in each.
+/// Levels, and the largest cutoff of an item in each.
 static void measure_levels(const clast_dem *dem, clx_dem_grid *grid)
 {
     double smallest = INFINITY;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         smallest = fmin(smallest, clx_item_radius(dem, i));
     }
-    memset(grid->reach, 0, sizeof grid->reach);
+    memset(grid->cutoff, 0, sizeof grid->cutoff);
     grid->n_level = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         const double radius = clx_item_radius(dem, i);
         const int32_t level = level_of(radius, smallest);
         grid->cell[i].level = level;
-        grid->reach[level] = fmax(grid->reach[level], radius + dem->list.anchor[i].margin);
+        grid->cutoff[level] = fmax(grid->cutoff[level], radius + dem->list.anchor[i].margin);
         grid->n_level = level >= grid->n_level ? level + 1 : grid->n_level;
     }
     for (int32_t l = 0; l < grid->n_level; ++l) {
         for (int c = 0; c < 3; ++c) {
-            const double width = 2.0 * grid->reach[l];
+            const double width = 2.0 * grid->cutoff[l];
             const double period = c < 2 ? dem->period[c] : 0.0;
             const double n = width > 0.0 ? fmax(1.0, floor(period / width)) : 1.0;
             grid->n_cell[l][c] = period > 0.0 ? (int32_t)n : 0;
@@ -163,14 +163,14 @@ static void enter_level(const clx_dem_grid *grid, clx_dem_grid_walk *w)
     w->end = grid->level_begin[w->level + 1];
 }
 
-bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double reach,
+bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double cutoff,
                         clx_dem_grid_walk *walk)
 {
-    if (grid->reach[level] == 0.0) {
+    if (grid->cutoff[level] == 0.0) {
         return false;
     }
     *walk = (clx_dem_grid_walk){.level = level};
-    const double far = reach + grid->reach[level];
+    const double far = cutoff + grid->cutoff[level];
     for (int c = 0; c < 3; ++c) {
         const int32_t n = grid->n_cell[level][c];
         const double low = column_of(grid, level, c, x[c] - far);

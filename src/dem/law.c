@@ -70,7 +70,7 @@ clx_law clx_law_make(const clast_dem_config *c)
     law.friction[0] = c->friction;
     law.friction[1] = c->wall_friction >= 0.0 ? c->wall_friction : c->friction;
     law.pull = (c->cohesion == CLAST_DEM_DMT ? 2.0 : 1.5) * CLAST_PI * c->surface_energy;
-    law.has_extra = law.has_roll_spring || law.is_wet;
+    law.has_history = law.has_roll_spring || law.is_wet;
     law.has_neck = c->law == CLAST_DEM_HERTZ && c->cohesion == CLAST_DEM_JKR;
     law.adhesion = sqrt(2.0 * CLAST_PI * c->surface_energy / law.young);
     law.is_exact = c->contact_scheme == CLAST_DEM_EXACT;
@@ -104,9 +104,9 @@ double clx_law_time(const clx_law *law, double mass, double radius)
     return law->kind == CLAST_DEM_LINEAR ? law->time : hertz_time(law, mass, radius);
 }
 
-double clx_law_speed(const clx_law *law, double mass, double radius, double reach)
+double clx_law_speed(const clx_law *law, double mass, double radius, double bounding)
 {
-    const double d = 0.5 * reach;
+    const double d = 0.5 * bounding;
     return law->kind == CLAST_DEM_LINEAR
                ? d * sqrt(law->stiffness)
                : sqrt(16.0 / 15.0 * law->young * sqrt(radius * d) * d * d / mass);

@@ -1,5 +1,5 @@
 #pragma once
-// Force of one contact: normal, tangential with memory, attraction, rolling resistance.
+// Force of one contact: normal, tangential with contact history, attraction, rolling resistance.
 //
 // Called per contact and step, so it is inline and allocates nothing. [docs/theory/dem.md]
 #include "math/vec3.h"
@@ -13,26 +13,26 @@
 /// a grain.
 #define CLX_LAW_STOPS 0.1
 
-/// Load of a grain up to which exact steps take springs and dashpots whole.
+/// Stability load of a grain up to which exact steps do not reduce springs and dashpots.
 #define CLX_LAW_STABLE 3.5
 
 /// Constants of the laws, worked out once.
 typedef struct clx_law {
     int32_t kind, cohesion;
     bool clip;
-    bool is_exact;            ///< contact_scheme: constants below are those of exact steps
-    double time;              ///< T_c of the linear law [s]
-    double load[2];           ///< k dt^2 + 2 d dt over m_eff, normal and tangential
-    double spring_share;      ///< of k dt^2 in that, at most
-    double stiffness;         ///< k_n / m_eff, eq. 11 [1/s2]
-    double damping;           ///< d_n / m_eff [1/s]
+    bool is_exact;       ///< contact_scheme: constants below are those of exact steps
+    double time;         ///< T_c of the linear law [s]
+    double load[2];      ///< stability loads: k dt^2 + 2 d dt over m_eff, normal and tangential
+    double spring_share; ///< of k dt^2 in that, at most
+    double stiffness;    ///< k_n / m_eff, eq. 11 [1/s2]
+    double damping;      ///< d_n / m_eff [1/s]
     double kappa, root_kappa; ///< eq. 13, and its root (eq. 12)
     double young, shear;      ///< E* and G* of two equal materials [Pa]
     double alpha;             ///< damping of Hertz's law [Antypov2011]
     double friction[2];       ///< between grains, at walls
     double rolling;
-    bool has_extra;                ///< contacts remember more than their displacement (clx_extra)
-    bool is_wet;                   ///< restitution by the impact's Stokes number
+    bool has_history; ///< contacts remember more than their displacement (clx_contact_history)
+    bool is_wet;      ///< restitution by the impact's Stokes number
     double restitution, viscosity; ///< dry; of the fluid [Pa s]
     bool has_roll_spring;          ///< model C
     double damping_ratio;          ///< -ln e / sqrt(pi^2 + ln^2 e)
@@ -47,23 +47,23 @@ typedef struct clx_meeting {
     double overlap;     ///< > 0 [m]
     double normal[3];   ///< from a to b
     double velocity[3]; ///< of b's surface relative to a's at the contact point [m/s]
-    double roll[3];     ///< spin of b less that of a [1/s]
-    double twirl;       ///< mean spin about the normal, turns the memory [1/s]
+    double roll[3];     ///< angular velocity of b less that of a [1/s]
+    double twirl;       ///< mean angular velocity about the normal, rotates `slide` [1/s]
     double mass;        ///< m_eff
     double radius;      ///< R*, harmonic [m]
     double friction;
     double restitution; ///< in a fluid, of its impact; else 0
     double head_on;     ///< exact steps: share of the contact's load that its normal has, at most 1
-    double held;        ///< exact steps: load of the more loaded grain
+    double held;        ///< exact steps: the greater of the two grains' stability loads
 } clx_meeting;
 
 /// What acts on b; a gets the opposite.
-typedef struct clx_push {
+typedef struct clx_contact_force {
     double normal;        ///< force along the normal; > 0 pushes apart [N]
     double pressed;       ///< normal force that limits friction and rolling, >= 0 [N]
     double tangential[3]; ///< [N]
     double rolling[3];    ///< torque against rolling [N m]
-} clx_push;
+} clx_contact_force;
 
 /// Constants from a configuration, which has been checked.
 clx_law clx_law_make(const clast_dem_config *config);
@@ -73,7 +73,7 @@ clx_law clx_law_make(const clast_dem_config *config);
 /// @param mass, radius  of the lightest grain; not used by the linear law
 double clx_law_time(const clx_law *law, double mass, double radius);
 
-/// What exact steps take of springs and dashpots where a grain has many contacts.
+/// Factors of exact steps on springs and dashpots where a grain has many contacts.
 typedef struct clx_law_limit {
     double spring, damping; ///< shares
 } clx_law_limit;
@@ -98,12 +98,13 @@ static inline clx_law_limit clx_law_hold(const clx_law *law, double held)
 /// k_t / m and D = 7/2 d_t / m. With e_n = 0.1 8.9, 16.5, 31.7 for one, two, four.
 double clx_law_steps(const clx_law *law, int n);
 
-/// Speed at which a wall's spring, without its dashpot, stops a grain within half its reach: m v^2
-/// / 2 is the work k d^2 / 2 of the linear law, 8/15 E* sqrt(R) d^(5/2) of Hertz's, d = reach / 2.
+/// Speed at which a wall's spring, without its dashpot, stops a grain within half its radius: m v^2
+/// / 2 is the work k d^2 / 2 of the linear law, 8/15 E* sqrt(R) d^(5/2) of Hertz's, d = bounding
+/// / 2.
 ///                                                       [docs/theory/dem.md "When a run explodes"]
 ///
-/// @param radius  R of Hertz's law    @param reach  bounding radius
-double clx_law_speed(const clx_law *law, double mass, double radius, double reach);
+/// @param radius  R of Hertz's law    @param bounding  radius of the bounding sphere
+double clx_law_speed(const clx_law *law, double mass, double radius, double bounding);
 
 /// Normal spring's and tangential spring's energy at this overlap and displacement [J].
 double clx_law_energy(const clx_law *law, double overlap, double slide, double mass, double radius);
@@ -205,8 +206,9 @@ static inline double clx_law_pull(const clx_law *law, const clx_meeting *c)
                : law->pull * c->radius;
 }
 
-/// The memory follows the contact: turned about the normal, laid into its plane at old length.
-static inline void clx_law_turn(const clx_meeting *c, double dt, double slide[3])
+/// The tangential displacement follows the contact: rotated about the normal, then projected into
+/// its plane at its old length.
+static inline void clx_law_rotate(const clx_meeting *c, double dt, double slide[3])
 {
     const double old = v3_norm2(slide);
     if (old == 0.0) {
@@ -220,9 +222,9 @@ static inline void clx_law_turn(const clx_meeting *c, double dt, double slide[3]
     v3_scale(slide, now > 0.0 ? sqrt(old / now) : 0.0, slide);
 }
 
-/// Eq. 6 and 7: forces of a contact; its memory `slide` (displacement of b over a) goes on by dt.
+/// Eq. 6 and 7: forces of a contact; the history `slide` (displacement of b over a) goes on by dt.
 static inline void clx_law_force(const clx_law *law, const clx_meeting *c, double dt,
-                                 double slide[3], clx_push *push)
+                                 double slide[3], clx_contact_force *force)
 {
     clx_springs s = clx_law_springs(law, c);
     if (law->is_exact) {
@@ -236,27 +238,27 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
     const double apart = v3_dot(c->velocity, c->normal);
     double along[3];
     v3_axpy(along, c->velocity, -apart, c->normal);
-    push->normal = s.elastic - s.normal_damping * apart;
-    if (law->clip && push->normal < fmin(s.elastic, 0.0)) {
-        push->normal = fmin(s.elastic, 0.0);
+    force->normal = s.elastic - s.normal_damping * apart;
+    if (law->clip && force->normal < fmin(s.elastic, 0.0)) {
+        force->normal = fmin(s.elastic, 0.0);
     }
     // Coulomb's limit takes the pressed force: attraction presses too, so it is left out of it; for
     // JKR that is F + 2 F_pull-off [Thornton1991]
     const double pressed = law->has_neck ? 2.0 * law->pull * c->radius : 0.0;
-    push->pressed = fabs(push->normal + pressed);
-    const double limit = c->friction * push->pressed;
-    push->normal -= clx_law_pull(law, c);
-    clx_law_turn(c, dt, slide);
+    force->pressed = fabs(force->normal + pressed);
+    const double limit = c->friction * force->pressed;
+    force->normal -= clx_law_pull(law, c);
+    clx_law_rotate(c, dt, slide);
     v3_axpy(slide, slide, dt, along);
     for (int k = 0; k < 3; ++k) {
-        push->tangential[k] = -s.tangential * slide[k] - s.tangential_damping * along[k];
+        force->tangential[k] = -s.tangential * slide[k] - s.tangential_damping * along[k];
     }
-    const double size2 = v3_norm2(push->tangential);
+    const double size2 = v3_norm2(force->tangential);
     if (size2 > limit * limit) {
         const double inverse = -1.0 / s.tangential;
-        v3_scale(push->tangential, limit / sqrt(size2), push->tangential);
+        v3_scale(force->tangential, limit / sqrt(size2), force->tangential);
         for (int k = 0; k < 3; ++k) {
-            slide[k] = inverse * (push->tangential[k] + s.tangential_damping * along[k]);
+            slide[k] = inverse * (force->tangential[k] + s.tangential_damping * along[k]);
         }
     }
 }
@@ -265,14 +267,14 @@ static inline void clx_law_force(const clx_law *law, const clx_meeting *c, doubl
 ///
 /// @param inertia  reduced moment of inertia of the two [kg m2]
 static inline void clx_law_roll(const clx_law *law, const clx_meeting *c, double inertia, double dt,
-                                clx_push *push)
+                                clx_contact_force *force)
 {
     double roll[3];
     v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
     const double size = v3_norm(roll);
-    const double most = law->rolling * c->radius * push->pressed;
+    const double most = law->rolling * c->radius * force->pressed;
     const double stops = CLX_LAW_STOPS * inertia * size / dt;
-    v3_scale(push->rolling, size > 0.0 ? -fmin(most, stops) / size : 0.0, roll);
+    v3_scale(force->rolling, size > 0.0 ? -fmin(most, stops) / size : 0.0, roll);
 }
 
 /// Slope of the normal force over the overlap [N/m].
@@ -292,14 +294,14 @@ static inline double clx_law_stiffness(const clx_law *law, const clx_meeting *c)
 /// @param inertia  as clx_law_roll; I_r, of the two about the contact [kg m2]
 static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
                                        const double inertia[2], double dt, double torque[3],
-                                       clx_push *push)
+                                       clx_contact_force *force)
 {
     double roll[3];
     const double lever = law->rolling * c->radius;
     const double spring = 2.25 * clx_law_stiffness(law, c) * lever * lever;
-    const double most = lever * push->pressed;
+    const double most = lever * force->pressed;
     v3_axpy(roll, c->roll, -v3_dot(c->roll, c->normal), c->normal);
-    clx_law_turn(c, dt, torque);
+    clx_law_rotate(c, dt, torque);
     v3_axpy(torque, torque, -spring * dt, roll);
     const double size2 = v3_norm2(torque);
     const bool gives_way = size2 > most * most;
@@ -308,5 +310,5 @@ static inline void clx_law_roll_spring(const clx_law *law, const clx_meeting *c,
     }
     const double dashpot =
         fmin(2.0 * law->damping_ratio * sqrt(inertia[1] * spring), CLX_LAW_STOPS * inertia[0] / dt);
-    v3_axpy(push->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
+    v3_axpy(force->rolling, torque, gives_way ? 0.0 : -dashpot, roll);
 }

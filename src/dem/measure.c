@@ -46,11 +46,11 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     double momentum[3];
     v3_copy(momentum, motion->angular);
     if (g->kind == CLAST_SHAPE_SPHERE) {
-        v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, g->spin);
+        v3_scale(momentum, 0.4 * g->mass * g->radius * g->radius, g->omega);
     } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
-        m3_mul_t(in_body, dem->grain[i].turn, g->spin);
+        m3_mul_t(in_body, dem->grain[i].turn, g->omega);
         m3_mul(l, dem->body[g->shape].inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
         m3_mul(momentum, dem->grain[i].turn, l);
@@ -59,7 +59,7 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     m->mean_height += g->mass * g->position[2];
     m->top = fmax(m->top, g->position[2]);
     m->max_speed = fmax(m->max_speed, v3_norm(g->velocity));
-    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->spin);
+    m->kinetic_energy += 0.5 * g->mass * v3_norm2(g->velocity) + 0.5 * v3_dot(momentum, g->omega);
     m->potential_energy += dem->config.gravity *
                            (g->mass - dem->config.fluid_density * motion->volume) * g->position[2];
     if (dem->body[g->shape].shape.own.is_mixed) {
@@ -72,18 +72,18 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
 }
 
 /// A contact's part; its overlap is worked out afresh.
-static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measures *m)
+static void add_pair(const clast_dem *dem, const clx_dem_pair *pair, clast_dem_measures *m)
 {
     clx_dem_touch t;
-    const clx_grain *a = &dem->grain[clx_item_grain(dem, link->a)];
+    const clx_grain *a = &dem->grain[clx_item_grain(dem, pair->a)];
     double mass = a->mass;
     double radius = a->round_radius;
-    if (!clx_link_holds(dem, link, &t)) {
+    if (!clx_pair_holds(dem, pair, &t)) {
         return;
     }
-    const int is_first = clx_is_first_contact(dem, link) ? 1 : 0;
-    if (link->b >= 0) {
-        const clx_grain *b = &dem->grain[clx_item_grain(dem, link->b)];
+    const int is_first = clx_is_first_contact(dem, pair) ? 1 : 0;
+    if (pair->b >= 0) {
+        const clx_grain *b = &dem->grain[clx_item_grain(dem, pair->b)];
         mass = a->mass * b->mass / (a->mass + b->mass);
         radius = a->round_radius * b->round_radius / (a->round_radius + b->round_radius);
         m->n_contact += is_first;
@@ -91,12 +91,12 @@ static void add_link(const clast_dem *dem, const clx_link *link, clast_dem_measu
         m->n_wall_contact += is_first;
     }
     const double share =
-        dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / clx_sub_contacts(dem, link) : 1.0;
+        dem->config.clump_contacts == CLAST_DEM_SHARED ? 1.0 / clx_sub_contacts(dem, pair) : 1.0;
     const double overlap = fmax(0.0, -t.distance);
     m->max_overlap = fmax(m->max_overlap, overlap);
     if (overlap > 0.0) {
         m->elastic_energy +=
-            share * clx_law_energy(&dem->law, overlap, v3_norm(link->slide), mass, radius);
+            share * clx_law_energy(&dem->law, overlap, v3_norm(pair->slide), mass, radius);
     }
 }
 
@@ -109,14 +109,14 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
                             .time = clast_dem_time(dem),
                             .n_grain = dem->n_grain,
                             .top = -INFINITY,
-                            .n_listed = dem->list.n_link,
+                            .n_listed = dem->list.n_pair,
                             .n_refresh = dem->list.n_refresh,
                             .verified = dem->verified};
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         add_grain(dem, i, &m);
     }
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        add_link(dem, &dem->list.link[k], &m);
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        add_pair(dem, &dem->list.pair[k], &m);
     }
     if (m.mass > 0.0) {
         m.mean_height /= m.mass;
@@ -128,12 +128,12 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
 void clx_count_contacts(const clast_dem *dem, int32_t *count)
 {
     clx_dem_touch t;
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        const clx_link *link = &dem->list.link[k];
-        if (clx_link_holds(dem, link, &t) && clx_is_first_contact(dem, link)) {
-            ++count[clx_item_grain(dem, link->a)];
-            if (link->b >= 0) {
-                ++count[clx_item_grain(dem, link->b)];
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        const clx_dem_pair *pair = &dem->list.pair[k];
+        if (clx_pair_holds(dem, pair, &t) && clx_is_first_contact(dem, pair)) {
+            ++count[clx_item_grain(dem, pair->a)];
+            if (pair->b >= 0) {
+                ++count[clx_item_grain(dem, pair->b)];
             }
         }
     }
@@ -152,15 +152,15 @@ static void wrap(const clast_dem *dem, double x[3])
 static clast_status add_contacts(const clast_dem *dem, clast_assembly *out)
 {
     clast_status status = CLAST_OK;
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        const clx_link *link = &dem->list.link[k];
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        const clx_dem_pair *pair = &dem->list.pair[k];
         clx_dem_touch t;
         double point[3];
-        if (link->b >= 0 && clx_link_holds(dem, link, &t) && clx_is_first_contact(dem, link)) {
-            const int32_t a = clx_item_grain(dem, link->a);
+        if (pair->b >= 0 && clx_pair_holds(dem, pair, &t) && clx_is_first_contact(dem, pair)) {
+            const int32_t a = clx_item_grain(dem, pair->a);
             v3_add(point, dem->grain[a].position, t.arm_a);
             wrap(dem, point);
-            CLX_TRY(clast_assembly_add_contact(out, a, clx_item_grain(dem, link->b), point));
+            CLX_TRY(clast_assembly_add_contact(out, a, clx_item_grain(dem, pair->b), point));
         }
     }
 done:
@@ -220,15 +220,15 @@ uint64_t clast_dem_hash(const clast_dem *dem)
     for (int32_t i = 0; i < dem->n_grain; ++i) {
         h = mix(h, dem->grain[i].position, 3);
         h = mix(h, dem->grain[i].velocity, 3);
-        h = mix(h, dem->grain[i].spin, 3);
+        h = mix(h, dem->grain[i].omega, 3);
         h = mix(h, dem->motion[i].orientation, 4);
     }
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        if (dem->list.link[k].touches != 0) {
-            const double who[2] = {dem->list.link[k].a, dem->list.link[k].b};
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        if (dem->list.pair[k].touches != 0) {
+            const double who[2] = {dem->list.pair[k].a, dem->list.pair[k].b};
             h = mix(h, who, 2);
-            h = mix(h, dem->list.link[k].slide, 3);
-            h = dem->law.has_extra ? mix(h, dem->list.extra[k].roll, 4) : h;
+            h = mix(h, dem->list.pair[k].slide, 3);
+            h = dem->law.has_history ? mix(h, dem->list.history[k].roll, 4) : h;
         }
     }
     return h;
@@ -249,13 +249,13 @@ clast_status clx_explain_explosion(const clast_dem *dem)
     }
     double depth = 0.0;
     int32_t other = -1;
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        const clx_link *link = &dem->list.link[k];
-        const int32_t a = clx_item_grain(dem, link->a);
-        const int32_t b = link->b >= 0 ? clx_item_grain(dem, link->b) : link->b;
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        const clx_dem_pair *pair = &dem->list.pair[k];
+        const int32_t a = clx_item_grain(dem, pair->a);
+        const int32_t b = pair->b >= 0 ? clx_item_grain(dem, pair->b) : pair->b;
         clx_dem_touch t = {0};
-        if ((a == worst || b == worst) && link->touches != 0) {
-            clx_find_again(dem, link, &t);
+        if ((a == worst || b == worst) && pair->touches != 0) {
+            clx_find_again(dem, pair, &t);
             if (-t.distance > depth) {
                 depth = -t.distance;
                 other = a == worst ? b : a;

@@ -1,18 +1,19 @@
-// Semi-implicit Euler: velocities first, then positions and turns with the new velocities.
+// Semi-implicit Euler: velocities first, then positions and orientations with the new velocities.
 //
-// Angular momentum is the state, so that it is kept exactly where nothing turns a grain; its turn
-// takes the spin of the middle of the step (one half turn ahead), which keeps the energy of a free
-// body too. With `gyroscopic` off the spin is the state, as in the reference program.
+// Angular momentum is the state, so that it is conserved exactly where no torque acts. A step's
+// rotation takes the angular velocity of its middle (predicted by half a step), which conserves the
+// energy of a free body too. With `gyroscopic` off the angular velocity is the state, as in the
+// reference program.
 //
-// Four grains side by side move in lanes (move_lanes.c), others one by one with the same bits.
+// Four grains move in SIMD lanes (move_lanes.c), others one by one with the same bits.
 //
-// The load of a grain is first the sum over contacts whose b it is, in the order of the list, then
-// the sums over its items' own contacts: the same bytes whatever the threads.
+// The force and torque on a grain are first the sum over contacts whose b it is, in the order of
+// the list, then the sums over its items' own contacts: the same bytes whatever the threads.
 #include "dem/move.h"
 
 #include "base/parallel.h"
 #include "dem/fluid.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -40,34 +41,35 @@ static void turn_by(const double w[3], double dt, double q[4])
     }
 }
 
-/// Spin of a body of this turn: w = R I^-1 R^T L.
-static void spin_of(clx_dem_body *body, const clx_motion *m, double turn[3][3], double spin[3])
+/// Angular velocity of a body in this orientation: w = R I^-1 R^T L.
+static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double turn[3][3],
+                                double omega[3])
 {
     double in_body[3];
     double w[3];
     m3_mul_t(in_body, turn, m->angular);
     m3_mul(w, body->inverse_inertia, in_body);
-    m3_mul(spin, turn, w);
-    v3_scale(spin, m->inverse_factor, spin);
+    m3_mul(omega, turn, w);
+    v3_scale(omega, m->inverse_factor, omega);
 }
 
 static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], double factor,
                        double dt)
 {
-    v3_axpy(g->spin, g->spin, 2.5 * dt / (g->mass * g->radius * g->radius), torque);
-    v3_scale(g->spin, factor, g->spin);
-    turn_by(g->spin, dt, m->orientation);
+    v3_axpy(g->omega, g->omega, 2.5 * dt / (g->mass * g->radius * g->radius), torque);
+    v3_scale(g->omega, factor, g->omega);
+    turn_by(g->omega, dt, m->orientation);
 }
 
-/// Reference program: w += R I^-1 R^T T dt; momentum follows the spin.
+/// Reference program: w += R I^-1 R^T T dt; momentum follows the angular velocity.
 static void turn_plainly(clx_dem_body *body, clx_grain *g, clx_motion *m, const double torque[3],
                          double turn[3][3])
 {
     clx_motion torque_only = *m;
     double change[3];
     v3_copy(torque_only.angular, torque);
-    spin_of(body, &torque_only, turn, change);
-    v3_add(g->spin, g->spin, change);
+    angular_velocity_of(body, &torque_only, turn, change);
+    v3_add(g->omega, g->omega, change);
 }
 
 static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double factor, double dt)
@@ -79,34 +81,34 @@ static void turn_body(clast_dem *dem, int64_t i, const double torque[3], double 
     v3_scale(impulse, dt, torque);
     if (!dem->config.gyroscopic) {
         turn_plainly(body, g, m, impulse, g->turn);
-        v3_scale(g->spin, factor, g->spin);
+        v3_scale(g->omega, factor, g->omega);
         if (dem->config.fluid_viscosity > 0.0) {
-            clx_fluid_slow(dem, i, dt, g->spin);
+            clx_fluid_damp_rotation(dem, i, dt, g->omega);
         }
-        turn_by(g->spin, dt, m->orientation);
+        turn_by(g->omega, dt, m->orientation);
     } else {
         double half[4];
         double middle[3][3];
         v3_add(m->angular, m->angular, impulse);
         v3_scale(m->angular, factor, m->angular);
         if (dem->config.fluid_viscosity > 0.0) {
-            clx_fluid_slow(dem, i, dt, m->angular);
+            clx_fluid_damp_rotation(dem, i, dt, m->angular);
         }
         for (int k = 0; k < 4; ++k) {
             half[k] = m->orientation[k];
         }
-        turn_by(g->spin, 0.5 * dt, half);
+        turn_by(g->omega, 0.5 * dt, half);
         q_matrix(middle, half);
-        spin_of(body, m, middle, g->spin);
-        turn_by(g->spin, dt, m->orientation);
+        angular_velocity_of(body, m, middle, g->omega);
+        turn_by(g->omega, dt, m->orientation);
     }
     q_matrix(g->turn, m->orientation);
     if (dem->config.gyroscopic) {
-        spin_of(body, m, g->turn, g->spin);
+        angular_velocity_of(body, m, g->turn, g->omega);
     }
 }
 
-/// Drag of a fluid at rest: implicit in the speed, so that it never turns a grain round.
+/// Drag of a fluid at rest: implicit in the speed, so that it never reverses a velocity.
 static double drag_factor(const clast_dem *dem, const clx_grain *g, const clx_motion *m, double dt)
 {
     const double mu = dem->config.fluid_viscosity;
@@ -130,7 +132,8 @@ void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
     v3_scale(arm, -g->scale, arm);
 }
 
-/// Buoyancy and drag act at the centre of volume, the load at the centre of mass: what that turns.
+/// Buoyancy and drag act at the centre of volume, other forces at the centre of mass: the torque of
+/// that.
 static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
 {
     const clx_grain *g = &dem->grain[i];
@@ -171,7 +174,7 @@ static double shift(const clx_moving *c, int64_t i, const double f[3])
     return v3_norm(g->velocity);
 }
 
-/// How far an item's surface may be from where its neighbours were looked for.
+/// How far an item's surface may have moved since its neighbours were searched.
 static inline double moved(const clast_dem *dem, int32_t i)
 {
     const clx_anchor *at = &dem->list.anchor[i];
@@ -205,61 +208,61 @@ static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
 }
 
 /// One grain; true unless it is lost.
-static bool move_one(const clx_moving *c, int64_t i, const clx_load *load)
+static bool move_one(const clx_moving *c, int64_t i, const clx_force_torque *total)
 {
     clast_dem *dem = c->dem;
     clx_grain *g = &dem->grain[i];
     const double dt = dem->config.time_step;
-    double speed = shift(c, i, load->force);
+    double speed = shift(c, i, total->force);
     const bool is_fine = speed * dt <= c->stride * g->radius;
     if (g->kind == CLAST_SHAPE_SPHERE) {
-        const double kept =
-            dem->config.fluid_viscosity > 0.0 ? clx_fluid_spin_factor(dem, g, dt) : 1.0;
-        turn_round(g, &dem->motion[i], load->torque, c->damping * kept, dt);
+        const double factor =
+            dem->config.fluid_viscosity > 0.0 ? clx_fluid_rotation_factor(dem, g, dt) : 1.0;
+        turn_round(g, &dem->motion[i], total->torque, c->damping * factor, dt);
     } else {
-        turn_body(dem, i, load->torque, c->damping, dt);
-        speed += v3_norm(g->spin) * g->radius * (1.0 + 1e-6);
+        turn_body(dem, i, total->torque, c->damping, dt);
+        speed += v3_norm(g->omega) * g->radius * (1.0 + 1e-6);
     }
     dem->travel[i] += dt * speed;
     return is_fine;
 }
 
 CLX_FOR_EACH_MACHINE
-void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load)
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_force_torque *total)
 {
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
-    for (int32_t k = near->in_begin[g]; k < near->in_begin[g + 1]; ++k) {
-        const clx_pushed *push = &near->push[near->in[k]];
-        force += lanes_load(push->force);
-        torque += lanes_load(push->torque_b);
+    for (int32_t k = inner->in_begin[g]; k < inner->in_begin[g + 1]; ++k) {
+        const clx_pair_force *pair = &inner->force[inner->in[k]];
+        force += lanes_load(pair->force);
+        torque += lanes_load(pair->torque_b);
     }
-    lanes_store(load->force, force);
-    lanes_store(load->torque, torque);
+    lanes_store(total->force, force);
+    lanes_store(total->torque, torque);
 }
 
-/// Sum of what contacts do to grain g.
-static inline clx_load load_of(const clast_dem *dem, int64_t g)
+/// Sum of the pair forces on grain g.
+static inline clx_force_torque total_of(const clast_dem *dem, int64_t g)
 {
-    const clx_near *near = &dem->near;
-    clx_load load;
-    clx_move_incoming(near, g, &load);
+    const clx_inner_list *inner = &dem->inner;
+    clx_force_torque total;
+    clx_move_incoming(inner, g, &total);
     const int64_t first = dem->item_begin != NULL ? dem->item_begin[g] : g;
     const int64_t last = dem->item_begin != NULL ? dem->item_begin[g + 1] : g + 1;
     for (int64_t i = first; i < last; ++i) {
         clx_lanes own = lanes_all(0.0);
         clx_lanes turning = lanes_all(0.0);
-        for (int32_t k = near->begin[i]; k < near->begin[i + 1]; ++k) {
-            own -= lanes_load(near->push[k].force);
-            turning -= lanes_load(near->push[k].torque_a);
+        for (int32_t k = inner->begin[i]; k < inner->begin[i + 1]; ++k) {
+            own -= lanes_load(inner->force[k].force);
+            turning -= lanes_load(inner->force[k].torque_a);
         }
-        lanes_store(load.force, lanes_load(load.force) + own);
-        lanes_store(load.torque, lanes_load(load.torque) + turning);
+        lanes_store(total.force, lanes_load(total.force) + own);
+        lanes_store(total.torque, lanes_load(total.torque) + turning);
     }
     if (dem->item_begin != NULL && dem->body[dem->grain[g].shape].shape.own.is_mixed) {
-        add_fluid_torque(dem, g, load.torque);
+        add_fluid_torque(dem, g, total.torque);
     }
-    return load;
+    return total;
 }
 
 /// Whether an item of the grain has used up its margin.
@@ -276,30 +279,30 @@ static bool is_grain_due(clast_dem *dem, int64_t i)
     return is_due;
 }
 
-/// What n grains that have just moved ask for.
+/// clx_move_flag of n grains that have just moved.
 static int flag_of(clast_dem *dem, int64_t first, int n)
 {
     int flag = 0;
     for (int64_t i = first; i < first + n; ++i) {
-        flag |= dem->travel[i] > dem->near.until[i] ? CLX_MOVE_NEAR_DUE : 0;
+        flag |= dem->travel[i] > dem->inner.until[i] ? CLX_MOVE_INNER_DUE : 0;
         flag |= is_grain_due(dem, i) ? CLX_MOVE_DUE : 0;
     }
     return flag;
 }
 
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load)
+int clx_move_group(const clx_moving *c, int64_t first, int n, const clx_force_torque *total)
 {
     clast_dem *dem = c->dem;
     int flag = 0;
     for (int k = 0; k < n && dem->law.is_exact; ++k) {
-        dem->grain[first + k].held = load[k].torque[3];
+        dem->grain[first + k].held = total[k].torque[3];
     }
-    if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, load, &flag)) {
+    if (clx_move_has_lanes(dem, first, n) && clx_move_lanes(c, first, n, total, &flag)) {
         const bool is_sure = dem->item == NULL && (flag & CLX_MOVE_DUE) == 0;
         return is_sure ? flag : (flag & CLX_MOVE_LOST) | flag_of(dem, first, n);
     }
     for (int k = 0; k < n; ++k) {
-        flag |= move_one(c, first + k, &load[k]) ? 0 : CLX_MOVE_LOST;
+        flag |= move_one(c, first + k, &total[k]) ? 0 : CLX_MOVE_LOST;
     }
     return flag | flag_of(dem, first, n);
 }
@@ -312,12 +315,12 @@ static void move_block(int64_t begin, int64_t end, int32_t worker, void *context
     (void)worker;
     int n = 0;
     for (int64_t i = begin; i < end; i += n) {
-        clx_load load[CLX_MOVE_MOST];
+        clx_force_torque total[CLX_MOVE_MOST];
         n = clx_lanes_from(i, end);
         for (int k = 0; k < n; ++k) {
-            load[k] = load_of(c->dem, i + k);
+            total[k] = total_of(c->dem, i + k);
         }
-        flag |= clx_move_few(c, i, n, load);
+        flag |= clx_move_group(c, i, n, total);
     }
     c->dem->block_flag[begin / BLOCK] = (uint8_t)flag;
 }
@@ -344,7 +347,7 @@ clx_moving clx_move_begin(clast_dem *dem)
 bool clx_move_end(clast_dem *dem, int flag)
 {
     dem->list.is_due = dem->list.is_due || (flag & CLX_MOVE_DUE) != 0;
-    dem->near.is_due = dem->near.is_due || (flag & CLX_MOVE_NEAR_DUE) != 0;
+    dem->inner.is_due = dem->inner.is_due || (flag & CLX_MOVE_INNER_DUE) != 0;
     return (flag & CLX_MOVE_LOST) == 0;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Grains a step on: what the plain way and the lanes share.
+// Motion of grains: shared by scalar code and SIMD lanes.
 #include "dem/dem.h"
 #include "math/lanes.h"
 
@@ -10,33 +10,35 @@ typedef struct clx_moving {
     double stride;  ///< share of its radius that a grain may move in a step
 } clx_moving;
 
-/// What a block of grains asks for.
-enum clx_move_flag { CLX_MOVE_LOST = 1, CLX_MOVE_DUE = 2, CLX_MOVE_NEAR_DUE = 4 };
+/// What follows from the motion of a block of grains.
+enum clx_move_flag { CLX_MOVE_LOST = 1, CLX_MOVE_DUE = 2, CLX_MOVE_INNER_DUE = 4 };
 
-/// Grains that move at once: two fours.
+/// Grains that move together: two groups of four.
 enum { CLX_MOVE_MOST = 8 };
 
-/// Whether n grains from i on can move in lanes: fours, all spheres or none, and the plain options.
+/// Whether n grains from i on can move in lanes: groups of four, all spheres or none, and no fluid.
 bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n);
 
-/// Moves four grains, or eight: the bits of one by one. False, and nothing done, when one turns too
-/// fast for the series. Where items are grains, the flag has CLX_MOVE_DUE if one may have used up
-/// its margin.
-bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag);
+/// Moves four grains, or eight, with the bits of scalar code. False, and nothing done, when one
+/// turns too fast for the series. Where items are grains, the flag has CLX_MOVE_DUE if one may have
+/// used up its margin.
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_force_torque *total,
+                    int *flag);
 
-/// How many of the grains from i to end go side by side.
+/// How many of the grains from i to end move together.
 static inline int clx_lanes_from(int64_t i, int64_t end)
 {
     const int n = end - i < CLX_MOVE_MOST ? (int)(end - i) : CLX_MOVE_MOST;
     return n > CLX_LANES && n < CLX_MOVE_MOST ? CLX_LANES : n;
 }
 
-/// Sum over what contacts with grains of lower number do to grain g (near.push), in their order.
-void clx_move_incoming(const clx_near *near, int64_t g, clx_load *load);
+/// Sum of the pair forces (inner.force) on grain g from grains of lower number, in their order.
+void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_force_torque *total);
 
-/// A step's constants; what its blocks asked for goes to the lists. True unless a grain is lost.
+/// A step's constants; then marks the lists as due by the flags of all blocks. True unless a grain
+/// is lost.
 clx_moving clx_move_begin(clast_dem *dem);
 bool clx_move_end(clast_dem *dem, int flag);
 
-/// Moves n grains, CLX_MOVE_MOST at most; clx_move_flag.
-int clx_move_few(const clx_moving *c, int64_t first, int n, const clx_load *load);
+/// Moves n grains, CLX_MOVE_MOST at most; returns clx_move_flag.
+int clx_move_group(const clx_moving *c, int64_t first, int n, const clx_force_torque *total);

@@ -1,5 +1,5 @@
-// Four grains a step on, or eight. Each line is that of motion.c, in its order, so that the bits
-// are its.
+// Motion of four or eight grains in SIMD lanes. Each line is that of motion.c, in the same order,
+// so that the bits are the same.
 #include "dem/move.h"
 
 CLX_INLINE void multiply(const clx_lanes a[4], const clx_lanes b[4], clx_lanes out[4])
@@ -45,22 +45,22 @@ CLX_INLINE clx_marks turn_by(const clx_lanes w[3], double dt, const clx_lanes q[
     return ~(s < 0.01);
 }
 
-/// Four grains on their way.
+/// Four grains in motion.
 typedef struct {
-    clx_lanes position[4], velocity[4], spin[4], turn[9]; ///< with radius, mass, scale
-    clx_lanes orientation[4], angular[4];                 ///< with the inverse factor
-    clx_lanes inverse[9];                                 ///< of the shapes' inertia
-    clx_marks is_fast;                                    ///< turns too fast for the series
+    clx_lanes position[4], velocity[4], omega[4], turn[9]; ///< fourth: radius, mass, scale
+    clx_lanes orientation[4], angular[4];                  ///< fourth: the inverse factor
+    clx_lanes inverse[9];                                  ///< of the shapes' inertia
+    clx_marks is_fast;                                     ///< turns too fast for the series
 } grains;
 
-CLX_INLINE void spin_of(const grains *g, const clx_lanes turn[9], clx_lanes spin[3])
+CLX_INLINE void angular_velocity_of(const grains *g, const clx_lanes turn[9], clx_lanes omega[3])
 {
     clx_lanes in_body[3], w[3];
     lanes_mul_t(in_body, turn, g->angular);
     lanes_mul(w, g->inverse, in_body);
-    lanes_mul(spin, turn, w);
+    lanes_mul(omega, turn, w);
     for (int c = 0; c < 3; ++c) {
-        spin[c] = g->angular[3] * spin[c];
+        omega[c] = g->angular[3] * omega[c];
     }
 }
 
@@ -77,63 +77,65 @@ CLX_INLINE void read_body(clast_dem *dem, int64_t i, grains *g)
     g->inverse[8] = (clx_lanes){inverse[0][8], inverse[1][8], inverse[2][8], inverse[3][8]};
 }
 
-/// Spins, orientations and torques.
-CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_load load[CLX_LANES], grains *g,
-                          clx_lanes torque[4])
+/// Angular velocities, orientations and torques.
+CLX_INLINE void read_turn(clast_dem *dem, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g, clx_lanes torque[4])
 {
     const clx_grain *from = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
-    lanes_gather(torque, load[0].torque, load[1].torque, load[2].torque, load[3].torque);
-    lanes_gather(g->spin, from[0].spin, from[1].spin, from[2].spin, from[3].spin);
+    lanes_gather(torque, total[0].torque, total[1].torque, total[2].torque, total[3].torque);
+    lanes_gather(g->omega, from[0].omega, from[1].omega, from[2].omega, from[3].omega);
     lanes_gather(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                  m[3].orientation);
 }
 
-/// turn_body as far as the spin of the middle of the step.
-CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
+/// turn_body as far as the angular velocity of the middle of the step.
+CLX_INLINE void turn_half(const clx_moving *c, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g)
 {
     clx_lanes half[4], middle[9], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, load, g, torque);
+    read_turn(c->dem, i, total, g, torque);
     read_body(c->dem, i, g);
     for (int k = 0; k < 3; ++k) {
         g->angular[k] = c->damping * (g->angular[k] + dt * torque[k]);
     }
-    g->is_fast = turn_by(g->spin, 0.5 * dt, g->orientation, half);
+    g->is_fast = turn_by(g->omega, 0.5 * dt, g->orientation, half);
     matrix(half, middle);
-    spin_of(g, middle, g->spin);
+    angular_velocity_of(g, middle, g->omega);
 }
 
 /// The rest of turn_body.
 CLX_INLINE void turn_whole(double dt, grains *g)
 {
     clx_lanes q[4];
-    g->is_fast |= turn_by(g->spin, dt, g->orientation, q);
+    g->is_fast |= turn_by(g->omega, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
     matrix(q, g->turn);
-    spin_of(g, g->turn, g->spin);
+    angular_velocity_of(g, g->turn, g->omega);
 }
 
-CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES],
-                             grains *g)
+CLX_INLINE void turn_spheres(const clx_moving *c, int64_t i,
+                             const clx_force_torque total[CLX_LANES], grains *g)
 {
     clx_lanes q[4], torque[4];
     const double dt = c->dem->config.time_step;
-    read_turn(c->dem, i, load, g, torque);
+    read_turn(c->dem, i, total, g, torque);
     const clx_lanes scale = 2.5 * dt / (g->velocity[3] * g->position[3] * g->position[3]);
     for (int k = 0; k < 3; ++k) {
-        g->spin[k] = c->damping * (g->spin[k] + scale * torque[k]);
+        g->omega[k] = c->damping * (g->omega[k] + scale * torque[k]);
     }
-    g->is_fast = turn_by(g->spin, dt, g->orientation, q);
+    g->is_fast = turn_by(g->omega, dt, g->orientation, q);
     for (int k = 0; k < 4; ++k) {
         g->orientation[k] = q[k];
     }
 }
 
 /// shift
-CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_load load[CLX_LANES], grains *g)
+CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_force_torque total[CLX_LANES],
+                          grains *g)
 {
     const clast_dem *dem = c->dem;
     const clx_grain *from = &dem->grain[i];
@@ -141,7 +143,7 @@ CLX_INLINE void shift_all(const clx_moving *c, int64_t i, const clx_load load[CL
     const double dt = dem->config.time_step;
     const clx_lanes volume = {m[0].volume, m[1].volume, m[2].volume, m[3].volume};
     clx_lanes force[4];
-    lanes_gather(force, load[0].force, load[1].force, load[2].force, load[3].force);
+    lanes_gather(force, total[0].force, total[1].force, total[2].force, total[3].force);
     lanes_gather(g->position, from[0].position, from[1].position, from[2].position,
                  from[3].position);
     lanes_gather(g->velocity, from[0].velocity, from[1].velocity, from[2].velocity,
@@ -164,7 +166,7 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
     clx_motion *m = &dem->motion[i];
     lanes_scatter(g->position, to[0].position, to[1].position, to[2].position, to[3].position);
     lanes_scatter(g->velocity, to[0].velocity, to[1].velocity, to[2].velocity, to[3].velocity);
-    lanes_scatter(g->spin, to[0].spin, to[1].spin, to[2].spin, to[3].spin);
+    lanes_scatter(g->omega, to[0].omega, to[1].omega, to[2].omega, to[3].omega);
     lanes_scatter(g->orientation, m[0].orientation, m[1].orientation, m[2].orientation,
                   m[3].orientation);
     if (is_round) {
@@ -191,7 +193,7 @@ bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
            (n_round == n || (n_round == 0 && dem->config.gyroscopic));
 }
 
-/// Paths, and what the grains ask for.
+/// Adds to the paths; returns clx_move_flag.
 CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const grains *g)
 {
     clast_dem *dem = c->dem;
@@ -199,35 +201,35 @@ CLX_INLINE int add_paths(const clx_moving *c, int64_t i, bool is_round, const gr
     clx_lanes speed = lanes_root(lanes_dot(g->velocity, g->velocity));
     const clx_marks is_lost = ~(speed * dt <= c->stride * g->position[3]);
     if (!is_round) {
-        speed += lanes_root(lanes_dot(g->spin, g->spin)) * g->position[3] * (1.0 + 1e-6);
+        speed += lanes_root(lanes_dot(g->omega, g->omega)) * g->position[3] * (1.0 + 1e-6);
     }
     const clx_lanes travel = lanes_load(&dem->travel[i]) + dt * speed;
-    const clx_marks is_near_due = travel > lanes_load(&dem->near.until[i]);
+    const clx_marks is_inner_due = travel > lanes_load(&dem->inner.until[i]);
     const clx_marks may_be_due = ~(travel < lanes_load(&dem->list.limit[i]));
     lanes_store(&dem->travel[i], travel);
-    if (lanes_bits(is_lost | is_near_due | may_be_due) == 0) {
+    if (lanes_bits(is_lost | is_inner_due | may_be_due) == 0) {
         return 0; // most of the time
     }
     return (lanes_bits(is_lost) != 0 ? CLX_MOVE_LOST : 0) |
-           (lanes_bits(is_near_due) != 0 ? CLX_MOVE_NEAR_DUE : 0) |
+           (lanes_bits(is_inner_due) != 0 ? CLX_MOVE_INNER_DUE : 0) |
            (lanes_bits(may_be_due) != 0 ? CLX_MOVE_DUE : 0);
 }
 
-/// Two fours go through each stage before the next: while one waits for its sums, the other goes
-/// on.
-CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_load *load, bool is_round,
-                     int *flag)
+/// Two groups of four go through each stage before the next: while one waits for its sums, the
+/// other goes on.
+CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_force_torque *total,
+                     bool is_round, int *flag)
 {
     grains g[CLX_MOVE_MOST / CLX_LANES];
     clx_marks is_fast = {0};
     for (int k = 0; k < n; k += CLX_LANES) {
-        shift_all(c, i + k, load + k, &g[k / CLX_LANES]);
+        shift_all(c, i + k, total + k, &g[k / CLX_LANES]);
     }
     for (int k = 0; k < n; k += CLX_LANES) {
         if (is_round) {
-            turn_spheres(c, i + k, load + k, &g[k / CLX_LANES]);
+            turn_spheres(c, i + k, total + k, &g[k / CLX_LANES]);
         } else {
-            turn_half(c, i + k, load + k, &g[k / CLX_LANES]);
+            turn_half(c, i + k, total + k, &g[k / CLX_LANES]);
         }
     }
     for (int k = 0; k < n; k += CLX_LANES) {
@@ -247,9 +249,9 @@ CLX_INLINE bool move(const clx_moving *c, int64_t i, int n, const clx_load *load
 }
 
 CLX_FOR_EACH_MACHINE
-bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_load *load, int *flag)
+bool clx_move_lanes(const clx_moving *c, int64_t i, int n, const clx_force_torque *total, int *flag)
 {
     *flag = 0;
-    return c->dem->grain[i].kind == CLAST_SHAPE_SPHERE ? move(c, i, n, load, true, flag)
-                                                       : move(c, i, n, load, false, flag);
+    return c->dem->grain[i].kind == CLAST_SHAPE_SPHERE ? move(c, i, n, total, true, flag)
+                                                       : move(c, i, n, total, false, flag);
 }

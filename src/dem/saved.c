@@ -2,10 +2,10 @@
 #include "dem/saved.h"
 
 #include "base/lines.h"
-#include "dem/list.h"
+#include "dem/neighbour_list.h"
 #include <string.h>
 
-enum { MEMORY = sizeof(clx_contact_memory) };
+enum { WARM_START = sizeof(clx_contact_memory) };
 
 void clx_dem_saved_free(clx_dem_saved *s)
 {
@@ -14,20 +14,20 @@ void clx_dem_saved_free(clx_dem_saved *s)
     clx_free(s->anchor);
     clx_free(s->limit);
     clx_free(s->held);
-    clx_free(s->extra);
+    clx_free(s->history);
     clx_free(s->id);
-    clx_free(s->link);
-    clx_free(s->memory);
+    clx_free(s->pair);
+    clx_free(s->warm_start);
     *s = (clx_dem_saved){0};
 }
 
-static void put_grain(const clast_dem *dem, int64_t i, double *out)
+static void write_grain(const clast_dem *dem, int64_t i, double *out)
 {
     const clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
     memcpy(out, g->position, 3 * sizeof *out);
     memcpy(out + 3, g->velocity, 3 * sizeof *out);
-    memcpy(out + 6, g->spin, 3 * sizeof *out);
+    memcpy(out + 6, g->omega, 3 * sizeof *out);
     memcpy(out + 9, m->orientation, 4 * sizeof *out);
     memcpy(out + 13, m->angular, 3 * sizeof *out);
     out[16] = g->scale;
@@ -35,27 +35,27 @@ static void put_grain(const clast_dem *dem, int64_t i, double *out)
     out[18] = dem->travel[i];
 }
 
-static void put_link(const clx_link *link, int32_t *id, double *out)
+static void write_pair(const clx_dem_pair *pair, int32_t *id, double *out)
 {
-    id[0] = link->a;
-    id[1] = link->b;
-    id[2] = link->period[0];
-    id[3] = link->period[1];
-    id[4] = (int32_t)link->touches;
-    out[0] = link->wake;
-    memcpy(out + 1, link->slide, 3 * sizeof *out);
+    id[0] = pair->a;
+    id[1] = pair->b;
+    id[2] = pair->period[0];
+    id[3] = pair->period[1];
+    id[4] = (int32_t)pair->touches;
+    out[0] = pair->active_from;
+    memcpy(out + 1, pair->slide, 3 * sizeof *out);
 }
 
 clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
 {
     clast_status status = CLAST_OK;
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     clx_dem_saved s = {.step = dem->step,
                        .n_refresh = l->n_refresh,
                        .n_grain = dem->n_grain,
                        .n_known = l->n_known,
-                       .n_link = l->n_link,
-                       .memory_width = MEMORY,
+                       .n_pair = l->n_pair,
+                       .warm_start_width = WARM_START,
                        .is_due = l->is_due,
                        .verified = {(double)dem->verified.n, (double)dem->verified.n_off,
                                     (double)dem->verified.n_bad, dem->verified.worst}};
@@ -63,24 +63,25 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
     CLX_TRY(clx_alloc(&s.grain, s.n_grain * CLX_SAVED_GRAIN, sizeof *s.grain));
     CLX_TRY(clx_alloc(&s.anchor, s.n_known * CLX_SAVED_ANCHOR, sizeof *s.anchor));
     CLX_TRY(clx_alloc(&s.limit, s.n_known, sizeof *s.limit));
-    CLX_TRY(clx_alloc(&s.id, s.n_link * CLX_SAVED_ID, sizeof *s.id));
-    CLX_TRY(clx_alloc(&s.link, s.n_link * CLX_SAVED_LINK, sizeof *s.link));
+    CLX_TRY(clx_alloc(&s.id, s.n_pair * CLX_SAVED_ID, sizeof *s.id));
+    CLX_TRY(clx_alloc(&s.pair, s.n_pair * CLX_SAVED_PAIR, sizeof *s.pair));
     for (int64_t i = 0; i < s.n_grain; ++i) {
         s.shape[i] = dem->grain[i].shape;
-        put_grain(dem, i, &s.grain[i * CLX_SAVED_GRAIN]);
+        write_grain(dem, i, &s.grain[i * CLX_SAVED_GRAIN]);
     }
     for (int64_t i = 0; i < s.n_known; ++i) {
         memcpy(&s.anchor[i * CLX_SAVED_ANCHOR], &l->anchor[i], CLX_SAVED_ANCHOR * sizeof(double));
         s.limit[i] = l->limit[i];
     }
-    for (int64_t k = 0; k < s.n_link; ++k) {
-        put_link(&l->link[k], &s.id[k * CLX_SAVED_ID], &s.link[k * CLX_SAVED_LINK]);
+    for (int64_t k = 0; k < s.n_pair; ++k) {
+        write_pair(&l->pair[k], &s.id[k * CLX_SAVED_ID], &s.pair[k * CLX_SAVED_PAIR]);
     }
     if (!dem->all_round) {
-        CLX_TRY(clx_alloc(&s.memory, s.n_link * MEMORY, 1)); // zero for links without one
-        for (int64_t k = 0; k < s.n_link; ++k) {
-            if (l->link[k].slot != 0) {
-                memcpy(s.memory + k * MEMORY, &l->memory[l->link[k].slot].record, MEMORY);
+        CLX_TRY(clx_alloc(&s.warm_start, s.n_pair * WARM_START, 1)); // zero for pairs without one
+        for (int64_t k = 0; k < s.n_pair; ++k) {
+            if (l->pair[k].slot != 0) {
+                memcpy(s.warm_start + k * WARM_START, &l->warm_start[l->pair[k].slot].record,
+                       WARM_START);
             }
         }
     }
@@ -90,10 +91,10 @@ clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved)
             s.held[i] = dem->grain[i].held;
         }
     }
-    if (dem->law.has_extra) {
-        CLX_TRY(clx_alloc(&s.extra, CLX_SAVED_EXTRA * s.n_link, sizeof *s.extra));
-        if (s.n_link > 0) {
-            memcpy(s.extra, l->extra, (size_t)s.n_link * sizeof *l->extra);
+    if (dem->law.has_history) {
+        CLX_TRY(clx_alloc(&s.history, CLX_SAVED_HISTORY * s.n_pair, sizeof *s.history));
+        if (s.n_pair > 0) {
+            memcpy(s.history, l->history, (size_t)s.n_pair * sizeof *l->history);
         }
     }
     *saved = s;
@@ -103,7 +104,7 @@ done:
     return status;
 }
 
-static clast_status take_grains(clast_dem *dem, const clx_dem_saved *s)
+static clast_status read_grains(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
     for (int64_t i = 0; i < s->n_grain; ++i) {
@@ -129,98 +130,99 @@ done:
     return status;
 }
 
-static clast_status take_link(const clast_dem *dem, const clx_dem_saved *s, int64_t k)
+static clast_status read_pair(const clast_dem *dem, const clx_dem_saved *s, int64_t k)
 {
     clast_status status = CLAST_OK;
     const int32_t *id = &s->id[k * CLX_SAVED_ID];
-    const double *in = &s->link[k * CLX_SAVED_LINK];
+    const double *in = &s->pair[k * CLX_SAVED_PAIR];
     const int32_t n_wall = dem->n_wall + (dem->container != NULL ? dem->container->n_tri : 0);
     const bool is_next = k == 0 || id[0] > id[-CLX_SAVED_ID] ||
                          (id[0] == id[-CLX_SAVED_ID] && id[1] > id[1 - CLX_SAVED_ID]);
     CLX_CHECK(id[0] >= 0 && id[0] < dem->n_item && id[1] < dem->n_item && id[1] >= -n_wall &&
                   (id[1] < 0 || id[1] > id[0]) && is_next,
-              CLAST_E_FORMAT, "link %lld of the checkpoint joins %d and %d", (long long)k, id[0],
+              CLAST_E_FORMAT, "pair %lld of the checkpoint joins %d and %d", (long long)k, id[0],
               id[1]);
     CLX_CHECK(!isnan(in[0]) && isfinite(in[1]) && isfinite(in[2]) && isfinite(in[3]),
-              CLAST_E_FORMAT, "link %lld of the checkpoint is not finite", (long long)k);
-    clx_link *link = &dem->list.link[k];
-    *link = (clx_link){.a = id[0],
-                       .b = id[1],
-                       .period = {(int16_t)id[2], (int16_t)id[3]},
-                       .touches = id[4] != 0,
-                       .wake = in[0]};
-    memcpy(link->slide, in + 1, sizeof link->slide);
+              CLAST_E_FORMAT, "pair %lld of the checkpoint is not finite", (long long)k);
+    clx_dem_pair *pair = &dem->list.pair[k];
+    *pair = (clx_dem_pair){.a = id[0],
+                           .b = id[1],
+                           .period = {(int16_t)id[2], (int16_t)id[3]},
+                           .touches = id[4] != 0,
+                           .active_from = in[0]};
+    memcpy(pair->slide, in + 1, sizeof pair->slide);
 done:
     return status;
 }
 
-static clast_status take_memories(clx_list *l, const clx_dem_saved *s)
+static clast_status read_warm_starts(clx_neighbour_list *l, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
-    for (int64_t k = 0; k < s->n_link; ++k) {
-        const uint8_t *bytes = s->memory + k * MEMORY;
+    for (int64_t k = 0; k < s->n_pair; ++k) {
+        const uint8_t *bytes = s->warm_start + k * WARM_START;
         bool is_empty = true;
-        for (int i = 0; is_empty && i < MEMORY; ++i) {
+        for (int i = 0; is_empty && i < WARM_START; ++i) {
             is_empty = bytes[i] == 0;
         }
         if (!is_empty) {
-            CLX_TRY(clx_list_give_slot(l, &l->link[k]));
-            memcpy(&l->memory[l->link[k].slot].record, bytes, MEMORY);
-            l->link[k].kind = l->memory[l->link[k].slot].record.kind & 3U;
+            CLX_TRY(clx_neighbour_list_assign_slot(l, &l->pair[k]));
+            memcpy(&l->warm_start[l->pair[k].slot].record, bytes, WARM_START);
+            l->pair[k].kind = l->warm_start[l->pair[k].slot].record.kind & 3U;
         }
     }
 done:
     return status;
 }
 
-/// What only some laws remember: loads of exact steps, what laws with springs against rolling or
-/// a fluid's restitution keep.
-static clast_status take_extras(clast_dem *dem, const clx_dem_saved *s)
+/// What only some laws need: stability loads of exact steps; contact histories of laws with rolling
+/// springs or a fluid's restitution.
+static clast_status read_histories(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
-    CLX_CHECK(dem->law.is_exact == (s->held != NULL) && dem->law.has_extra == (s->extra != NULL),
+    clx_neighbour_list *l = &dem->list;
+    CLX_CHECK(dem->law.is_exact == (s->held != NULL) &&
+                  dem->law.has_history == (s->history != NULL),
               CLAST_E_FORMAT, "the checkpoint is of another contact law");
     for (int64_t i = 0; s->held != NULL && i < s->n_grain; ++i) {
         CLX_CHECK(s->held[i] >= 0.0 && isfinite(s->held[i]), CLAST_E_FORMAT,
                   "grain %lld of the checkpoint: its load is not a number", (long long)i);
         dem->grain[i].held = s->held[i];
     }
-    if (s->extra != NULL) {
-        CLX_TRY(clx_grow(&l->extra, &l->extra_capacity, s->n_link + 1, sizeof *l->extra));
-        memcpy(l->extra, s->extra, (size_t)s->n_link * sizeof *l->extra);
+    if (s->history != NULL) {
+        CLX_TRY(clx_grow(&l->history, &l->history_capacity, s->n_pair + 1, sizeof *l->history));
+        memcpy(l->history, s->history, (size_t)s->n_pair * sizeof *l->history);
     }
-    for (int64_t k = 0; s->extra != NULL && k < CLX_SAVED_EXTRA * s->n_link; ++k) {
-        CLX_CHECK(isfinite(s->extra[k]), CLAST_E_FORMAT,
-                  "link %lld of the checkpoint is not finite", (long long)(k / CLX_SAVED_EXTRA));
+    for (int64_t k = 0; s->history != NULL && k < CLX_SAVED_HISTORY * s->n_pair; ++k) {
+        CLX_CHECK(isfinite(s->history[k]), CLAST_E_FORMAT,
+                  "pair %lld of the checkpoint is not finite", (long long)(k / CLX_SAVED_HISTORY));
     }
 done:
     return status;
 }
 
-static clast_status take_links(clast_dem *dem, const clx_dem_saved *s)
+static clast_status read_pairs(clast_dem *dem, const clx_dem_saved *s)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
-    CLX_TRY(clx_list_reserve(l, dem->n_item));
-    CLX_TRY(clx_grow_lines(&l->link, &l->capacity, s->n_link + 1, sizeof *l->link));
-    for (int64_t k = 0; k < s->n_link; ++k) {
-        CLX_TRY(take_link(dem, s, k));
+    clx_neighbour_list *l = &dem->list;
+    CLX_TRY(clx_neighbour_list_reserve(l, dem->n_item));
+    CLX_TRY(clx_grow_lines(&l->pair, &l->capacity, s->n_pair + 1, sizeof *l->pair));
+    for (int64_t k = 0; k < s->n_pair; ++k) {
+        CLX_TRY(read_pair(dem, s, k));
     }
     int64_t k = 0;
     for (int32_t i = 0; dem->n_item > 0 && i <= dem->n_item; ++i) {
-        while (k < s->n_link && l->link[k].a < i) {
+        while (k < s->n_pair && l->pair[k].a < i) {
             ++k;
         }
         l->begin[i] = k;
     }
-    l->n_link = s->n_link;
-    if (s->memory != NULL) {
-        CLX_CHECK(!dem->all_round && s->memory_width == MEMORY, CLAST_E_FORMAT,
-                  "the checkpoint's contact memories are of another version, or of other shapes");
-        CLX_TRY(take_memories(l, s));
+    l->n_pair = s->n_pair;
+    if (s->warm_start != NULL) {
+        CLX_CHECK(!dem->all_round && s->warm_start_width == WARM_START, CLAST_E_FORMAT,
+                  "the checkpoint's warm starts are of another version, or of other shapes");
+        CLX_TRY(read_warm_starts(l, s));
     }
-    dem->near.is_due = true;
+    dem->inner.is_due = true;
 done:
     return status;
 }
@@ -230,11 +232,11 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
     clast_status status = CLAST_OK;
     CLX_CHECK(dem->n_grain == 0 && s->n_grain <= INT32_MAX && s->step >= 0, CLAST_E_FORMAT,
               "the checkpoint does not fit");
-    CLX_TRY(take_grains(dem, s));
+    CLX_TRY(read_grains(dem, s));
     CLX_CHECK(s->n_known >= 0 && s->n_known <= dem->n_item, CLAST_E_FORMAT,
               "the checkpoint knows %lld items of %d", (long long)s->n_known, dem->n_item);
-    CLX_TRY(take_links(dem, s));
-    CLX_TRY(take_extras(dem, s));
+    CLX_TRY(read_pairs(dem, s));
+    CLX_TRY(read_histories(dem, s));
     for (int64_t i = 0; i < s->n_known; ++i) {
         memcpy(&dem->list.anchor[i], &s->anchor[i * CLX_SAVED_ANCHOR],
                CLX_SAVED_ANCHOR * sizeof(double));
@@ -246,8 +248,8 @@ clast_status clx_dem_restore(clast_dem *dem, const clx_dem_saved *s)
                   (long long)i);
     }
     for (int64_t i = 0; i < s->n_known; ++i) {
-        // asked at the first step where it is not known; the bound of a turn is wider than its
-        // path, so that asking earlier than the run that was not stopped may call for another
+        // checked in the first step where it is not known; the bound of a rotation is wider than
+        // its path, so that checking earlier than the run that was not stopped may call for another
         // refresh
         dem->list.limit[i] = s->limit != NULL ? s->limit[i] : -(double)INFINITY;
         CLX_CHECK(!isnan(dem->list.limit[i]), CLAST_E_FORMAT,

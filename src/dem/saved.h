@@ -7,27 +7,27 @@ enum {
     CLX_SAVED_GRAIN = 19,
     CLX_SAVED_ANCHOR = 8,
     CLX_SAVED_ID = 5,
-    CLX_SAVED_LINK = 4,
-    CLX_SAVED_EXTRA = 4
+    CLX_SAVED_PAIR = 4,
+    CLX_SAVED_HISTORY = 4
 };
 
 typedef struct clx_dem_saved {
     int64_t step, n_refresh;
-    int64_t n_grain, n_known, n_link;
+    int64_t n_grain, n_known, n_pair;
     bool is_due;
     double verified[4]; ///< contacts compared, off, bad; worst: all 0 where none were
     int32_t *shape;     ///< [n_grain]
-    double *grain;      ///< [n_grain][19] position, velocity, spin, orientation, angular momentum,
+    double *grain;      ///< [n_grain][19] position, velocity, omega, orientation, angular momentum,
                         ///< scale, density, travel
     double *anchor;     ///< [n_known][8] of items: position, orientation, margin
-    double *limit; ///< [n_known] paths up to which they are not asked; NULL in older checkpoints
-    double *held;  ///< [n_grain] loads of exact steps, or NULL
-    double *extra; ///< [n_link][4] torques of rolling springs, restitutions; or NULL
-    int32_t *id;   ///< [n_link][5] a, b, image in x and y, flags
-    double *link;  ///< [n_link][4] wake, slide
-    int32_t memory_width; ///< bytes of a contact memory
-    uint8_t
-        *memory; ///< [n_link][memory_width] contact memories, or NULL while all items are spheres
+    double *limit;      ///< [n_known] paths that use up no margin; NULL in older checkpoints
+    double *held;       ///< [n_grain] stability loads of exact steps, or NULL
+    double *history; ///< [n_pair][4] contact histories: torques of rolling springs, restitutions;
+                     ///< or NULL
+    int32_t *id;     ///< [n_pair][5] a, b, image in x and y, flags
+    double *pair;    ///< [n_pair][4] active_from, slide
+    int32_t warm_start_width; ///< bytes of a warm start
+    uint8_t *warm_start;      ///< [n_pair][warm_start_width], or NULL while all items are spheres
 } clx_dem_saved;
 
 clast_status clx_dem_save(const clast_dem *dem, clx_dem_saved *saved);

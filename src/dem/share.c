@@ -1,21 +1,21 @@
 // Several contacts of one pair of bodies: each takes its share of the pair's stiffness.
 //
-// k_n of the laws is that of a pair of bodies. Where clumps meet in n spheres at once, n springs
+// k_n of the laws is that of a pair of bodies. Where clumps touch in n spheres at once, n springs
 // would stand side by side; each gets 1/n [Kodam2009]. Springs, dashpots, Coulomb's limit and
-// attraction all scale alike and the tangential displacement does not, so it is the pushes that are
+// attraction all scale alike and the tangential displacement does not, so it is the forces that are
 // divided.
 #include "dem/container.h"
-#include "dem/push.h"
+#include "dem/pair_force.h"
 #include "dem/touch.h"
 #include "math/vec3.h"
 
 /// Triangles whose planes are closer than this cosine are one wall.
 static const double SAME_WALL = 0.9;
 
-static bool is_same_pair(const clast_dem *dem, const clx_link *p, const clx_link *q)
+static bool is_same_pair(const clast_dem *dem, const clx_dem_pair *p, const clx_dem_pair *q)
 {
-    if (clx_link_is_container(dem, p) && clx_link_is_container(dem, q)) {
-        return fabs(v3_dot(clx_link_triangle(dem, p)->normal, clx_link_triangle(dem, q)->normal)) >
+    if (clx_pair_is_container(dem, p) && clx_pair_is_container(dem, q)) {
+        return fabs(v3_dot(clx_pair_triangle(dem, p)->normal, clx_pair_triangle(dem, q)->normal)) >
                SAME_WALL;
     }
     if (p->b < 0 || q->b < 0) {
@@ -25,81 +25,81 @@ static bool is_same_pair(const clast_dem *dem, const clx_link *p, const clx_link
            p->period[1] == q->period[1];
 }
 
-int32_t clx_sub_contacts(const clast_dem *dem, const clx_link *link)
+int32_t clx_sub_contacts(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     int32_t n = 0;
     if (dem->item == NULL) {
         return 1;
     }
-    const int32_t g = dem->item[link->a].grain;
+    const int32_t g = dem->item[pair->a].grain;
     const int64_t end = l->begin[dem->item_begin[g + 1]];
     for (int64_t k = l->begin[dem->item_begin[g]]; k < end; ++k) {
-        const clx_link *other = &l->link[k];
-        n += other->touches != 0 && is_same_pair(dem, link, other) ? 1 : 0;
+        const clx_dem_pair *other = &l->pair[k];
+        n += other->touches != 0 && is_same_pair(dem, pair, other) ? 1 : 0;
     }
     return n > 0 ? n : 1;
 }
 
-bool clx_link_holds(const clast_dem *dem, const clx_link *link, clx_dem_touch *touch)
+bool clx_pair_holds(const clast_dem *dem, const clx_dem_pair *pair, clx_dem_touch *touch)
 {
     *touch = (clx_dem_touch){0};
-    if (link->touches == 0) {
+    if (pair->touches == 0) {
         return false;
     }
-    clx_find_again(dem, link, touch);
-    return touch->distance < 0.0 || touch->distance < clx_link_neck(dem, link);
+    clx_find_again(dem, pair, touch);
+    return touch->distance < 0.0 || touch->distance < clx_pair_neck(dem, pair);
 }
 
-bool clx_is_first_contact(const clast_dem *dem, const clx_link *link)
+bool clx_is_first_contact(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     clx_dem_touch touch;
     if (dem->item == NULL) {
         return true;
     }
-    const int32_t g = dem->item[link->a].grain;
-    for (const clx_link *k = l->link + l->begin[dem->item_begin[g]]; k < link; ++k) {
-        if (is_same_pair(dem, link, k) && clx_link_holds(dem, k, &touch)) {
+    const int32_t g = dem->item[pair->a].grain;
+    for (const clx_dem_pair *k = l->pair + l->begin[dem->item_begin[g]]; k < pair; ++k) {
+        if (is_same_pair(dem, pair, k) && clx_pair_holds(dem, k, &touch)) {
             return false;
         }
     }
     return true;
 }
 
-static void divide(clx_pushed *push, int32_t n)
+static void divide(clx_pair_force *force, int32_t n)
 {
     const double share = 1.0 / n;
     for (int k = 0; k < 4; ++k) {
-        push->force[k] *= share;
-        push->torque_a[k] *= share;
-        push->torque_b[k] *= share;
+        force->force[k] *= share;
+        force->torque_a[k] *= share;
+        force->torque_b[k] *= share;
     }
 }
 
-/// Divides the pushes of one grain's own contacts.
+/// Divides the forces of one grain's own contacts.
 static void share(clast_dem *dem, int32_t g)
 {
-    const clx_near *near = &dem->near;
-    const int32_t begin = near->begin[dem->item_begin[g]];
-    const int32_t end = near->begin[dem->item_begin[g + 1]];
+    const clx_inner_list *inner = &dem->inner;
+    const int32_t begin = inner->begin[dem->item_begin[g]];
+    const int32_t end = inner->begin[dem->item_begin[g + 1]];
     for (int32_t i = begin; i < end; ++i) {
-        const clx_link *link = &dem->list.link[near->link[i]];
+        const clx_dem_pair *pair = &dem->list.pair[inner->index[i]];
         int32_t n = 0;
-        if (link->touches == 0) {
+        if (pair->touches == 0) {
             continue;
         }
         for (int32_t k = begin; k < end; ++k) {
-            const clx_link *other = &dem->list.link[near->link[k]];
-            n += other->touches != 0 && is_same_pair(dem, link, other) ? 1 : 0;
+            const clx_dem_pair *other = &dem->list.pair[inner->index[k]];
+            n += other->touches != 0 && is_same_pair(dem, pair, other) ? 1 : 0;
         }
         if (n > 1) {
-            divide(&near->push[i], n);
+            divide(&inner->force[i], n);
         }
     }
 }
 
-void clx_share_pushes(int64_t begin, int64_t end, int32_t worker, void *context)
+void clx_share_forces(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     (void)worker;
     for (int64_t g = begin; g < end; ++g) {

@@ -13,23 +13,23 @@ clast_status clx_check_starts(clast_dem *dem)
 {
     const int32_t first = dem->n_started;
     dem->n_started = dem->n_grain;
-    for (int64_t k = 0; first < dem->n_grain && k < dem->list.n_link; ++k) {
-        const clx_link *link = &dem->list.link[k];
+    for (int64_t k = 0; first < dem->n_grain && k < dem->list.n_pair; ++k) {
+        const clx_dem_pair *pair = &dem->list.pair[k];
         clx_dem_touch t = {0};
-        if (link->b < 0 || clx_item_grain(dem, link->a) < first ||
-            clx_item_grain(dem, link->b) < first) {
+        if (pair->b < 0 || clx_item_grain(dem, pair->a) < first ||
+            clx_item_grain(dem, pair->b) < first) {
             continue;
         }
-        clx_find_again(dem, link, &t);
-        const double ra = clx_item_radius(dem, link->a);
-        const double rb = clx_item_radius(dem, link->b);
+        clx_find_again(dem, pair, &t);
+        const double ra = clx_item_radius(dem, pair->a);
+        const double rb = clx_item_radius(dem, pair->b);
         const double radius = ra < rb ? ra : rb;
-        const clx_grain *g = &dem->grain[clx_item_grain(dem, ra < rb ? link->a : link->b)];
+        const clx_grain *g = &dem->grain[clx_item_grain(dem, ra < rb ? pair->a : pair->b)];
         if (-t.distance > deepest(dem, g, radius)) {
             return clx_fail(CLAST_E_GEOMETRY,
                             "grains %d and %d begin inside of each other, by %.2g of the smaller "
                             "one's radius: place them apart",
-                            clx_item_grain(dem, link->a), clx_item_grain(dem, link->b),
+                            clx_item_grain(dem, pair->a), clx_item_grain(dem, pair->b),
                             -t.distance / radius);
         }
     }

@@ -1,42 +1,42 @@
-// Meetings of bodies that are no spheres, by the convex contacts below.
+// Contacts of pairs that are not of spheres alone, by src/contact.
 #include "dem/touch.h"
 
 /// Gaps beyond this share of the smaller radius need no digits: a lower bound serves as budget.
 static const double FAR = 0.1;
 
-void clx_touch_convex(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
-                      clx_dem_touch *t)
+void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair,
+                      clx_contact_memory *warm_start, clx_dem_touch *t)
 {
     clx_contact contact;
-    clx_pair pair = {.a = &dem->convex[link->a],
-                     .b = &dem->convex[link->b],
-                     .turn_a = clx_item_turn(dem, link->a),
-                     .turn_b = clx_item_turn(dem, link->b)};
-    clx_link_offset(dem, link, pair.offset);
-    const double ra = clx_item_radius(dem, link->a);
-    const double rb = clx_item_radius(dem, link->b);
+    clx_pair shapes = {.a = &dem->convex[pair->a],
+                       .b = &dem->convex[pair->b],
+                       .turn_a = clx_item_turn(dem, pair->a),
+                       .turn_b = clx_item_turn(dem, pair->b)};
+    clx_pair_offset(dem, pair, shapes.offset);
+    const double ra = clx_item_radius(dem, pair->a);
+    const double rb = clx_item_radius(dem, pair->b);
     const double far = FAR * (ra < rb ? ra : rb);
-    if (clx_pair_contact(&pair, far, memory, &contact)) {
-        clx_touch_take(&contact, pair.offset, t);
+    if (clx_pair_contact(&shapes, far, warm_start, &contact)) {
+        clx_touch_from_contact(&contact, shapes.offset, t);
     } else {
         t->distance = contact.gap;
     }
 }
 
-void clx_touch_convex_wall(const clast_dem *dem, const clx_link *link, clx_contact_memory *memory,
-                           clx_dem_touch *t)
+void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
+                           clx_contact_memory *warm_start, clx_dem_touch *t)
 {
     static const double axis[2] = {0.0, 0.0};
     static const double nowhere[3] = {0.0, 0.0, 0.0};
-    const clx_wall *wall = &dem->wall[-1 - link->b];
-    clx_placed body = {.shape = &dem->convex[link->a], .turn = clx_item_turn(dem, link->a)};
+    const clx_wall *wall = &dem->wall[-1 - pair->b];
+    clx_placed body = {.shape = &dem->convex[pair->a], .turn = clx_item_turn(dem, pair->a)};
     clx_contact contact;
-    v3_copy(body.position, clx_item_position(dem, link->a));
+    v3_copy(body.position, clx_item_position(dem, pair->a));
     if (wall->kind == CLX_WALL_PLANE) {
         const double plane[4] = {wall->normal[0], wall->normal[1], wall->normal[2], wall->offset};
-        clx_plane_contact(&body, plane, memory, &contact);
+        clx_plane_contact(&body, plane, warm_start, &contact);
     } else {
         clx_cylinder_contact(&body, axis, wall->radius, &contact);
     }
-    clx_touch_take(&contact, nowhere, t);
+    clx_touch_from_contact(&contact, nowhere, t);
 }

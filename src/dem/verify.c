@@ -1,8 +1,9 @@
-// Remembered contacts beside cold ones, while a run goes on.
+// Contacts of a run beside contacts found without warm start.
 //
-// Every so many steps each listed pair of bodies that are no spheres is asked without its memory,
-// where the step's contacts have just been found and nothing has moved since. A pair that the step
-// asked must have that gap; one that sleeps must be as far apart as its `wake` promises.
+// Every so many steps the contact of each listed pair of bodies that are no spheres is found
+// without its warm start, when the step's contacts have just been found and nothing has moved
+// since. An active pair must have that gap; a skipped one must be as far apart as its `active_from`
+// promises.
 #include "dem/container.h"
 #include "dem/dem.h"
 
@@ -18,35 +19,35 @@ static void count(clast_dem_verification *v, double error)
     v->worst = error > v->worst ? error : v->worst;
 }
 
-static double cold_gap(const clast_dem *dem, const clx_link *link)
+static double cold_gap(const clast_dem *dem, const clx_dem_pair *pair)
 {
     clx_contact contact;
-    clx_pair pair = {.a = &dem->convex[link->a],
-                     .b = &dem->convex[link->b],
-                     .turn_a = clx_item_turn(dem, link->a),
-                     .turn_b = clx_item_turn(dem, link->b)};
-    clx_link_offset(dem, link, pair.offset);
-    (void)clx_pair_contact(&pair, INFINITY, NULL, &contact);
+    clx_pair shapes = {.a = &dem->convex[pair->a],
+                       .b = &dem->convex[pair->b],
+                       .turn_a = clx_item_turn(dem, pair->a),
+                       .turn_b = clx_item_turn(dem, pair->b)};
+    clx_pair_offset(dem, pair, shapes.offset);
+    (void)clx_pair_contact(&shapes, INFINITY, NULL, &contact);
     return contact.gap;
 }
 
 void clx_verify(clast_dem *dem)
 {
-    const clx_list *l = &dem->list;
-    for (int64_t k = 0; k < l->n_link && !dem->all_round; ++k) {
-        const clx_link *link = &l->link[k];
-        if (link->b < 0 || clx_link_is_round(dem, link)) {
+    const clx_neighbour_list *l = &dem->list;
+    for (int64_t k = 0; k < l->n_pair && !dem->all_round; ++k) {
+        const clx_dem_pair *pair = &l->pair[k];
+        if (pair->b < 0 || clx_pair_is_round(dem, pair)) {
             continue;
         }
-        const double gap = cold_gap(dem, link);
+        const double gap = cold_gap(dem, pair);
         const double travel =
-            dem->travel[clx_item_grain(dem, link->a)] + dem->travel[clx_item_grain(dem, link->b)];
-        if (link->touches != 0) {
+            dem->travel[clx_item_grain(dem, pair->a)] + dem->travel[clx_item_grain(dem, pair->b)];
+        if (pair->touches != 0) {
             clx_dem_touch t = {0};
-            clx_find_again(dem, link, &t);
+            clx_find_again(dem, pair, &t);
             count(&dem->verified, fabs(t.distance - gap));
         } else { // what is promised may be less than the gap, never more
-            count(&dem->verified, fmax(0.0, fmax(0.0, link->wake - travel) - gap));
+            count(&dem->verified, fmax(0.0, fmax(0.0, pair->active_from - travel) - gap));
         }
     }
 }

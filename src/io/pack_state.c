@@ -29,19 +29,19 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     a[n++] = (array){"/pack/shape", CLX_H5_I32, d->n_grain, 1, d->shape};
     a[n++] = (array){"/pack/grain", CLX_H5_F64, d->n_grain, CLX_SAVED_GRAIN, d->grain};
     a[n++] = (array){"/pack/anchor", CLX_H5_F64, d->n_known, CLX_SAVED_ANCHOR, d->anchor};
-    a[n++] = (array){"/pack/link_id", CLX_H5_I32, d->n_link, CLX_SAVED_ID, d->id};
-    a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_link, CLX_SAVED_LINK, d->link};
+    a[n++] = (array){"/pack/link_id", CLX_H5_I32, d->n_pair, CLX_SAVED_ID, d->id};
+    a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_pair, CLX_SAVED_PAIR, d->pair};
     if (d->limit != NULL) {
         a[n++] = (array){"/pack/limit", CLX_H5_F64, d->n_known, 1, d->limit};
     }
     if (d->held != NULL) {
         a[n++] = (array){"/pack/held", CLX_H5_F64, d->n_grain, 1, d->held};
     }
-    if (d->extra != NULL) {
-        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_link, CLX_SAVED_EXTRA, d->extra};
+    if (d->history != NULL) {
+        a[n++] = (array){"/pack/extra", CLX_H5_F64, d->n_pair, CLX_SAVED_HISTORY, d->history};
     }
-    if (d->memory != NULL) {
-        a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_link, d->memory_width, d->memory};
+    if (d->warm_start != NULL) {
+        a[n++] = (array){"/pack/memory", CLX_H5_U8, d->n_pair, d->warm_start_width, d->warm_start};
     }
     return n;
 }
@@ -182,13 +182,13 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_h5_shape(h5, "/pack/anchor", CLX_H5_F64, 2, shape));
     d->n_known = shape[0];
     CLX_TRY(clx_h5_shape(h5, "/pack/link", CLX_H5_F64, 2, shape));
-    d->n_link = shape[0];
+    d->n_pair = shape[0];
     CLX_TRY(clx_alloc(&s->waiting, 2 * s->n_waiting, sizeof *s->waiting));
     CLX_TRY(clx_alloc(&d->shape, d->n_grain, sizeof *d->shape));
     CLX_TRY(clx_alloc(&d->grain, d->n_grain * CLX_SAVED_GRAIN, sizeof *d->grain));
     CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
-    CLX_TRY(clx_alloc(&d->id, d->n_link * CLX_SAVED_ID, sizeof *d->id));
-    CLX_TRY(clx_alloc(&d->link, d->n_link * CLX_SAVED_LINK, sizeof *d->link));
+    CLX_TRY(clx_alloc(&d->id, d->n_pair * CLX_SAVED_ID, sizeof *d->id));
+    CLX_TRY(clx_alloc(&d->pair, d->n_pair * CLX_SAVED_PAIR, sizeof *d->pair));
     if (clx_h5_has(h5, "/pack/limit")) {
         CLX_TRY(clx_alloc(&d->limit, d->n_known, sizeof *d->limit));
     }
@@ -196,14 +196,14 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
         CLX_TRY(clx_alloc(&d->held, d->n_grain, sizeof *d->held));
     }
     if (clx_h5_has(h5, "/pack/extra")) {
-        CLX_TRY(clx_alloc(&d->extra, CLX_SAVED_EXTRA * d->n_link, sizeof *d->extra));
+        CLX_TRY(clx_alloc(&d->history, CLX_SAVED_HISTORY * d->n_pair, sizeof *d->history));
     }
     if (clx_h5_has(h5, "/pack/memory")) {
         CLX_TRY(clx_h5_shape(h5, "/pack/memory", CLX_H5_U8, 2, shape));
-        CLX_CHECK(shape[0] == d->n_link && shape[1] > 0 && shape[1] < 4096, CLAST_E_FORMAT,
-                  "the checkpoint's contact memories do not match its links");
-        d->memory_width = (int32_t)shape[1];
-        CLX_TRY(clx_alloc(&d->memory, shape[0] * shape[1], 1));
+        CLX_CHECK(shape[0] == d->n_pair && shape[1] > 0 && shape[1] < 4096, CLAST_E_FORMAT,
+                  "the checkpoint's warm starts do not match its links");
+        d->warm_start_width = (int32_t)shape[1];
+        CLX_TRY(clx_alloc(&d->warm_start, shape[0] * shape[1], 1));
     }
 done:
     return status;

@@ -13,4 +13,4 @@ clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume
 /// Unpacks deflated bytes (zlib or gzip) that must fill `out` exactly.
 clast_status clx_inflate(const uint8_t *bytes, size_t n, uint8_t *out, size_t n_out);
 
-enum { CLX_MOST_RATIO = 1032 }; ///< deflate packs no more bytes into one [zlib's notes]
+enum { CLX_MOST_RATIO = 1400 }; ///< bytes in one packed byte: deflate 1032 [zlib's notes], LZW 1340

@@ -1,44 +1,7 @@
-// TIFF: a chain of directories, each a page of strips of rows; a page is a slice of the volume.
-//                                                                      [Adobe, TIFF 6.0, 1992]
+// TIFF by libtiff: a page is a slice of the volume, in strips or tiles.  [docs/adr/0004-tiff.md]
 #include "io/volume_io.h"
 
-#include "base/alloc.h"
 #include <string.h>
-
-enum {
-    TAG_WIDTH = 256,
-    TAG_HEIGHT = 257,
-    TAG_BITS = 258,
-    TAG_COMPRESSION = 259,
-    TAG_DESCRIPTION = 270,
-    TAG_OFFSETS = 273,
-    TAG_SAMPLES = 277,
-    TAG_ROWS = 278,
-    TAG_COUNTS = 279,
-    TAG_PREDICTOR = 317,
-    TAG_TILES = 322,
-    TAG_FORMAT = 339,
-    ENTRY_SIZE = 12,
-    CLASSIC = 42 // 43: BigTIFF
-};
-
-/// What to do about a kind that is not read, with libtiff's tool.
-#define CONVERT "`tiffcp -s -c none IN OUT` writes what is read"
-
-typedef struct {
-    const uint8_t *bytes;
-    size_t n;
-    bool is_big;
-} tiff;
-
-/// A directory's values; lists stay in the file.
-typedef struct {
-    uint32_t width, height, bits, compression, samples, rows, predictor, format;
-    uint32_t n_strip, offset_type, count_type, n_count;
-    size_t offsets, counts; ///< where the lists begin
-    size_t text, n_text;    ///< description
-    bool has_tiles;
-} page;
 
 bool clx_tiff_is(const uint8_t *bytes, size_t n)
 {
@@ -46,236 +9,305 @@ bool clx_tiff_is(const uint8_t *bytes, size_t n)
                       memcmp(bytes, "II+\0", 4) == 0 || memcmp(bytes, "MM\0+", 4) == 0);
 }
 
-static uint32_t number(const tiff *t, size_t at, int size)
+#if CLAST_HAVE_TIFF
+#include "base/alloc.h"
+#include "base/number.h"
+#include <inttypes.h>
+#include <tiffio.h>
+
+/// A file in memory, as libtiff reads it, and the first thing that it found wrong.
+typedef struct {
+    const uint8_t *bytes;
+    uint64_t n, at;
+    char fault[256];
+} source;
+
+/// Size and kind of a page's values.
+typedef struct {
+    uint32_t width, height, rows; ///< of a strip or tile
+    uint32_t tile_width;          ///< or 0: strips
+    int size;                     ///< bytes of a value
+    clast_volume_type type;
+} page;
+
+static tmsize_t read_bytes(thandle_t handle, void *to, tmsize_t n)
 {
-    uint32_t value = 0;
-    for (int k = 0; k < size && at + (size_t)size <= t->n; ++k) {
-        value |= (uint32_t)t->bytes[at + (size_t)(t->is_big ? size - 1 - k : k)] << (8 * k);
+    source *s = (source *)handle;
+    const uint64_t left = s->at < s->n ? s->n - s->at : 0;
+    const uint64_t given = (uint64_t)n < left ? (uint64_t)n : left;
+    memcpy(to, s->bytes + (given > 0 ? s->at : 0), (size_t)given);
+    s->at += given;
+    return (tmsize_t)given;
+}
+
+static tmsize_t write_bytes(thandle_t handle, void *from, tmsize_t n)
+{
+    (void)handle;
+    (void)from;
+    (void)n;
+    return 0;
+}
+
+static toff_t seek_byte(thandle_t handle, toff_t to, int whence)
+{
+    source *s = (source *)handle;
+    s->at = to + (whence == SEEK_CUR ? s->at : whence == SEEK_END ? s->n : 0);
+    return s->at;
+}
+
+static int close_source(thandle_t handle)
+{
+    (void)handle;
+    return 0;
+}
+
+static toff_t size_of_source(thandle_t handle)
+{
+    return ((source *)handle)->n;
+}
+
+static int keep_fault(TIFF *file, void *context, const char *module, const char *format,
+                      va_list words)
+{
+    source *s = context;
+    (void)file;
+    (void)module;
+    if (s->fault[0] == '\0') {
+        (void)clx_number_print_list(s->fault, sizeof s->fault, format, words);
     }
-    return value;
+    return 1; // said
 }
 
-static int size_of(uint32_t type)
+static int drop_warning(TIFF *file, void *context, const char *module, const char *format,
+                        va_list words)
 {
-    return type == 1 ? 1 : type == 3 ? 2 : type == 4 ? 4 : 0; // byte, short, long
+    (void)file;
+    (void)context;
+    (void)module;
+    (void)format;
+    (void)words;
+    return 1;
 }
 
-/// Takes one entry of a directory.
-static clast_status take_entry(const tiff *t, size_t at, page *p)
+/// Opens the bytes; libtiff may ask for no more memory at once than the file can be packed from.
+static clast_status open_source(source *s, TIFF **file)
 {
     clast_status status = CLAST_OK;
-    const uint32_t tag = number(t, at, 2);
-    const uint32_t type = number(t, at + 2, 2);
-    const uint32_t count = number(t, at + 4, 4);
-    const int size = size_of(type);
-    const bool is_inline = (uint64_t)count * (uint64_t)size <= 4;
-    const size_t place = is_inline ? at + 8 : number(t, at + 8, 4);
-    const uint32_t value = size > 0 && count > 0 ? number(t, place, size) : 0;
-    if (tag == TAG_DESCRIPTION && count > 4 && number(t, at + 8, 4) + (uint64_t)count <= t->n) {
-        p->text = number(t, at + 8, 4);
-        p->n_text = count;
-    }
-    CLX_CHECK(size == 0 || place + (uint64_t)count * (uint64_t)size <= t->n, CLAST_E_FORMAT,
-              "TIFF: entry %u lies beyond the end of the file", tag);
-    switch (tag) {
-    case TAG_WIDTH:
-        p->width = value;
-        break;
-    case TAG_HEIGHT:
-        p->height = value;
-        break;
-    case TAG_BITS:
-        p->bits = value;
-        break;
-    case TAG_COMPRESSION:
-        p->compression = value;
-        break;
-    case TAG_SAMPLES:
-        p->samples = value;
-        break;
-    case TAG_ROWS:
-        p->rows = value;
-        break;
-    case TAG_PREDICTOR:
-        p->predictor = value;
-        break;
-    case TAG_FORMAT:
-        p->format = value;
-        break;
-    case TAG_TILES:
-        p->has_tiles = true;
-        break;
-    case TAG_OFFSETS:
-        p->offsets = place;
-        p->offset_type = type;
-        p->n_strip = size > 0 ? count : 0;
-        break;
-    case TAG_COUNTS:
-        p->counts = place;
-        p->count_type = type;
-        p->n_count = size > 0 ? count : 0;
-        break;
-    default:
-        break;
-    }
+    const double most = (double)s->n * CLX_MOST_RATIO;
+    TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
+    CLX_CHECK(options != NULL, CLAST_E_MEMORY, "TIFF: not enough memory");
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options, most < 1e15 ? (tmsize_t)most : (tmsize_t)1e15);
+    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_fault, s);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, drop_warning, s);
+    *file = TIFFClientOpenExt("TIFF", "rm", (thandle_t)s, read_bytes, write_bytes, seek_byte,
+                              close_source, size_of_source, NULL, NULL, options);
+    CLX_CHECK(*file != NULL, CLAST_E_FORMAT, "TIFF: %s", s->fault);
 done:
+    TIFFOpenOptionsFree(options);
     return status;
 }
 
-static clast_status check_page(const page *p, int32_t k)
+static bool find_type(int bits, int format, clast_volume_type *type)
+{
+    static const struct {
+        int bits, format;
+        clast_volume_type type;
+    } known[] = {
+        {8, SAMPLEFORMAT_UINT, CLAST_VOLUME_U8},     {8, SAMPLEFORMAT_INT, CLAST_VOLUME_I8},
+        {16, SAMPLEFORMAT_UINT, CLAST_VOLUME_U16},   {16, SAMPLEFORMAT_INT, CLAST_VOLUME_I16},
+        {32, SAMPLEFORMAT_UINT, CLAST_VOLUME_U32},   {32, SAMPLEFORMAT_INT, CLAST_VOLUME_I32},
+        {32, SAMPLEFORMAT_IEEEFP, CLAST_VOLUME_F32}, {64, SAMPLEFORMAT_IEEEFP, CLAST_VOLUME_F64}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
+        if (known[k].bits == bits && known[k].format == format) {
+            *type = known[k].type;
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Packings that keep every value, and no more of them than CLX_MOST_RATIO times their bytes.
+static bool is_packing_read(int packing)
+{
+    return packing == COMPRESSION_NONE || packing == COMPRESSION_LZW ||
+           packing == COMPRESSION_PACKBITS || packing == COMPRESSION_ADOBE_DEFLATE ||
+           packing == COMPRESSION_DEFLATE;
+}
+
+/// The page at which the file stands, number k from 1.
+static clast_status read_page(TIFF *file, int32_t k, page *p)
 {
     clast_status status = CLAST_OK;
-    CLX_CHECK(!p->has_tiles, CLAST_E_FORMAT, "TIFF: page %d has tiles; " CONVERT, k);
+    uint16_t bits = 1;
+    uint16_t samples = 1;
+    uint16_t format = SAMPLEFORMAT_UINT;
+    uint16_t packing = COMPRESSION_NONE;
+    *p = (page){0};
+    (void)TIFFGetField(file, TIFFTAG_IMAGEWIDTH, &p->width);
+    (void)TIFFGetField(file, TIFFTAG_IMAGELENGTH, &p->height);
+    (void)TIFFGetFieldDefaulted(file, TIFFTAG_BITSPERSAMPLE, &bits);
+    (void)TIFFGetFieldDefaulted(file, TIFFTAG_SAMPLESPERPIXEL, &samples);
+    (void)TIFFGetFieldDefaulted(file, TIFFTAG_SAMPLEFORMAT, &format);
+    (void)TIFFGetFieldDefaulted(file, TIFFTAG_COMPRESSION, &packing);
     CLX_CHECK(p->width > 0 && p->height > 0 && p->width < INT32_MAX && p->height < INT32_MAX,
               CLAST_E_FORMAT, "TIFF: page %d is %u x %u", k, p->width, p->height);
-    CLX_CHECK(p->samples == 1, CLAST_E_FORMAT,
-              "TIFF: page %d has %u samples a pixel; grey values or labels have one", k,
-              p->samples);
-    CLX_CHECK(p->bits == 8 || p->bits == 16 || p->bits == 32, CLAST_E_FORMAT,
-              "TIFF: page %d has %u bits a pixel; 8, 16 and 32 are read", k, p->bits);
-    CLX_CHECK(p->compression == 1 || p->compression == 8 || p->compression == 32946, CLAST_E_FORMAT,
-              "TIFF: page %d is packed by method %u%s; " CONVERT, k, p->compression,
-              p->compression == 5 ? " (LZW)" : "");
-    CLX_CHECK(p->predictor == 1, CLAST_E_FORMAT,
-              "TIFF: page %d is packed with a predictor; " CONVERT, k);
-    CLX_CHECK(p->n_strip > 0 && (p->n_count == p->n_strip || (p->n_count == 0 && p->n_strip == 1)),
-              CLAST_E_FORMAT, "TIFF: page %d has %u strips and %u lengths", k, p->n_strip,
-              p->n_count);
-done:
-    return status;
-}
-
-/// Reads the directory at *at and moves on to the next (0: the last).
-static clast_status read_page(const tiff *t, int32_t k, size_t *at, page *p)
-{
-    clast_status status = CLAST_OK;
-    const size_t start = *at;
-    *p = (page){.compression = 1, .samples = 1, .bits = 1, .predictor = 1, .format = 1};
-    CLX_CHECK(start + 2 <= t->n, CLAST_E_FORMAT, "TIFF: page %d lies beyond the end", k);
-    const size_t n_entry = number(t, start, 2);
-    CLX_CHECK(start + 6 + n_entry * ENTRY_SIZE <= t->n, CLAST_E_FORMAT,
-              "TIFF: page %d lies beyond the end", k);
-    for (size_t i = 0; i < n_entry; ++i) {
-        CLX_TRY(take_entry(t, start + 2 + i * ENTRY_SIZE, p));
-    }
-    CLX_TRY(check_page(p, k));
-    p->rows = p->rows == 0 || p->rows > p->height ? p->height : p->rows;
-    *at = number(t, start + 2 + n_entry * ENTRY_SIZE, 4);
-done:
-    return status;
-}
-
-static clast_volume_type type_of(const page *p)
-{
-    const bool is_signed = p->format == 2;
-    if (p->bits == 8) {
-        return is_signed ? CLAST_VOLUME_I8 : CLAST_VOLUME_U8;
-    }
-    if (p->bits == 16) {
-        return is_signed ? CLAST_VOLUME_I16 : CLAST_VOLUME_U16;
-    }
-    return p->format == 3 ? CLAST_VOLUME_F32 : is_signed ? CLAST_VOLUME_I32 : CLAST_VOLUME_U32;
-}
-
-/// Values of one page into its slice; `scratch` has room for a strip.
-static clast_status read_strips(const tiff *t, const page *p, int32_t slice, uint8_t *scratch,
-                                clast_volume *volume)
-{
-    clast_status status = CLAST_OK;
-    const int offset_size = size_of(p->offset_type);
-    const int count_size = size_of(p->count_type);
-    const int64_t first = (int64_t)slice * volume->n[0] * volume->n[1];
-    for (uint32_t s = 0, row = 0; row < p->height; ++s, row += p->rows) {
-        CLX_CHECK(s < p->n_strip, CLAST_E_FORMAT, "TIFF: page %d lacks strips", slice + 1);
-        const uint32_t rows = p->height - row < p->rows ? p->height - row : p->rows;
-        const size_t wanted = (size_t)rows * p->width * (p->bits / 8);
-        const size_t from = number(t, p->offsets + (size_t)s * (size_t)offset_size, offset_size);
-        const size_t held = p->n_count == 0
-                                ? wanted
-                                : number(t, p->counts + (size_t)s * (size_t)count_size, count_size);
-        const uint8_t *data = t->bytes + from;
-        CLX_CHECK(from + held <= t->n && (p->compression != 1 || held >= wanted), CLAST_E_FORMAT,
-                  "TIFF: strip %u of page %d lies beyond the end or is short", s + 1, slice + 1);
-        if (p->compression != 1) {
-            CLX_TRY(clx_inflate(data, held, scratch, wanted));
-            data = scratch;
-        }
-        clast_volume_fill(volume, first + (int64_t)row * p->width, (int64_t)rows * p->width,
-                          type_of(p), t->is_big, data);
+    CLX_CHECK(samples == 1, CLAST_E_FORMAT,
+              "TIFF: page %d has %u samples a pixel; grey values or labels have one", k, samples);
+    CLX_CHECK(
+        find_type(bits, format == SAMPLEFORMAT_VOID ? SAMPLEFORMAT_UINT : format, &p->type),
+        CLAST_E_FORMAT,
+        "TIFF: page %d has %u bits a pixel of kind %u; whole numbers of 8, 16 and 32 bits and "
+        "floats of 32 and 64 are read",
+        k, bits, format);
+    CLX_CHECK(is_packing_read(packing), CLAST_E_FORMAT,
+              "TIFF: page %d is packed by method %u; none, LZW, deflate and PackBits are read: "
+              "`tiffcp -c lzw IN OUT` writes one",
+              k, packing);
+    p->size = bits / 8;
+    if (TIFFIsTiled(file)) {
+        (void)TIFFGetField(file, TIFFTAG_TILEWIDTH, &p->tile_width);
+        (void)TIFFGetField(file, TIFFTAG_TILELENGTH, &p->rows);
+        CLX_CHECK(p->tile_width > 0 && p->rows > 0, CLAST_E_FORMAT,
+                  "TIFF: page %d has tiles of %u x %u", k, p->tile_width, p->rows);
+    } else {
+        (void)TIFFGetFieldDefaulted(file, TIFFTAG_ROWSPERSTRIP, &p->rows);
+        p->rows = p->rows == 0 || p->rows > p->height ? p->height : p->rows;
     }
 done:
     return status;
 }
 
 /// Counts pages; all must be of one size and together fit the file.
-static clast_status count_pages(const tiff *t, page *first, int32_t *n_page)
+static clast_status count_pages(TIFF *file, const source *s, page *first, int32_t *n_page)
 {
     clast_status status = CLAST_OK;
-    size_t at = number(t, 4, 4);
-    const double held = (double)t->n * CLX_MOST_RATIO;
-    for (*n_page = 0; at != 0; ++*n_page) {
-        page next;
-        CLX_TRY(read_page(t, *n_page + 1, &at, &next));
+    const double held = (double)s->n * CLX_MOST_RATIO;
+    page next;
+    for (*n_page = 0; *n_page == 0 || !TIFFLastDirectory(file); ++*n_page) {
+        CLX_CHECK(*n_page == 0 || TIFFReadDirectory(file), CLAST_E_FORMAT, "TIFF: page %d: %s",
+                  *n_page + 1, s->fault);
+        CLX_TRY(read_page(file, *n_page + 1, &next));
         if (*n_page == 0) {
             *first = next;
         }
         CLX_CHECK(next.width == first->width && next.height == first->height, CLAST_E_FORMAT,
                   "TIFF: page %d is %u x %u, the first %u x %u: slices of a volume are alike",
                   *n_page + 1, next.width, next.height, first->width, first->height);
-        // every page has its own directory of 18 bytes or more: a longer chain runs in a circle
-        CLX_CHECK((double)*n_page * 18.0 < (double)t->n &&
-                      (double)first->width * first->height * (*n_page + 1) <= held,
-                  CLAST_E_FORMAT, "TIFF: pages promise more values than %zu bytes can hold", t->n);
+        CLX_CHECK((double)first->width * first->height * (*n_page + 1) <= held, CLAST_E_FORMAT,
+                  "TIFF: pages promise more values than %" PRIu64 " bytes can hold", s->n);
     }
-    CLX_CHECK(*n_page > 0, CLAST_E_FORMAT, "TIFF: no page");
 done:
     return status;
 }
 
 /// Slices that the description promises (ImageJ: "images=N"); 0 when it says nothing.
-static int64_t promised(const tiff *t, const page *p)
+static int64_t promised(TIFF *file)
 {
     static const char word[] = "images=";
-    const size_t n_word = sizeof word - 1;
-    for (size_t i = 0; i + n_word < p->n_text; ++i) {
-        if (memcmp(t->bytes + p->text + i, word, n_word) == 0) {
-            int64_t n = 0;
-            for (size_t k = i + n_word; k < p->n_text && n < INT32_MAX; ++k) {
-                const int digit = t->bytes[p->text + k] - '0';
-                if (digit < 0 || digit > 9) {
-                    break;
-                }
-                n = 10 * n + digit;
-            }
-            return n;
+    const char *text = NULL;
+    int64_t n = 0;
+    if (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) && text != NULL) {
+        const char *at = strstr(text, word);
+        for (at = at != NULL ? at + sizeof word - 1 : ""; *at >= '0' && *at <= '9'; ++at) {
+            n = n < INT32_MAX ? 10 * n + (*at - '0') : n;
         }
     }
-    return 0;
+    return n;
+}
+
+/// Values of the page into its slice; `scratch` has room for a strip or tile.
+static clast_status read_values(TIFF *file, const source *s, const page *p, int32_t slice,
+                                uint8_t *scratch, clast_volume *volume)
+{
+    clast_status status = CLAST_OK;
+    const bool is_big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__; // libtiff gives the host's
+    const int64_t first = (int64_t)slice * volume->n[0] * volume->n[1];
+    const uint32_t width = p->tile_width > 0 ? p->tile_width : p->width;
+    for (uint32_t row = 0; row < p->height; row += p->rows) {
+        const uint32_t rows = p->height - row < p->rows ? p->height - row : p->rows;
+        for (uint32_t column = 0; column < p->width; column += width) {
+            const uint32_t columns = p->width - column < width ? p->width - column : width;
+            const tmsize_t wanted =
+                (tmsize_t)(p->tile_width > 0 ? p->rows : rows) * width * p->size;
+            const tmsize_t got =
+                p->tile_width > 0
+                    ? TIFFReadEncodedTile(file, TIFFComputeTile(file, column, row, 0, 0), scratch,
+                                          wanted)
+                    : TIFFReadEncodedStrip(file, TIFFComputeStrip(file, row, 0), scratch, wanted);
+            CLX_CHECK(got == wanted, CLAST_E_FORMAT, "TIFF: page %d, row %u, column %u: %s",
+                      slice + 1, row, column,
+                      s->fault[0] != '\0' ? s->fault : "values are missing");
+            for (uint32_t r = 0; r < rows; ++r) {
+                clast_volume_fill(volume, first + (int64_t)(row + r) * p->width + column, columns,
+                                  p->type, is_big, scratch + (size_t)r * width * (size_t)p->size);
+            }
+        }
+    }
+done:
+    return status;
+}
+
+/// Room for the greatest strip or tile; one that the file cannot hold is refused.
+static clast_status make_scratch(const source *s, const page *p, uint8_t **scratch, int64_t *room)
+{
+    clast_status status = CLAST_OK;
+    const double n =
+        (double)(p->tile_width > 0 ? p->tile_width : p->width) * (double)p->rows * p->size;
+    CLX_CHECK(n <= (double)s->n * CLX_MOST_RATIO, CLAST_E_FORMAT,
+              "TIFF: a strip or tile of %.0f bytes in a file of %" PRIu64, n, s->n);
+    if ((int64_t)n > *room) {
+        clx_free(*scratch);
+        *scratch = NULL;
+        *room = (int64_t)n;
+        CLX_TRY(clx_alloc(scratch, *room, 1));
+    }
+done:
+    return status;
 }
 
 clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume)
 {
     clast_status status = CLAST_OK;
-    const tiff t = {bytes, n, bytes[0] == 'M'};
+    source s = {.bytes = bytes, .n = n};
+    TIFF *file = NULL;
     uint8_t *scratch = NULL;
+    int64_t room = 0;
     page p = {0};
     int32_t n_page = 0;
-    CLX_CHECK(number(&t, 2, 2) == CLASSIC, CLAST_E_FORMAT,
-              "TIFF: a BigTIFF; " CONVERT " (beyond 4 GiB: save it as NRRD or bare values)");
-    CLX_TRY(count_pages(&t, &p, &n_page));
-    CLX_CHECK(promised(&t, &p) <= n_page, CLAST_E_FORMAT,
+    CLX_TRY(open_source(&s, &file));
+    const int64_t n_promised = promised(file);
+    CLX_TRY(count_pages(file, &s, &p, &n_page));
+    CLX_CHECK(n_promised <= n_page, CLAST_E_FORMAT,
               "TIFF: %lld slices are promised and %d have a page; save the stack with a page a "
               "slice, or as NRRD or bare values",
-              (long long)promised(&t, &p), n_page);
+              (long long)n_promised, n_page);
     const int32_t size[3] = {(int32_t)p.width, (int32_t)p.height, n_page};
     CLX_TRY(clast_volume_alloc(size, volume));
-    CLX_TRY(clx_alloc(&scratch, (int64_t)p.width * p.height * 4, 1));
-    size_t at = number(&t, 4, 4);
+    CLX_CHECK(TIFFSetDirectory(file, 0), CLAST_E_FORMAT, "TIFF: %s", s.fault);
     for (int32_t k = 0; k < n_page; ++k) {
-        CLX_TRY(read_page(&t, k + 1, &at, &p));
-        CLX_TRY(read_strips(&t, &p, k, scratch, volume));
+        CLX_CHECK(k == 0 || TIFFReadDirectory(file), CLAST_E_FORMAT, "TIFF: page %d: %s", k + 1,
+                  s.fault);
+        CLX_TRY(read_page(file, k + 1, &p));
+        CLX_TRY(make_scratch(&s, &p, &scratch, &room));
+        CLX_TRY(read_values(file, &s, &p, k, scratch, volume));
     }
 done:
+    if (file != NULL) {
+        TIFFClose(file);
+    }
     clx_free(scratch);
     return status;
 }
+
+#else
+clast_status clx_tiff_parse(const uint8_t *bytes, size_t n, clast_volume *volume)
+{
+    (void)bytes;
+    (void)n;
+    (void)volume;
+    return clx_fail(
+        CLAST_E_USAGE,
+        "TIFF: this clast was built without libtiff (tools/setup.sh build installs it); "
+        "NRRD and bare values are read");
+}
+#endif

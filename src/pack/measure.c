@@ -101,6 +101,21 @@ static void measure_ratio(const clast_assembly *a, int k, double mean_deviation[
     mean_deviation[1] = a->n_grain > 1 ? sqrt(square / (a->n_grain - 1)) : 0.0;
 }
 
+/// What the side walls make of the bulk porosity, where the bed is wide enough to have a core.
+static clast_status measure_walls(const clast_assembly *a, const clast_bed *bed,
+                                  const clast_porosity_options *options,
+                                  const clast_porosity_bulk *bulk, clast_pack_result *r)
+{
+    clast_porosity_core core = {0};
+    if (!(r->walls.ratio > CLAST_PACK_CORE + 0.5) || isinf(r->walls.ratio)) {
+        return CLAST_OK;
+    }
+    const clast_status status =
+        clast_porosity_core_measure(a, bed, options, bulk, CLAST_PACK_CORE, &core);
+    r->wall_share = status == CLAST_OK ? core.share : r->wall_share;
+    return status == CLAST_E_GEOMETRY ? CLAST_OK : status; // a long, narrow box
+}
+
 /// Bulk porosity as published, and the forms; NAN while there is no bed.
 static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
 {
@@ -113,6 +128,8 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     clast_porosity_options whole = o;
     r->porosity = r->z_low = r->z_high = r->top = r->untrimmed = (double)NAN;
     r->trim = o.trim;
+    r->walls = (clast_bed_walls){(double)NAN, (double)NAN, (double)NAN};
+    r->wall_share = (double)NAN;
     r->mass_wanted = p->config.mass;
     for (int k = 0; k < 2; ++k) {
         r->flatness[k] = r->elongation[k] = (double)NAN;
@@ -121,6 +138,7 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         return CLAST_OK;
     }
     CLX_TRY(clast_dem_assembly(p->dem, &a));
+    r->walls = clast_bed_side_walls(&bed, &a);
     measure_ratio(&a, 1, r->flatness);
     measure_ratio(&a, 0, r->elongation);
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
@@ -134,6 +152,7 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
         r->porosity = bulk.porosity;
         r->z_low = bulk.z_low;
         r->z_high = bulk.z_high;
+        CLX_TRY(measure_walls(&a, &bed, &o, &bulk, r));
     }
     status = status == CLAST_E_GEOMETRY ? CLAST_OK : status; // no bed yet, or trimmed away
 done:

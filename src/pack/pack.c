@@ -53,6 +53,9 @@ clast_porosity_options clast_pack_porosity(const clast_pack_config *config)
 }
 
 /// The bed at a porosity of 0.5 must stay below the place where grains are made.
+/// Rows that a profile may have: 1 km in slices of 1 mm.
+static const double MOST_SLICES = 1e6;
+
 static clast_status check_room(const clast_pack *p)
 {
     clast_status status = CLAST_OK;
@@ -62,6 +65,11 @@ static clast_status check_room(const clast_pack *p)
     double room = 0.0;
     double light = 0.0;
     double heavy = 0.0;
+    CLX_CHECK(
+        p->tall / c->layer <= MOST_SLICES, CLAST_E_CONFIG,
+        "a height of %g m is %g slices of %g m (layer), a row of the profile each; at most %g: "
+        "take a lower domain or a greater layer",
+        p->tall, p->tall / c->layer, c->layer, MOST_SLICES);
     CLX_TRY(clx_pack_check_densities(p));
     clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,

@@ -36,13 +36,14 @@ static clast_status draw_feature(const clast_fit_data *data, const clast_porosit
     clx_least_squares ls = {0};
     double *design = NULL;
     const int64_t n = data->beds.n_row;
-    const char *name = fit->model.term[0].feature;
+    const bool is_whole = fit->model.n_term > 0 && data->beds.n_column > 1;
+    const char *name = is_whole ? fit->model.term[0].feature : "";
     const double *x = clast_table_numbers(&data->beds, name);
-    const double *y = data->beds.column[1].number;
+    const double *y = is_whole ? data->beds.column[1].number : NULL;
     double span[2] = {INFINITY, -INFINITY};
     char label[LABEL_SIZE];
     char axis[LABEL_SIZE];
-    CLX_CHECK(x != NULL, CLAST_E_FORMAT, "no feature '%s' among the beds", name);
+    CLX_CHECK(x != NULL && y != NULL, CLAST_E_FORMAT, "no feature '%s' among the beds", name);
     CLX_TRY(clx_alloc(&design, 2 * n, sizeof *design));
     for (int64_t i = 0; i < n; ++i) {
         design[2 * i] = 1.0;

@@ -16,7 +16,20 @@ clast_porosity_options clast_porosity_options_default(void)
         .method = CLAST_POROSITY_EXACT, .layer = 1e-3, .cut = 0.5, .trim = 0.0, .at_slice = false};
 }
 
-/// Slices of every block of grains, added in block order afterwards.
+/// Slices that the grains of one block reach, each once, in the order of grains.
+typedef struct {
+    int64_t n;
+    int32_t *slice; ///< [n]
+    double *solid;  ///< [n] volume of the block's grains
+} reached;
+
+/// What one worker adds up in: a block's grains reach few slices of a tall bed.
+typedef struct {
+    double *solid;   ///< [n_slice] zero between blocks
+    double *shifted; ///< [n_slice + 1] edges as an image sees them
+} bench;
+
+/// Blocks of grains, added in block order afterwards.
 typedef struct {
     const clast_assembly *assembly;
     clast_porosity_method method;
@@ -24,22 +37,95 @@ typedef struct {
     const double *edge;
     int64_t first, n_block; ///< blocks of this round
     double period;          ///< in height, 0: none; grains begin in the first image
-    double *shifted;        ///< [n_block][n_slice + 1] the edges as an image sees them
-    double *solid;          ///< [n_block][n_slice]
+    bench *bench;           ///< [workers]
+    reached *block;         ///< [n_block]
 } gathering;
 
-/// Grain i and, in a bed that repeats in height, its images above and below.
-static clast_status add_grain(const gathering *g, int32_t i, double *shifted, double *solid)
+/// First of the edges 1 to n that lies above z, less one; n when none does.
+static int32_t slice_of(const gathering *g, double z)
+{
+    int32_t low = 0;
+    int32_t high = g->n_slice;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (g->edge[middle + 1] > z) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+/// Slices [range[0], range[1]) that grain i, moved up by `shift`, can reach.
+static void range_of(const gathering *g, int32_t i, double shift, int32_t range[2])
+{
+    const clast_shape *shape = &g->assembly->shape[g->assembly->shape_id[i]];
+    const double equal = cbrt(0.75 / CLAST_PI * shape->volume); // radius of its volume's sphere
+    const double z = g->assembly->position[i][2] + shift;
+    const double reach = g->assembly->scale[i] * fmax(shape->bounding_radius, equal);
+    const double rounding = 1e-12 * (fabs(z) + reach);
+    range[0] = slice_of(g, z - reach - rounding);
+    range[1] = slice_of(g, z + reach + rounding);
+    range[1] += range[1] < g->n_slice ? 1 : 0;
+}
+
+/// Images of a grain: itself, or in a bed that repeats in height those above and below too.
+static int n_image(const gathering *g)
+{
+    return g->period > 0.0 ? 3 : 1;
+}
+
+/// An image sees the edges the other way: the grain stays.
+static double shift_of(const gathering *g, int image)
+{
+    return g->period > 0.0 ? (image - 1) * g->period : 0.0;
+}
+
+static clast_status add_grain(const gathering *g, int32_t i, const bench *at)
 {
     clast_status status = CLAST_OK;
-    for (int image = -1; image <= 1 && g->period > 0.0; ++image) {
-        for (int32_t k = 0; k <= g->n_slice; ++k) {
-            shifted[k] = g->edge[k] + image * g->period;
+    for (int image = 0; image < n_image(g); ++image) {
+        int32_t range[2];
+        const double shift = shift_of(g, image);
+        range_of(g, i, -shift, range);
+        for (int32_t k = range[0]; k <= range[1]; ++k) {
+            at->shifted[k] = g->edge[k] + shift;
         }
-        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, g->n_slice, shifted, solid));
+        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, range[1] - range[0],
+                                  at->shifted + range[0], at->solid + range[0]));
     }
-    if (g->period <= 0.0) {
-        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, g->n_slice, g->edge, solid));
+done:
+    return status;
+}
+
+/// The block's slices from the worker's, which are zero again afterwards.
+static clast_status collect(const gathering *g, int32_t from, int32_t to, const bench *at,
+                            reached *block)
+{
+    clast_status status = CLAST_OK;
+    int64_t most = 0;
+    int32_t range[2];
+    for (int32_t i = from; i < to; ++i) {
+        for (int image = 0; image < n_image(g); ++image) {
+            range_of(g, i, -shift_of(g, image), range);
+            most += range[1] - range[0];
+        }
+    }
+    most = most < g->n_slice ? most : g->n_slice;
+    CLX_TRY(clx_alloc(&block->slice, most, sizeof *block->slice));
+    CLX_TRY(clx_alloc(&block->solid, most, sizeof *block->solid));
+    for (int32_t i = from; i < to; ++i) {
+        for (int image = 0; image < n_image(g); ++image) {
+            range_of(g, i, -shift_of(g, image), range);
+            for (int32_t k = range[0]; k < range[1]; ++k) {
+                if (at->solid[k] != 0.0) {
+                    block->slice[block->n] = k;
+                    block->solid[block->n++] = at->solid[k];
+                    at->solid[k] = 0.0;
+                }
+            }
+        }
     }
 done:
     return status;
@@ -49,19 +135,34 @@ static clast_status gather(int64_t begin, int64_t end, int32_t worker, void *con
 {
     clast_status status = CLAST_OK;
     gathering *g = context;
-    (void)worker;
     for (int64_t b = begin; b < end; ++b) {
         const int64_t from = (g->first + b) * BLOCK;
-        double *solid = g->solid + b * g->n_slice;
-        for (int64_t i = from; i < from + BLOCK && i < g->assembly->n_grain; ++i) {
-            CLX_TRY(add_grain(g, (int32_t)i, g->shifted + b * (g->n_slice + 1), solid));
+        const int64_t to =
+            from + BLOCK < g->assembly->n_grain ? from + BLOCK : g->assembly->n_grain;
+        for (int64_t i = from; i < to; ++i) {
+            CLX_TRY(add_grain(g, (int32_t)i, &g->bench[worker]));
         }
+        CLX_TRY(collect(g, (int32_t)from, (int32_t)to, &g->bench[worker], &g->block[b]));
     }
 done:
     return status;
 }
 
+static void add_blocks(gathering *g, double *solid)
+{
+    for (int64_t b = 0; b < g->n_block; ++b) {
+        reached *block = &g->block[b];
+        for (int64_t k = 0; k < block->n && solid != NULL; ++k) {
+            solid[block->slice[k]] += block->solid[k];
+        }
+        clx_free(block->slice);
+        clx_free(block->solid);
+        *block = (reached){0};
+    }
+}
+
 /// Solid volume of all grains in slices. Blocks go in rounds, so that memory stays bounded.
+/// O(grains times the slices that one reaches + slices times workers).
 static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
                           clast_porosity_method method, int32_t n, const double *edge,
                           double *solid)
@@ -69,26 +170,32 @@ static clast_status slabs(const clast_assembly *assembly, const clast_bed *bed,
     clast_status status = CLAST_OK;
     const int64_t n_block = (assembly->n_grain + BLOCK - 1) / BLOCK;
     const int64_t most = 64;
+    const int32_t n_bench = clx_parallel_workers();
     gathering g = {.assembly = assembly, .method = method, .n_slice = n, .edge = edge};
     double period[3];
     (void)clast_bed_period(bed, period);
     g.period = period[2];
-    CLX_TRY(clx_alloc(&g.shifted, g.period > 0.0 ? most * (n + 1LL) : 0, sizeof *g.shifted));
+    CLX_TRY(clx_alloc(&g.block, most, sizeof *g.block));
+    CLX_TRY(clx_alloc(&g.bench, n_bench, sizeof *g.bench));
+    for (int32_t k = 0; k < n_bench; ++k) {
+        CLX_TRY(clx_alloc(&g.bench[k].solid, n, sizeof *g.bench[k].solid));
+        CLX_TRY(clx_alloc(&g.bench[k].shifted, n + 1LL, sizeof *g.bench[k].shifted));
+    }
     for (g.first = 0; g.first < n_block; g.first += most) {
         g.n_block = n_block - g.first < most ? n_block - g.first : most;
-        CLX_TRY(clx_alloc(&g.solid, g.n_block * n, sizeof *g.solid));
         CLX_TRY(clx_parallel_try(g.n_block, 1, gather, &g));
-        for (int64_t b = 0; b < g.n_block; ++b) {
-            for (int32_t k = 0; k < n; ++k) {
-                solid[k] += g.solid[b * n + k];
-            }
-        }
-        clx_free(g.solid);
-        g.solid = NULL;
+        add_blocks(&g, solid);
     }
 done:
-    clx_free(g.shifted);
-    clx_free(g.solid);
+    if (g.block != NULL) {
+        add_blocks(&g, NULL);
+    }
+    for (int32_t k = 0; k < n_bench && g.bench != NULL; ++k) {
+        clx_free(g.bench[k].solid);
+        clx_free(g.bench[k].shifted);
+    }
+    clx_free(g.bench);
+    clx_free(g.block);
     return status;
 }
 
@@ -246,7 +353,9 @@ clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_
               made.top - bed->floor, options->trim);
     const bool cuts_low = options->trim > 0.0 || is_endless;
     const double edge[2] = {cuts_low ? made.z_low : -HUGE_VAL, made.z_high};
-    CLX_TRY(slabs(assembly, bed, options->method, 1, edge, &made.solid));
+    double solid[1] = {0.0};
+    CLX_TRY(slabs(assembly, bed, options->method, 1, edge, solid));
+    made.solid = solid[0];
     const double whole[2] = {made.z_low, made.z_high};
     double volume = 0.0;
     clast_bed_volumes(bed, 1, whole, &volume);

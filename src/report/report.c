@@ -115,7 +115,7 @@ static void put_run_head(clx_file *file, const clx_run *run, int32_t index)
         }
     }
     (void)clx_file_print(file, "<code>");
-    clx_page_text(file, run->path);
+    clx_page_text(file, run->place);
     (void)clx_file_print(file, "</code></p>\n");
     put_open_study(file, run);
 }
@@ -183,7 +183,7 @@ done:
     return status;
 }
 
-static clast_status write_page(const char *const *runs, int32_t n_run,
+static clast_status write_page(const char *const *runs, int32_t n_run, const char *place,
                                const clast_report_config *config, const char *path)
 {
     clast_status status = CLAST_OK;
@@ -192,7 +192,7 @@ static clast_status write_page(const char *const *runs, int32_t n_run,
     CLX_CHECK(n_run >= 1, CLAST_E_USAGE, "a report needs a run folder");
     CLX_TRY(clx_alloc(&run, n_run, sizeof *run));
     for (int32_t i = 0; i < n_run; ++i) {
-        CLX_TRY(clx_run_read(runs[i], path, &run[i]));
+        CLX_TRY(clx_run_read(runs[i], place, path, &run[i]));
     }
     CLX_TRY(clx_file_begin(path, &file));
     CLX_TRY(put_page(&file, run, n_run, config));
@@ -217,22 +217,28 @@ clast_status clast_report_write(const char *const *runs, int32_t n_run,
     clast_status status = CLAST_OK;
     clast_report_config own = {0};
     if (config != NULL) {
-        return write_page(runs, n_run, config, path);
+        return write_page(runs, n_run, NULL, config, path);
     }
     CLX_TRY(clast_fields_default(clast_report_fields, &own));
-    CLX_TRY(write_page(runs, n_run, &own, path));
+    CLX_TRY(write_page(runs, n_run, NULL, &own, path));
 done:
     clast_fields_free(clast_report_fields, &own);
     return status;
 }
 
-clast_status clast_report_write_run(const char *folder)
+clast_status clast_report_write_run(const char *folder, const char *place)
 {
     CLX_ARGUMENTS(folder);
+    clast_status status = CLAST_OK;
+    clast_report_config config = {0};
     char path[PATH_SIZE];
     const int n = snprintf(path, sizeof path, "%s/report.html", folder);
     if (n < 0 || n >= (int)sizeof path) {
         return clx_fail(CLAST_E_DISK, "the path of folder %.40s... is too long", folder);
     }
-    return clast_report_write(&folder, 1, NULL, path);
+    CLX_TRY(clast_fields_default(clast_report_fields, &config));
+    CLX_TRY(write_page(&folder, 1, place, &config, path));
+done:
+    clast_fields_free(clast_report_fields, &config);
+    return status;
 }

@@ -23,6 +23,7 @@ void clx_run_free(clx_run *run)
     }
     clx_free(run->table);
     clx_free(run->path);
+    clx_free(run->place);
     *run = (clx_run){0};
 }
 
@@ -125,16 +126,26 @@ done:
     return status;
 }
 
-static clast_status set_path(const char *folder, clx_run *run)
+/// The path without '/' at its end.
+static clast_status copy_path(const char *path, char **copy)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_alloc_text(&run->path, folder));
-    size_t n = strlen(run->path);
-    while (n > 1 && run->path[n - 1] == '/') {
-        run->path[--n] = '\0';
+    CLX_TRY(clx_alloc_text(copy, path));
+    size_t n = strlen(*copy);
+    while (n > 1 && (*copy)[n - 1] == '/') {
+        (*copy)[--n] = '\0';
     }
-    const char *slash = strrchr(run->path, '/');
-    run->name = slash != NULL && slash[1] != '\0' ? slash + 1 : run->path;
+done:
+    return status;
+}
+
+static clast_status set_path(const char *folder, const char *place, clx_run *run)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(copy_path(folder, &run->path));
+    CLX_TRY(copy_path(place != NULL ? place : folder, &run->place));
+    const char *slash = strrchr(run->place, '/');
+    run->name = slash != NULL && slash[1] != '\0' ? slash + 1 : run->place;
 done:
     return status;
 }
@@ -189,13 +200,15 @@ static clast_status read_summary(clx_run *run)
     return run->summary != NULL ? CLAST_OK : clx_fail(CLAST_E_MEMORY, "not enough memory");
 }
 
-clast_status clx_run_read(const char *folder, const char *page, clx_run *run)
+clast_status clx_run_read(const char *folder, const char *place, const char *page, clx_run *run)
 {
     clast_status status = CLAST_OK;
     clx_run made = {0};
-    CLX_TRY(set_path(folder, &made));
+    CLX_TRY(set_path(folder, place, &made));
     set_link(page, &made);
-    CLX_TRY(clast_run_folder_check(made.path));
+    if (place == NULL) {
+        CLX_TRY(clast_run_folder_check(made.path));
+    }
     CLX_TRY(clx_folder_list(made.path, &made.files));
     CLX_TRY(read_manifest(&made));
     CLX_TRY(read_summary(&made));

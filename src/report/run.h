@@ -6,7 +6,8 @@
 
 typedef struct clx_run {
     char *path;       ///< of the folder, without '/' at its end
-    const char *name; ///< last part of path
+    char *place;      ///< where readers find it: path, or what it is about to take the place of
+    const char *name; ///< last part of place
     char link[512];   ///< from the page to the folder, ends in '/' or is empty
     bool can_link;    ///< files of the folder can be reached from the page by `link`
     json_t *summary;  ///< object
@@ -18,9 +19,11 @@ typedef struct clx_run {
 
 /// Reads all but pictures and the state. `run` must be {0}.
 ///
-/// @param page  where the page will be, for links
+/// @param place  where the folder will be once the caller's own run in it has ended, or NULL for a
+///               folder that has to hold an ended run
+/// @param page   where the page will be, for links
 /// @return CLAST_E_IO without summary.json, CLAST_E_FORMAT with file and line if malformed
-clast_status clx_run_read(const char *folder, const char *page, clx_run *run);
+clast_status clx_run_read(const char *folder, const char *place, const char *page, clx_run *run);
 void clx_run_free(clx_run *run);
 
 /// True when the run's lengths are in the unit of a file that does not tell it.

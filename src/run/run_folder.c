@@ -21,7 +21,8 @@ struct clast_run_folder {
     char *path;     ///< where the run is made: folder, or FOLDER.new
     bool is_beside; ///< path takes the place of folder at the end
     bool is_resumed, is_open;
-    int lock; ///< descriptor of the folder, or -1
+    bool is_sealed; ///< its files are whole and listed
+    int lock;       ///< descriptor of the folder, or -1
     char *command;
     clast_manifest *manifest;
     clx_folder others; ///< what lay in the folder before
@@ -398,14 +399,21 @@ done:
     return status;
 }
 
-/// The manifest of a run that went well.
-static clast_status seal(clast_run_folder *run)
+clast_status clx_run_folder_seal(clast_run_folder *run)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(note_outputs(run));
-    CLX_TRY(write_manifest(run, "done"));
+    if (run != NULL && run->is_open && !run->is_sealed) {
+        run->is_sealed = true;
+        CLX_TRY(note_outputs(run));
+        CLX_TRY(write_manifest(run, "done"));
+    }
 done:
     return status;
+}
+
+const char *clx_run_folder_place(const clast_run_folder *run)
+{
+    return run != NULL ? run->folder : NULL;
 }
 
 /// After that: the run takes its place.
@@ -431,7 +439,7 @@ static clast_status end_badly(clast_run_folder *run, clast_status status)
     clx_run_state state = {0};
     (void)snprintf(why, sizeof why, "%s", clast_error_detail());
     const bool is_stopped = status == CLAST_E_STOPPED;
-    if (note_outputs(run) == CLAST_OK) {
+    if (run->is_sealed || note_outputs(run) == CLAST_OK) {
         (void)write_manifest(run, is_stopped ? "stopped" : "failed");
     }
     unlock(run);
@@ -456,8 +464,8 @@ clast_status clast_run_folder_end(clast_run_folder *run, clast_status status)
     if (run == NULL || !run->is_open) {
         return status;
     }
+    status = status == CLAST_OK ? clx_run_folder_seal(run) : status;
     run->is_open = false;
-    status = status == CLAST_OK ? seal(run) : status;
     return status == CLAST_OK ? settle(run) : end_badly(run, status);
 }
 

@@ -11,6 +11,7 @@
 #include "study/aggregate_repeats.h"
 #include <clast/aggregate_file.h>
 #include <clast/config.h>
+#include <clast/report.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -246,6 +247,10 @@ static clast_status finish(run *r, clast_status status)
                                             .first = &r->first,
                                             .monitor = r->monitor};
         status = clx_folder_write_results(r->folder, &results);
+        status = status == CLAST_OK ? clx_run_folder_seal(r->own) : status;
+        status = status == CLAST_OK
+                     ? clast_report_write_run(r->folder, clx_run_folder_place(r->own))
+                     : status;
     }
     status = clast_run_folder_end(r->own, status);
     if (status == CLAST_OK && r->has_folder) { // a resumed run may have taken another's place

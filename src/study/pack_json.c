@@ -67,6 +67,9 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     put(o, "z_high", r->z_high);
     put(o, "bed_top", r->top);
     put(o, "porosity_untrimmed", r->untrimmed);
+    put(o, "grain_size", r->walls.size);
+    put(o, "wall_ratio", r->walls.ratio);
+    put(o, "wall_share", r->wall_share);
     put(o, "flatness_mean", r->flatness[0]);
     put(o, "flatness_deviation", r->flatness[1]);
     put(o, "elongation_mean", r->elongation[0]);

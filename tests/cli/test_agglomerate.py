@@ -95,7 +95,7 @@ class Agglomerate(Case):
         file = write(self.folder / "p.csv", ["x", "y", "z", "r", "G", "cell", "volume"], rows)
         r = clast("agglomerate", file, "--domain", CUBE, "--kernel", "shear_laminar", "--radius-column", "r",
                   "--shear-column", "G", "--fixed-column", "cell", "--fixed-volume-column", "volume", "--duration", "10",
-                  "--json", "-o", self.folder / "run")
+                  "--out-of-range", "extrapolate", "--json", "-o", self.folder / "run")
         self.assertEqual(r.code, 0, r.err)
         self.assertGreater(r.json["fixed"]["events"][-1], 20)
         self.assertGreaterEqual(r.json["fixed"]["n_particle"][-1], 200)
@@ -122,7 +122,8 @@ class Agglomerate(Case):
                   (["--kernel", "shear_laminar", "--monomer-radius", "1um"], "needs a shear > 0"),
                   (["--kernel", "settling", "--monomer-radius", "1um"], "mass column or --particle-density"),
                   (["--kernel", "ballistic", "--monomer-radius", "1um"], "velocity columns"),
-                  (["--radius-law", "fractal"], "fractal radii need --monomer-radius")]
+                  (["--radius-law", "fractal"], "volume|fractal-collision|fractal-gyration"),
+                  (["--radius-law", "fractal-gyration"], "fractal radii need --monomer-radius")]
         for options, words in wanted:
             self.assert_fails(2, "agglomerate", UNIFORM, "--domain", CUBE, *options, says=[words])
         self.assert_fails(2, "agglomerate", ROOT / "data/d2sd/points_u2_n50.csv", "--domain", "box:0,0,1,1", "--kernel",

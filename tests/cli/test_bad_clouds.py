@@ -25,12 +25,24 @@ class BadClouds(Case):
                 r = clast("decompose", path, "--domain", CUBE, "--mesh", mesh, "--json")
                 self.assertEqual(r.code, 0, f"{name} {mesh}: {r.err}")
                 self.assertEqual(r.json["n"], len(rows))
-                self.assertGreaterEqual(r.json["pair_integral"], 0.0)
+                if name in ("equal", "faces"):  # repeated points: words
+                    self.assertIsNone(r.json["pair_integral"])
+                else:
+                    self.assertGreaterEqual(r.json["pair_integral"], 0.0)
                 if len(rows) < 5:
                     self.assertEqual((r.json["tests"], r.json["n_cell"]), ([], 1))
             r = clast("agglomerate", path, "--domain", CUBE, "--constant", "1e9", "--n-step", "1", "--json")
             self.assertEqual(r.code, 0, f"{name}: {r.err}")
             self.assertEqual(r.json["moments"]["M1"][-1], len(rows))
+
+    def test_repeated_points_have_words_in_the_place_of_a_number(self):
+        path = self.write("corners.csv", [[(0.1, 0.9)[k >> j & 1] for j in range(3)] for k in range(8)] * 10)
+        for more in ((), ("--beta-dt", "1e-6")):
+            r = clast("decompose", path, "--domain", "box:0,0,0,1,1,1", "--json", *more).json
+            self.assertEqual((r["pair_integral"], r["pair_integral_low"], r["events"], r["resolved"]), (None, None, None, False))
+            words = clast("decompose", path, "--domain", "box:0,0,0,1,1,1", *more).out
+            self.assertIn("so many points repeat the place of another, and there is no density at such a place", words)
+            self.assertNotIn("nan", words)
 
     def test_long_boxes_score_like_cubes(self):
         random.seed(2)

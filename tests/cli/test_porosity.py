@@ -198,6 +198,41 @@ class Porosity(Case):
         self.assertAlmostEqual(found.json["bulk"], 1 - 3.141592653589793 / 6, 12)
         self.assert_fails(2, "porosity", self.lattice(3), "--bed", "cylinder:52mm", says=["bed: ", "the run has no unit, so a bare number"])
 
+    def test_side_walls_are_told_and_left_out(self):
+        """Ten unit balls across a lattice of eight: the rows at the walls of a box are empty."""
+        path = self.lattice(8)
+        bed = ["--bed", "box:-1,-1,9,9", "--layer", 0.1, "--cut", 0.9]
+        plain = clast("porosity", path, *bed)
+        self.assertIn("side walls          5 grain sizes (of 1 model units, mean by volume) from the axis, which loosen the bed", plain.out)
+        found = clast("porosity", path, *bed, "--core", 2.5, "--json").json
+        self.assertAlmostEqual(found["wall_ratio"], 5, 12)
+        self.assertAlmostEqual(found["grain_size"], 1, 12)
+        self.assertAlmostEqual(found["core"], 1 - 3.141592653589793 / 6, 1)
+        self.assertAlmostEqual(found["bulk"] - found["core"], found["wall_share"], 12)
+        self.assertTrue(0.15 < found["wall_share"] < 0.25)
+        self.assertNotIn("core", clast("porosity", path, *bed, "--json").json)
+        two = clast("porosity", path, path, *bed, "--core", 2.5, "-o", self.folder / "two")
+        self.assertIn("wall_share", two.out)
+        self.assertIn("core_depth,-,2.5", (self.folder / "two/means.csv").read_text())
+        self.assert_fails(2, "porosity", path, *bed, "--core", 0.2, says=["half a grain size"])
+        self.assert_fails(3, "porosity", path, *bed, "--core", 6, says=["nothing of the bed is farther than 6.5 grain sizes"])
+        endless = ["--bed", "periodic:0,0,8,8", "--layer", 0.1]
+        self.assertIn("side walls          none: the bed is periodic", clast("porosity", path, *endless).out)
+        self.assertNotIn("wall_ratio", clast("porosity", path, *endless, "--json").json)
+        self.assert_fails(2, "porosity", path, *endless, "--core", 2, says=["no side walls"])
+
+    def test_the_core_of_others_knows_no_container(self):
+        """voro++'s unit spheres in a box and in a cylinder: bulks differ by 0.008, cores beyond 2.5 by less than 0.002."""
+        names = (("pack_ten_cube.txt", "box:-5,-5,5,5"), ("pack_cylinder.txt", "cylinder:6"))
+        paths = [shared("packings/voro/" + name) for name, _ in names]
+        if None in paths:
+            return
+        box, round_ = [clast("porosity", path, "--columns", "id,x,y,z", "--diameter", 1, "--bed", bed, "--layer", 0.1, "--trim", 2,
+                             "--core", 2.5, "--json").json for path, (_, bed) in zip(paths, names)]
+        self.assertAlmostEqual(box["bulk"] - round_["bulk"], 0.0075, 3)
+        self.assertLess(abs(box["core"] - round_["core"]), 0.002)
+        self.assertAlmostEqual(round_["wall_share"], 0.0281, 3)
+
     def test_packings_of_other_programs(self):
         """FCC as voro++ text in a box that repeats in all three directions; spheres as diameters, in mm."""
         edge = 3 * 2 ** 0.5

@@ -58,7 +58,7 @@ class RunFolder(Case):
                 manifest = json.loads(first["manifest.json"])
                 self.assertEqual((manifest["outcome"], manifest["command"]), ("done", name.split()[0]))
                 self.assertEqual(sorted(manifest["outputs"]), sorted({p.split("/")[0] for p in first}
-                                                                     - {"report.html"}))  # written when the run has ended
+                                                                     - {"report.html"}))  # reads what they are
                 self.assertIsInstance(manifest["config"], dict)
                 self.assertTrue(all(len(i["sha256"]) == 64 for i in manifest["inputs"]))
                 self.assertIn("summary.json", first)

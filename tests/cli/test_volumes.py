@@ -44,33 +44,95 @@ def nrrd(encoding, data, kind="uchar"):
     return head.encode() + data
 
 
-def tiff(order, data, n_byte, packed, text=b"ImageJ=1.54\nimages=20\nslices=20\n\0"):
-    """A page a slice, two strips a page."""
-    out = bytearray((b"II*\0" if order == "<" else b"MM\0*") + struct.pack(order + "I", 0))
-    link = 4
+def lzw(data):
+    """TIFF's Lempel-Ziv-Welch: codes of 9 to 12 bits, the first bit highest, widths one code early."""
+    table, width, word = {bytes([k]): k for k in range(256)}, 9, b""
+    stream = [format(256, "09b")]
+    for byte in data:
+        longer = word + bytes([byte])
+        if longer in table:
+            word = longer
+            continue
+        stream.append(format(table[word], f"0{width}b"))
+        table[longer] = len(table) + 2
+        word = bytes([byte])
+        if len(table) + 2 in (512, 1024, 2048):
+            width += 1
+        elif len(table) + 2 == 4095:
+            stream.append(format(256, "012b"))
+            table, width = {bytes([k]): k for k in range(256)}, 9
+    stream += [format(table[word], f"0{width}b"), format(257, f"0{width}b")]
+    bits = "".join(stream)
+    bits += "0" * (-len(bits) % 8)
+    return int(bits, 2).to_bytes(len(bits) // 8, "big")
+
+
+def runs(data):
+    """PackBits: every byte a run of literals of one, or a run of equal ones."""
+    out = bytearray()
+    k = 0
+    while k < len(data):
+        n = 1
+        while n < 128 and data[k + n:k + n + 1] == data[k:k + 1]:
+            n += 1
+        out += bytes([(257 - n) % 256 if n > 1 else 0, data[k]])
+        k += n
+    return bytes(out)
+
+
+def differences(data, n_byte, order):
+    """Predictor 2: each value less the one to its left."""
+    values = struct.unpack(f"{order}{len(data) // n_byte}{'_BH_I'[n_byte]}", data)
+    width, most = SIZE[0], 256**n_byte
+    less = [(v - (values[k - 1] if k % width else 0)) % most for k, v in enumerate(values)]
+    return struct.pack(f"{order}{len(less)}{'_BH_I'[n_byte]}", *less)
+
+
+PACKINGS = {1: bytes, 5: lzw, 8: zlib.compress, 32773: runs}
+
+
+def tiff(order, data, n_byte, packing, text=b"ImageJ=1.54\nimages=20\nslices=20\n\0", big=False, predictor=1, tile=None):
+    """A page a slice, two strips a page or tiles of a size; classic or BigTIFF."""
+    mark, link, entry = (43, 8, "Q") if big else (42, 4, "I")
+    out = bytearray((b"II" if order == "<" else b"MM") + struct.pack(order + "H", mark))
+    out += struct.pack(order + "HHQ", 8, 0, 0) if big else struct.pack(order + "I", 0)
     where = len(out)
     out += text + b"\0" * (len(text) % 2)
-    rows = SIZE[1] // 2
     page = SIZE[0] * SIZE[1] * n_byte
     for k in range(SIZE[2]):
-        strips = [data[k * page + s * page // 2:k * page + (s + 1) * page // 2] for s in range(2)]
-        strips = [zlib.compress(s) for s in strips] if packed else strips
+        rows = data[k * page:(k + 1) * page]
+        if predictor == 2:
+            rows = differences(rows, n_byte, order)
+        parts = [rows[s * page // 2:(s + 1) * page // 2] for s in range(2)]
+        if tile:
+            line, (tx, ty) = SIZE[0] * n_byte, tile
+            padded = [rows[j * line:(j + 1) * line].ljust(-(-SIZE[0] // tx) * tx * n_byte, b"\0") for j in range(SIZE[1])]
+            padded += [b"\0" * len(padded[0])] * (-SIZE[1] % ty)
+            parts = [b"".join(r[i * n_byte:(i + tx) * n_byte] for r in padded[j:j + ty])
+                     for j in range(0, SIZE[1], ty) for i in range(0, SIZE[0], tx)]
+        parts = [PACKINGS[packing](part) for part in parts]
         offsets = []
-        for strip in strips:
+        for part in parts:
             offsets.append(len(out))
-            out += strip
-        lists = len(out)
-        out += struct.pack(order + "4I", *offsets, *map(len, strips))
+            out += part
         out += b"\0" * (len(out) % 2)
-        struct.pack_into(order + "I", out, link, len(out))
-        entries = [(256, 3, 1, SIZE[0]), (257, 3, 1, SIZE[1]), (258, 3, 1, 8 * n_byte), (259, 3, 1, 8 if packed else 1),
-                   (262, 3, 1, 1), (270, 2, len(text), where), (273, 4, 2, lists), (277, 3, 1, 1), (278, 3, 1, rows), (279, 4, 2, lists + 8)]
-        out += struct.pack(order + "H", len(entries))
-        for tag, kind, count, value in entries:
-            out += struct.pack(order + "HHI", tag, kind, count)
-            out += struct.pack(order + "HH", value, 0) if kind == 3 else struct.pack(order + "I", value)
+        lists = len(out)
+        out += struct.pack(f"{order}{2 * len(parts)}I", *offsets, *map(len, parts))
+        struct.pack_into(order + entry, out, link, len(out))
+        n = len(parts)
+        entries = [(256, 3, 1, SIZE[0]), (257, 3, 1, SIZE[1]), (258, 3, 1, 8 * n_byte), (259, 3, 1, packing), (262, 3, 1, 1),
+                   (270, 2, len(text), where), (277, 3, 1, 1), (317, 3, 1, predictor)]
+        entries += [(322, 3, 1, tile[0]), (323, 3, 1, tile[1]), (324, 4, n, lists), (325, 4, n, lists + 4 * n)] if tile else \
+            [(273, 4, n, lists), (278, 3, 1, SIZE[1] // 2), (279, 4, n, lists + 4 * n)]
+        out += struct.pack(order + ("Q" if big else "H"), len(entries))
+        for tag, kind, count, value in sorted(entries):
+            out += struct.pack(order + "HH" + entry, tag, kind, count)
+            small = struct.pack(order + "H", value) if kind == 3 else struct.pack(order + entry, value)
+            if big and kind == 4 and count == 2:  # what fits into an entry lies there
+                small = bytes(out[value:value + 8])
+            out += small.ljust(8 if big else 4, b"\0")
         link = len(out)
-        out += struct.pack(order + "I", 0)
+        out += struct.pack(order + entry, 0)
     return bytes(out)
 
 
@@ -104,10 +166,17 @@ class Volumes(Case):
         found = {
             "wide": self.grains(self.file("b.raw", b"head" + U16BE), *bare, "--voxel-type", "u16", "--big-endian", "--skip", 4,
                                 "--threshold", "25700"),
-            "tiff": self.grains(self.file("c.tif", tiff("<", U8, 1, False)), "--voxel-edge", "0.5,0.5,0.8", "--threshold", "100"),
-            "packed": self.grains(self.file("d.tif", tiff(">", U16BE, 2, True)), "--voxel-edge", "0.5,0.5,0.8",
-                                  "--threshold", "25700"),
         }
+        wide = {"<": struct.pack(f"<{len(VALUES)}H", *(257 * v for v in VALUES)), ">": U16BE}
+        for packing in PACKINGS:
+            for order, predictor, big, tile in (("<", 1, False, None), (">", 2, False, None), ("<", 2, True, (16, 32)), (">", 1, True, None),
+                                                (">", 1, False, (32, 16))):
+                if predictor == 2 and packing not in (5, 8):
+                    continue  # only these know one
+                name = f"tiff {packing} {order} {predictor} {big} {tile}"
+                stack = tiff(order, wide[order], 2, packing, big=big, predictor=predictor if tile is None else 1, tile=tile)
+                found[name] = self.grains(self.file("d.tif", stack), "--voxel-edge", "0.5,0.5,0.8", "--threshold", "25700")
+        found["bytes"] = self.grains(self.file("c.tif", tiff("<", U8, 1, 5)), "--voxel-edge", "0.5,0.5,0.8", "--threshold", "100")
         for name, out in found.items():
             for g, one in zip(out["grains"], first, strict=True):
                 self.assertAlmostEqual(g["volume"] / one["volume"], 1.0, delta=1e-6, msg=name)
@@ -139,17 +208,14 @@ class Volumes(Case):
         self.assert_fails(3, "shape", self.file("short.nrrd", whole[:-1]), says=("22400 bytes", "22399 after its header"))
         self.assert_fails(3, "shape", self.file("hex.nrrd", whole.replace(b"raw", b"hex")), says=("encoding 'hex'",))
         self.assert_fails(3, "shape", self.file("bad.nrrd", nrrd("gzip", gzip.compress(U8)[:-100])), says=("damaged",))
-        stack = tiff("<", U8, 1, False)
-        self.assert_fails(3, "shape", self.file("short.tif", stack[:-30]), says=("beyond the end",))
-        lzw = stack.replace(struct.pack("<HHIHH", 259, 3, 1, 1, 0), struct.pack("<HHIHH", 259, 3, 1, 5, 0))
-        self.assert_fails(3, "shape", self.file("lzw.tif", lzw), says=("method 5 (LZW)", "tiffcp -s -c none"))
-        big = b"II+\0" + stack[4:]
-        self.assert_fails(3, "shape", self.file("big.tif", big), says=("BigTIFF", "tiffcp -s -c none"))
-        # the tag of strips' offsets (273) becomes that of a tile's width (322)
-        tiles = stack.replace(struct.pack("<H", 273) + struct.pack("<H", 4), struct.pack("<H", 322) + struct.pack("<H", 4))
-        self.assertNotEqual(tiles, stack)
-        self.assert_fails(3, "shape", self.file("tiles.tif", tiles), says=("has tiles", "tiffcp -s -c none"))
-        one = tiff("<", U8, 1, False, b"ImageJ=1.54\nimages=2000\nslices=2000\n\0")
+        stack = tiff("<", U8, 1, 1)
+        self.assert_fails(3, "shape", self.file("short.tif", stack[:-30]), says=("TIFF: page 20",))
+        self.assert_fails(3, "shape", self.file("strip.tif", tiff("<", U8, 1, 5).replace(lzw(U8[:560])[:40], bytes(40))), says=("TIFF: page 1,",))
+        jpeg = stack.replace(struct.pack("<HHIHH", 259, 3, 1, 1, 0), struct.pack("<HHIHH", 259, 3, 1, 7, 0))
+        self.assert_fails(3, "shape", self.file("jpeg.tif", jpeg), says=("method 7", "tiffcp -c lzw"))
+        rgb = stack.replace(struct.pack("<HHIHH", 277, 3, 1, 1, 0), struct.pack("<HHIHH", 277, 3, 1, 3, 0))
+        self.assert_fails(3, "shape", self.file("rgb.tif", rgb), says=("3 samples a pixel",))
+        one = tiff("<", U8, 1, 1, b"ImageJ=1.54\nimages=2000\nslices=2000\n\0")
         self.assert_fails(3, "shape", self.file("imagej.tif", one), says=("2000 slices are promised and 20",))
         self.assert_fails(3, "shape", self.file("no.h5", U8), "--dataset", "volume", says=("no.h5",))
         floats = self.file("f.raw", struct.pack("<8f", *[0.5] * 8))

@@ -132,11 +132,6 @@ def is_new(results, new, telling):
                if (telling is None and not k.endswith(volatile) and "times" not in k) or (telling and k.split("/")[-1] in telling))
 
 
-def with_page(results, new):
-    """The results as if their page were there: `aggregate` makes it from the run when that is whole."""
-    return {**{f: b"" for f in new if f == "out/report.html"}, **results}
-
-
 def fault_of(bench, name, telling, folder, done):
     """What is wrong after a failed operation, or None."""
     results = bench.results(folder)
@@ -152,7 +147,7 @@ def fault_of(bench, name, telling, folder, done):
         return f"code {done.returncode}: {done.stderr[-300:]}"
     if done.returncode == 4 and (done.stderr.count("\n") != 1 or not done.stderr.startswith("clast ")):
         return f"not one line: {done.stderr[-300:]!r}"
-    whole = is_new(with_page(results, bench.new[name]) if done.returncode == 4 else results, bench.new[name], telling)
+    whole = is_new(results, bench.new[name], telling)
     files = [k for k in old if "/" not in k]
     mixed = files and all(results.get(k) in (old[k], bench.new[name].get(k)) for k in files)  # each file by itself
     if done.returncode != 4 and not whole:
@@ -220,7 +215,7 @@ def one_kill(bench, name, words, seconds, k):
             process.send_signal(signal.SIGKILL)
         results = {f: v for f, v in bench.results(folder).items() if not f.startswith("out.new") and "/.clast-" not in f}
         telling = ["state.h5"] if name == "pack" else ["history.csv"]
-        if not is_new(with_page(results, bench.new[name]), bench.new[name], telling) and results != bench.results(bench.old[name]):
+        if not is_new(results, bench.new[name], telling) and results != bench.results(bench.old[name]):
             return f"{name} {k}: neither the old nor the new result: {sorted(results)[:5]}"
         if (folder / "out.new").exists():
             done = bench.run([words[0], "--resume", "out.new"], folder)

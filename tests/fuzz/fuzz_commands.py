@@ -4,9 +4,10 @@
     tests/fuzz/fuzz_commands.py --runs 1000 [--first K] [--clast build/release/clast] [--seconds S] [--jobs N]
 
 Run k is the same on every machine: a command, its inputs and their mutations are drawn from the seed k. A run is bad
-when a signal ends it, a sanitizer speaks, it takes over --limit seconds or --memory bytes, its code is not one of 0 to
-5, an error is not one last line, an input has changed, or a temporary file is left. The folder of a bad run is kept
-under build/fuzz-commands/K with its command line in `command`; `--first K --runs 1` repeats it.
+when a signal ends it, a sanitizer speaks, it takes over --limit seconds of a processor (30 times that by the clock) or
+--memory bytes, its code is not one of 0 to 5, an error is not one last line, an input has changed, or a temporary file
+is left. The folder of a bad run is kept under build/fuzz-commands/K with its command line in `command`; `--first K
+--runs 1` repeats it.
 """
 import argparse
 import concurrent.futures
@@ -15,6 +16,7 @@ import os
 import pathlib
 import random
 import re
+import resource
 import shutil
 import signal
 import struct
@@ -31,7 +33,7 @@ EXTREMES = ["0", "-1", "1", "2", "nan", "inf", "-inf", "1e-320", "1e-300", "1e-3
             "", "x", "0x10", "1e", "5mm", "1e-9m", "1e9m"]
 FLOATS = [0.0, -0.0, 1.0, -1.0, float("nan"), float("inf"), 1e-45, 1e-38, 1e-30, 1e-10, 1e5, 1e6, 1e15, 3e38, -3e38]
 NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-WORK = ("repeats", "max-steps", "replicate", "max-memory")  # asks for work, and gets it
+WORK = ("repeats", "n-repeat", "n-permutation", "max-steps", "replicate", "max-memory")  # asks for work, and gets it
 
 
 def mutate_number(random_, data):
@@ -297,16 +299,17 @@ def run_one(seeds, k, a):
             os.unlink(stderr.name)
             process = subprocess.Popen([a.clast, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                        stderr=stderr)
-            timer = threading.Timer(a.limit, process.send_signal, [signal.SIGKILL])
+            seconds = max(1, round(a.limit))
+            resource.prlimit(process.pid, resource.RLIMIT_CPU, (seconds, seconds + 5))
+            timer = threading.Timer(30 * a.limit, process.send_signal, [signal.SIGKILL])
             timer.start()
-            began = time.monotonic()
             _, state, usage = os.wait4(process.pid, 0)
             timer.cancel()
             process.returncode = 0  # taken by wait4
             stderr.seek(0)
             error = stderr.read().decode("utf-8", "replace")
         code = os.waitstatus_to_exitcode(state)
-        is_late = code == -signal.SIGKILL and time.monotonic() - began >= 0.95 * a.limit
+        is_late = code in (-signal.SIGXCPU, -signal.SIGKILL)
         fault = fault_of(None if is_late else code, error, 1024 * usage.ru_maxrss, a, before, folder)
         if fault is not None:
             kept = KEPT / str(k)
@@ -323,7 +326,7 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="seed of the first run")
     parser.add_argument("--seconds", type=float, default=1e9, help="begin no run after this time")
     parser.add_argument("--clast", default=str(ROOT / "build/release/clast"))
-    parser.add_argument("--limit", type=float, default=10.0, help="seconds of one run")
+    parser.add_argument("--limit", type=float, default=10.0, help="seconds of a processor of one run")
     parser.add_argument("--memory", type=float, default=2e9, help="bytes of one run")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     a = parser.parse_args()

@@ -321,7 +321,7 @@ static void bad_collisions_are_refused(void **state)
     memcpy(mass, ones, sizeof mass);
     const double volume[2] = {1.0, 1.0};
     const clast_population p = {N, 3, x, monomers, radius, mass, NULL, NULL, owner, NULL};
-    const clast_collide_cells cells = {2, cell, volume, NULL, NULL};
+    const clast_collide_cells cells = {2, cell, volume, NULL, NULL, NULL};
     const clast_collide_config good = {
         .kernel = 1, .alpha = 1.0, .medium.constant = 1e-3, .block = 1024};
     clast_collide_config bad[12];
@@ -340,8 +340,8 @@ static void bad_collisions_are_refused(void **state)
     bad[4].alpha = 7.0;
     bad[5].radius_law = 77;
     bad[6].collisions = 77;
-    bad[7].collisions = CLAST_COLLISIONS_POISSON; // leap is 0
-    bad[8].radius_law = CLAST_RADIUS_FRACTAL;     // so are a0, D_f, k_f
+    bad[7].collisions = CLAST_COLLISIONS_POISSON;       // leap is 0
+    bad[8].radius_law = CLAST_RADIUS_FRACTAL_COLLISION; // so are a0, D_f, k_f
     bad[9].block = -1;
     bad[10].medium.constant = -1.0;
     bad[11].kernel = 1U << 3; // brownian without temperature

@@ -1,4 +1,4 @@
-/* Property: in a bed that moves, remembered contacts are those found without memory; and the mode
+/* Property: in a bed that moves, contacts with warm starts are those found without; and the mode
  * that says so sees one that is not. */
 #include "support.h"
 
@@ -35,13 +35,13 @@ static void broken_memories_and_promises_are_seen(void **state)
     (void)state;
     clast_dem_measures m;
     clast_dem *dem = bed_after(0, 2000);
-    for (int64_t k = 0; k < dem->list.n_link; ++k) {
-        clx_link *link = &dem->list.link[k];
-        if (link->touches != 0 && link->slot != 0 &&
-            dem->list.memory[link->slot].record.kind == 1) {
-            dem->list.memory[link->slot].record.data[3] += 2e-8; /* the face's place */
-        } else if (link->touches == 0 && link->b >= 0) {
-            link->wake += 0.02; /* farther than any listed pair */
+    for (int64_t k = 0; k < dem->list.n_pair; ++k) {
+        clx_dem_pair *pair = &dem->list.pair[k];
+        if (pair->touches != 0 && pair->slot != 0 &&
+            dem->list.warm_start[pair->slot].record.kind == 1) {
+            dem->list.warm_start[pair->slot].record.data[3] += 2e-8; /* the face's place */
+        } else if (pair->touches == 0 && pair->b >= 0) {
+            pair->active_from += 0.02; /* farther than any listed pair */
         }
     }
     clx_verify(dem);
@@ -52,7 +52,7 @@ static void broken_memories_and_promises_are_seen(void **state)
 }
 
 /* Steps in one go work on rows that are packed anew out of older rows; steps one by one have the
- * list up to date before each: the same links, displacements and memories. */
+ * list up to date before each: the same pairs, displacements and memories. */
 static void rows_keep_what_the_list_would(void **state)
 {
     (void)state;
@@ -67,15 +67,15 @@ static void rows_keep_what_the_list_would(void **state)
         CHECK_OK(clast_dem_step(one, 1));
     }
     assert_true(clast_dem_hash(rows) == clast_dem_hash(one));
-    assert_int_equal(rows->list.n_link, one->list.n_link);
+    assert_int_equal(rows->list.n_pair, one->list.n_pair);
     int64_t n_touching = 0;
-    for (int64_t k = 0; k < one->list.n_link; ++k) {
-        const clx_link *a = &rows->list.link[k];
-        const clx_link *b = &one->list.link[k];
+    for (int64_t k = 0; k < one->list.n_pair; ++k) {
+        const clx_dem_pair *a = &rows->list.pair[k];
+        const clx_dem_pair *b = &one->list.pair[k];
         assert_memory_equal(a, b, sizeof *a);
         if (a->slot != 0) {
-            assert_memory_equal(&rows->list.memory[a->slot].record,
-                                &one->list.memory[b->slot].record, sizeof(clx_contact_memory));
+            assert_memory_equal(&rows->list.warm_start[a->slot].record,
+                                &one->list.warm_start[b->slot].record, sizeof(clx_contact_memory));
         }
         n_touching += a->touches;
     }

@@ -1,4 +1,5 @@
-/* Unit: how a sweep is divided: every grain once whoever is fast, shares by pace, what is late. */
+/* Unit: how a sweep is divided: every grain once whoever is fast, shares by pace, what is deferred.
+ */
 #include "support.h"
 
 #include "dem/chunk.h"
@@ -8,14 +9,14 @@
 
 enum { N = 4000, WORKERS = 3 };
 
-/* A bed that has moved, with its near list. */
+/* A bed that has moved, with its inner list. */
 static clast_dem *make(void)
 {
     clast_parallel_set_threads(1); // which learns no pace
     clast_dem *dem = scene_pour(N, 3e-3, 8e-3, 0.15);
     assert_non_null(dem);
     CHECK_OK(clast_dem_step(dem, 40));
-    if (dem->near.is_due || dem->list.is_due) {
+    if (dem->inner.is_due || dem->list.is_due) {
         CHECK_OK(clast_dem_step(dem, 1));
     }
     CHECK_OK(clx_chunks_weigh(dem, WORKERS));
@@ -43,28 +44,28 @@ static void go_on(clx_chunk *chunk, int n, uint8_t *is_seen)
 
 /* Worker 1 does its chunk, then that of worker 2, who never comes, then takes what it can of worker
  * 0, who is slow; both go on in turn. */
-static void every_grain_is_taken_once(void **state)
+static void every_grain_is_swept_once(void **state)
 {
     (void)state;
     static uint8_t is_seen[N];
     clast_dem *dem = make();
     clx_sweeping *s = &dem->sweeping;
-    int n_taken = 0;
+    int n_claimed = 0;
     memset(is_seen, 0, sizeof is_seen);
     clx_chunks_begin(dem);
-    clx_chunk *slow = clx_chunk_take(s, 0);
+    clx_chunk *slow = clx_chunk_claim(s, 0);
     assert_non_null(slow);
     assert_int_equal(slow->begin, 0);
     go_on(slow, 1, is_seen);
-    for (clx_chunk *c = clx_chunk_take(s, 1); c != NULL; c = clx_chunk_take(s, 1)) {
-        ++n_taken;
+    for (clx_chunk *c = clx_chunk_claim(s, 1); c != NULL; c = clx_chunk_claim(s, 1)) {
+        ++n_claimed;
         go_on(slow, 1, is_seen);
         go_on(c, N, is_seen);
     }
-    assert_true(n_taken > 2); // its own, worker 2's, and a part of worker 0's
+    assert_true(n_claimed > 2); // its own, worker 2's, and a part of worker 0's
     go_on(slow, N, is_seen);
-    assert_null(clx_chunk_take(s, 0));
-    assert_null(clx_chunk_take(s, 2));
+    assert_null(clx_chunk_claim(s, 0));
+    assert_null(clx_chunk_claim(s, 2));
     for (int g = 0; g < N; ++g) {
         assert_int_equal(is_seen[g], 1);
     }
@@ -96,39 +97,39 @@ static void shares_follow_paces(void **state)
     clast_dem_destroy(dem);
 }
 
-/* A grain is late where a link leads to it, or to one of its four, from before the border. */
-static void late_is_what_lower_grains_reach(void **state)
+/* A grain is deferred where a pair leads to it, or to one of its four, from before the border. */
+static void grains_with_pairs_of_earlier_chunks_are_deferred(void **state)
 {
     (void)state;
     static int32_t lowest[N];
     clast_dem *dem = make();
-    int n_late = 0;
+    int n_deferred = 0;
     for (int g = 0; g < N; ++g) {
         lowest[g] = INT32_MAX;
     }
-    for (int32_t k = 0; k < dem->near.n; ++k) {
-        const clx_link *link = clx_near_link(dem, k);
-        for (int32_t g = link->b / CLX_LANES * CLX_LANES;
-             link->b >= 0 && g < N && g / CLX_LANES == link->b / CLX_LANES; ++g) {
-            lowest[g] = link->a < lowest[g] ? link->a : lowest[g];
+    for (int32_t k = 0; k < dem->inner.n; ++k) {
+        const clx_dem_pair *pair = clx_inner_pair(dem, k);
+        for (int32_t g = pair->b / CLX_LANES * CLX_LANES;
+             pair->b >= 0 && g < N && g / CLX_LANES == pair->b / CLX_LANES; ++g) {
+            lowest[g] = pair->a < lowest[g] ? pair->a : lowest[g];
         }
     }
     for (int32_t border = 0; border < N; border += 10 * CLX_SWEEP_BLOCK) {
         for (int32_t g = border; g < N; ++g) {
-            assert_int_equal(clx_is_late(&dem->sweeping, g, border), lowest[g] < border);
-            n_late += lowest[g] < border ? 1 : 0;
+            assert_int_equal(clx_is_deferred(&dem->sweeping, g, border), lowest[g] < border);
+            n_deferred += lowest[g] < border ? 1 : 0;
         }
     }
-    assert_true(n_late > 0);
+    assert_true(n_deferred > 0);
     clast_dem_destroy(dem);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_grain_is_taken_once),
+        cmocka_unit_test(every_grain_is_swept_once),
         cmocka_unit_test(shares_follow_paces),
-        cmocka_unit_test(late_is_what_lower_grains_reach),
+        cmocka_unit_test(grains_with_pairs_of_earlier_chunks_are_deferred),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -253,7 +253,7 @@ static void no_event_is_lost_at_caps(void **state)
     }
 }
 
-/* Radii: volumes add, or grow with the fractal dimension. */
+/* Radii: volumes add, or grow with the fractal dimension, of collision or of gyration. */
 static void radii_follow_their_law(void **state)
 {
     (void)state;
@@ -266,11 +266,20 @@ static void radii_follow_their_law(void **state)
         CHECK_REL(monomers[i] > 0 ? radius[i] : cbrt(10.0) * 1e-6, cbrt(10.0) * 1e-6, 1e-14);
     }
     p = singles(10);
-    c.radius_law = CLAST_RADIUS_FRACTAL;
+    c.radius_law = CLAST_RADIUS_FRACTAL_COLLISION;
     c.monomer_radius = 1e-6;
     CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
     for (int i = 0; i < 10; ++i) {
         const double expected = 1e-6 * pow(10.0, 1.0 / 1.8);
+        CHECK_REL(monomers[i] > 0 ? radius[i] : expected, expected, 1e-14);
+    }
+    p = singles(10); // k_f = 1.3 of radii of gyration, half a monomer to a count
+    c.radius_law = CLAST_RADIUS_FRACTAL_GYRATION;
+    c.fractal_prefactor = 1.3;
+    c.count_unit = 0.5;
+    CHECK_OK(clast_collide(&p, &cells, 1e9, 0, &c, NULL));
+    for (int i = 0; i < 10; ++i) {
+        const double expected = 1e-6 * pow(5.0 / 1.3, 1.0 / 1.8) * sqrt(3.8 / 1.8);
         CHECK_REL(monomers[i] > 0 ? radius[i] : expected, expected, 1e-14);
     }
 }
@@ -318,6 +327,8 @@ static estimate collect(const char *name, double volume, int32_t block, int32_t 
     c.medium.particle_density = 2500.0;
     c.medium.gravity = 9.81;
     c.medium.efficiency = 1.0;
+    c.medium.mean_free_path = 66e-9;
+    c.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; /* the process is tested, not the kernel */
     for (int r = 0; r < COLLECTOR_REPEATS; ++r) {
         clast_population p = singles(N);
         const clast_collide_cells cells = one_cell(&volume);
@@ -533,10 +544,9 @@ static void unit_weights_change_nothing(void **state)
 
 static clast_status collide_once(void *context)
 {
-    (void)context;
     const double volume = 100.0;
     clast_population p = singles(50);
-    const clast_collide_config c = kernel("additive");
+    const clast_collide_config c = kernel(context);
     const clast_collide_cells cells = one_cell(&volume);
     return clast_collide(&p, &cells, 0.5, 3, &c, NULL);
 }
@@ -544,7 +554,9 @@ static clast_status collide_once(void *context)
 static void every_refused_allocation_is_told(void **state)
 {
     (void)state;
-    support_refuse_each_allocation(collide_once, NULL);
+    static char name[2][16] = {"additive", "shear_laminar"}; // without ranges and with
+    support_refuse_each_allocation(collide_once, name[0]);
+    support_refuse_each_allocation(collide_once, name[1]);
 }
 
 static void wrong_cells_are_refused(void **state)

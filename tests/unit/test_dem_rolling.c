@@ -88,15 +88,15 @@ static void one_normal_force_limits_both(void **state)
                          .radius = 1e-3,
                          .friction = 0.5};
         double slide[3] = {0.0, 0.0, 0.0};
-        clx_push push;
-        clx_law_force(&law, &m, 1e-6, slide, &push);
+        clx_contact_force force;
+        clx_law_force(&law, &m, 1e-6, slide, &force);
         if (k == 0) {
-            CHECK_REL(v3_norm(push.tangential), 0.5 * push.pressed, 1e-12);
+            CHECK_REL(v3_norm(force.tangential), 0.5 * force.pressed, 1e-12);
         }
-        CHECK_REL(push.pressed, 1e-6 * law.stiffness * 1e-8, 1e-12);
-        clx_law_roll(&law, &m, 1.0, 1e-6, &push);
-        CHECK_REL(v3_norm(push.rolling), ROLLING * 1e-3 * push.pressed, 1e-12);
-        assert_true(fabs(push.normal) > 1.5 * push.pressed); /* what rolling took before */
+        CHECK_REL(force.pressed, 1e-6 * law.stiffness * 1e-8, 1e-12);
+        clx_law_roll(&law, &m, 1.0, 1e-6, &force);
+        CHECK_REL(v3_norm(force.rolling), ROLLING * 1e-3 * force.pressed, 1e-12);
+        assert_true(fabs(force.normal) > 1.5 * force.pressed); /* what rolling took before */
     }
 }
 

@@ -167,6 +167,31 @@ static void wrap_rolls_a_ball_about_the_grains(void **state)
     clast_assembly_free(&a);
 }
 
+/* The wrap of a convex body is the body. Distances that are carried past a surface of curvature
+ * 1 / R exceed by t^2 / 2R, whatever the rolling ball: its radius alone is no bound. */
+static void wrap_of_a_curved_body_is_within_its_error(void **state)
+{
+    (void)state;
+    static const double axes[][3] = {{1.0, 1.0, 1.0}, {3.0, 1.0, 1.0}, {3.0, 3.0, 1.0}};
+    for (size_t k = 0; k < sizeof axes / sizeof *axes; ++k) {
+        for (int32_t n_cell = 24; n_cell <= 48; n_cell += 12) {
+            clast_assembly a = {0};
+            clast_shape egg = {0};
+            CHECK_OK(clast_shape_ellipsoid("egg", axes[k], &egg));
+            CHECK_OK(clast_assembly_add_shape(&a, &egg, NULL));
+            CHECK_OK(clast_assembly_add_grain(&a, 0, (double[3]){0}, no_turn, 1.0, 1.0));
+            const clast_envelope e = wrap_of(&a, 4.0, n_cell);
+            CHECK_ABS(e.volume, egg.volume, e.error);
+            const double h = 2.0 * axes[k][0] / n_cell;
+            const double curvature = axes[k][0] / (axes[k][2] * axes[k][2]); // a / c^2
+            const double sphere = pow(36.0 * CLAST_PI * egg.volume * egg.volume, 1.0 / 3.0);
+            assert_true(e.error > 0.9 * sphere * 0.375 * h * h * (2.0 / 4.0 + curvature));
+            clast_shape_free(&egg);
+            clast_assembly_free(&a);
+        }
+    }
+}
+
 /* Three balls grown by the rolling ball's radius: its centre may be where none of them is. Three
  * balls close no hollow, so all of that is joined to infinity. */
 typedef struct inflated {
@@ -477,6 +502,7 @@ int main(void)
         cmocka_unit_test(ellipsoid_is_its_own_hull_and_fits_its_long_axis),
         cmocka_unit_test(spheres_are_asked_for_by_name),
         cmocka_unit_test(wrap_rolls_a_ball_about_the_grains),
+        cmocka_unit_test(wrap_of_a_curved_body_is_within_its_error),
         cmocka_unit_test(wrap_of_three_balls_is_what_samples_say),
         cmocka_unit_test(wrap_counts_closed_hollows),
         cmocka_unit_test(alpha_closes_the_neck_by_a_cylinder),

@@ -14,7 +14,8 @@ static const clast_medium water = {.temperature = 293.15,
                                    .shear = 100.0,
                                    .dissipation = 0.01,
                                    .gravity = 9.81,
-                                   .efficiency = 1.0};
+                                   .efficiency = 1.0,
+                                   .settling_law = CLAST_SETTLING_STOKES};
 
 static uint32_t mask_of(const char *text)
 {
@@ -236,6 +237,113 @@ static void wrong_kernels_are_refused_in_words(void **state)
     assert_non_null(strstr(clast_error_detail(), "Reynolds number above 60"));
 }
 
+static const clast_medium air = {.temperature = 293.15,
+                                 .viscosity = 1.8e-5,
+                                 .density = 1.2,
+                                 .particle_density = 2500.0,
+                                 .mean_free_path = 66e-9,
+                                 .gravity = 9.80665};
+
+/* Ash of 1 mm in air falls at 6.8 m/s (75.7 by Stokes' law), of 0.2 um 1.88 times faster than by
+ * Stokes' law; a drop that is lighter than the fluid rises; without a density of the solid the
+ * sphere's own counts (it was -inf, and the kernel NaN). */
+static void settling_speeds_are_true_from_slip_to_newton(void **state)
+{
+    (void)state;
+    clast_medium m = air;
+    const clast_collider coarse = sphere(0.5e-3, 2500.0);
+    const clast_collider fine = sphere(0.1e-6, 2500.0);
+    CHECK_ABS(clast_settling_speed(&m, &coarse), 6.8, 0.05);
+    CHECK_REL(clast_settling_speed(&m, &fine),
+              1.8795 * 2.0 / 9.0 * (2500.0 - 1.2) * 9.80665 * 1e-14 / 1.8e-5, 1e-3);
+    m.settling_law = CLAST_SETTLING_STOKES;
+    CHECK_ABS(clast_settling_speed(&m, &coarse), 75.7, 0.1);
+    const double known = clast_settling_speed(&m, &coarse);
+    m.particle_density = 0.0;
+    CHECK_REL(clast_settling_speed(&m, &coarse), known, 1e-12);
+    m.density = 3000.0;
+    assert_true(clast_settling_speed(&m, &coarse) < 0.0);
+}
+
+/* The efficiency has its closed limits: a point without inertia is met by interception alone, 1 -
+ * 3/(2(1+p)) + 1/(2(1+p)^3) in creeping and 1 - (1+p)^-3 in potential flow; one of much inertia
+ * always; a constant stays. */
+static void efficiency_tends_to_its_limits(void **state)
+{
+    (void)state;
+    clast_medium m = air;
+    clast_collider large = sphere(50e-6, 2500.0);
+    clast_collider small = sphere(5e-6, 2500.0);
+    small.mass *= 1e-9; // no inertia
+    large.settling_speed = 1e-6;
+    small.settling_speed = 1e-30;
+    CHECK_REL(clast_collision_efficiency(&m, &large, &small),
+              1.0 - 1.5 / 1.1 + 0.5 / (1.1 * 1.1 * 1.1), 1e-5);
+    large.settling_speed = 1e6;
+    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 1.0 - 1.0 / (1.1 * 1.1 * 1.1), 1e-3);
+    small = sphere(5e-6, 2500.0);
+    small.settling_speed = 1e-30;
+    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 1.0, 1e-3);
+    m.efficiency = 0.3;
+    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 0.3, 0.0);
+    /* Langmuir's St = 10: 0.634 in creeping flow; p = 0.002, whose interception is 6e-6 */
+    m.efficiency = 0.0;
+    m.density = 1e-9;
+    small = sphere(0.1e-6, 2500.0);
+    m.mean_free_path = 0.0;
+    small.settling_speed = 1e-30;
+    large.settling_speed = 10.0 * 50e-6 * 6.0 * CLAST_PI * 1.8e-5 * 0.1e-6 / small.mass;
+    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 0.6344, 1e-3);
+}
+
+/* Mean relative speeds: |w1 - w2|; of Brownian motion 8 k T / (3 pi mu d1 d2) [Costa2010]; sums
+ * add. */
+static void impact_speeds_are_those_of_straight_paths(void **state)
+{
+    (void)state;
+    clast_medium m = air;
+    m.mean_free_path = 0.0;
+    const clast_collider a = sphere(2e-6, 2500.0);
+    const clast_collider b = sphere(5e-6, 2500.0);
+    const double fall = fabs(clast_settling_speed(&m, &a) - clast_settling_speed(&m, &b));
+    const double drift = 8.0 * 1.380649e-23 * 293.15 / (3.0 * CLAST_PI * 1.8e-5 * 4e-6 * 1e-5);
+    CHECK_REL(clast_impact_speed(mask_of("settling"), &m, &a, &b), fall, 1e-14);
+    CHECK_REL(clast_impact_speed(mask_of("brownian"), &m, &a, &b), drift, 1e-14);
+    CHECK_REL(clast_impact_speed(mask_of("brownian+settling"), &m, &a, &b), fall + drift, 1e-14);
+    CHECK_REL(clast_impact_speed(mask_of("constant"), &m, &a, &b), 0.0, 0.0);
+}
+
+/* Sums that count a mechanism twice are refused by name, and no others. */
+static void sums_that_count_a_mechanism_twice_are_refused(void **state)
+{
+    (void)state;
+    static const char *const twice[][2] = {{"brownian+brownian_transition", "Brownian motion"},
+                                           {"brownian_free+brownian", "Brownian motion"},
+                                           {"shear_turbulent+inertial", "turbulence"},
+                                           {"settling+cloud_turbulence", "settling"},
+                                           {"shear_turbulent+cloud_turbulence", "turbulence"},
+                                           {"ballistic+settling", "settling"},
+                                           {"shear_laminar+ballistic", "shear"}};
+    static const char *const once[] = {"brownian+shear_laminar+settling",
+                                       "brownian_transition+shear_turbulent+settling",
+                                       "constant+additive+product",
+                                       "shear_laminar+shear_turbulent",
+                                       "brownian+ballistic",
+                                       "settling+inertial"};
+    clast_medium m = air;
+    m.shear = 1.0;
+    m.dissipation = 0.01;
+    m.speed_rms = 1.0;
+    for (size_t k = 0; k < sizeof twice / sizeof twice[0]; ++k) {
+        CHECK_STATUS(clast_kernel_check(mask_of(twice[k][0]), &m), CLAST_E_CONFIG);
+        assert_non_null(strstr(clast_error_detail(), twice[k][1]));
+        assert_non_null(strstr(clast_error_detail(), "twice"));
+    }
+    for (size_t k = 0; k < sizeof once / sizeof once[0]; ++k) {
+        CHECK_OK(clast_kernel_check(mask_of(once[k]), &m));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -247,6 +355,10 @@ int main(void)
         cmocka_unit_test(cloud_turbulence_tends_to_settling),
         cmocka_unit_test(kernels_are_symmetric),
         cmocka_unit_test(wrong_kernels_are_refused_in_words),
+        cmocka_unit_test(settling_speeds_are_true_from_slip_to_newton),
+        cmocka_unit_test(efficiency_tends_to_its_limits),
+        cmocka_unit_test(impact_speeds_are_those_of_straight_paths),
+        cmocka_unit_test(sums_that_count_a_mechanism_twice_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,11 +76,11 @@ static clast_dem *make_space(void)
 static int compare_facets(const clast_dem *dem, meeting m[CLX_BATCH], bool edges, int n_pair)
 {
     clx_grain grain[2 * CLX_BATCH] = {0};
-    clx_link link[CLX_BATCH] = {0};
+    clx_dem_pair pair[CLX_BATCH] = {0};
     clx_batch p = {.n = n_pair};
     int n = 0;
     for (int k = 0; k < n_pair; ++k) {
-        p.link[k] = &link[k];
+        p.pair[k] = &pair[k];
         p.a[k] = &grain[2 * k];
         p.b[k] = &grain[2 * k + 1];
         v3_copy(grain[2 * k + 1].position, m[k].pair.offset);
@@ -220,35 +220,35 @@ static clx_grain random_grain(clx_rng *rng)
 {
     clx_grain g = {.mass = 1e-4 * (1.0 + clx_rng_uniform(rng)), .radius = 4e-3};
     fill3(rng, 0.1, g.velocity);
-    fill3(rng, 10.0, g.spin);
+    fill3(rng, 10.0, g.omega);
     g.round_radius = 3.5e-3;
     g.held = 12.0 * clx_rng_uniform(rng);
     return g;
 }
 
 /* The scalar law for lane k of a batch. */
-static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double slide[3],
-                       clx_pushed *out)
+static void force_of_pair(const clast_dem *dem, const clx_batch *p, int k, double slide[3],
+                          clx_pair_force *out)
 {
     const clx_grain *a = p->a[k];
     const clx_grain *b = p->b[k];
     double n[3], arm_a[3], arm_b[3], u[3], w[3];
-    clx_push push;
+    clx_contact_force force;
     for (int c = 0; c < 3; ++c) {
         n[c] = -p->meet.normal[c][k];
         arm_a[c] = p->meet.point[c][k];
         arm_b[c] = p->arm_b[c][k];
     }
     clx_meeting m = {.overlap = -p->meet.gap[k],
-                     .mass = p->link[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
-                     .friction = dem->law.friction[p->link[k]->b < 0]};
+                     .mass = p->pair[k]->b < 0 ? a->mass : a->mass * b->mass / (a->mass + b->mass),
+                     .friction = dem->law.friction[p->pair[k]->b < 0]};
     v3_copy(m.normal, n);
-    v3_cross(u, a->spin, arm_a);
+    v3_cross(u, a->omega, arm_a);
     v3_add(u, u, a->velocity);
-    v3_cross(w, b->spin, arm_b);
+    v3_cross(w, b->omega, arm_b);
     v3_add(w, w, b->velocity);
     v3_sub(m.velocity, w, u);
-    m.twirl = 0.5 * (v3_dot(a->spin, n) + v3_dot(b->spin, n));
+    m.twirl = 0.5 * (v3_dot(a->omega, n) + v3_dot(b->omega, n));
     if (dem->law.is_exact) {
         double load[2];
         clx_dem_touch t;
@@ -259,49 +259,50 @@ static void push_alone(const clast_dem *dem, const clx_batch *p, int k, double s
         out->torque_b[3] = load[1];
         out->torque_a[3] = -load[0];
     }
-    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &push);
-    v3_axpy(out->force, push.tangential, push.normal, n);
+    clx_law_force(&dem->law, &m, dem->config.time_step, slide, &force);
+    v3_axpy(out->force, force.tangential, force.normal, n);
     v3_cross(out->torque_b, arm_b, out->force);
     v3_cross(out->torque_a, arm_a, out->force);
 }
 
 /* Lane k has the bits of the scalar law; a pair that is apart waits for the path of its gap. */
-static void check_lane(const clx_batch *p, int k, const double slide[3], const clx_pushed *alone)
+static void check_lane(const clx_batch *p, int k, const double slide[3],
+                       const clx_pair_force *alone)
 {
-    const clx_link *link = p->link[k];
+    const clx_dem_pair *pair = p->pair[k];
     const bool is_apart = p->meet.gap[k] >= 0.0;
-    assert_int_equal(link->touches, is_apart ? 0 : 1);
-    assert_true(link->wake == (is_apart ? p->travel[k] + p->meet.gap[k] : 0.0));
+    assert_int_equal(pair->touches, is_apart ? 0 : 1);
+    assert_true(pair->active_from == (is_apart ? p->travel[k] + p->meet.gap[k] : 0.0));
     for (int c = 0; c < 3; ++c) {
         assert_true(p->to[k]->force[c] == alone->force[c]);
         assert_true(p->to[k]->torque_a[c] == alone->torque_a[c]);
         assert_true(p->to[k]->torque_b[c] == alone->torque_b[c]);
-        assert_true(same(link->slide[c], is_apart ? 0.0 : slide[c]));
+        assert_true(same(pair->slide[c], is_apart ? 0.0 : slide[c]));
     }
     assert_true(p->to[k]->torque_a[3] == alone->torque_a[3]);
     assert_true(p->to[k]->torque_b[3] == alone->torque_b[3]);
 }
 
 /* Contact k of a batch: two grains, or one at a wall, in touch or just apart. */
-static bool make_touch(clx_rng *rng, clx_batch *p, int k, clx_grain grain[2], clx_link *link)
+static bool make_touch(clx_rng *rng, clx_batch *p, int k, clx_grain grain[2], clx_dem_pair *pair)
 {
     double n[3];
     grain[0] = random_grain(rng);
     grain[1] = random_grain(rng);
-    *link = (clx_link){.b = clx_rng_below(rng, 4) == 0 ? -1 : 1};
+    *pair = (clx_dem_pair){.b = clx_rng_below(rng, 4) == 0 ? -1 : 1};
     clx_rng_direction(rng, n);
-    fill3(rng, clx_rng_below(rng, 3) == 0 ? 0.0 : 1e-7, link->slide);
+    fill3(rng, clx_rng_below(rng, 3) == 0 ? 0.0 : 1e-7, pair->slide);
     const bool is_apart = clx_rng_below(rng, 5) == 0;
-    link->touches = is_apart ? 1 : 0; /* as it was in the step before */
-    p->link[k] = link;
+    pair->touches = is_apart ? 1 : 0; /* as it was in the step before */
+    p->pair[k] = pair;
     p->a[k] = &grain[0];
-    p->b[k] = link->b < 0 ? &clx_immovable : &grain[1];
+    p->b[k] = pair->b < 0 ? &clx_immovable : &grain[1];
     p->meet.gap[k] = (is_apart ? 1e-6 : -1e-6) * clx_rng_uniform(rng);
     p->travel[k] = clx_rng_uniform(rng);
     for (int c = 0; c < 3; ++c) {
         p->meet.normal[c][k] = -n[c];
         p->meet.point[c][k] = 4e-3 * n[c] + 1e-4 * clx_rng_normal(rng);
-        p->arm_b[c][k] = link->b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(rng);
+        p->arm_b[c][k] = pair->b < 0 ? 0.0 : -4e-3 * n[c] + 1e-4 * clx_rng_normal(rng);
     }
     return is_apart;
 }
@@ -310,7 +311,7 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
 {
     clast_dem *dem = NULL;
     clast_dem_config config;
-    clx_pushed room[CLX_BATCH] = {0};
+    clx_pair_force written[CLX_BATCH] = {0};
     CHECK_OK(clast_fields_default(clast_dem_fields, &config));
     config.wall_friction = 0.2;
     config.contact_scheme = (int32_t)scheme;
@@ -319,20 +320,20 @@ static void check_law_in_lanes(clast_dem_scheme scheme)
     for (uint64_t i = 0; i < 500; ++i) {
         clx_rng rng = clx_rng_at(41, CLX_STREAM_TEST, i);
         clx_grain grain[2 * CLX_BATCH];
-        clx_link link[CLX_BATCH];
+        clx_dem_pair pair[CLX_BATCH];
         const int n_pair = i % 2 == 0 ? CLX_BATCH : CLX_LANES; /* both widths */
         clx_batch p = {.n = n_pair};
-        clx_pushed alone[CLX_BATCH] = {0};
+        clx_pair_force alone[CLX_BATCH] = {0};
         double slide[CLX_BATCH][3];
         for (int k = 0; k < n_pair; ++k) {
-            const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &link[k]);
-            p.to[k] = &room[k];
-            v3_copy(slide[k], link[k].slide);
+            const bool is_apart = make_touch(&rng, &p, k, &grain[2 * k], &pair[k]);
+            p.to[k] = &written[k];
+            v3_copy(slide[k], pair[k].slide);
             if (!is_apart) {
-                push_alone(dem, &p, k, slide[k], &alone[k]);
+                force_of_pair(dem, &p, k, slide[k], &alone[k]);
             }
         }
-        clx_batch_push(dem, &p, true);
+        clx_batch_force(dem, &p, true);
         for (int k = 0; k < n_pair; ++k) {
             check_lane(&p, k, slide[k], &alone[k]);
         }

@@ -146,17 +146,18 @@ static void check_same_saves(clast_pack *one, clast_pack *other)
     clx_pack_saved b = {0};
     CHECK_OK(clx_pack_save(one, &a));
     CHECK_OK(clx_pack_save(other, &b));
-    assert_true(a.dem.n_grain == b.dem.n_grain && a.dem.n_link == b.dem.n_link &&
+    assert_true(a.dem.n_grain == b.dem.n_grain && a.dem.n_pair == b.dem.n_pair &&
                 a.dem.n_known == b.dem.n_known && a.dem.n_refresh == b.dem.n_refresh);
     check_same("count", a.count, b.count, CLX_PACK_COUNTS, sizeof *a.count);
     check_same("number", a.number, b.number, CLX_PACK_NUMBERS, sizeof *a.number);
     check_same("grain", a.dem.grain, b.dem.grain, a.dem.n_grain, CLX_SAVED_GRAIN * sizeof(double));
     check_same("anchor", a.dem.anchor, b.dem.anchor, a.dem.n_known,
                CLX_SAVED_ANCHOR * sizeof(double));
-    check_same("pair", a.dem.id, b.dem.id, a.dem.n_link, CLX_SAVED_ID * sizeof(int32_t));
-    check_same("link", a.dem.link, b.dem.link, a.dem.n_link, CLX_SAVED_LINK * sizeof(double));
-    if (a.dem.memory != NULL) {
-        check_same("memory", a.dem.memory, b.dem.memory, a.dem.n_link, (size_t)a.dem.memory_width);
+    check_same("pair", a.dem.id, b.dem.id, a.dem.n_pair, CLX_SAVED_ID * sizeof(int32_t));
+    check_same("link", a.dem.pair, b.dem.pair, a.dem.n_pair, CLX_SAVED_PAIR * sizeof(double));
+    if (a.dem.warm_start != NULL) {
+        check_same("warm start", a.dem.warm_start, b.dem.warm_start, a.dem.n_pair,
+                   (size_t)a.dem.warm_start_width);
     }
     clx_pack_saved_free(&a);
     clx_pack_saved_free(&b);
@@ -252,7 +253,7 @@ static void numbers_that_are_none_are_refused(void **state)
     CHECK_OK(clast_pack_advance(first, 14000));
     CHECK_OK(clx_pack_save(first, &saved));
     saved.count[CLX_PACK_COUNTS - 1] = 1;
-    assert_true(saved.dem.n_grain > 1 && saved.dem.n_known > 1 && saved.dem.n_link > 1);
+    assert_true(saved.dem.n_grain > 1 && saved.dem.n_known > 1 && saved.dem.n_pair > 1);
     assert_true(saved.series->n_row > 1);
     const struct {
         const char *name;
@@ -261,7 +262,7 @@ static void numbers_that_are_none_are_refused(void **state)
     } all[] = {{"grain", saved.dem.grain + CLX_SAVED_GRAIN, CLX_SAVED_GRAIN},
                {"anchor", saved.dem.anchor + CLX_SAVED_ANCHOR, CLX_SAVED_ANCHOR},
                {"limit", saved.dem.limit + 1, 1},
-               {"link", saved.dem.link + CLX_SAVED_LINK, CLX_SAVED_LINK},
+               {"link", saved.dem.pair + CLX_SAVED_PAIR, CLX_SAVED_PAIR},
                {"number", saved.number, CLX_PACK_NUMBERS},
                {"time", saved.series->column[1].number, 2},
                {"energy", saved.series->column[7].number, 2}};

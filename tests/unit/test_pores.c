@@ -1,4 +1,5 @@
-// Unit: radial porosity and pore sizes of arrangements with known answers.
+// Unit: radial porosity, the core away from side walls, and pore sizes of arrangements with known
+// answers.
 #include "support.h"
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
@@ -43,6 +44,105 @@ static void box_on_the_axis_is_solid_within(void **state)
     clast_assembly_free(&a);
     clast_shape_free(&shape);
     clast_mesh_free(&box);
+}
+
+/// Bulk and core of an assembly in a bed.
+static clast_status core_of(const clast_assembly *a, const char *text, double n_size,
+                            clast_porosity_core *core)
+{
+    clast_bed bed;
+    clast_table profile = {0};
+    clast_porosity_bulk bulk;
+    clast_porosity_options options = clast_porosity_options_default();
+    options.layer = 0.5;
+    options.cut = 0.999;
+    options.at_slice = true;
+    CHECK_OK(clast_bed_parse(text, &bed));
+    CHECK_OK(clast_porosity_profile(a, &bed, &options, &profile));
+    CHECK_OK(clast_porosity_measure(a, &bed, &options, &profile, &bulk));
+    const clast_status status = clast_porosity_core_measure(a, &bed, &options, &bulk, n_size, core);
+    clast_table_free(&profile);
+    return status;
+}
+
+/// What is left of a cubic lattice of balls of diameter 1 in a wider box.
+static void core_leaves_the_side_out(void **state)
+{
+    (void)state;
+    clast_shape ball = {0};
+    clast_assembly a = {0};
+    clast_porosity_core core = {0};
+    CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
+    for (int k = 0; k < 216; ++k) {
+        add(&a, &ball, k % 6 + 0.5, k / 6 % 6 + 0.5, k / 36 + 0.5);
+    }
+    // The ramp is a layer of balls. Along a side both ball and cell count half; in a corner the
+    // lesser of two ramps does: 1/2 - E|x - y| / 2, which is 1/2 - 3 sqrt 2 / 32 of a ball, 1/3 of
+    // a cell.
+    for (int layer = 0; layer < 2; ++layer) {
+        const double cells =
+            layer == 0 ? (36.0 + 4.0 * 25.0 + 16.0) / 6.0 : (16.0 + 4.0 * 9.0 + 4.0) / 6.0;
+        const double corners = 4.0 * (0.5 - 3.0 * sqrt(2.0) / 32.0 - 1.0 / 3.0) / cells;
+        CHECK_OK(core_of(&a, "box:-2,-2,8,8", 2.5 + layer, &core));
+        CHECK_ABS(core.porosity, 1.0 - CLAST_PI / 6.0 * (1.0 + corners), 2e-4);
+        assert_true(core.error > 0.0 && core.error < 1e-3);
+        CHECK_ABS(core.share, 1.0 - 0.36 * CLAST_PI / 6.0 - core.porosity, 1e-12);
+    }
+    CHECK_OK(core_of(&a, "box:-2,-2,8,8", 1.5, &core)); // before the balls: an empty ring's share
+    CHECK_ABS(core.porosity, 1.0 - 36.0 / ((64.0 + 4.0 * 49.0 + 36.0) / 6.0) * CLAST_PI / 6.0,
+              1e-12);
+    CHECK_ABS(core.error, 0.0, 0.0);
+    CHECK_STATUS(core_of(&a, "box:-2,-2,8,8", 4.5, &core), CLAST_E_GEOMETRY);
+    CHECK_STATUS(core_of(&a, "box:-2,-2,8,8", 0.4, &core), CLAST_E_USAGE);
+    CHECK_STATUS(core_of(&a, "periodic:0,0,6,6", 1.0, &core), CLAST_E_USAGE);
+    clast_assembly_free(&a);
+    clast_shape_free(&ball);
+}
+
+/// A box of 2 x 2 x 2 in a cylinder of radius 5: its corners are within sqrt 2 of the axis.
+static void core_of_a_cylinder_is_round(void **state)
+{
+    (void)state;
+    clast_mesh box = {0};
+    clast_shape shape = {0};
+    clast_assembly a = {0};
+    clast_porosity_core core = {0};
+    CHECK_OK(clast_mesh_box(2.0, 2.0, 2.0, &box));
+    CHECK_OK(clast_shape_mesh("box", &box, &shape));
+    add(&a, &shape, 0.0, 0.0, 1.0);
+    const double size = cbrt(6.0 / CLAST_PI * 8.0);
+    const double low = 2.0; // the ramp: from 2 to 2 + size around the axis
+    const double high = low + size;
+    CHECK_OK(core_of(&a, "cylinder:5", (5.0 - 0.5 * (low + high)) / size, &core));
+    const double area = CLAST_PI / 3.0 * (low * low + low * high + high * high);
+    CHECK_ABS(core.porosity, 1.0 - 4.0 / area, 1e-12);
+    CHECK_ABS(core.error, 0.0, 0.0);
+    clast_assembly_free(&a);
+    clast_shape_free(&shape);
+    clast_mesh_free(&box);
+}
+
+static void side_walls_are_told_in_grain_sizes(void **state)
+{
+    (void)state;
+    clast_shape ball = {0};
+    clast_assembly a = {0};
+    clast_bed bed;
+    CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
+    add(&a, &ball, 0.0, 0.0, 0.0);
+    const double p[3] = {3.0, 0.0, 0.0};
+    CHECK_OK(clast_assembly_add_grain(&a, 0, p, upright, 2.0, 1.0));
+    CHECK_OK(clast_bed_parse("cylinder:5", &bed));
+    clast_bed_walls walls = clast_bed_side_walls(&bed, &a);
+    CHECK_REL(walls.size, 17.0 / 9.0, 1e-14); // diameters 1 and 2, volumes 1 and 8
+    CHECK_REL(walls.ratio, 5.0 * 9.0 / 17.0, 1e-14);
+    CHECK_OK(clast_bed_parse("box:0,0,6,3", &bed));
+    CHECK_REL(clast_bed_side_walls(&bed, &a).radius, 2.0, 1e-14);
+    CHECK_OK(clast_bed_parse("periodic:0,0,6,3", &bed));
+    walls = clast_bed_side_walls(&bed, &a);
+    assert_true(isinf(walls.radius) && isinf(walls.ratio));
+    clast_assembly_free(&a);
+    clast_shape_free(&ball);
 }
 
 /// Periodic lattice of touching spheres: porosity 1 - pi / 6, largest pore in the cell's corner.
@@ -99,6 +199,12 @@ static clast_status make_both(void *context)
     if (status == CLAST_OK) {
         status = clast_radial_porosity(&s->assembly, &s->bed, z, &rings, &radial);
     }
+    if (status == CLAST_OK) {
+        const clast_porosity_options exact = clast_porosity_options_default();
+        const clast_porosity_bulk bulk = {.z_high = 1.0};
+        clast_porosity_core core;
+        status = clast_porosity_core_measure(&s->assembly, &s->bed, &exact, &bulk, 0.5, &core);
+    }
     clast_pores_free(&pores);
     clast_table_free(&radial);
     return status;
@@ -111,7 +217,7 @@ static void refused_memory_leaves_nothing(void **state)
     clast_shape ball = {0};
     CHECK_OK(clast_shape_sphere("ball", 0.5, &ball));
     add(&s.assembly, &ball, 0.0, 0.0, 0.5);
-    CHECK_OK(clast_bed_parse("cylinder:1", &s.bed));
+    CHECK_OK(clast_bed_parse("cylinder:2", &s.bed));
     support_refuse_each_allocation(make_both, &s);
     clast_assembly_free(&s.assembly);
     clast_shape_free(&ball);
@@ -121,6 +227,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box_on_the_axis_is_solid_within),
+        cmocka_unit_test(core_leaves_the_side_out),
+        cmocka_unit_test(core_of_a_cylinder_is_round),
+        cmocka_unit_test(side_walls_are_told_in_grain_sizes),
         cmocka_unit_test(lattice_has_its_pores),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };

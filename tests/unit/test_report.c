@@ -134,7 +134,7 @@ static void page_shows_every_part_of_a_run(void **state)
     (void)state;
     const char *folder = make_run("whole", "box");
     char path[1024];
-    CHECK_OK(clast_report_write_run(folder));
+    CHECK_OK(clast_report_write_run(folder, NULL));
     (void)snprintf(path, sizeof path, "%s/report.html", folder);
     char *page = text_of(path);
     check_has(page, "<title>whole</title>");

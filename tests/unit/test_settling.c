@@ -92,6 +92,33 @@ static void forces_balance_at_terminal_velocity(void **state)
     CHECK_STATUS(clast_terminal_velocity(1.0, -1.0, &sphere, &air, &s), CLAST_E_USAGE);
 }
 
+/* The Reynolds number found gives the Best number back, from creeping flow to the end of the curve;
+ * Stokes' limit; 1 mm of ash of 2500 kg/m3 in air of 1.2 kg/m3 and 1.8e-5 Pa s falls at 6.8 m/s,
+ * not at the 75.7 m/s of Stokes' law. */
+static void spheres_have_the_reynolds_number_of_the_standard_curve(void **state)
+{
+    (void)state;
+    for (double reynolds = 1e-12; reynolds < 3e5; reynolds *= 3.0) {
+        const double best = clast_drag_sphere(reynolds) * reynolds * reynolds;
+        CHECK_REL(clast_drag_sphere_reynolds(best), reynolds, 1e-12);
+    }
+    CHECK_REL(clast_drag_sphere_reynolds(24e-12), 1e-12, 1e-8);
+    assert_true(clast_drag_sphere_reynolds(0.0) == 0.0 && isnan(clast_drag_sphere_reynolds(-1.0)));
+    const double best = 4.0 / 3.0 * 1.2 * 2498.8 * 9.80665 * 1e-9 / (1.8e-5 * 1.8e-5);
+    CHECK_ABS(clast_drag_sphere_reynolds(best) * 1.8e-5 / (1.2 * 1e-3), 6.8, 0.05);
+    CHECK_ABS(best / 24.0 * 1.8e-5 / (1.2 * 1e-3), 75.7, 0.1);
+}
+
+/* Davies' values: 1 without a mean free path, 1.88 for 0.2 um in air (66 nm), 3.314 Kn / 2 at the
+ * free-molecular end. */
+static void small_spheres_slip(void **state)
+{
+    (void)state;
+    assert_true(clast_slip_correction(0.0) == 1.0);
+    CHECK_ABS(clast_slip_correction(0.66), 1.88, 0.005);
+    CHECK_REL(clast_slip_correction(1e4), 1.657e4, 1e-3);
+}
+
 /* Happel and Kozeny-Carman by hand: at porosity 0.4 s = 0.6^(1/3) = 0.843433, s^5 = 0.426829; far
  * apart grains pull as alone (Stokes): k = d^2 / (18 (1 - e)). No pores, no permeability. */
 static void permeability_by_porosity_and_size(void **state)
@@ -200,6 +227,8 @@ int main(void)
         cmocka_unit_test(form_gives_the_printed_corrections),
         cmocka_unit_test(coefficient_has_its_limits),
         cmocka_unit_test(forces_balance_at_terminal_velocity),
+        cmocka_unit_test(spheres_have_the_reynolds_number_of_the_standard_curve),
+        cmocka_unit_test(small_spheres_slip),
         cmocka_unit_test(permeability_by_porosity_and_size),
         cmocka_unit_test(permeable_drag_has_its_limits),
         cmocka_unit_test(permeable_bodies_fall_faster),

@@ -293,6 +293,7 @@ static void sources_and_sinks_keep_their_books(void **state)
     k.medium.density = 1000.0;
     k.medium.particle_density = 2000.0;
     k.medium.gravity = 10.0;
+    k.medium.settling_law = CLAST_SETTLING_STOKES; /* for the closed form; Re = 0.004 */
     c.settling_depth = 0.02;
     clast_spectrum r = evolve(&c, &k);
     const double w = 2.0 / 9.0 * 1000.0 * 10.0 * 1e-10 / 1e-3; /* Stokes */
@@ -337,7 +338,9 @@ static void gelation_is_named_with_its_time(void **state)
 static clast_status evolve_once(void *context)
 {
     const clast_spectrum_config *c = context;
-    const clast_collide_config k = kernel("constant");
+    clast_collide_config k = kernel(c->n_step == 4 ? "constant" : "shear_laminar");
+    k.monomer_radius = 1e-6;
+    k.medium.shear = 1.0;
     const double size[2] = {1.0, 2.0};
     const double number[2] = {0.5, 0.5};
     const clast_spectrum_start start = {2, size, number};
@@ -356,6 +359,8 @@ static void every_refused_allocation_is_told(void **state)
         c.particles = 30;
         c.size_max = 20.0;
         c.per_octave = 3;
+        support_refuse_each_allocation(evolve_once, &c);
+        c.n_step = 3; // a kernel with ranges
         support_refuse_each_allocation(evolve_once, &c);
     }
 }

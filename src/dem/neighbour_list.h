@@ -1,13 +1,13 @@
 #pragma once
-// Parts of the neighbour lists' upkeep.
+// The cell grid of the neighbour search.
 #include "dem/dem.h"
 
 /// Builds the grid over all anchors.
 clast_status clx_dem_grid_build(const clast_dem *dem, clx_dem_grid *grid);
 void clx_dem_grid_free(clx_dem_grid *grid);
 
-/// A walk over the cells of one level that may hold items within reach of a point; over all items
-/// of the level where they are fewer than the cells, so that a boulder in sand costs its
+/// A walk over the cells of one level that may hold items within the cutoff of a point; over all
+/// items of the level where they are fewer than the cells, so that a boulder in sand costs its
 /// neighbours.
 typedef struct clx_dem_grid_walk {
     int32_t level;
@@ -19,8 +19,8 @@ typedef struct clx_dem_grid_walk {
     int32_t begin, end;   ///< of `item`
 } clx_dem_grid_walk;
 
-/// First cell; false when the level is empty. `reach` is the item's own radius and margin.
-bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double reach,
+/// First cell; false when the level is empty. `cutoff` is the item's own radius and margin.
+bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double cutoff,
                         clx_dem_grid_walk *walk);
 bool clx_dem_grid_next(const clx_dem_grid *grid, clx_dem_grid_walk *walk);
 

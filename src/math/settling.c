@@ -54,6 +54,34 @@ double clast_drag_sphere(double reynolds)
            0.42 / (1.0 + 42500.0 * pow(reynolds, -1.16));
 }
 
+double clast_drag_sphere_reynolds(double best)
+{
+    if (!(best > 0.0) || isinf(best)) {
+        return best == 0.0 ? 0.0 : (double)NAN;
+    }
+    const double wanted = log(best);
+    double x = fmin(wanted - log(24.0), 0.5 * (wanted - log(0.42))); // both laws alone: Re is less
+    for (int pass = 0; pass < 60; ++pass) { // Newton on ln(C_D Re^2) in x = ln Re
+        const double wake = 42500.0 * exp(-1.16 * x);
+        const double creep = 24.0 * exp(-x);
+        const double middle = 3.6 * exp(-0.313 * x);
+        const double end = 0.42 / (1.0 + wake);
+        const double drag = creep + middle + end;
+        const double slope = -creep - 0.313 * middle + 1.16 * end * wake / (1.0 + wake);
+        const double step = (log(drag) + 2.0 * x - wanted) / (2.0 + slope / drag);
+        x -= step;
+        if (fabs(step) < 1e-8) { // its square is left
+            break;
+        }
+    }
+    return exp(x);
+}
+
+double clast_slip_correction(double knudsen)
+{
+    return knudsen > 0.0 ? 1.0 + knudsen * (1.257 + 0.4 * exp(-1.1 / knudsen)) : 1.0;
+}
+
 double clast_drag_hindrance(double reynolds, double porosity)
 {
     const double off = 1.5 - log10(reynolds);

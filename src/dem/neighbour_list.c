@@ -1,11 +1,11 @@
 // Neighbour lists, brought up to date item by item.
 //
 // Each item has a margin, half its skin. While two items stay within their margins of the anchors
-// where they last looked around, no pair that is not listed can touch. When some item has used up
-// its margin, all that have used half of it look again, and only they: a grain that falls pays for
-// itself, the bed below does not. Then old and new pairs are merged in order, which costs a pass
-// over memory.
-#include "dem/list.h"
+// where their neighbours were last searched, no pair that is not listed can touch. When some item
+// has used up its margin, all that have used half of it search again, and only they: a falling
+// grain costs its own search, the bed below none. Then old and new pairs are merged in order, which
+// costs a pass over memory.
+#include "dem/neighbour_list.h"
 
 #include "base/lines.h"
 #include "contact/facet.h"
@@ -14,39 +14,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-void clx_list_free(clx_list *list)
+void clx_neighbour_list_free(clx_neighbour_list *list)
 {
-    clx_free(list->link);
+    clx_free(list->pair);
     clx_free(list->other);
-    clx_free(list->extra);
-    clx_free(list->other_extra);
-    clx_free(list->memory);
+    clx_free(list->history);
+    clx_free(list->other_history);
+    clx_free(list->warm_start);
     clx_free(list->free_slot);
     clx_free(list->begin);
     clx_free(list->anchor);
     clx_free(list->limit);
     clx_free(list->is_stale);
-    clx_free(list->near);
+    clx_free(list->triangle);
     clx_dem_grid_free(&list->grid);
     clx_free(list->found);
     clx_free(list->sorted);
     clx_free(list->found_begin);
-    *list = (clx_list){0};
+    *list = (clx_neighbour_list){0};
 }
 
-clast_status clx_list_reserve(clx_list *list, int64_t n_item)
+clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item)
 {
     clast_status status = CLAST_OK;
     if (n_item <= list->item_capacity) {
         return CLAST_OK;
     }
-    const int64_t room = n_item + n_item / 2 + 16;
-    CLX_TRY(clx_realloc(&list->begin, room + 1, sizeof *list->begin));
-    CLX_TRY(clx_realloc(&list->anchor, room, sizeof *list->anchor));
-    CLX_TRY(clx_realloc(&list->limit, room, sizeof *list->limit));
-    CLX_TRY(clx_realloc(&list->is_stale, room, sizeof *list->is_stale));
-    CLX_TRY(clx_realloc(&list->found_begin, room + 1, sizeof *list->found_begin));
-    list->item_capacity = room;
+    const int64_t capacity = n_item + n_item / 2 + 16;
+    CLX_TRY(clx_realloc(&list->begin, capacity + 1, sizeof *list->begin));
+    CLX_TRY(clx_realloc(&list->anchor, capacity, sizeof *list->anchor));
+    CLX_TRY(clx_realloc(&list->limit, capacity, sizeof *list->limit));
+    CLX_TRY(clx_realloc(&list->is_stale, capacity, sizeof *list->is_stale));
+    CLX_TRY(clx_realloc(&list->found_begin, capacity + 1, sizeof *list->found_begin));
+    list->item_capacity = capacity;
 done:
     return status;
 }
@@ -54,7 +54,7 @@ done:
 /// Steps of free flight that a fast grain's margin covers beyond its share of the radius.
 static const double LOOK_AHEAD = 50.0;
 
-static void drop_anchor(clast_dem *dem, int32_t i)
+static void set_anchor(clast_dem *dem, int32_t i)
 {
     clx_anchor *at = &dem->list.anchor[i];
     const int32_t g = clx_item_grain(dem, i);
@@ -63,7 +63,7 @@ static void drop_anchor(clast_dem *dem, int32_t i)
     v3_copy(at->position, clx_item_position(dem, i));
     memcpy(at->orientation, dem->motion[g].orientation, sizeof at->orientation);
     at->margin = dem->config.skin * radius + fmin(flight, radius);
-    for (int c = 0; c < 2; ++c) { // a pair may only meet in one image: see check_fit
+    for (int c = 0; c < 2; ++c) { // a pair may only touch in one image: see check_fit
         if (dem->period[c] > 0.0) {
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
@@ -74,17 +74,17 @@ static void drop_anchor(clast_dem *dem, int32_t i)
 /// All items that have used half of their margin.
 static void mark_stale(clast_dem *dem)
 {
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         l->is_stale[i] = i >= l->n_known || clx_item_has_left(dem, i, 0.5) ? 1 : 0;
         if (l->is_stale[i] != 0) {
-            drop_anchor(dem, i);
+            set_anchor(dem, i);
         }
     }
     l->n_known = dem->n_item;
 }
 
-static clast_status add_found(clx_list *l, clx_found found)
+static clast_status add_found(clx_neighbour_list *l, clx_found found)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found));
@@ -114,7 +114,7 @@ done:
 /// One candidate of a stale item's query.
 static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
 {
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     const clx_anchor *a = &l->anchor[i];
     const clx_anchor *b = &l->anchor[k];
     if (k == i || (l->is_stale[k] != 0 && k < i) ||
@@ -131,8 +131,8 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
             r[c] += n * dem->period[c];
         }
     }
-    const double reach = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
-    if (v3_norm2(r) >= reach * reach) {
+    const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
+    if (v3_norm2(r) >= cutoff * cutoff) {
         return CLAST_OK;
     }
     const clx_found found =
@@ -159,11 +159,11 @@ done:
 static clast_status find_items(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
-    const clx_list *l = &dem->list;
+    const clx_neighbour_list *l = &dem->list;
     clx_dem_grid_walk walk;
-    const double reach = clx_item_radius(dem, i) + l->anchor[i].margin;
+    const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;
     for (int32_t level = 0; level < l->grid.n_level; ++level) {
-        bool is_in = clx_dem_grid_begin(&l->grid, level, l->anchor[i].position, reach, &walk);
+        bool is_in = clx_dem_grid_begin(&l->grid, level, l->anchor[i].position, cutoff, &walk);
         for (; is_in; is_in = clx_dem_grid_next(&l->grid, &walk)) {
             CLX_TRY(find_in_cell(dem, i, &walk));
         }
@@ -191,7 +191,7 @@ done:
 static clast_status sort_found(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     CLX_TRY(clx_grow(&l->sorted, &l->sorted_capacity, l->n_found, sizeof *l->sorted));
     int64_t *begin = l->found_begin;
     memset(begin, 0, ((size_t)dem->n_item + 1) * sizeof *begin);
@@ -222,129 +222,129 @@ done:
     return status;
 }
 
-/// Whether an old pair stays without being found again: both its ends stayed where they were.
-static bool stays(const clx_list *l, const clx_link *old)
+/// Whether an old pair stays without being found again: neither of its items has searched.
+static bool stays(const clx_neighbour_list *l, const clx_dem_pair *old)
 {
     return l->is_stale[old->a] == 0 && (old->b < 0 || l->is_stale[old->b] == 0);
 }
 
-static clx_link fresh(const clx_found *f)
+static clx_dem_pair new_pair(const clx_found *f)
 {
-    return (clx_link){
-        .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .wake = -INFINITY};
+    return (clx_dem_pair){
+        .a = f->a, .b = f->b, .period = {f->period[0], f->period[1]}, .active_from = -INFINITY};
 }
 
-static bool is_same(const clx_link *old, const clx_found *f)
+static bool is_same(const clx_dem_pair *old, const clx_found *f)
 {
     return old->b == f->b && old->period[0] == f->period[0] && old->period[1] == f->period[1];
 }
 
-clast_status clx_list_give_slot(clx_list *l, clx_link *link)
+clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *l, clx_dem_pair *pair)
 {
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
-        link->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
+        pair->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
     } else {
         const int64_t n = l->n_slot > 0 ? l->n_slot : 1;
-        CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld contact memories", (long long)n);
-        CLX_TRY(clx_grow_lines(&l->memory, &l->slot_capacity, n + 1, sizeof *l->memory));
+        CLX_CHECK(n < CLX_MOST_SLOTS, CLAST_E_LIMIT, "%lld warm starts", (long long)n);
+        CLX_TRY(clx_grow_lines(&l->warm_start, &l->slot_capacity, n + 1, sizeof *l->warm_start));
         CLX_TRY(clx_grow(&l->free_slot, &l->free_capacity, n + 1, sizeof *l->free_slot));
         l->n_slot = n + 1;
-        link->slot = (uint32_t)n & CLX_MOST_SLOTS;
+        pair->slot = (uint32_t)n & CLX_MOST_SLOTS;
     }
-    link->kind = CLX_FACET_NONE;
-    l->memory[link->slot] = (clx_memory_slot){0};
+    pair->kind = CLX_FACET_NONE;
+    l->warm_start[pair->slot] = (clx_warm_start_slot){0};
 done:
     return status;
 }
 
-/// Keeps an old link, with its memory.
-static void keep(clx_list *l, int64_t old, int64_t n)
+/// Copies an old pair with its contact history to the new list.
+static void keep_pair(clx_neighbour_list *l, int64_t old, int64_t n)
 {
-    l->other[n] = l->link[old];
-    if (l->other_extra != NULL) {
-        l->other_extra[n] = l->extra[old];
+    l->other[n] = l->pair[old];
+    if (l->other_history != NULL) {
+        l->other_history[n] = l->history[old];
     }
 }
 
-static void drop(clx_list *l, int64_t old)
+static void drop_pair(clx_neighbour_list *l, int64_t old)
 {
-    if (l->link[old].slot != 0) { // free_slot has room for all slots
-        l->free_slot[l->n_free++] = (int32_t)l->link[old].slot;
+    if (l->pair[old].slot != 0) { // free_slot has room for all slots
+        l->free_slot[l->n_free++] = (int32_t)l->pair[old].slot;
     }
 }
 
-static void start(clx_list *l, const clx_found *f, int64_t n)
+static void start_pair(clx_neighbour_list *l, const clx_found *f, int64_t n)
 {
-    l->other[n] = fresh(f);
-    if (l->other_extra != NULL) {
-        l->other_extra[n] = (clx_extra){0};
+    l->other[n] = new_pair(f);
+    if (l->other_history != NULL) {
+        l->other_history[n] = (clx_contact_history){0};
     }
 }
 
 /// Old and found pairs of one item, both sorted by b, into the other buffer at n.
-static int64_t merge_item(clx_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
+static int64_t merge_item(clx_neighbour_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
     while (old < old_end || f < f_end) {
-        const bool take_old = f == f_end || (old < old_end && l->link[old].b < l->sorted[f].b);
-        if (take_old) {
-            if (stays(l, &l->link[old])) {
-                keep(l, old, n++);
+        const bool old_is_first = f == f_end || (old < old_end && l->pair[old].b < l->sorted[f].b);
+        if (old_is_first) {
+            if (stays(l, &l->pair[old])) {
+                keep_pair(l, old, n++);
             } else {
-                drop(l, old);
+                drop_pair(l, old);
             }
             ++old;
             continue;
         }
-        if (old < old_end && l->link[old].b == l->sorted[f].b) {
-            if (is_same(&l->link[old], &l->sorted[f])) {
-                keep(l, old, n++);
+        if (old < old_end && l->pair[old].b == l->sorted[f].b) {
+            if (is_same(&l->pair[old], &l->sorted[f])) {
+                keep_pair(l, old, n++);
             } else {
-                drop(l, old);
-                start(l, &l->sorted[f], n++);
+                drop_pair(l, old);
+                start_pair(l, &l->sorted[f], n++);
             }
             ++old;
         } else {
-            start(l, &l->sorted[f], n++);
+            start_pair(l, &l->sorted[f], n++);
         }
         ++f;
     }
     return n;
 }
 
-static void swap_buffers(clx_list *l)
+static void swap_buffers(clx_neighbour_list *l)
 {
-    clx_link *const link = l->link;
+    clx_dem_pair *const pair = l->pair;
     const int64_t capacity = l->capacity;
-    l->link = l->other;
+    l->pair = l->other;
     l->capacity = l->other_capacity;
-    l->other = link;
+    l->other = pair;
     l->other_capacity = capacity;
-    clx_extra *const extra = l->extra;
-    const int64_t extra_capacity = l->extra_capacity;
-    l->extra = l->other_extra;
-    l->extra_capacity = l->other_extra_capacity;
-    l->other_extra = extra;
-    l->other_extra_capacity = extra_capacity;
+    clx_contact_history *const history = l->history;
+    const int64_t history_capacity = l->history_capacity;
+    l->history = l->other_history;
+    l->history_capacity = l->other_history_capacity;
+    l->other_history = history;
+    l->other_history_capacity = history_capacity;
 }
 
 static clast_status merge(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    clx_list *l = &dem->list;
+    clx_neighbour_list *l = &dem->list;
     int64_t n = 0;
-    CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_link + l->n_found + 1,
+    CLX_TRY(clx_grow_lines(&l->other, &l->other_capacity, l->n_pair + l->n_found + 1,
                            sizeof *l->other));
-    if (dem->law.has_extra) {
-        CLX_TRY(clx_grow(&l->other_extra, &l->other_extra_capacity, l->n_link + l->n_found + 1,
-                         sizeof *l->other_extra));
+    if (dem->law.has_history) {
+        CLX_TRY(clx_grow(&l->other_history, &l->other_history_capacity, l->n_pair + l->n_found + 1,
+                         sizeof *l->other_history));
     }
     int64_t old = 0;
     for (int32_t i = 0; i < dem->n_item; ++i) {
         int64_t old_end = old;
-        while (old_end < l->n_link && l->link[old_end].a == i) {
+        while (old_end < l->n_pair && l->pair[old_end].a == i) {
             ++old_end;
         }
         l->begin[i] = n;
@@ -353,21 +353,21 @@ static clast_status merge(clast_dem *dem)
     }
     l->begin[dem->n_item] = n;
     swap_buffers(l);
-    l->n_link = n;
+    l->n_pair = n;
 done:
     return status;
 }
 
-clast_status clx_list_refresh(clast_dem *dem)
+clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_list_reserve(&dem->list, dem->n_item));
+    CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
     mark_stale(dem);
     CLX_TRY(find(dem));
     CLX_TRY(sort_found(dem));
     CLX_TRY(merge(dem));
     dem->list.is_due = false;
-    dem->near.is_due = true;
+    dem->inner.is_due = true;
     ++dem->list.n_refresh;
 done:
     return status;

@@ -1,37 +1,39 @@
 #pragma once
-// What a pair that touches does to its two grains.
+// Force and torques of a pair that touches on its two grains.
 #include "dem/touch.h"
 
-/// Velocity of b's surface relative to a's at the contact point, and spins.
+/// Velocity of b's surface relative to a's at the contact point, and angular velocities.
 static inline void clx_approach(const clx_grain *a, const clx_grain *b, const clx_dem_touch *t,
                                 clx_meeting *m)
 {
     double u[3];
     double w[3];
-    v3_cross(u, a->spin, t->arm_a);
+    v3_cross(u, a->omega, t->arm_a);
     v3_add(u, u, a->velocity);
-    v3_cross(w, b->spin, t->arm_b);
+    v3_cross(w, b->omega, t->arm_b);
     v3_add(w, w, b->velocity);
     v3_sub(m->velocity, w, u);
-    v3_sub(m->roll, b->spin, a->spin);
-    m->twirl = 0.5 * (v3_dot(a->spin, t->normal) + v3_dot(b->spin, t->normal));
+    v3_sub(m->roll, b->omega, a->omega);
+    m->twirl = 0.5 * (v3_dot(a->omega, t->normal) + v3_dot(b->omega, t->normal));
 }
 
-static inline void clx_add_push(const clx_dem_touch *t, const clx_push *push, bool normal_torque,
-                                clx_load *on_a, clx_load *on_b)
+static inline void clx_add_contact_force(const clx_dem_touch *t, const clx_contact_force *force,
+                                         bool normal_torque, clx_force_torque *on_a,
+                                         clx_force_torque *on_b)
 {
-    double force[3];
+    double total[3];
     double turning[3];
     double torque[3];
-    v3_axpy(force, push->tangential, push->normal, t->normal);
-    v3_add(on_b->force, on_b->force, force);
-    v3_sub(on_a->force, on_a->force, force);
-    v3_copy(turning, normal_torque ? force : push->tangential);
+    v3_axpy(total, force->tangential, force->normal, t->normal);
+    v3_add(on_b->force, on_b->force, total);
+    v3_sub(on_a->force, on_a->force, total);
+    v3_copy(turning, normal_torque ? total : force->tangential);
     v3_cross(torque, t->arm_b, turning);
-    v3_add(torque, torque, push->rolling); // one sum a contact: the gathered one has the same bytes
+    v3_add(torque, torque,
+           force->rolling); // one sum a contact: the order of motion.c's sums
     v3_add(on_b->torque, on_b->torque, torque);
     v3_cross(torque, t->arm_a, turning);
-    v3_add(torque, torque, push->rolling);
+    v3_add(torque, torque, force->rolling);
     v3_sub(on_a->torque, on_a->torque, torque);
 }
 
@@ -51,7 +53,8 @@ static inline void clx_mobility(const clx_grain *g, const double arm[3], const d
     out[1] = inverse + fmax(2.5 * inverse, turning * square);
 }
 
-/// What a contact adds to the loads of its grains, and which of them holds it back.
+/// The contact's stability loads on its grains, and the greater load of the two, which limits its
+/// spring and dashpot.
 static inline void clx_hold_pair(const clx_law *law, const clx_grain *a, const clx_grain *b,
                                  const clx_dem_touch *t, clx_meeting *m, double load[2])
 {
@@ -90,17 +93,17 @@ static inline double clx_rolling_inertia(const clx_grain *a, const clx_grain *b)
     return b->mass > 0.0 ? ia * ib / (ia + ib) : ia;
 }
 
-/// What the law remembers of a link beside its displacement, or NULL where it does not.
-static inline clx_extra *clx_link_extra(const clast_dem *dem, const clx_link *link)
+/// Contact history of a pair beside its tangential displacement, or NULL where the law has none.
+static inline clx_contact_history *clx_pair_history(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    if (!dem->law.has_extra) {
+    if (!dem->law.has_history) {
         return NULL;
     }
-    const clx_near *near = &dem->near;
-    const int64_t k = near->is_packed
-                          ? near->link[(const clx_near_pair *)(const void *)link - near->pair]
-                          : link - dem->list.link;
-    return &dem->list.extra[k];
+    const clx_inner_list *inner = &dem->inner;
+    const int64_t k =
+        inner->is_packed ? inner->index[(const clx_packed_pair *)(const void *)pair - inner->packed]
+                         : pair - dem->list.pair;
+    return &dem->list.history[k];
 }
 
 static inline double clx_item_curve(const clast_dem *dem, int32_t item)
@@ -115,38 +118,39 @@ static inline double clx_item_curve(const clast_dem *dem, int32_t item)
 
 /// Length of the neck that still holds a pair apart; 0 for laws that have none, and pairs that did
 /// not touch.
-static inline double clx_link_neck(const clast_dem *dem, const clx_link *link)
+static inline double clx_pair_neck(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    if (!dem->law.has_neck || link->touches == 0) {
+    if (!dem->law.has_neck || pair->touches == 0) {
         return 0.0;
     }
-    const double ra = clx_item_curve(dem, link->a);
-    const double rb = link->b >= 0 ? clx_item_curve(dem, link->b) : 0.0;
-    return -clx_jkr_tear(&dem->law, link->b >= 0 ? ra * rb / (ra + rb) : ra);
+    const double ra = clx_item_curve(dem, pair->a);
+    const double rb = pair->b >= 0 ? clx_item_curve(dem, pair->b) : 0.0;
+    return -clx_jkr_tear(&dem->law, pair->b >= 0 ? ra * rb / (ra + rb) : ra);
 }
 
-/// What fluid that is moved along makes of a grain's inertia: 1 + C_m rho_f / rho.
+/// Factor on a grain's inertia by the fluid that moves along (added mass): 1 + C_m rho_f / rho.
 static inline double clx_heavier(const clast_dem *dem, const clx_motion *m)
 {
     return 1.0 + dem->config.added_mass * dem->config.fluid_density / m->density;
 }
 
-/// Reduced mass of a link with the fluid that its grains move along.
-static inline double clx_heavier_mass(const clast_dem *dem, const clx_link *link)
+/// Reduced mass of a pair with the fluid that its grains move along.
+static inline double clx_heavier_mass(const clast_dem *dem, const clx_dem_pair *pair)
 {
-    const int32_t a = clx_item_grain(dem, link->a);
+    const int32_t a = clx_item_grain(dem, pair->a);
     const double of_a = dem->grain[a].mass * clx_heavier(dem, &dem->motion[a]);
-    if (link->b < 0) {
+    if (pair->b < 0) {
         return of_a;
     }
-    const int32_t b = clx_item_grain(dem, link->b);
+    const int32_t b = clx_item_grain(dem, pair->b);
     const double of_b = dem->grain[b].mass * clx_heavier(dem, &dem->motion[b]);
     return of_a * of_b / (of_a + of_b);
 }
 
-/// A pair that touches; `extra` as clx_link_extra.
-static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *extra,
-                                 const clx_dem_touch *t, clx_load *on_a, clx_load *on_b)
+/// Adds the force of a pair that touches to its grains' sums; `history` as clx_pair_history.
+static inline void clx_add_pair_force(const clast_dem *dem, clx_dem_pair *p,
+                                      clx_contact_history *history, const clx_dem_touch *t,
+                                      clx_force_torque *on_a, clx_force_torque *on_b)
 {
     const clx_law *law = &dem->law;
     const clx_grain *a = &dem->grain[clx_item_grain(dem, p->a)];
@@ -155,7 +159,7 @@ static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *e
                               law->rolling > 0.0 || law->is_wet;
     const double ra = needs_radius ? clx_item_curve(dem, p->a) : 0.0;
     clx_meeting m;
-    clx_push push;
+    clx_contact_force force;
     m.overlap = -t->distance;
     v3_copy(m.normal, t->normal);
     clx_approach(a, b, t, &m);
@@ -174,10 +178,10 @@ static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *e
     }
     m.restitution = 0.0;
     if (law->is_wet) {
-        if (extra->restitution == 0.0) {
-            extra->restitution = clx_law_impact(law, &m);
+        if (history->restitution == 0.0) {
+            history->restitution = clx_law_impact(law, &m);
         }
-        m.restitution = extra->restitution;
+        m.restitution = history->restitution;
     }
     if (dem->config.added_mass > 0.0) {
         m.mass = clx_heavier_mass(dem, p);
@@ -188,13 +192,13 @@ static inline void clx_push_pair(const clast_dem *dem, clx_link *p, clx_extra *e
         on_a->torque[3] += load[0];
         on_b->torque[3] += load[1];
     }
-    clx_law_force(law, &m, dem->config.time_step, p->slide, &push);
-    v3_set(push.rolling, 0.0, 0.0, 0.0);
+    clx_law_force(law, &m, dem->config.time_step, p->slide, &force);
+    v3_set(force.rolling, 0.0, 0.0, 0.0);
     if (law->has_roll_spring) {
         const double inertia[2] = {clx_reduced_inertia(a, b), clx_rolling_inertia(a, b)};
-        clx_law_roll_spring(law, &m, inertia, dem->config.time_step, extra->roll, &push);
+        clx_law_roll_spring(law, &m, inertia, dem->config.time_step, history->roll, &force);
     } else if (law->rolling > 0.0) {
-        clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &push);
+        clx_law_roll(law, &m, clx_reduced_inertia(a, b), dem->config.time_step, &force);
     }
-    clx_add_push(t, &push, dem->config.normal_torque, on_a, on_b);
+    clx_add_contact_force(t, &force, dem->config.normal_torque, on_a, on_b);
 }

@@ -1,0 +1,76 @@
+// Runs of agglomeration against the ranges of their kernels, in words and JSON.
+#include "ranges.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/// Collisions before particles: what tells more.
+static const clast_range_use *use_of(const clast_range_report *r)
+{
+    return r->collisions.outside > 0.0 || !(r->start.outside > 0.0) ? &r->collisions : &r->start;
+}
+
+static double share_of(const clast_range_use *use)
+{
+    return use->n > 0.0 ? use->outside / use->n : 0.0;
+}
+
+void cli_range_json(json_t *out, const clast_range_report *r)
+{
+    const clast_range_use *use = use_of(r);
+    if (!(use->outside > 0.0)) {
+        (void)json_object_set_new(out, "out_of_range", json_null());
+        return;
+    }
+    char words[512];
+    const clast_kernel_range *row = &clast_kernel_range_table()[use->row];
+    json_t *o = json_object();
+    cli_json_text(o, "words", clast_range_words(use, sizeof words, words));
+    cli_json_text(o, "owner", row->owner);
+    cli_json_text(o, "quantity", row->quantity);
+    cli_json_number(o, "value", use->value);
+    cli_json_number(o, "low", row->low);
+    cli_json_number(o, "high", row->high);
+    cli_json_text(o, "source", row->source);
+    cli_json_number(o, "share_of_start", share_of(&r->start));
+    cli_json_number(o, "share_of_collisions", share_of(&r->collisions));
+    cli_json_number(o, "from_time", r->time);
+    (void)json_object_set_new(out, "out_of_range", o);
+}
+
+void cli_range_warn(const cli_common *common, const clast_range_report *r)
+{
+    const clast_range_use *use = use_of(r);
+    char words[512];
+    char when[64] = "";
+    if (!(use->outside > 0.0) || common->quiet) {
+        return;
+    }
+    if (isfinite(r->time)) {
+        (void)snprintf(when, sizeof when, ", over 0.1 %% of them from t = %.4g s on", r->time);
+    }
+    (void)fprintf(
+        stderr,
+        "clast agglomerate: warning: %s; beyond lie %.3g %% of the particles at the start "
+        "and %.3g %% of the collisions%s\n",
+        clast_range_words(use, sizeof words, words), 100.0 * share_of(&r->start),
+        100.0 * share_of(&r->collisions), when);
+}
+
+size_t cli_range_table(char *words, size_t size)
+{
+    const clast_kernel_range *row = clast_kernel_range_table();
+    size_t used = 0;
+    for (int k = 0; k < CLAST_N_KERNEL_RANGE && used < size; ++k) {
+        char range[64];
+        if (isinf(row[k].high)) {
+            (void)snprintf(range, sizeof range, ">= %.3g", row[k].low);
+        } else {
+            (void)snprintf(range, sizeof range, "<= %.3g", row[k].high);
+        }
+        const int n = snprintf(words + used, size - used, "%-26s %s %s   [%s]\n", row[k].owner,
+                               row[k].quantity, range, row[k].source);
+        used += n > 0 ? (size_t)n : 0;
+    }
+    return used;
+}

@@ -1,0 +1,208 @@
+// Side walls: how far a bed reaches in grain sizes, and its porosity away from them.
+//
+// Grains stand in layers at a wall, so the solid beyond a sharp cut swings with the cut's place by
+// a hundredth. What counts therefore rises from 0 to 1 over one grain size: the mean over such
+// cuts.
+#include <clast/porosity.h>
+
+#include "assembly/grain_points.h"
+#include "assembly/touch_set.h"
+#include "assembly/whole.h"
+#include "base/status.h"
+#include "math/vec3.h"
+#include "porosity/whole.h"
+
+enum { POINTS = 512 };
+
+static double volume_of(const clast_assembly *a, int32_t i)
+{
+    const double s = a->scale[i];
+    return s * s * s * a->shape[a->shape_id[i]].volume;
+}
+
+clast_bed_walls clast_bed_side_walls(const clast_bed *bed, const clast_assembly *assembly)
+{
+    clast_bed_walls walls = {(double)NAN, (double)NAN, (double)NAN};
+    if (clx_bed_fault(bed) != NULL || clx_assembly_fault(assembly) != NULL) {
+        return walls;
+    }
+    double volume = 0.0;
+    double size = 0.0;
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        const double v = volume_of(assembly, i);
+        volume += v;
+        size += v * cbrt(6.0 / CLAST_PI * v);
+    }
+    walls.size = size / volume;
+    if (bed->kind == CLAST_BED_CYLINDER) {
+        walls.radius = bed->radius;
+    } else if (bed->kind == CLAST_BED_BOX) {
+        const double x = bed->high[0] - bed->low[0];
+        const double y = bed->high[1] - bed->low[1];
+        walls.radius = x * y / (x + y);
+    } else if (bed->kind != CLAST_BED_MESH) {
+        walls.radius = HUGE_VAL;
+    }
+    walls.ratio = walls.radius / walls.size;
+    return walls;
+}
+
+/// Distance of a point from the nearest side wall [m], below 0 outside.
+static double distance(const clast_bed *bed, const double x[3])
+{
+    if (bed->kind == CLAST_BED_CYLINDER) {
+        return bed->radius - hypot(x[0] - bed->centre[0], x[1] - bed->centre[1]);
+    }
+    double least = HUGE_VAL;
+    for (int k = 0; k < 2; ++k) {
+        least = fmin(least, fmin(x[k] - bed->low[k], bed->high[k] - x[k]));
+    }
+    return least;
+}
+
+typedef struct {
+    const clast_assembly *assembly;
+    const clast_bed *bed;
+    const clx_touch_set *set;
+    clast_porosity_method method;
+    double depth, ramp; ///< middle and width of the ramp [m]
+    double edge[2];
+    double solid, variance; ///< under construction
+} core_sum;
+
+/// How much a place counts: 0 near the side walls, 1 beyond the ramp.
+static double weight_at(const core_sum *c, const double x[3])
+{
+    if (x[2] < c->edge[0] || x[2] > c->edge[1]) {
+        return 0.0;
+    }
+    return fmin(fmax((distance(c->bed, x) - c->depth) / c->ramp + 0.5, 0.0), 1.0);
+}
+
+/// Mean weight over even points of the body, and the variance of that mean, as of random points.
+static double mean_weight(const core_sum *c, const clx_touch_body *body, double *variance)
+{
+    double cube[3] = {0.5, 0.5, 0.5};
+    double point[3];
+    double sum = 0.0;
+    double square = 0.0;
+    int32_t n = 0;
+    // A surface fills at least a thousandth of its box, or its points are few.
+    for (int32_t tried = 0; n < POINTS && tried < 1000 * POINTS; ++tried) {
+        clx_lattice_step(cube);
+        if (clx_body_draw(body, cube, point)) {
+            const double w = weight_at(c, point);
+            ++n;
+            sum += w;
+            square += w * w;
+        }
+    }
+    const double mean = n > 0 ? sum / n : 0.5;
+    *variance = n > 0 ? fmax(square / n - mean * mean, 0.0) / n : 1.0;
+    return mean;
+}
+
+/// A grain that the core's side cuts, by points.
+static void add_cut(core_sum *c, int32_t i)
+{
+    const clast_assembly *a = c->assembly;
+    const double volume = volume_of(a, i);
+    double variance = 0.0;
+    double mean = 0.0;
+    if (c->method == CLAST_POROSITY_SPHERES) {
+        const double upright[4] = {1.0, 0.0, 0.0, 0.0};
+        clx_touch_body ball = clx_touch_body_sphere(cbrt(0.75 / CLAST_PI * volume));
+        clx_touch_body_place(&ball, a->position[i], upright, 1.0);
+        mean = mean_weight(c, &ball, &variance);
+    } else {
+        mean = mean_weight(c, clx_touch_scene_body(c->set->scene, i), &variance);
+    }
+    c->solid += mean * volume;
+    c->variance += volume * volume * variance;
+}
+
+static clast_status add_grain(core_sum *c, int32_t i)
+{
+    const clast_assembly *a = c->assembly;
+    const double radius = c->method == CLAST_POROSITY_SPHERES
+                              ? cbrt(0.75 / CLAST_PI * volume_of(a, i))
+                              : a->scale[i] * a->shape[a->shape_id[i]].bounding_radius;
+    const double inside = distance(c->bed, a->position[i]) - c->depth;
+    const double reach = radius + 0.5 * c->ramp;
+    const double z = a->position[i][2];
+    if (inside <= -reach || z + radius <= c->edge[0] || z - radius >= c->edge[1]) {
+        return CLAST_OK;
+    }
+    if (inside >= reach) { // cut by the heights at most
+        return clast_grain_slabs(a, i, c->method, 1, c->edge, &c->solid);
+    }
+    add_cut(c, i);
+    return CLAST_OK;
+}
+
+/// Horizontal area that is farther than `depth` from the side walls; 0 where that is nothing.
+static double area_within(const clast_bed *bed, double depth)
+{
+    if (bed->kind == CLAST_BED_CYLINDER) {
+        const double r = fmax(bed->radius - depth, 0.0);
+        return CLAST_PI * r * r;
+    }
+    return fmax(bed->high[0] - bed->low[0] - 2.0 * depth, 0.0) *
+           fmax(bed->high[1] - bed->low[1] - 2.0 * depth, 0.0);
+}
+
+/// The area by weight: the mean of area_within over the ramp, a quadratic (Simpson's rule is
+/// exact).
+static double core_area(const clast_bed *bed, double depth, double ramp)
+{
+    const double last = area_within(bed, depth + 0.5 * ramp);
+    return last > 0.0
+               ? (area_within(bed, depth - 0.5 * ramp) + 4.0 * area_within(bed, depth) + last) / 6.0
+               : 0.0;
+}
+
+clast_status clast_porosity_core_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                         const clast_porosity_options *options,
+                                         const clast_porosity_bulk *bulk, double n_size,
+                                         clast_porosity_core *core)
+{
+    CLX_ARGUMENTS(assembly, bed, options, bulk, core);
+    CLX_WHOLE(assembly, assembly);
+    CLX_WHOLE(bed, bed);
+    clast_status status = CLAST_OK;
+    clx_touch_set set = {0};
+    double period[3];
+    CLX_CHECK(bed->kind != CLAST_BED_MESH, CLAST_E_USAGE,
+              "the core of a container given as a surface is not measured: it has no one distance "
+              "from its side (cylinder and box have)");
+    CLX_CHECK(!clast_bed_period(bed, period), CLAST_E_USAGE,
+              "a bed that is periodic in x and y has no side walls, so no core apart from them");
+    CLX_CHECK(assembly->n_grain > 0 && bulk->z_high > bulk->z_low, CLAST_E_USAGE,
+              "no grain to measure between %g and %g", bulk->z_low, bulk->z_high);
+    const clast_bed_walls walls = clast_bed_side_walls(bed, assembly);
+    const double depth = n_size * walls.size;
+    const double volume = core_area(bed, depth, walls.size) * (bulk->z_high - bulk->z_low);
+    CLX_CHECK(n_size >= 0.5, CLAST_E_USAGE,
+              "a core begins at least half a grain size from the side walls, not %g", n_size);
+    CLX_CHECK(volume > 0.0, CLAST_E_GEOMETRY,
+              "nothing of the bed is farther than %g grain sizes from its side walls, which are "
+              "%.3g from its axis",
+              n_size + 0.5, walls.ratio);
+    CLX_TRY(clx_touch_set_init(assembly, &set));
+    // As in the bulk, what lies below the floor counts unless something is left out there.
+    core_sum c = {.assembly = assembly,
+                  .bed = bed,
+                  .set = &set,
+                  .method = options->method,
+                  .depth = depth,
+                  .ramp = walls.size,
+                  .edge = {options->trim > 0.0 ? bulk->z_low : -HUGE_VAL, bulk->z_high}};
+    for (int32_t i = 0; i < assembly->n_grain; ++i) {
+        CLX_TRY(add_grain(&c, i));
+    }
+    *core = (clast_porosity_core){depth, 1.0 - c.solid / volume, sqrt(c.variance) / volume,
+                                  bulk->porosity - (1.0 - c.solid / volume)};
+done:
+    clx_touch_set_free(&set);
+    return status;
+}
