@@ -1,8 +1,7 @@
 // Cells take their points as even, g(r) = 1 within. Pairs closer than half a cell tell whether they
 // are: their number over what even cells of the same counts would hold. Whatever lies below the
 // cells is missing from events by cells, is in events by pairs, and is what a kernel with a g(r) of
-// its own brings along: so it must not be multiplied with both. [docs/theory/decompose.md section
-// 16]
+// its own brings along: so it must not be multiplied with both. [docs/theory/decompose.md]
 #include "cloud/pair_within.h"
 
 #include "math/special.h"
