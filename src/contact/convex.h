@@ -51,9 +51,8 @@ typedef struct clx_warm_start {
     uint16_t kind;      ///< clx_facet_kind
     uint16_t n;         ///< points of the simplex, 0 to 4
     float sure;         ///< margin wanted over overlap
-    float seen[2]
-              [3]; ///< where the record was made: see facet_warm_start.c; round bodies: last normal
-    float limit[2]; ///< how far from there it holds
+    float seen[2][3];   ///< where it was stored: facet_warm_start.c; round bodies: last normal
+    float limit[2];     ///< how far from there it holds
     union {
         double data[12];     ///< the facet's features, scaled, in their bodies' axes
         uint16_t vert[2][4]; ///< simplex: vertices of a, of b
