@@ -19,7 +19,7 @@ typedef struct {
     clx_convex a, b;
     double turn[N_POSE][2][9];
     double offset[N_POSE][3];
-    clx_contact_memory memory;
+    clx_warm_start warm_start;
 } item;
 
 static item items[N_PAIR];
@@ -84,7 +84,7 @@ static void place(item *it, clx_rng *rng, double gap)
     }
     clx_rng_direction(rng, line);
     v3_axpy(it->offset[1], it->offset[0], 1e-5 * D, line);
-    it->memory = (clx_contact_memory){0};
+    it->warm_start = (clx_warm_start){0};
 }
 
 /// ns per query.
@@ -97,7 +97,7 @@ static double time_queries(bool is_warm, double max_gap, int n_sweep)
             for (int i = 0; i < N_PAIR; ++i) {
                 clx_contact c;
                 const clx_pair pair = pair_of(&items[i], sweep % N_POSE);
-                (void)clx_pair_contact(&pair, max_gap, is_warm ? &items[i].memory : NULL, &c);
+                (void)clx_pair_contact(&pair, max_gap, is_warm ? &items[i].warm_start : NULL, &c);
                 sink += c.gap;
             }
         }
@@ -207,7 +207,7 @@ static void verify(int32_t n_vert, int n_track, int n_step)
         for (int step = 0; step < n_step; ++step) {
             clx_contact warm, cold;
             const clx_pair pair = pair_of(&it, 0);
-            (void)clx_pair_contact(&pair, INFINITY, &it.memory, &warm);
+            (void)clx_pair_contact(&pair, INFINITY, &it.warm_start, &warm);
             (void)clx_pair_contact(&pair, INFINITY, NULL, &cold);
             worst = fmax(worst, fabs(warm.gap - cold.gap));
             n_off += fabs(warm.gap - cold.gap) > 1e-11;

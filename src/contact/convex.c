@@ -1,4 +1,4 @@
-// One query for every pair of convex kinds: which method answers it, in which frame and unit.
+// Contact search of every pair of convex kinds: by which method, in which frame and unit.
 #include "contact/convex.h"
 
 #include "contact/ellipsoid_pair.h"
@@ -11,14 +11,14 @@
 clx_convex clx_convex_sphere(double radius)
 {
     return (clx_convex){
-        .kind = CLX_CONVEX_SPHERE, .round = radius, .reach = radius, .inner = radius};
+        .kind = CLX_CONVEX_SPHERE, .round = radius, .bounding_radius = radius, .inner = radius};
 }
 
 clx_convex clx_convex_ellipsoid(const double axes[3])
 {
     return (clx_convex){.kind = CLX_CONVEX_ELLIPSOID,
                         .semi_axes = {axes[0], axes[1], axes[2]},
-                        .reach = fmax(axes[0], fmax(axes[1], axes[2])),
+                        .bounding_radius = fmax(axes[0], fmax(axes[1], axes[2])),
                         .inner = fmin(axes[0], fmin(axes[1], axes[2]))};
 }
 
@@ -27,14 +27,14 @@ clx_convex clx_convex_hull(const clx_hull_core *core, double scale)
     return (clx_convex){.kind = CLX_CONVEX_HULL,
                         .core = core,
                         .scale = scale,
-                        .reach = scale * core->radius,
+                        .bounding_radius = scale * core->radius,
                         .inner = scale * core->inner};
 }
 
 void clx_convex_grow(clx_convex *shape, double margin)
 {
     shape->round += margin;
-    shape->reach += margin;
+    shape->bounding_radius += margin;
     shape->inner += margin;
 }
 
@@ -73,7 +73,7 @@ static bool spheres(const clx_pair *pair, double max_gap, clx_contact *contact)
     return true;
 }
 
-static bool ellipsoids(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+static bool ellipsoids(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                        clx_contact *contact)
 {
     clx_ellipsoids e;
@@ -83,15 +83,15 @@ static bool ellipsoids(const clx_pair *pair, double max_gap, clx_contact_memory 
     clx_ellipsoid_matrix(pair->turn_b, pair->b->semi_axes, e.b);
     v3_copy(e.offset, pair->offset);
     e.roundness = roundness(pair->a) + roundness(pair->b);
-    if (memory != NULL) {
-        v3_set(m, -(double)memory->seen[0][0], -(double)memory->seen[0][1],
-               -(double)memory->seen[0][2]);
+    if (warm_start != NULL) {
+        v3_set(m, -(double)warm_start->seen[0][0], -(double)warm_start->seen[0][1],
+               -(double)warm_start->seen[0][2]);
     }
     const double core_gap = clx_ellipsoid_gap(&e, m);
     v3_scale(n, -1.0, m);
-    if (memory != NULL) {
+    if (warm_start != NULL) {
         for (int i = 0; i < 3; ++i) {
-            memory->seen[0][i] = (float)n[i];
+            warm_start->seen[0][i] = (float)n[i];
         }
     }
     if (core_gap - pair->a->round - pair->b->round > max_gap) {
@@ -126,7 +126,7 @@ static void see(const clx_pair *pair, double unit, clx_gjk_pair *out)
             (ra[i] * pair->offset[0] + ra[3 + i] * pair->offset[1] + ra[6 + i] * pair->offset[2]) /
             unit;
     }
-    out->size = (pair->a->reach + pair->b->reach) / unit;
+    out->size = (pair->a->bounding_radius + pair->b->bounding_radius) / unit;
     out->is_smooth = pair->a->kind == CLX_CONVEX_ELLIPSOID || pair->b->kind == CLX_CONVEX_ELLIPSOID;
 }
 
@@ -162,26 +162,26 @@ static void seed_climbs(clx_gjk_pair *seen)
     }
 }
 
-/// Three points of A - B on a remembered facet.
-static int recall_facet(const clx_pair *pair, const clx_contact_memory *memory, int32_t vert[4][2])
+/// Three points of A - B on the facet of a warm start.
+static int recall_facet(const clx_pair *pair, const clx_warm_start *warm_start, int32_t vert[4][2])
 {
     for (int i = 0; i < 3; ++i) {
         const clx_core_edge *edge;
-        switch (memory->kind) {
+        switch (warm_start->kind) {
         case CLX_FACET_FACE_VERTEX:
             vert[i][0] =
-                pair->a->core->side[pair->a->core->face[memory->feature[0]].first + i].vert;
-            vert[i][1] = memory->feature[1];
+                pair->a->core->side[pair->a->core->face[warm_start->feature[0]].first + i].vert;
+            vert[i][1] = warm_start->feature[1];
             break;
         case CLX_FACET_VERTEX_FACE:
-            vert[i][0] = memory->feature[0];
+            vert[i][0] = warm_start->feature[0];
             vert[i][1] =
-                pair->b->core->side[pair->b->core->face[memory->feature[1]].first + i].vert;
+                pair->b->core->side[pair->b->core->face[warm_start->feature[1]].first + i].vert;
             break;
         default:
-            edge = &pair->a->core->edge[memory->feature[0]];
+            edge = &pair->a->core->edge[warm_start->feature[0]];
             vert[i][0] = edge->vert[i == 1];
-            edge = &pair->b->core->edge[memory->feature[1]];
+            edge = &pair->b->core->edge[warm_start->feature[1]];
             vert[i][1] = edge->vert[i == 2];
             break;
         }
@@ -189,18 +189,18 @@ static int recall_facet(const clx_pair *pair, const clx_contact_memory *memory, 
     return 3;
 }
 
-/// The remembered simplex, where the bodies are now.
-static void recall(const clx_pair *pair, const clx_contact_memory *memory, clx_gjk_pair *seen,
+/// The simplex of a warm start, where the bodies are now.
+static void recall(const clx_pair *pair, const clx_warm_start *warm_start, clx_gjk_pair *seen,
                    clx_simplex *simplex)
 {
     int32_t vert[4][2];
-    int n = memory->n;
-    if (memory->kind != CLX_FACET_NONE) {
-        n = recall_facet(pair, memory, vert);
+    int n = warm_start->n;
+    if (warm_start->kind != CLX_FACET_NONE) {
+        n = recall_facet(pair, warm_start, vert);
     } else {
         for (int i = 0; i < n; ++i) {
-            vert[i][0] = memory->vert[0][i];
-            vert[i][1] = memory->vert[1][i];
+            vert[i][0] = warm_start->vert[0][i];
+            vert[i][1] = warm_start->vert[1][i];
         }
     }
     for (int i = 0; i < n; ++i) {
@@ -210,18 +210,19 @@ static void recall(const clx_pair *pair, const clx_contact_memory *memory, clx_g
     }
 }
 
-static void remember(const clx_simplex *simplex, clx_contact_memory *memory)
+static void remember(const clx_simplex *simplex, clx_warm_start *warm_start)
 {
-    *memory = (clx_contact_memory){.n = (uint16_t)simplex->n};
+    *warm_start = (clx_warm_start){.n = (uint16_t)simplex->n};
     for (int i = 0; i < simplex->n; ++i) {
-        memory->vert[0][i] = (uint16_t)simplex->p[i].vert[0];
-        memory->vert[1][i] = (uint16_t)simplex->p[i].vert[1];
+        warm_start->vert[0][i] = (uint16_t)simplex->p[i].vert[0];
+        warm_start->vert[1][i] = (uint16_t)simplex->p[i].vert[1];
     }
 }
 
-/// Turns an answer of GJK or EPA into one of the facet it names, and remembers that.
+/// Replaces a result of GJK or EPA by that of the facet it names, and stores the facet as warm
+/// start.
 static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contact *contact,
-                    clx_contact_memory *memory)
+                    clx_warm_start *warm_start)
 {
     int32_t vert[2][3] = {{0}};
     clx_contact sharp;
@@ -231,11 +232,11 @@ static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contac
         vert[1][i] = simplex->p[i < simplex->n ? i : 0].vert[1];
     }
     clx_facet facet = clx_facet_of(pair, vert, contact->normal);
-    const double tolerance = 1e-12 * (pair->a->reach + pair->b->reach);
+    const double tolerance = 1e-12 * (pair->a->bounding_radius + pair->b->bounding_radius);
     if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, &sharp, &margin) &&
         fabs(sharp.gap - contact->gap) <= tolerance) {
         *contact = sharp;
-        clx_facet_remember(pair, &facet, memory);
+        clx_facet_remember(pair, &facet, warm_start);
     }
 }
 
@@ -252,17 +253,17 @@ static void push_off(const clx_gjk_pair *seen, double n[3])
 
 /// GJK, then EPA if they overlap, from the simplex on. The contact is without rounding. False if
 /// beyond max_gap.
-static bool search(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+static bool search(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                    clx_simplex *simplex, clx_contact *contact)
 {
     clx_gjk_pair seen;
-    const double unit = greater_of(pair->a->reach, pair->b->reach);
+    const double unit = greater_of(pair->a->bounding_radius, pair->b->bounding_radius);
     double v[3], n[3], on_a[3];
     double gap = 0.0;
     see(pair, unit, &seen);
     seed_climbs(&seen);
-    if (memory != NULL) {
-        recall(pair, memory, &seen, simplex);
+    if (warm_start != NULL) {
+        recall(pair, warm_start, &seen, simplex);
     }
     switch (clx_gjk(&seen, max_gap / unit, simplex, v, &gap)) {
     case CLX_GJK_BEYOND:
@@ -313,15 +314,15 @@ static bool general(const clx_pair *pair, double max_gap, clx_contact *contact)
     return add_rounding(pair, max_gap, contact);
 }
 
-/// Whether the memory names features that these shapes have.
-static bool is_of_pair(const clx_pair *pair, const clx_contact_memory *memory)
+/// Whether the warm start names features that these shapes have.
+static bool is_of_pair(const clx_pair *pair, const clx_warm_start *warm_start)
 {
     const clx_hull_core *a = pair->a->core;
     const clx_hull_core *b = pair->b->core;
-    const int32_t i = memory->feature[0];
-    const int32_t j = memory->feature[1];
+    const int32_t i = warm_start->feature[0];
+    const int32_t j = warm_start->feature[1];
     bool fits = i >= 0 && j >= 0;
-    switch (memory->kind) {
+    switch (warm_start->kind) {
     case CLX_FACET_FACE_VERTEX:
         return fits && i < a->n_face && j < b->n_vert;
     case CLX_FACET_VERTEX_FACE:
@@ -329,69 +330,73 @@ static bool is_of_pair(const clx_pair *pair, const clx_contact_memory *memory)
     case CLX_FACET_EDGE_EDGE:
         return fits && i < a->n_edge && j < b->n_edge;
     default:
-        fits = memory->kind == CLX_FACET_NONE && memory->n <= 4;
-        for (int k = 0; fits && k < memory->n; ++k) {
-            fits = memory->vert[0][k] < a->n_vert && memory->vert[1][k] < b->n_vert;
+        fits = warm_start->kind == CLX_FACET_NONE && warm_start->n <= 4;
+        for (int k = 0; fits && k < warm_start->n; ++k) {
+            fits = warm_start->vert[0][k] < a->n_vert && warm_start->vert[1][k] < b->n_vert;
         }
         return fits;
     }
 }
 
-/// What the quick answer cannot say: by the facet's neighbours, else by the simplex, else cold.
-static bool search_hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+/// Where the facet of the warm start is not surely the closest: walks to its neighbours, else
+/// starts GJK from the simplex, else from nothing.
+static bool search_hulls(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                          clx_contact *found)
 {
-    if (!is_of_pair(pair, memory)) {
-        *memory = (clx_contact_memory){0};
+    if (!is_of_pair(pair, warm_start)) {
+        *warm_start = (clx_warm_start){0};
     }
-    clx_facet facet = {(clx_facet_kind)memory->kind, memory->feature[0], memory->feature[1]};
+    clx_facet facet = {(clx_facet_kind)warm_start->kind, warm_start->feature[0],
+                       warm_start->feature[1]};
     double margin = 0.0;
     if (facet.kind != CLX_FACET_NONE && clx_facet_follow(pair, &facet, found, &margin)) {
-        const bool is_same = facet.kind == (clx_facet_kind)memory->kind &&
-                             facet.i == memory->feature[0] && facet.j == memory->feature[1];
-        if (!is_same || margin + (double)memory->sure * found->gap > 0.0) { // else of no use
-            clx_facet_remember(pair, &facet, memory);
+        const bool is_same = facet.kind == (clx_facet_kind)warm_start->kind &&
+                             facet.i == warm_start->feature[0] && facet.j == warm_start->feature[1];
+        if (!is_same || margin + (double)warm_start->sure * found->gap > 0.0) { // else of no use
+            clx_facet_remember(pair, &facet, warm_start);
         }
         return true;
     }
     clx_simplex simplex = {0};
-    const bool is_near = search(pair, max_gap, memory, &simplex, found);
-    remember(&simplex, memory);
+    const bool is_near = search(pair, max_gap, warm_start, &simplex, found);
+    remember(&simplex, warm_start);
     if (is_near) {
-        sharpen(pair, &simplex, found, memory);
+        sharpen(pair, &simplex, found, warm_start);
     }
     return is_near;
 }
 
-static bool hulls(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+static bool hulls(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                   clx_contact *contact)
 {
     const double rounds = pair->a->round + pair->b->round;
-    if (!search_hulls(pair, max_gap + rounds, memory, contact)) {
+    if (!search_hulls(pair, max_gap + rounds, warm_start, contact)) {
         contact->gap -= rounds;
         return false;
     }
     return add_rounding(pair, max_gap, contact);
 }
 
-bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                       clx_contact *contact)
 {
-    if (memory != NULL && memory->kind != CLX_FACET_NONE &&
-        clx_facet_again(pair, memory, contact)) {
+    if (warm_start != NULL && warm_start->kind != CLX_FACET_NONE &&
+        clx_facet_again(pair, warm_start, contact)) {
         return add_rounding(pair, max_gap, contact);
     }
     if (pair->a->kind == CLX_CONVEX_SPHERE && pair->b->kind == CLX_CONVEX_SPHERE) {
         return spheres(pair, max_gap, contact);
     }
     if (pair->a->kind != CLX_CONVEX_HULL && pair->b->kind != CLX_CONVEX_HULL) {
-        return ellipsoids(pair, max_gap, memory, contact);
+        return ellipsoids(pair, max_gap, warm_start, contact);
     }
-    if (memory != NULL && pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL) {
-        return hulls(pair, max_gap, memory, contact);
+    if (warm_start != NULL && pair->a->kind == CLX_CONVEX_HULL &&
+        pair->b->kind == CLX_CONVEX_HULL) {
+        return hulls(pair, max_gap, warm_start, contact);
     }
-    if (memory != NULL && (pair->a->kind != CLX_CONVEX_HULL || pair->b->kind != CLX_CONVEX_HULL) &&
-        clx_hull_round_contact(pair, memory, contact)) {
+    if (warm_start != NULL &&
+        (pair->a->kind != CLX_CONVEX_HULL || pair->b->kind != CLX_CONVEX_HULL) &&
+        clx_hull_round_contact(pair, warm_start, contact)) {
         return add_rounding(pair, max_gap, contact);
     }
     return general(pair, max_gap, contact);

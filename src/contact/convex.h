@@ -18,8 +18,8 @@ typedef struct clx_convex {
     double scale;              ///< hull: metres per core unit
     double semi_axes[3];       ///< ellipsoid [m]
     double round; ///< sphere: radius; others: margin by which the shape is grown (0: as is) [m]
-    double reach; ///< everything lies within this distance of the position [m]
-    double inner; ///< this ball about the position is inside the shape; <= 0: none is [m]
+    double bounding_radius; ///< everything lies within this distance of the position [m]
+    double inner;           ///< this ball about the position is inside the shape; <= 0: none is [m]
 } clx_convex;
 
 clx_convex clx_convex_sphere(double radius);
@@ -43,23 +43,23 @@ typedef struct clx_contact {
     double point[3];  ///< midway between the two witness points, relative to a's position [m]
 } clx_contact;
 
-/// What a pair remembers from one query to the next; {0} is empty. Always safe to keep: a memory
-/// that no longer holds costs time, never accuracy. Belongs to these shapes a and b in this order;
-/// results depend on nothing but the pair and these bytes. No padding; 144 bytes.
-typedef struct clx_contact_memory {
+/// What a pair's contact search begins from: the feature and normal of the last one; {0} is empty.
+/// A warm start that no longer holds costs time, never accuracy. Belongs to these shapes a and b in
+/// this order; results depend on nothing but the pair and these bytes. No padding; 144 bytes.
+typedef struct clx_warm_start {
     int32_t feature[2]; ///< of a, of b, by `kind`
     uint16_t kind;      ///< clx_facet_kind
     uint16_t n;         ///< points of the simplex, 0 to 4
     float sure;         ///< margin wanted over overlap
-    float seen[2][3]; ///< where the record was made: see facet_memory.c; round bodies: last normal
-    float limit[2];   ///< how far from there it holds
+    float seen[2][3];   ///< where it was stored: facet_warm_start.c; round bodies: last normal
+    float limit[2];     ///< how far from there it holds
     union {
         double data[12];     ///< the facet's features, scaled, in their bodies' axes
         uint16_t vert[2][4]; ///< simplex: vertices of a, of b
     };
-} clx_contact_memory;
+} clx_warm_start;
 
-/// What a unit vector loses as floats (clx_contact_memory.seen), and a point in units of its body.
+/// What a unit vector loses as floats (clx_warm_start.seen), and a point in units of its body.
 #define CLX_FLOAT_SLACK 4e-7
 
 /// Contact of a pair. False if the gap surely exceeds max_gap: contact->gap is then a lower bound
@@ -67,9 +67,9 @@ typedef struct clx_contact_memory {
 ///
 /// Error of gap: 1e-14 of the bodies' size; 1e-11 for a hull with an ellipsoid.
 ///
-/// @param memory  of this pair, or NULL for a cold query
+/// @param warm_start  of this pair, or NULL for none
 /// @note no allocation, thread-safe, deterministic
-bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_contact_memory *memory,
+bool clx_pair_contact(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                       clx_contact *contact);
 
 /// A shape before a wall.
@@ -79,10 +79,10 @@ typedef struct clx_placed {
     double position[3];
 } clx_placed;
 
-/// Contact with the half-space n.x <= offset (n unit, into the free side). The memory is this
-/// body's at this plane, 0 at first, and is renewed: a hull's vertex, which is answered with while
-/// it surely is the deepest; NULL is allowed. Exact; the point is relative to the body's position.
-void clx_plane_contact(const clx_placed *body, const double plane[4], clx_contact_memory *memory,
+/// Contact with the half-space n.x <= offset (n unit, into the free side). The warm start is this
+/// body's at this plane, 0 at first, and is renewed: a hull's vertex, which is the result while it
+/// surely is the deepest; NULL is allowed. Exact; the point is relative to the body's position.
+void clx_plane_contact(const clx_placed *body, const double plane[4], clx_warm_start *warm_start,
                        clx_contact *contact);
 
 /// Contact with the inside of a circular cylinder about the z axis through (axis[0], axis[1]):

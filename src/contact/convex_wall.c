@@ -5,7 +5,7 @@
 #include "math/least.h"
 #include "math/vec3.h"
 
-static void into_body(const double t[9], const double d[3], double out[3])
+static void to_local(const double t[9], const double d[3], double out[3])
 {
     v3_set(out, t[0] * d[0] + t[3] * d[1] + t[6] * d[2], t[1] * d[0] + t[4] * d[1] + t[7] * d[2],
            t[2] * d[0] + t[5] * d[1] + t[8] * d[2]);
@@ -20,57 +20,57 @@ static void out_of_body(const double t[9], double scale, const double x[3], doub
 
 /// Whether the vertex kept is still the farthest along d (body axes): d has turned by less than the
 /// least angle between the plane through the vertex and an edge at it.
-static inline bool is_kept(const clx_contact_memory *memory, const double d[3])
+static inline bool is_kept(const clx_warm_start *warm_start, const double d[3])
 {
     double gone[3];
     for (int i = 0; i < 3; ++i) {
-        gone[i] = d[i] - (double)memory->seen[0][i];
+        gone[i] = d[i] - (double)warm_start->seen[0][i];
     }
-    return v3_norm2(gone) < (double)memory->limit[0] * (double)memory->limit[0];
+    return v3_norm2(gone) < (double)warm_start->limit[0] * (double)warm_start->limit[0];
 }
 
 /// Keeps vertex v, the farthest along d.
 static void keep(const clx_hull_core *core, int32_t v, const double d[3],
-                 clx_contact_memory *memory)
+                 clx_warm_start *warm_start)
 {
     double turn = 1.0;
     for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &core->near[i];
         turn = lesser_of(turn, -v3_dot(near->along, d) * near->inverse);
     }
-    memory->feature[0] = v;
-    memory->limit[0] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
-    v3_copy(memory->data, core->vert[v]);
+    warm_start->feature[0] = v;
+    warm_start->limit[0] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
+    v3_copy(warm_start->data, core->vert[v]);
     for (int i = 0; i < 3; ++i) {
-        memory->seen[0][i] = (float)d[i];
+        warm_start->seen[0][i] = (float)d[i];
     }
 }
 
 /// The hull's vertex farthest along d (body axes).
 static const double *farthest(const clx_hull_core *core, const double d[3],
-                              clx_contact_memory *memory)
+                              clx_warm_start *warm_start)
 {
-    if (memory == NULL) {
+    if (warm_start == NULL) {
         return core->vert[clx_core_climb(core, d, clx_core_start(core, d))];
     }
-    if (!is_kept(memory, d)) {
-        const int32_t last = memory->feature[0];
+    if (!is_kept(warm_start, d)) {
+        const int32_t last = warm_start->feature[0];
         const int32_t from = last >= 0 && last < core->n_vert ? last : clx_core_start(core, d);
-        keep(core, clx_core_climb(core, d, from), d, memory);
+        keep(core, clx_core_climb(core, d, from), d, warm_start);
     }
-    return memory->data;
+    return warm_start->data;
 }
 
 /// Deepest point of the shape without rounding against direction n, relative to the position.
-static void deepest(const clx_placed *body, const double n[3], clx_contact_memory *memory,
+static void deepest(const clx_placed *body, const double n[3], clx_warm_start *warm_start,
                     double tip[3])
 {
     const clx_convex *shape = body->shape;
     if (shape->kind == CLX_CONVEX_HULL) {
         double own[3];
         const double d[3] = {-n[0], -n[1], -n[2]};
-        into_body(body->turn, d, own);
-        out_of_body(body->turn, shape->scale, farthest(shape->core, own, memory), tip);
+        to_local(body->turn, d, own);
+        out_of_body(body->turn, shape->scale, farthest(shape->core, own, warm_start), tip);
     } else {
         double matrix[6];
         clx_ellipsoid_matrix(body->turn, shape->semi_axes, matrix);
@@ -79,11 +79,11 @@ static void deepest(const clx_placed *body, const double n[3], clx_contact_memor
     }
 }
 
-void clx_plane_contact(const clx_placed *body, const double plane[4], clx_contact_memory *memory,
+void clx_plane_contact(const clx_placed *body, const double plane[4], clx_warm_start *warm_start,
                        clx_contact *contact)
 {
     double tip[3];
-    deepest(body, plane, memory, tip);
+    deepest(body, plane, warm_start, tip);
     contact->gap =
         v3_dot(plane, body->position) - plane[3] + v3_dot(plane, tip) - body->shape->round;
     v3_copy(contact->normal, plane);

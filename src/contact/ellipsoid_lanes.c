@@ -1,4 +1,4 @@
-// Newton steps of four common normals; reasons and equations are in ellipsoid_pair.c,
+// Newton steps of four common normals in SIMD lanes; reasons and equations are in ellipsoid_pair.c,
 // whose `follow` is also the twin that tests compare bit by bit.
 #include "contact/ellipsoid_lanes.h"
 
@@ -189,7 +189,7 @@ int clx_ellipsoids_again(clx_pair_batch *batch, int from,
     read_side(batch->turn_a + from, shape_a, &a);
     read_side(batch->turn_b + from, shape_b, &b);
     for (int k = 0; k < CLX_LANES; ++k) {
-        const float *seen = batch->memory[from + k]->seen[0];
+        const float *seen = batch->warm_start[from + k]->seen[0];
         m[k] = lanes_row_floats(seen, seen);
     }
     lanes_transpose(m);

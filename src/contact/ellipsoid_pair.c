@@ -171,9 +171,9 @@ static double climb(const clx_ellipsoids *p, double size, double m[3])
     return at.s;
 }
 
-/// A Newton step from a remembered normal of about unit length, and two more where it is not short;
-/// false if the last is not, or K not safely positive definite. However it came there, a maximum
-/// above -roundness is the only one.
+/// A Newton step from a warm start's normal of about unit length, and two more where it is not
+/// short; false if the last is not, or K not safely positive definite. However it came there, a
+/// maximum above -roundness is the only one.
 CLX_INLINE bool follow(const clx_ellipsoids *p, double size, double m[3], double *s)
 {
     local at;

@@ -2,8 +2,8 @@
 // Gap of two ellipsoids (points among them) by their common normal.
 #include <stdbool.h>
 
-/// Steps from a remembered normal: how many at most, and how long. Ones shorter than SHORT need no
-/// new value, s + g.step / 2 is exact to their third power; LONG is where Newton's next step is
+/// Steps from a warm start's normal: how many at most, and how long. Ones shorter than SHORT need
+/// no new value, s + g.step / 2 is exact to their third power; LONG is where Newton's next step is
 /// still a thousandth of this one.
 #define CLX_ELLIPSOID_STEPS 3
 #define CLX_ELLIPSOID_SHORT 1e-5

@@ -32,13 +32,13 @@ typedef struct {
     int lost;         ///< edge pair that is no facet: body * 2 + which of the edge's faces is next
 } view;
 
-static void into(const double t[9], const double x[3], double out[3])
+static void to_local(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[3] * x[1] + t[6] * x[2], t[1] * x[0] + t[4] * x[1] + t[7] * x[2],
            t[2] * x[0] + t[5] * x[1] + t[8] * x[2]);
 }
 
-static void outof(const double t[9], const double x[3], double out[3])
+static void to_world(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[1] * x[1] + t[2] * x[2], t[3] * x[0] + t[4] * x[1] + t[5] * x[2],
            t[6] * x[0] + t[7] * x[1] + t[8] * x[2]);
@@ -47,7 +47,7 @@ static void outof(const double t[9], const double x[3], double out[3])
 /// scale R x + position
 static void place(const body *b, const double x[3], double out[3])
 {
-    outof(b->turn, x, out);
+    to_world(b->turn, x, out);
     v3_axpy(out, b->at, b->scale, out);
 }
 
@@ -61,9 +61,9 @@ static void view_face(const body both[2], int k, int32_t f, int32_t v, view *out
     double x[3], d[3], p[3], n[3], q[3];
     place(other, other->core->vert[v], x);
     v3_sub(d, x, own->at);
-    into(own->turn, d, p);
-    outof(own->turn, face->normal, n);
-    into(other->turn, n, q);
+    to_local(own->turn, d, p);
+    to_world(own->turn, face->normal, n);
+    to_local(other->turn, n, q);
     v3_copy(out->foot, p);
     out->gap = v3_dot(face->normal, p) - own->scale * face->offset;
     out->margin = INFINITY;
@@ -101,8 +101,8 @@ static bool view_edges(const body both[2], int32_t i, int32_t j, view *out)
     int beyond[2];
     place(&both[0], ea->from, a);
     place(&both[1], eb->from, b);
-    outof(both[0].turn, ea->along, e);
-    outof(both[1].turn, eb->along, f);
+    to_world(both[0].turn, ea->along, e);
+    to_world(both[1].turn, eb->along, f);
     v3_cross(n, e, f);
     const double n2 = v3_norm2(n);
     const double e2 = v3_norm2(e);
@@ -112,14 +112,14 @@ static bool view_edges(const body both[2], int32_t i, int32_t j, view *out)
     }
     const double length = sqrt(n2);
     v3_scale(out->m, 1.0 / length, n);
-    into(both[0].turn, out->m, own);
+    to_local(both[0].turn, out->m, own);
     if (v3_dot(own, ea->out[0]) + v3_dot(own, ea->out[1]) < 0.0) { // out of a
         v3_scale(out->m, -1.0, out->m);
         v3_scale(own, -1.0, own);
     }
     out->is_facet = holds_edge(ea, own, &beyond[0]);
     out->lost = beyond[0];
-    into(both[1].turn, out->m, own);
+    to_local(both[1].turn, out->m, own);
     v3_scale(own, -1.0, own);
     if (!holds_edge(eb, own, &beyond[1])) {
         out->lost = out->is_facet ? 2 + beyond[1] : out->lost;
@@ -205,16 +205,16 @@ static clx_facet turn_about(const body both[2], int k, int32_t e, const double n
     const body *other = &both[1 - k];
     double to[3], q0[3], q1[3];
     int32_t edge = -1;
-    outof(own->turn, own->core->face[f].normal, to);
-    into(other->turn, n, q0);
+    to_world(own->turn, own->core->face[f].normal, to);
+    to_local(other->turn, n, q0);
     if (v3_dot(n, to) < -0.5) { // a sharp edge, or a flat hull's: by way of straight out
-        outof(own->turn, own->core->edge[e].out[0], q1);
-        into(other->turn, q1, q1);
+        to_world(own->turn, own->core->edge[e].out[0], q1);
+        to_local(other->turn, q1, q1);
         edge = first_met(other->core, v, q0, q1);
         v3_copy(q0, q1);
     }
     if (edge < 0) {
-        into(other->turn, to, q1);
+        to_local(other->turn, to, q1);
         edge = first_met(other->core, v, q0, q1);
     }
     return edge < 0 ? face_facet(k, f, v) : edge_facet(k, e, edge);
@@ -227,7 +227,7 @@ static clx_facet across_face(const body both[2], int k, int32_t f, int32_t v, in
     const int32_t e = core->side[core->face[f].first + side].edge;
     const clx_core_edge *edge = &core->edge[e];
     double n[3];
-    outof(both[k].turn, core->face[f].normal, n);
+    to_world(both[k].turn, core->face[f].normal, n);
     return turn_about(both, k, e, n, edge->face[edge->face[0] == f], v);
 }
 
@@ -241,8 +241,8 @@ static clx_facet across_edges(const body both[2], int32_t i, int32_t j, const vi
     const clx_core_edge *other = &both[1 - k].core->edge[k == 0 ? j : i];
     double n[3], d[3], own[3];
     v3_scale(n, k == 0 ? 1.0 : -1.0, at->m);
-    outof(both[1 - k].turn, other->along, d);
-    into(both[k].turn, d, own);
+    to_world(both[1 - k].turn, other->along, d);
+    to_local(both[k].turn, d, own);
     const double rise = v3_dot(own, both[k].core->face[edge->face[0]].normal);
     const int which = (end == 0) == (rise > 0.0) ? 0 : 1;
     return turn_about(both, k, e, n, edge->face[which], other->vert[end]);
@@ -273,8 +273,8 @@ static clx_facet mend(const body both[2], const clx_facet *facet, const view *at
         vert = both[1 - k].core->edge[edge[1 - k]].vert[0];
     }
     double n[3], d[3];
-    outof(both[k].turn, both[k].core->face[face].normal, n);
-    into(both[1 - k].turn, n, d);
+    to_world(both[k].turn, both[k].core->face[face].normal, n);
+    to_local(both[1 - k].turn, n, d);
     v3_scale(d, -1.0, d);
     return face_facet(k, face, clx_core_climb(both[1 - k].core, d, vert));
 }
@@ -470,9 +470,9 @@ clx_facet clx_facet_of(const clx_pair *pair, int32_t vert[2][3], const double no
     if (i >= 0 && j >= 0) {
         return (clx_facet){CLX_FACET_EDGE_EDGE, i, j};
     }
-    into(pair->turn_a, out, own);
+    to_local(pair->turn_a, out, own);
     const int32_t f = face_along(pair->a->core, vert[0][0], own, &cosine_a);
-    into(pair->turn_b, normal, own);
+    to_local(pair->turn_b, normal, own);
     const int32_t g = face_along(pair->b->core, vert[1][0], own, &cosine_b);
     if (f < 0 || g < 0) {
         return (clx_facet){CLX_FACET_NONE, 0, 0};

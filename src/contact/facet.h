@@ -26,12 +26,13 @@ typedef struct clx_facet {
 /// @param margin  least distance of the foot from the facet's sides [m]
 bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact, double *margin);
 
-/// Writes the facet, which holds now, into the memory: what is needed to ask it again and how far
-/// the bodies may turn and slip until it must be proved anew.
-void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_contact_memory *memory);
+/// Writes the facet, which holds now, into the warm start: what is needed to evaluate it again and
+/// how far the bodies may turn and slip until it must be proved anew.
+void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_warm_start *warm_start);
 
-/// The remembered facet's contact (without rounding); false unless it surely still is the closest.
-bool clx_facet_again(const clx_pair *pair, const clx_contact_memory *memory, clx_contact *contact);
+/// The contact of the warm start's facet (without rounding); false unless it surely still is the
+/// closest.
+bool clx_facet_again(const clx_pair *pair, const clx_warm_start *warm_start, clx_contact *contact);
 
 /// The facet that three points of A - B name: vertices of a and of b, and its normal from b to a
 /// (world). NONE if they name no facet.

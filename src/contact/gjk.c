@@ -2,7 +2,7 @@
 //
 // Work is in units of the bodies, so all tolerances are relative to them: the same grains in metres
 // or millimetres take the same path. The squared distance must fall in every step, and never below
-// what the best support proves; when rounding breaks either, the best iterate so far is the answer.
+// what the best support proves; when rounding breaks either, the best iterate so far is the result.
 #include "contact/gjk.h"
 
 #include "math/least.h"
@@ -17,13 +17,13 @@ static const double TOLERANCE_SMOOTH = 1e-13;
 /// Closer than this the direction of v is rounding: overlap.
 static const double TOUCHING = 1e-13;
 
-static void turn_back(const double t[9], const double d[3], double out[3])
+static void to_local(const double t[9], const double d[3], double out[3])
 {
     v3_set(out, t[0] * d[0] + t[3] * d[1] + t[6] * d[2], t[1] * d[0] + t[4] * d[1] + t[7] * d[2],
            t[2] * d[0] + t[5] * d[1] + t[8] * d[2]);
 }
 
-static void turn(const double t[9], const double d[3], double out[3])
+static void to_world(const double t[9], const double d[3], double out[3])
 {
     v3_set(out, t[0] * d[0] + t[1] * d[1] + t[2] * d[2], t[3] * d[0] + t[4] * d[1] + t[5] * d[2],
            t[6] * d[0] + t[7] * d[1] + t[8] * d[2]);
@@ -42,7 +42,7 @@ static void put(const clx_seen *body, const double local[3], double x[3])
 {
     v3_copy(x, local);
     if (body->is_turned) {
-        turn(body->turn, local, x);
+        to_world(body->turn, local, x);
         v3_add(x, x, body->shift);
     }
 }
@@ -66,7 +66,7 @@ static int32_t body_support(clx_seen *body, const double d[3], double x[3])
     int32_t vert = -1;
     v3_copy(own, d);
     if (body->is_turned) {
-        turn_back(body->turn, d, own);
+        to_local(body->turn, d, own);
     }
     if (body->core != NULL) {
         vert = clx_core_climb(body->core, own, body->last);

@@ -36,7 +36,7 @@ typedef struct {
     int32_t i;
 } feature;
 
-/// A feature's answer.
+/// Result of a feature.
 typedef struct {
     double d[3]; ///< unit
     double s;
@@ -74,7 +74,7 @@ static void see(const clx_pair *pair, bool is_a, scene *e)
     e->core = hull->core;
     e->scale = hull->scale;
     e->is_point = round->kind == CLX_CONVEX_SPHERE;
-    e->size = pair->a->reach + pair->b->reach;
+    e->size = pair->a->bounding_radius + pair->b->bounding_radius;
     from_world(rh, pair->offset, e->q);
     if (!is_a) {
         v3_scale(e->q, -1.0, e->q);
@@ -256,19 +256,20 @@ static bool ask_vertex(const scene *e, feature *at, answer *out)
     return false;
 }
 
-/// The remembered feature and normal, if these shapes have it; else the vertex towards the centre.
+/// The warm start's feature and normal, if these shapes have it; else the vertex towards the
+/// centre.
 static feature begin(const scene *e, const double turn[9], double sign,
-                     const clx_contact_memory *memory, double d[3])
+                     const clx_warm_start *warm_start, double d[3])
 {
     const int32_t n[4] = {0, e->core->n_vert, e->core->n_edge, e->core->n_face};
-    const int32_t i = memory->feature[0];
+    const int32_t i = warm_start->feature[0];
     double seen[3];
-    v3_set(seen, sign * (double)memory->seen[0][0], sign * (double)memory->seen[0][1],
-           sign * (double)memory->seen[0][2]);
-    if (memory->n >= VERTEX && memory->n <= FACE && i >= 0 && i < n[memory->n] &&
+    v3_set(seen, sign * (double)warm_start->seen[0][0], sign * (double)warm_start->seen[0][1],
+           sign * (double)warm_start->seen[0][2]);
+    if (warm_start->n >= VERTEX && warm_start->n <= FACE && i >= 0 && i < n[warm_start->n] &&
         fabs(v3_norm2(seen) - 1.0) < 1e-5) {
         from_world(turn, seen, d);
-        return (feature){(feature_kind)memory->n, i};
+        return (feature){(feature_kind)warm_start->n, i};
     }
     if (!v3_unit(d, e->q)) {
         v3_set(d, 0.0, 0.0, 1.0);
@@ -277,7 +278,7 @@ static feature begin(const scene *e, const double turn[9], double sign,
 }
 
 CLX_FOR_EACH_MACHINE
-bool clx_hull_round_contact(const clx_pair *pair, clx_contact_memory *memory, clx_contact *contact)
+bool clx_hull_round_contact(const clx_pair *pair, clx_warm_start *warm_start, clx_contact *contact)
 {
     const bool is_a = pair->a->kind == CLX_CONVEX_HULL;
     const double *turn = is_a ? pair->turn_a : pair->turn_b;
@@ -287,7 +288,7 @@ bool clx_hull_round_contact(const clx_pair *pair, clx_contact_memory *memory, cl
     double middle[3];
     bool is_found = false;
     see(pair, is_a, &e);
-    feature at = begin(&e, turn, sign, memory, out.d);
+    feature at = begin(&e, turn, sign, warm_start, out.d);
     for (int k = 0; k < MAX_WALK && !is_found && at.kind != NONE; ++k) {
         is_found = at.kind == FACE   ? ask_face(&e, &at, &out)
                    : at.kind == EDGE ? ask_edge(&e, &at, &out)
@@ -304,9 +305,9 @@ bool clx_hull_round_contact(const clx_pair *pair, clx_contact_memory *memory, cl
     if (!is_a) {
         v3_add(contact->point, contact->point, pair->offset);
     }
-    *memory = (clx_contact_memory){.feature = {at.i, 0}, .n = (uint16_t)at.kind};
+    *warm_start = (clx_warm_start){.feature = {at.i, 0}, .n = (uint16_t)at.kind};
     for (int k = 0; k < 3; ++k) {
-        memory->seen[0][k] = (float)contact->normal[k];
+        warm_start->seen[0][k] = (float)contact->normal[k];
     }
     return true;
 }

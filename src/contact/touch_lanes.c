@@ -1,4 +1,4 @@
-// Bounds of four children against one bound, in vectors of four.
+// Bounds of four children against one bound, in four SIMD lanes.
 //
 // Written with the compilers' vector types: two SSE2 halves on any x86-64, one AVX2 vector where
 // the machine has it (chosen when the program starts), pairs of NEON vectors on ARM. No contraction

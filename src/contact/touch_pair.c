@@ -101,8 +101,8 @@ static double radius_of(const touch_view *view, int32_t slot)
     return view->scale * node->radius[slot % CLX_TOUCH_LANES];
 }
 
-/// Places of the lanes in falling order of their beginnings, without branches (they would be
-/// guessed wrong); how many are not -INFINITY, which come last.
+/// Ranks of the lanes in falling order of their beginnings, without branches (they would be
+/// mispredicted); how many are not -INFINITY, which come last.
 static int rank_lanes(const double enter[CLX_TOUCH_LANES], int place[CLX_TOUCH_LANES])
 {
     int n = 0;

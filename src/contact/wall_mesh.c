@@ -56,7 +56,7 @@ static void make_hull(const clx_wall_triangle *t, flat_hull *h)
                               .edge = h->edge,
                               .near_first = h->near_first,
                               .near = h->near,
-                              .radius = t->reach};
+                              .radius = t->bounding_radius};
     for (int k = 0; k < 3; ++k) {
         v3_sub(h->vert[k], t->corner[k], t->centroid);
     }
@@ -82,16 +82,18 @@ static void make_hull(const clx_wall_triangle *t, flat_hull *h)
 }
 
 bool clx_triangle_contact(const clx_wall_triangle *t, const clx_placed *body, double max_gap,
-                          clx_contact_memory *memory, clx_contact *contact)
+                          clx_warm_start *warm_start, clx_contact *contact)
 {
     static const double unturned[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     flat_hull h;
     make_hull(t, &h);
-    const clx_convex wall = {
-        .kind = CLX_CONVEX_HULL, .core = &h.core, .scale = 1.0, .reach = t->reach};
+    const clx_convex wall = {.kind = CLX_CONVEX_HULL,
+                             .core = &h.core,
+                             .scale = 1.0,
+                             .bounding_radius = t->bounding_radius};
     clx_pair pair = {body->shape, &wall, body->turn, unturned, {0.0, 0.0, 0.0}};
     v3_sub(pair.offset, t->centroid, body->position);
-    return clx_pair_contact(&pair, max_gap, memory, contact);
+    return clx_pair_contact(&pair, max_gap, warm_start, contact);
 }
 
 bool clx_triangle_owns(const clx_wall_triangle *t, const clx_placed *body,
@@ -104,7 +106,7 @@ bool clx_triangle_owns(const clx_wall_triangle *t, const clx_placed *body,
     for (int k = 0; k < 3; ++k) {
         double d[3];
         v3_sub(d, x, t->corner[k]);
-        const bool is_on = v3_dot(d, t->out[k]) > -ON_SIDE * t->reach;
+        const bool is_on = v3_dot(d, t->out[k]) > -ON_SIDE * t->bounding_radius;
         if (is_on && v3_dot(contact->normal, t->out[k]) > t->tilt[k][behind] + ON_SIDE) {
             return false;
         }
@@ -128,14 +130,15 @@ bool clx_triangle_face_contact(const clx_wall_triangle *t, const clx_placed *bod
     for (int k = 0; k < 3; ++k) {
         double from[3];
         v3_sub(from, d, t->corner[k]);
-        if (v3_dot(from, t->out[k]) > ON_SIDE * t->reach - contact->gap) {
+        if (v3_dot(from, t->out[k]) > ON_SIDE * t->bounding_radius - contact->gap) {
             return false;
         }
     }
     return true;
 }
 
-bool clx_triangle_push(const clx_wall_triangle *t, const clx_placed *body, clx_contact *contact)
+bool clx_triangle_own_contact(const clx_wall_triangle *t, const clx_placed *body,
+                              clx_contact *contact)
 {
     return clx_triangle_owns(t, body, contact) ||
            (contact->gap < 0.0 && clx_triangle_face_contact(t, body, contact));
@@ -152,7 +155,7 @@ static double box_distance2(const clx_tree_node *node, const double x[3])
     return sum;
 }
 
-int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], double reach,
+int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], double cutoff,
                            int32_t cap, int32_t *tri)
 {
     int32_t stack[CLX_TREE_DEPTH + 1];
@@ -162,7 +165,7 @@ int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], dou
     while (n_stack > 0) {
         const int32_t i = stack[--n_stack];
         const clx_tree_node *node = &wall->tree.node[i];
-        if (box_distance2(node, point) > reach * reach) {
+        if (box_distance2(node, point) > cutoff * cutoff) {
             continue;
         }
         if (node->right != 0) {
@@ -172,7 +175,8 @@ int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], dou
         }
         for (int32_t k = node->first; k < node->first + node->count; ++k) {
             const clx_wall_triangle *t = &wall->tri[wall->tree.item[k]];
-            if (v3_distance2(t->centroid, point) <= (reach + t->reach) * (reach + t->reach)) {
+            if (v3_distance2(t->centroid, point) <=
+                (cutoff + t->bounding_radius) * (cutoff + t->bounding_radius)) {
                 if (n < cap) {
                     tri[n] = wall->tree.item[k];
                 }
@@ -183,7 +187,7 @@ int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], dou
     return n;
 }
 
-/// Puts a contact in its place: deeper ones first, and none that pushes like a deeper one.
+/// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
 static int32_t insert(clx_wall_contact *list, int32_t n, int32_t cap, const clx_wall_contact *one)
 {
     int32_t at = 0;
@@ -214,15 +218,15 @@ int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body
 {
     int32_t tri[MOST_NEAR];
     int32_t n = 0;
-    const int32_t n_near =
-        clx_wall_mesh_near(wall, body->position, body->shape->reach + max_gap, MOST_NEAR, tri);
-    // More than fit: every triangle is asked, which is slow but misses none.
+    const int32_t n_near = clx_wall_mesh_near(
+        wall, body->position, body->shape->bounding_radius + max_gap, MOST_NEAR, tri);
+    // More than fit: every triangle is tested, which is slow but misses none.
     const int32_t n_ask = n_near <= MOST_NEAR ? n_near : wall->n_tri;
     for (int32_t i = 0; i < n_ask; ++i) {
         clx_wall_contact one = {.tri = n_near <= MOST_NEAR ? tri[i] : i};
         const clx_wall_triangle *t = &wall->tri[one.tri];
         if (clx_triangle_contact(t, body, max_gap, NULL, &one.contact) &&
-            clx_triangle_push(t, body, &one.contact)) {
+            clx_triangle_own_contact(t, body, &one.contact)) {
             n = insert(contact, n, cap, &one);
         }
     }
@@ -234,7 +238,7 @@ static bool measure(const clast_mesh *mesh, int32_t number, clx_wall_triangle *t
 {
     double e[3], f[3], n[3];
     const int32_t *v = mesh->tri[number];
-    *t = (clx_wall_triangle){.reach = 0.0};
+    *t = (clx_wall_triangle){.bounding_radius = 0.0};
     for (int k = 0; k < 3; ++k) {
         v3_copy(t->corner[k], mesh->vert[v[k]]);
         v3_axpy(t->centroid, t->centroid, 1.0 / 3.0, t->corner[k]);
@@ -246,7 +250,7 @@ static bool measure(const clast_mesh *mesh, int32_t number, clx_wall_triangle *t
         return false;
     }
     for (int k = 0; k < 3; ++k) {
-        t->reach = fmax(t->reach, v3_distance(t->corner[k], t->centroid));
+        t->bounding_radius = fmax(t->bounding_radius, v3_distance(t->corner[k], t->centroid));
         v3_sub(e, t->corner[(k + 1) % 3], t->corner[k]);
         v3_cross(t->out[k], e, t->normal);
         (void)v3_unit(t->out[k], t->out[k]);

@@ -12,7 +12,7 @@ typedef struct clx_wall_triangle {
     double tilt[3][2]; ///< most that a push may lean over side k (sine), from the normal's side and
                        ///< from behind: 0 where the surface is flat or hollow, 1 at a free edge
     double centroid[3];
-    double reach; ///< of the corners from the centroid
+    double bounding_radius; ///< of the corners from the centroid
 } clx_wall_triangle;
 
 typedef struct clx_wall_mesh {
@@ -31,15 +31,15 @@ typedef struct clx_wall_contact {
 clast_status clx_wall_mesh_create(const clast_mesh *mesh, clx_wall_mesh **wall);
 void clx_wall_mesh_destroy(clx_wall_mesh *wall); ///< NULL is allowed
 
-/// Triangles that come within `reach` of a point: how many there are; the first `cap` of them, in
+/// Triangles that come within `cutoff` of a point: how many there are; the first `cap` of them, in
 /// the tree's order, are in tri.
-int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], double reach,
+int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], double cutoff,
                            int32_t cap, int32_t *tri);
 
 /// Contact of a body with one triangle as if it stood alone. False if the gap surely exceeds
-/// max_gap; contact->gap is then a lower bound. `memory` as for pairs, or NULL.
+/// max_gap; contact->gap is then a lower bound. `warm_start` as for pairs, or NULL.
 bool clx_triangle_contact(const clx_wall_triangle *triangle, const clx_placed *body, double max_gap,
-                          clx_contact_memory *memory, clx_contact *contact);
+                          clx_warm_start *warm_start, clx_contact *contact);
 
 /// Whether a contact with this triangle belongs to it on the surface: not where the push leans
 /// farther over a shared edge than the neighbour's plane, which is then the one to push. Without
@@ -54,10 +54,10 @@ bool clx_triangle_owns(const clx_wall_triangle *triangle, const clx_placed *body
 bool clx_triangle_face_contact(const clx_wall_triangle *triangle, const clx_placed *body,
                                clx_contact *contact);
 
-/// The push of a triangle that overlaps a body: `contact` as clx_triangle_contact gave it if that
-/// belongs to the triangle, else its face's. False if another triangle has it.
-bool clx_triangle_push(const clx_wall_triangle *triangle, const clx_placed *body,
-                       clx_contact *contact);
+/// The contact of a triangle that overlaps a body: `contact` as clx_triangle_contact found it if
+/// that belongs to the triangle, else its face's. False if another triangle has it.
+bool clx_triangle_own_contact(const clx_wall_triangle *triangle, const clx_placed *body,
+                              clx_contact *contact);
 
 /// All contacts of a body with the wall whose gap is at most max_gap, deepest first: one for each
 /// direction of push (25 degrees), at most `cap`. Returns how many.

@@ -34,7 +34,7 @@ static void find_one(clast_dem *dem, clx_batch *p, int k)
 {
     clx_dem_touch t = {0};
     clx_dem_pair *pair = p->pair[k];
-    clx_contact_memory *warm_start = clx_inner_warm_start(dem, pair);
+    clx_warm_start *warm_start = clx_inner_warm_start(dem, pair);
     clx_dem_touch_find(dem, pair, warm_start, &t);
     if (warm_start != NULL) {
         pair->kind = warm_start->kind & 3U;
@@ -62,7 +62,7 @@ static int reuse_normals(const clast_dem *dem, clx_batch *p)
         answered |= clx_ellipsoids_again(&p->meet, from, a + from, b + from) << from;
     }
     for (int k = 0; k < p->n; ++k) {
-        clx_contact_memory *warm_start = clx_inner_warm_start(dem, p->pair[k]);
+        clx_warm_start *warm_start = clx_inner_warm_start(dem, p->pair[k]);
         for (int c = 0; c < 3 && (answered >> k & 1) != 0; ++c) {
             warm_start->seen[0][c] = (float)p->meet.normal[c][k];
         }
@@ -302,7 +302,7 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
         p->b[k] = !has_walls || b >= 0 ? &grain[grain_of(dem, is_packed, b)] : &clx_immovable;
         p->meet.turn_a[k] = p->a[k]->turn[0];
         p->meet.turn_b[k] = p->b[k]->turn[0];
-        p->meet.memory[k] =
+        p->meet.warm_start[k] =
             is_packed ? &s->packed[at[k]].warm_start : clx_pair_warm_start(dem, pair);
     }
 }

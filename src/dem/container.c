@@ -54,14 +54,14 @@ static void touch_from_contact(const clx_contact *c, clx_dem_touch *t)
 }
 
 void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
-                               clx_contact_memory *warm_start, clx_dem_touch *touch)
+                               clx_warm_start *warm_start, clx_dem_touch *touch)
 {
     clx_convex ball;
     clx_contact contact;
     const clx_placed body = place(dem, pair->a, &ball);
     const clx_wall_triangle *t = clx_pair_triangle(dem, pair);
     if (clx_triangle_contact(t, &body, 0.0, warm_start, &contact)) {
-        (void)clx_triangle_push(t, &body, &contact);
+        (void)clx_triangle_own_contact(t, &body, &contact);
         touch_from_contact(&contact, touch);
     } else {
         touch->distance = contact.gap;
@@ -168,7 +168,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
             clx_triangle_contact(t, &body, near, clx_pair_warm_start(dem, pair), &c);
         remember(&p, pair, clx_pair_history(dem, pair), &c, is_near, k);
         pair->active_from = travel + fmax(c.gap, 0.0);
-        if (is_near && c.gap < 0.0 && clx_triangle_push(t, &body, &c)) {
+        if (is_near && c.gap < 0.0 && clx_triangle_own_contact(t, &body, &c)) {
             insert(&p, &c, k);
         }
     }

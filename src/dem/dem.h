@@ -80,7 +80,7 @@ typedef struct clx_contact_history {
 /// A pair's warm start, from which the contact search begins: three cache lines, of which two hold
 /// a face with a vertex.
 typedef struct clx_warm_start_slot {
-    clx_contact_memory record;
+    clx_warm_start record;
     double spare[6];
 } clx_warm_start_slot;
 
@@ -94,7 +94,7 @@ enum { CLX_MOST_SLOTS = (1 << 29) - 1 };
 /// A pair and its warm start in three cache lines, for a sweep.
 typedef struct clx_packed_pair {
     clx_dem_pair pair; ///< first, so that a pointer to it is one to the pair
-    clx_contact_memory warm_start;
+    clx_warm_start warm_start;
 } clx_packed_pair;
 static_assert(sizeof(clx_packed_pair) == 192, "a pair takes three lines");
 
@@ -363,8 +363,7 @@ static inline const double *clx_item_turn(const clast_dem *dem, int32_t i)
 }
 
 /// The warm start of a pair, or NULL.
-static inline clx_contact_memory *clx_pair_warm_start(const clast_dem *dem,
-                                                      const clx_dem_pair *pair)
+static inline clx_warm_start *clx_pair_warm_start(const clast_dem *dem, const clx_dem_pair *pair)
 {
     return pair->slot != 0 ? &dem->list.warm_start[pair->slot].record : NULL;
 }
@@ -376,7 +375,7 @@ static inline clx_dem_pair *clx_inner_pair(const clast_dem *dem, int32_t k)
 }
 
 /// The warm start of a pair of the inner list, or NULL.
-static inline clx_contact_memory *clx_inner_warm_start(const clast_dem *dem, clx_dem_pair *pair)
+static inline clx_warm_start *clx_inner_warm_start(const clast_dem *dem, clx_dem_pair *pair)
 {
     if (!dem->inner.is_packed) {
         return clx_pair_warm_start(dem, pair);

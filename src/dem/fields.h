@@ -179,6 +179,7 @@
          NULL},                                                                                    \
     {                                                                                              \
         CLX_DEM_AT(TYPE, IN, verify, I32), 0, 0, 1e9, "-",                                         \
-            "every so many steps contacts are compared with ones found without memory; 0: never",  \
+            "every so many steps contacts are compared with a search without warm start; 0: "      \
+            "never",                                                                               \
             NULL                                                                                   \
     }

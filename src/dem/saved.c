@@ -5,7 +5,7 @@
 #include "dem/neighbour_list.h"
 #include <string.h>
 
-enum { WARM_START = sizeof(clx_contact_memory) };
+enum { WARM_START = sizeof(clx_warm_start) };
 
 void clx_dem_saved_free(clx_dem_saved *s)
 {

@@ -4,8 +4,8 @@
 /// Gaps beyond this share of the smaller radius need no digits: a lower bound serves as budget.
 static const double FAR = 0.1;
 
-void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair,
-                      clx_contact_memory *warm_start, clx_dem_touch *t)
+void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
+                      clx_dem_touch *t)
 {
     clx_contact contact;
     clx_pair shapes = {.a = &dem->convex[pair->a],
@@ -24,7 +24,7 @@ void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair,
 }
 
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
-                           clx_contact_memory *warm_start, clx_dem_touch *t)
+                           clx_warm_start *warm_start, clx_dem_touch *t)
 {
     static const double axis[2] = {0.0, 0.0};
     static const double nowhere[3] = {0.0, 0.0, 0.0};

@@ -75,20 +75,20 @@ static inline void clx_touch_from_contact(const clx_contact *c, const double off
 }
 
 /// Two items of which one at least is no sphere.
-void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair,
-                      clx_contact_memory *warm_start, clx_dem_touch *t);
+void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
+                      clx_dem_touch *t);
 
 /// An item that is no sphere at a wall.
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
-                           clx_contact_memory *warm_start, clx_dem_touch *t);
+                           clx_warm_start *warm_start, clx_dem_touch *t);
 
 /// An item at a triangle of the container, as if that stood alone.
 void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
-                               clx_contact_memory *warm_start, clx_dem_touch *t);
+                               clx_warm_start *warm_start, clx_dem_touch *t);
 
 /// @param warm_start  of the pair; not read where both are spheres
 static inline void clx_dem_touch_find(const clast_dem *dem, const clx_dem_pair *pair,
-                                      clx_contact_memory *warm_start, clx_dem_touch *t)
+                                      clx_warm_start *warm_start, clx_dem_touch *t)
 {
     const bool is_round = clx_pair_is_round(dem, pair);
     if (pair->b >= 0) {
@@ -112,7 +112,7 @@ static inline void clx_dem_touch_find(const clast_dem *dem, const clx_dem_pair *
 /// The same for measuring: the pair's warm start is not renewed.
 static inline void clx_find_again(const clast_dem *dem, const clx_dem_pair *pair, clx_dem_touch *t)
 {
-    clx_contact_memory warm_start = {0};
+    clx_warm_start warm_start = {0};
     if (pair->slot != 0) {
         warm_start = dem->list.warm_start[pair->slot].record;
     }

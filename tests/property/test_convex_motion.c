@@ -1,4 +1,5 @@
-/* Property: pairs that move keep their memory, and their contacts stay those of cold queries. */
+/* Property: pairs that move keep their warm start, and their contacts stay those of queries
+ * without. */
 #include "support.h"
 
 #include "gravel.h"
@@ -66,7 +67,7 @@ static double worst_difference(uint64_t index, double gap, double jump, int n_st
     }
     double q[2][4], turn[2][9], side[3];
     clx_pair pair = {&a, &b, turn[0], turn[1], {0.0, 0.0, 0.0}};
-    clx_contact_memory memory = {0};
+    clx_warm_start warm_start = {0};
     double worst = 0.0;
     for (int k = 0; k < 2; ++k) {
         clx_rng_orientation(&rng, q[k]);
@@ -75,7 +76,7 @@ static double worst_difference(uint64_t index, double gap, double jump, int n_st
     clx_rng_direction(&rng, pair.offset);
     for (int step = 0; step < n_step; ++step) {
         clx_contact warm, cold;
-        (void)clx_pair_contact(&pair, INFINITY, &memory, &warm);
+        (void)clx_pair_contact(&pair, INFINITY, &warm_start, &warm);
         (void)clx_pair_contact(&pair, INFINITY, NULL, &cold);
         const double off = fabs(warm.gap - cold.gap);
         worst = fmax(worst, off);

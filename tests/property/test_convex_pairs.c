@@ -284,7 +284,7 @@ static void lattice_hulls_equal_all_axes(void **state)
         clx_rng rng = clx_rng_at(13, CLX_STREAM_TEST, i);
         clx_hull_core *core[2];
         scene s;
-        clx_contact_memory memory = {0};
+        clx_warm_start warm_start = {0};
         for (int k = 0; k < 2; ++k) {
             core[k] = lattice_core(&rng);
             quarter_turns(&rng, s.turn[k]);
@@ -298,7 +298,7 @@ static void lattice_hulls_equal_all_axes(void **state)
         for (int step = 0; step < 12; ++step) {
             clx_contact cold, warm;
             assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &cold));
-            assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &warm));
+            assert_true(clx_pair_contact(&s.pair, INFINITY, &warm_start, &warm));
             const double expected = reference(&s);
             CHECK_ABS(cold.gap, expected, 1e-13);
             CHECK_ABS(warm.gap, expected, 1e-13);
@@ -444,7 +444,7 @@ static void hulls_with_round_bodies_are_proved_by_bounds(void **state)
     int n_open = 0;
     for (uint64_t i = 0; i < 320; ++i) {
         clx_rng rng = clx_rng_at(21, CLX_STREAM_TEST, i);
-        clx_contact_memory memory = {0};
+        clx_warm_start warm_start = {0};
         scene s;
         s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], i % 5 == 0 ? 0.2 : 1.0);
         s.b = random_round(&rng);
@@ -457,13 +457,13 @@ static void hulls_with_round_bodies_are_proved_by_bounds(void **state)
         for (int step = 0; step < 12; ++step) {
             clx_contact cold, warm;
             assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &cold));
-            if (clx_hull_round_contact(&s.pair, &memory, &warm)) {
-                ++n_feature[memory.n];
+            if (clx_hull_round_contact(&s.pair, &warm_start, &warm)) {
+                ++n_feature[warm_start.n];
                 check_by_bounds(&s, &warm, &cold);
             } else {
                 n_open += cold.gap > -1e-3 ? 1 : 0;
             }
-            assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &warm));
+            assert_true(clx_pair_contact(&s.pair, INFINITY, &warm_start, &warm));
             CHECK_ABS(warm.gap, cold.gap, 1e-9);
             for (int k = 0; k < 3;
                  ++k) { /* of two normals of one gap the points differ by its root */
@@ -485,13 +485,13 @@ static void cold_and_feature_agree_apart(void **state)
     int n = 0;
     for (uint64_t i = 0; i < 20000; ++i) {
         clx_rng rng = clx_rng_at(22, CLX_STREAM_TEST, i);
-        clx_contact_memory memory = {0};
+        clx_warm_start warm_start = {0};
         clx_contact cold, feature;
         scene s;
         s.a = clx_convex_hull(cores[clx_rng_below(&rng, N_CORE)], 1.0);
         s.b = clx_convex_ellipsoid((const double[3]){0.6, 0.4, 0.2});
         draw_poses(&rng, 0.1 + 0.1 * (double)(i % 10), &s);
-        if (clx_hull_round_contact(&s.pair, &memory, &feature)) {
+        if (clx_hull_round_contact(&s.pair, &warm_start, &feature)) {
             assert_true(clx_pair_contact(&s.pair, INFINITY, NULL, &cold));
             CHECK_ABS(cold.gap, feature.gap, 1e-10);
             ++n;
@@ -501,14 +501,15 @@ static void cold_and_feature_agree_apart(void **state)
 }
 
 /* Over a box's faces, edges and corners the gap to a ball is in closed form, also where the foot is
- * just on the border of two features; memories of other places, or that never were, change nothing.
+ * just on the border of two features; warm starts of other places, or that never were, change
+ * nothing.
  */
 static void ball_at_a_box_has_its_closed_form(void **state)
 {
     (void)state;
     const double half[3] = {0.5, 0.4, 0.3};
     static const double at[] = {-1.5, -1.0, -0.5, 0.0, 0.999999999, 1.0, 1.000000001, 1.2};
-    clx_contact_memory memory = {0};
+    clx_warm_start warm_start = {0};
     for (int i = 0; i < 512; ++i) {
         scene s = {.a = clx_convex_hull(cores[N_CORE - 3], 1.0), .b = clx_convex_sphere(0.25)};
         clx_contact c;
@@ -525,12 +526,12 @@ static void ball_at_a_box_has_its_closed_form(void **state)
         }
         join(&s);
         if (i % 16 == 15) {
-            memset(&memory, 0xff, sizeof memory);
-            memory.kind = 0;
+            memset(&warm_start, 0xff, sizeof warm_start);
+            warm_start.kind = 0;
         }
-        assert_true(clx_pair_contact(&s.pair, INFINITY, &memory, &c));
+        assert_true(clx_pair_contact(&s.pair, INFINITY, &warm_start, &c));
         CHECK_ABS(c.gap, (inside > 0.0 ? sqrt(out2) : inside) - 0.25, 1e-14);
-        assert_true(!(sqrt(out2) > 0.1) || (memory.n >= 1 && memory.n <= 3));
+        assert_true(!(sqrt(out2) > 0.1) || (warm_start.n >= 1 && warm_start.n <= 3));
     }
 }
 

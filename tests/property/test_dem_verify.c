@@ -30,7 +30,7 @@ static void remembered_contacts_are_cold_ones(void **state)
     clast_dem_destroy(plain);
 }
 
-static void broken_memories_and_promises_are_seen(void **state)
+static void broken_warm_starts_and_bounds_are_seen(void **state)
 {
     (void)state;
     clast_dem_measures m;
@@ -52,7 +52,7 @@ static void broken_memories_and_promises_are_seen(void **state)
 }
 
 /* Steps in one go work on rows that are packed anew out of older rows; steps one by one have the
- * list up to date before each: the same pairs, displacements and memories. */
+ * list up to date before each: the same pairs, displacements and warm starts. */
 static void rows_keep_what_the_list_would(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void rows_keep_what_the_list_would(void **state)
         assert_memory_equal(a, b, sizeof *a);
         if (a->slot != 0) {
             assert_memory_equal(&rows->list.warm_start[a->slot].record,
-                                &one->list.warm_start[b->slot].record, sizeof(clx_contact_memory));
+                                &one->list.warm_start[b->slot].record, sizeof(clx_warm_start));
         }
         n_touching += a->touches;
     }
@@ -88,7 +88,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(remembered_contacts_are_cold_ones),
-        cmocka_unit_test(broken_memories_and_promises_are_seen),
+        cmocka_unit_test(broken_warm_starts_and_bounds_are_seen),
         cmocka_unit_test(rows_keep_what_the_list_would),
     };
     clast_parallel_set_threads(1);

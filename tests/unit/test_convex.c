@@ -176,8 +176,8 @@ static void planes_touch_the_deepest_point(void **state)
     const double plane[4] = {1.0, 0.0, 0.0, -1.0};
     clx_placed body = {&hull, ABOUT_Z_45, {0.25, 7.0, 9.0}};
     clx_contact c;
-    clx_contact_memory memory = {0};
-    clx_plane_contact(&body, plane, &memory, &c);
+    clx_warm_start warm_start = {0};
+    clx_plane_contact(&body, plane, &warm_start, &c);
     CHECK_ABS(c.gap, 1.25 - 1.5 * sqrt(0.5), 1e-15);
     CHECK_ABS(c.point[0], -0.5 * (1.25 + 1.5 * sqrt(0.5)), 1e-15);
     CHECK_ABS(c.normal[0], 1.0, 0.0);
@@ -209,7 +209,7 @@ static void a_rolling_hull_keeps_its_deepest_vertex(void **state)
     static const double floor[4] = {0.0, 0.0, 1.0, 0.0};
     clx_hull_core *core = support_gravel_core(30, 3, 152);
     const clx_convex hull = clx_convex_hull(core, 1.0);
-    clx_contact_memory memory = {0};
+    clx_warm_start warm_start = {0};
     int n_kept = 0;
     for (int k = 0; k < STEPS; ++k) {
         const double half = 0.5 * 1e-3 * k; // five radians in all, about an axis askew
@@ -218,12 +218,12 @@ static void a_rolling_hull_keeps_its_deepest_vertex(void **state)
         clx_contact c;
         q_matrix(turn, q);
         const clx_placed body = {&hull, turn[0], {0.0, 0.0, 0.0}};
-        const float seen = memory.seen[0][0];
-        clx_plane_contact(&body, floor, &memory, &c);
+        const float seen = warm_start.seen[0][0];
+        clx_plane_contact(&body, floor, &warm_start, &c);
         CHECK_ABS(c.gap, lowest(core, turn[0]), 1e-15);
-        n_kept += memory.seen[0][0] == seen ? 1 : 0;
+        n_kept += warm_start.seen[0][0] == seen ? 1 : 0;
     }
-    assert_true(n_kept > STEPS / 2); // else nothing was answered from memory
+    assert_true(n_kept > STEPS / 2); // else nothing was answered from warm_start
     clx_hull_core_destroy(core);
 }
 

@@ -10,12 +10,12 @@
 #include "math/vec3.h"
 #include <string.h>
 
-/* A pair of hulls in touch, its memory made at one place and asked a little beside it. */
+/* A pair of hulls in touch, its warm start made at one place and used a little beside it. */
 typedef struct {
     clx_convex a, b;
     double turn[2][3][3];
     clx_pair pair;
-    clx_contact_memory memory;
+    clx_warm_start warm_start;
 } meeting;
 
 static clx_hull_core *cores[3];
@@ -51,9 +51,9 @@ static void make_meeting(clx_rng *rng, meeting *m)
         q_matrix(m->turn[k], q);
     }
     clx_rng_direction(rng, m->pair.offset);
-    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
     v3_axpy(m->pair.offset, m->pair.offset, c.gap + 1e-4, c.normal); /* overlap 1e-4 */
-    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
     clx_rng_direction(rng, side);
     v3_axpy(m->pair.offset, m->pair.offset, pow(10.0, -1.0 - 5.0 * clx_rng_uniform(rng)), side);
 }
@@ -86,13 +86,13 @@ static int compare_facets(const clast_dem *dem, meeting m[CLX_BATCH], bool edges
         v3_copy(grain[2 * k + 1].position, m[k].pair.offset);
         p.meet.turn_a[k] = m[k].pair.turn_a;
         p.meet.turn_b[k] = m[k].pair.turn_b;
-        p.meet.memory[k] = &m[k].memory;
+        p.meet.warm_start[k] = &m[k].warm_start;
     }
     const int answered = edges ? clx_batch_edges(dem, &p) : clx_batch_faces(dem, &p);
     const clx_pair_batch *batch = &p.meet;
     for (int k = 0; k < n_pair; ++k) {
         clx_contact one;
-        const bool is_answered = clx_facet_again(&m[k].pair, &m[k].memory, &one);
+        const bool is_answered = clx_facet_again(&m[k].pair, &m[k].warm_start, &one);
         assert_int_equal(is_answered, answered >> k & 1);
         if (is_answered) {
             assert_true(same(one.gap, batch->gap[k]));
@@ -118,10 +118,10 @@ static void facets_in_lanes_are_facets_alone(void **state)
         clx_rng rng = clx_rng_at(40, CLX_STREAM_TEST, i);
         meeting m;
         make_meeting(&rng, &m);
-        if (m.memory.kind == CLX_FACET_NONE) {
+        if (m.warm_start.kind == CLX_FACET_NONE) {
             continue;
         }
-        const int kind = m.memory.kind == CLX_FACET_EDGE_EDGE ? 1 : 0;
+        const int kind = m.warm_start.kind == CLX_FACET_EDGE_EDGE ? 1 : 0;
         meeting *to = &queue[kind][filled[kind]++];
         *to = m;
         to->pair.a = &to->a;
@@ -158,10 +158,10 @@ static void make_eggs(clx_rng *rng, meeting *m)
     m->pair = (clx_pair){&m->a, &m->b, m->turn[0][0], m->turn[1][0], {0.0, 0.0, 0.0}};
     clx_rng_direction(rng, m->pair.offset);
     v3_scale(m->pair.offset, 2.5, m->pair.offset);
-    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
     const double depth = clx_rng_below(rng, 5) == 0 ? 0.7 : 1e-4 * clx_rng_normal(rng);
     v3_axpy(m->pair.offset, m->pair.offset, c.gap + depth, c.normal);
-    (void)clx_pair_contact(&m->pair, INFINITY, &m->memory, &c);
+    (void)clx_pair_contact(&m->pair, INFINITY, &m->warm_start, &c);
     clx_rng_direction(rng, side);
     v3_axpy(m->pair.offset, m->pair.offset, pow(10.0, -3.0 - 4.0 * clx_rng_uniform(rng)), side);
 }
@@ -183,7 +183,7 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
             b[k] = &m[k].b;
             batch.turn_a[k] = m[k].turn[0][0];
             batch.turn_b[k] = m[k].turn[1][0];
-            batch.memory[k] = &m[k].memory;
+            batch.warm_start[k] = &m[k].warm_start;
             for (int c = 0; c < 3; ++c) {
                 batch.offset[c][k] = m[k].pair.offset[c];
             }
@@ -191,7 +191,7 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
         const int answered = clx_ellipsoids_again(&batch, 0, a, b);
         for (int k = 0; k < CLX_LANES; ++k) {
             clx_contact one;
-            (void)clx_pair_contact(&m[k].pair, INFINITY, &m[k].memory, &one);
+            (void)clx_pair_contact(&m[k].pair, INFINITY, &m[k].warm_start, &one);
             if ((answered >> k & 1) == 0) {
                 ++n_left;
                 continue;
@@ -201,7 +201,7 @@ static void ellipsoids_in_lanes_are_ellipsoids_alone(void **state)
             for (int c = 0; c < 3; ++c) {
                 assert_true(same(one.normal[c], batch.normal[c][k]));
                 assert_true(same(one.point[c], batch.point[c][k]));
-                assert_true((float)batch.normal[c][k] == m[k].memory.seen[0][c]);
+                assert_true((float)batch.normal[c][k] == m[k].warm_start.seen[0][c]);
             }
         }
     }

@@ -118,7 +118,7 @@ static void triangle_remembers(void **state)
         clx_rng rng = clx_rng_at(42, CLX_STREAM_TEST, i);
         double q[4], m[3][3], turn[9], side[3];
         clx_placed body = {&shape, turn, {0.0, 0.0, 0.3}};
-        clx_contact_memory memory = {0};
+        clx_warm_start warm_start = {0};
         clx_rng_orientation(&rng, q);
         for (int k = 0; k < 2; ++k) {
             body.position[k] = 4.0 * clx_rng_uniform(&rng) - 2.0;
@@ -129,7 +129,7 @@ static void triangle_remembers(void **state)
             for (int k = 0; k < 9; ++k) {
                 turn[k] = m[k / 3][k % 3];
             }
-            (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, &memory, &warm);
+            (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, &warm_start, &warm);
             (void)clx_triangle_contact(&wall->tri[0], &body, INFINITY, NULL, &cold);
             CHECK_ABS(warm.gap, cold.gap, 1e-13);
             v3_axpy(body.position, body.position, -1e-4 - cold.gap, cold.normal);

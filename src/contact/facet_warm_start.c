@@ -1,4 +1,4 @@
-// A facet that was proved once, asked again from a record of its own.
+// A facet that was proved once, evaluated again from its warm start.
 //
 // The record holds the features' coordinates, so that a touching pair reads 144 bytes in a row and
 // nothing of the cores. It also holds where the proof was made and how far it reaches: a vertex
@@ -16,13 +16,13 @@
 /// A record is made anew after this turn [rad] at the latest.
 static const double MOST_TURN = 0.1;
 
-CLX_INLINE void into(const double t[9], const double x[3], double out[3])
+CLX_INLINE void to_local(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[3] * x[1] + t[6] * x[2], t[1] * x[0] + t[4] * x[1] + t[7] * x[2],
            t[2] * x[0] + t[5] * x[1] + t[8] * x[2]);
 }
 
-CLX_INLINE void outof(const double t[9], const double x[3], double out[3])
+CLX_INLINE void to_world(const double t[9], const double x[3], double out[3])
 {
     v3_set(out, t[0] * x[0] + t[1] * x[1] + t[2] * x[2], t[3] * x[0] + t[4] * x[1] + t[5] * x[2],
            t[6] * x[0] + t[7] * x[1] + t[8] * x[2]);
@@ -57,28 +57,29 @@ CLX_INLINE void place_face(const clx_pair *pair, int k, const double data[12], f
     const double *own = k == 0 ? pair->turn_a : pair->turn_b;
     const double *other = k == 0 ? pair->turn_b : pair->turn_a;
     double d[3];
-    outof(own, data, out->n);
-    outof(other, data + 4, out->x);
-    into(other, out->n, out->q);
+    to_world(own, data, out->n);
+    to_world(other, data + 4, out->x);
+    to_local(other, out->n, out->q);
     if (k == 0) {
         v3_add(out->x, out->x, pair->offset);
-        into(own, out->x, out->p);
+        to_local(own, out->x, out->p);
     } else {
         v3_sub(d, out->x, pair->offset);
-        into(own, d, out->p);
+        to_local(own, d, out->p);
     }
     out->gap = v3_dot(data, out->p) - data[3];
 }
 
-CLX_INLINE bool face_again(const clx_pair *pair, int k, const clx_contact_memory *memory,
+CLX_INLINE bool face_again(const clx_pair *pair, int k, const clx_warm_start *warm_start,
                            clx_contact *contact)
 {
     face_place at;
-    place_face(pair, k, memory->data, &at);
-    const double margin = (double)memory->limit[0] + lesser_of((double)memory->sure * at.gap, 0.0);
-    const double turn = (double)memory->limit[1];
-    if (!(margin > 0.0 && drift2(at.p, memory->seen[0]) <= margin * margin &&
-          drift2(at.q, memory->seen[1]) <= turn * turn)) {
+    place_face(pair, k, warm_start->data, &at);
+    const double margin =
+        (double)warm_start->limit[0] + lesser_of((double)warm_start->sure * at.gap, 0.0);
+    const double turn = (double)warm_start->limit[1];
+    if (!(margin > 0.0 && drift2(at.p, warm_start->seen[0]) <= margin * margin &&
+          drift2(at.q, warm_start->seen[1]) <= turn * turn)) {
         return false;
     }
     contact->gap = at.gap;
@@ -98,13 +99,13 @@ typedef struct {
 } edge_place;
 
 /// data: from and along of a's edge, of b's.
-CLX_INLINE bool place_edges(const clx_pair *pair, const clx_contact_memory *memory, edge_place *at)
+CLX_INLINE bool place_edges(const clx_pair *pair, const clx_warm_start *warm_start, edge_place *at)
 {
     double a[3], e[3], b[3], f[3], n[3], w[3], c[3];
-    outof(pair->turn_a, memory->data, a);
-    outof(pair->turn_a, memory->data + 3, e);
-    outof(pair->turn_b, memory->data + 6, b);
-    outof(pair->turn_b, memory->data + 9, f);
+    to_world(pair->turn_a, warm_start->data, a);
+    to_world(pair->turn_a, warm_start->data + 3, e);
+    to_world(pair->turn_b, warm_start->data + 6, b);
+    to_world(pair->turn_b, warm_start->data + 9, f);
     v3_add(b, b, pair->offset);
     v3_cross(n, e, f);
     v3_sub(w, b, a);
@@ -115,7 +116,7 @@ CLX_INLINE bool place_edges(const clx_pair *pair, const clx_contact_memory *memo
         return false;
     }
     const double inverse = 1.0 / sqrt(at->n2);
-    v3_scale(at->m, memory->n != 0 ? -inverse : inverse, n);
+    v3_scale(at->m, warm_start->n != 0 ? -inverse : inverse, n);
     at->gap = v3_dot(at->m, w);
     v3_cross(c, w, f);
     const double s = v3_dot(c, n);
@@ -124,8 +125,8 @@ CLX_INLINE bool place_edges(const clx_pair *pair, const clx_contact_memory *memo
     at->inside_a = lesser_of(s, at->n2 - s);
     at->inside_b = lesser_of(t, at->n2 - t);
     v3_axpy(at->point, a, s * (inverse * inverse), e);
-    into(pair->turn_a, at->m, at->ma);
-    into(pair->turn_b, at->m, at->mb);
+    to_local(pair->turn_a, at->m, at->ma);
+    to_local(pair->turn_b, at->m, at->mb);
     return true;
 }
 
@@ -139,18 +140,18 @@ CLX_INLINE bool is_inside(const edge_place *at, double wanted)
            at->inside_b * at->inside_b > wanted2 * at->e2;
 }
 
-CLX_INLINE bool edges_again(const clx_pair *pair, const clx_contact_memory *memory,
+CLX_INLINE bool edges_again(const clx_pair *pair, const clx_warm_start *warm_start,
                             clx_contact *contact)
 {
     edge_place at;
-    if (!place_edges(pair, memory, &at)) {
+    if (!place_edges(pair, warm_start, &at)) {
         return false;
     }
-    const double turn_a = (double)memory->limit[0];
-    const double turn_b = (double)memory->limit[1];
-    if (!(is_inside(&at, lesser_of((double)memory->sure * at.gap, 0.0)) &&
-          drift2(at.ma, memory->seen[0]) <= turn_a * turn_a &&
-          drift2(at.mb, memory->seen[1]) <= turn_b * turn_b)) {
+    const double turn_a = (double)warm_start->limit[0];
+    const double turn_b = (double)warm_start->limit[1];
+    if (!(is_inside(&at, lesser_of((double)warm_start->sure * at.gap, 0.0)) &&
+          drift2(at.ma, warm_start->seen[0]) <= turn_a * turn_a &&
+          drift2(at.mb, warm_start->seen[1]) <= turn_b * turn_b)) {
         return false;
     }
     contact->gap = at.gap;
@@ -160,15 +161,15 @@ CLX_INLINE bool edges_again(const clx_pair *pair, const clx_contact_memory *memo
 }
 
 CLX_FOR_EACH_MACHINE
-bool clx_facet_again(const clx_pair *pair, const clx_contact_memory *memory, clx_contact *contact)
+bool clx_facet_again(const clx_pair *pair, const clx_warm_start *warm_start, clx_contact *contact)
 {
-    switch (memory->kind) {
+    switch (warm_start->kind) {
     case CLX_FACET_FACE_VERTEX:
-        return face_again(pair, 0, memory, contact);
+        return face_again(pair, 0, warm_start, contact);
     case CLX_FACET_VERTEX_FACE:
-        return face_again(pair, 1, memory, contact);
+        return face_again(pair, 1, warm_start, contact);
     case CLX_FACET_EDGE_EDGE:
-        return edges_again(pair, memory, contact);
+        return edges_again(pair, warm_start, contact);
     default:
         return false;
     }
@@ -197,7 +198,7 @@ static double across(const double n[3], const double x[3])
 }
 
 static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
-                          clx_contact_memory *memory)
+                          clx_warm_start *warm_start)
 {
     const clx_convex *own = k == 0 ? pair->a : pair->b;
     const clx_convex *other = k == 0 ? pair->b : pair->a;
@@ -205,10 +206,10 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
     face_place at;
     double margin = INFINITY;
     double turn = 2.0;
-    v3_copy(memory->data, face->normal);
-    memory->data[3] = own->scale * face->offset;
-    v3_scale(memory->data + 4, other->scale, other->core->vert[v]);
-    place_face(pair, k, memory->data, &at);
+    v3_copy(warm_start->data, face->normal);
+    warm_start->data[3] = own->scale * face->offset;
+    v3_scale(warm_start->data + 4, other->scale, other->core->vert[v]);
+    place_face(pair, k, warm_start->data, &at);
     for (int32_t i = face->first; i < face->first + face->n; ++i) {
         const clx_core_side *side = &own->core->side[i];
         margin = lesser_of(margin, own->scale * side->offset - v3_dot(side->out, at.p));
@@ -218,14 +219,17 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
         turn = lesser_of(turn, v3_dot(near->along, at.q) * near->inverse);
     }
     turn = lesser_of(turn, MOST_TURN);
-    keep(at.p, memory->seen[0]);
-    keep(at.q, memory->seen[1]);
-    memory->sure = sure_margin(
-        pair, memory->data[3] - v3_dot(at.q, memory->data + 4) - turn * other->reach,
-        across(memory->data, at.p) + margin + across(at.q, memory->data + 4) + turn * other->reach,
+    keep(at.p, warm_start->seen[0]);
+    keep(at.q, warm_start->seen[1]);
+    warm_start->sure = sure_margin(
+        pair,
+        warm_start->data[3] - v3_dot(at.q, warm_start->data + 4) - turn * other->bounding_radius,
+        across(warm_start->data, at.p) + margin + across(at.q, warm_start->data + 4) +
+            turn * other->bounding_radius,
         margin);
-    memory->limit[0] = (float)(margin - CLX_FLOAT_SLACK * (own->reach + fabs(margin)));
-    memory->limit[1] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
+    warm_start->limit[0] =
+        (float)(margin - CLX_FLOAT_SLACK * (own->bounding_radius + fabs(margin)));
+    warm_start->limit[1] = (float)greater_of(turn - CLX_FLOAT_SLACK, 0.0);
 }
 
 /// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
@@ -235,53 +239,53 @@ static double arc_limit(const clx_core_edge *edge, const double n[3])
     return lesser_of(greater_of(least - CLX_FLOAT_SLACK, 0.0), MOST_TURN);
 }
 
-static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_contact_memory *memory)
+static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_warm_start *warm_start)
 {
     const clx_core_edge *ea = &pair->a->core->edge[i];
     const clx_core_edge *eb = &pair->b->core->edge[j];
     edge_place at;
     double back[3];
-    v3_scale(memory->data, pair->a->scale, ea->from);
-    v3_scale(memory->data + 3, pair->a->scale, ea->along);
-    v3_scale(memory->data + 6, pair->b->scale, eb->from);
-    v3_scale(memory->data + 9, pair->b->scale, eb->along);
-    memory->n = 0;
-    if (!place_edges(pair, memory, &at)) {
-        memory->limit[0] = memory->limit[1] = -1.0F;
+    v3_scale(warm_start->data, pair->a->scale, ea->from);
+    v3_scale(warm_start->data + 3, pair->a->scale, ea->along);
+    v3_scale(warm_start->data + 6, pair->b->scale, eb->from);
+    v3_scale(warm_start->data + 9, pair->b->scale, eb->along);
+    warm_start->n = 0;
+    if (!place_edges(pair, warm_start, &at)) {
+        warm_start->limit[0] = warm_start->limit[1] = -1.0F;
         return;
     }
     if (v3_dot(at.ma, ea->out[0]) + v3_dot(at.ma, ea->out[1]) < 0.0) {
-        memory->n = 1; // e x f looks into a
+        warm_start->n = 1; // e x f looks into a
         v3_scale(at.ma, -1.0, at.ma);
         v3_scale(at.mb, -1.0, at.mb);
     }
     v3_scale(back, -1.0, at.mb);
-    keep(at.ma, memory->seen[0]);
-    keep(at.mb, memory->seen[1]);
+    keep(at.ma, warm_start->seen[0]);
+    keep(at.mb, warm_start->seen[1]);
     const double turn_a = arc_limit(ea, at.ma);
     const double turn_b = arc_limit(eb, back);
-    const double lengths = v3_norm(memory->data + 3) + v3_norm(memory->data + 9);
-    const double slack = turn_a * pair->a->reach + turn_b * pair->b->reach;
-    memory->limit[0] = (float)turn_a;
-    memory->limit[1] = (float)turn_b;
-    memory->sure =
-        sure_margin(pair, v3_dot(at.ma, memory->data) - v3_dot(at.mb, memory->data + 6) - slack,
-                    across(at.ma, memory->data) + across(at.mb, memory->data + 6) + lengths + slack,
-                    0.5 * lengths);
+    const double lengths = v3_norm(warm_start->data + 3) + v3_norm(warm_start->data + 9);
+    const double slack = turn_a * pair->a->bounding_radius + turn_b * pair->b->bounding_radius;
+    warm_start->limit[0] = (float)turn_a;
+    warm_start->limit[1] = (float)turn_b;
+    warm_start->sure = sure_margin(
+        pair, v3_dot(at.ma, warm_start->data) - v3_dot(at.mb, warm_start->data + 6) - slack,
+        across(at.ma, warm_start->data) + across(at.mb, warm_start->data + 6) + lengths + slack,
+        0.5 * lengths);
 }
 
-void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_contact_memory *memory)
+void clx_facet_remember(const clx_pair *pair, const clx_facet *facet, clx_warm_start *warm_start)
 {
-    *memory = (clx_contact_memory){.feature = {facet->i, facet->j}, .kind = (uint16_t)facet->kind};
+    *warm_start = (clx_warm_start){.feature = {facet->i, facet->j}, .kind = (uint16_t)facet->kind};
     switch (facet->kind) {
     case CLX_FACET_FACE_VERTEX:
-        remember_face(pair, 0, facet->i, facet->j, memory);
+        remember_face(pair, 0, facet->i, facet->j, warm_start);
         break;
     case CLX_FACET_VERTEX_FACE:
-        remember_face(pair, 1, facet->j, facet->i, memory);
+        remember_face(pair, 1, facet->j, facet->i, warm_start);
         break;
     default:
-        remember_edges(pair, facet->i, facet->j, memory);
+        remember_edges(pair, facet->i, facet->j, warm_start);
         break;
     }
 }
