@@ -281,7 +281,7 @@ static void print_events(const clast_decomposition *r)
         (void)printf("counted by pairs of all distances (--pairs shows them): cells of no size "
                      "resolve the cloud\n");
     }
-    if (r->smoothing_bias != 0.0 && r->resolved) {
+    if (r->smoothing_bias != 0.0 && r->resolved && r->estimator == CLAST_ESTIMATOR_CELLS) {
         (void)printf("pairs in cells taken as uniform are estimated to be off by %+.2g %%; this is "
                      "taken off\n",
                      100.0 * r->smoothing_bias);

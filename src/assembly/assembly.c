@@ -123,6 +123,8 @@ clast_status clast_assembly_add_shape(clast_assembly *assembly, const clast_shap
     clast_status status = CLAST_OK;
     clast_shape made = {0};
     for (int32_t s = 0; s < assembly->n_shape; ++s) {
+        CLX_CHECK(assembly->shape[s].name != NULL, CLAST_E_ARGUMENT, "%s: shape %d has no name",
+                  __func__, s);
         CLX_CHECK(strcmp(assembly->shape[s].name, shape->name) != 0, CLAST_E_USAGE,
                   "two shapes of one assembly are called %s", shape->name);
     }

@@ -10,6 +10,7 @@
 #include "assembly/whole.h"
 #include "base/status.h"
 #include "math/vec3.h"
+#include "porosity/slabs.h"
 #include "porosity/whole.h"
 
 enum { POINTS = 512 };
@@ -134,7 +135,7 @@ static clast_status add_grain(core_sum *c, int32_t i)
         return CLAST_OK;
     }
     if (inside >= reach) { // cut by the heights at most
-        return clast_grain_slabs(a, i, c->method, 1, c->edge, &c->solid);
+        return clx_grain_slabs(a, i, c->method, 1, c->edge, &c->solid);
     }
     add_cut(c, i);
     return CLAST_OK;

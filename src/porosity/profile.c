@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/whole.h"
 #include "math/vec3.h"
+#include "porosity/slabs.h"
 #include "porosity/whole.h"
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
@@ -92,8 +93,8 @@ static clast_status add_grain(const gathering *g, int32_t i, const bench *at)
         for (int32_t k = range[0]; k <= range[1]; ++k) {
             at->shifted[k] = g->edge[k] + shift;
         }
-        CLX_TRY(clast_grain_slabs(g->assembly, i, g->method, range[1] - range[0],
-                                  at->shifted + range[0], at->solid + range[0]));
+        CLX_TRY(clx_grain_slabs(g->assembly, i, g->method, range[1] - range[0],
+                                at->shifted + range[0], at->solid + range[0]));
     }
 done:
     return status;

@@ -15,6 +15,7 @@
 #include "math/vec3.h"
 #include "porosity/discs.h"
 #include "porosity/slabs.h"
+#include "shape/whole.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -307,6 +308,14 @@ clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
         return clx_fail(CLAST_E_ARGUMENT, "%s: %d slabs of grain %d of %d", __func__, n, i,
                         assembly->n_grain);
     }
+    CLX_WHOLE(shape, &assembly->shape[assembly->shape_id[i]]);
+    return clx_grain_slabs(assembly, i, method, n, edge, solid);
+}
+
+clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
+                             clast_porosity_method method, int32_t n, const double *edge,
+                             double *solid)
+{
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double volume = scale * scale * scale * shape->volume;

@@ -1,5 +1,10 @@
 #pragma once
-#include <clast/mesh.h>
+#include <clast/porosity.h>
+
+/// clast_grain_slabs of an assembly that holds together: for each grain of it in turn.
+clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
+                             clast_porosity_method method, int32_t n, const double *edge,
+                             double *solid);
 
 /// Adds the volume of a closed mesh between edge[k] and edge[k + 1] to solid[k].
 void clx_mesh_slabs(const clast_mesh *mesh, int32_t n, const double *edge, double *solid);
