@@ -134,9 +134,12 @@ void cli_decompose_pairs_print(const clast_decomposition *r)
     print_interval(&r->events_by_pairs);
     (void)printf(", by cells ");
     print_interval(&r->events_by_cells);
-    (void)printf("; %s by %s\n",
-                 r->beta_dt > 0.0 ? "events are those" : "the pair integral is that",
-                 r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells");
+    // shared out to cells, of which some are at their cap, they are fewer than without cells
+    const bool is_capped = r->n_capped > 0 && !(r->events >= r->events_by_pairs.value);
+    (void)printf(
+        "; %s by %s%s\n", r->beta_dt > 0.0 ? "events are those" : "the pair integral is that",
+        r->estimator == CLAST_ESTIMATOR_PAIRS ? "pairs" : "cells",
+        r->estimator == CLAST_ESTIMATOR_PAIRS && is_capped ? ", up to each cell's cap" : "");
     if (!i->estimate.resolved) {
         (void)printf("pairs do not resolve the cloud: ");
         (void)printf(isfinite(i->n_needed)
