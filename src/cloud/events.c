@@ -251,9 +251,7 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
 {
     const double all = count_all(n);
     const double share = all > 0.0 ? plain / all : 0.0; // of the cells that no cap binds
-    r->estimator = shown->is_by_pairs && (shown->resolved || n->cells->n > 1)
-                       ? CLAST_ESTIMATOR_PAIRS
-                       : CLAST_ESTIMATOR_CELLS;
+    r->estimator = shown->is_by_pairs ? CLAST_ESTIMATOR_PAIRS : CLAST_ESTIMATOR_CELLS;
     r->resolved = shown->resolved;
     r->points_needed = shown->n_factor * (double)r->n;
     r->cells_bias = shown->resolved ? all / shown->value - 1.0 : (double)NAN;
@@ -265,9 +263,9 @@ static void certify(count *n, const clx_resolution *shown, double plain, clast_d
     }
     if (n->is_plain) {
         r->resolved = shown->resolved && fabs(r->cells_bias) <= CLX_MOST_BIAS;
-    } else if (shown->resolved || (shown->is_by_pairs && n->cells->n > 1)) {
+    } else if (shown->resolved || shown->is_by_pairs) {
         n->pairs = shown->value * share; // not resolved: a guess
-    } else if (!shown->is_by_pairs) {
+    } else {
         n->pairs = fmax(n->pairs, shown->low * share); // of repeated points there is no bound
     }
     n->is_certified = r->resolved;
@@ -438,7 +436,8 @@ clast_status clx_events_count(const clast_cloud *cloud, const clast_decompose_co
     settle(&n, &shown.cells, result);
     result->events_by_cells =
         (clast_estimate){result->events, result->events_low, result->events_high, result->resolved};
-    if (shown.relative.is_by_pairs) {
+    // one cell that pairs do not resolve either: its own pairs, or the bound that cells show
+    if (shown.relative.is_by_pairs && (shown.relative.resolved || n.cells->n > 1)) {
         settle(&n, &shown.relative, result);
     }
     result->bias_estimate =

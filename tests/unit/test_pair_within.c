@@ -53,6 +53,8 @@ static void close_pairs_lie_below_the_cells(void **state)
         if (r.cells.n == 1) {
             CHECK_REL(w->cell, 1.0, 1e-12);
             CHECK_REL(w->even, 499500.0, 1e-12);
+            CHECK_REL(r.events_low, r.events_by_cells.low,
+                      1e-12); /* one answer: 250 and more, not 2 */
         }
         clast_decomposition_free(&r);
         clast_cloud_free(&cloud);
