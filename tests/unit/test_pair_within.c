@@ -61,6 +61,22 @@ static void close_pairs_lie_below_the_cells(void **state)
     }
 }
 
+/* One cell that nothing resolves has one answer: the bound by cells of all sizes, not the number of
+ * even points (0.5 events where 250 and more are shown). */
+static void close_pairs_have_one_bound(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 10; ++seed) {
+        clast_cloud cloud = cloud_of(500, 1.0, 5e-4, 0.0, seed);
+        clast_decomposition r = decompose(&cloud, "box:0,0,0,1,1,1", 4e-6);
+        if (r.cells.n == 1 && r.estimator == CLAST_ESTIMATOR_CELLS && !r.resolved) {
+            CHECK_REL(r.events_low, r.events_by_cells.low, 1e-12);
+        }
+        clast_decomposition_free(&r);
+        clast_cloud_free(&cloud);
+    }
+}
+
 /* A tenth of the points in pairs is found as well. */
 static void few_close_pairs_lie_below_the_cells(void **state)
 {
@@ -107,6 +123,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(close_pairs_lie_below_the_cells),
+        cmocka_unit_test(close_pairs_have_one_bound),
         cmocka_unit_test(few_close_pairs_lie_below_the_cells),
         cmocka_unit_test(even_points_have_none),
         cmocka_unit_test(resolved_structure_lies_in_the_cells),
