@@ -23,7 +23,7 @@ void cli_range_json(json_t *out, const clast_range_report *r)
         return;
     }
     char words[512];
-    const clast_kernel_range *row = &clast_kernel_range_table()[use->row];
+    const clast_kernel_range *row = clast_kernel_range_row(use->row);
     json_t *o = json_object();
     cli_json_text(o, "words", clast_range_words(use, sizeof words, words));
     cli_json_text(o, "owner", row->owner);
@@ -59,17 +59,17 @@ void cli_range_warn(const cli_common *common, const clast_range_report *r)
 
 size_t cli_range_table(char *words, size_t size)
 {
-    const clast_kernel_range *row = clast_kernel_range_table();
     size_t used = 0;
     for (int k = 0; k < CLAST_N_KERNEL_RANGE && used < size; ++k) {
+        const clast_kernel_range *row = clast_kernel_range_row(k);
         char range[64];
-        if (isinf(row[k].high)) {
-            (void)snprintf(range, sizeof range, ">= %.3g", row[k].low);
+        if (isinf(row->high)) {
+            (void)snprintf(range, sizeof range, ">= %.3g", row->low);
         } else {
-            (void)snprintf(range, sizeof range, "<= %.3g", row[k].high);
+            (void)snprintf(range, sizeof range, "<= %.3g", row->high);
         }
-        const int n = snprintf(words + used, size - used, "%-26s %s %s   [%s]\n", row[k].owner,
-                               row[k].quantity, range, row[k].source);
+        const int n = snprintf(words + used, size - used, "%-26s %s %s   [%s]\n", row->owner,
+                               row->quantity, range, row->source);
         used += n > 0 ? (size_t)n : 0;
     }
     return used;

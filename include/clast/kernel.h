@@ -71,7 +71,22 @@ typedef struct clast_kernel_info {
     bool is_model;       ///< a function of i and j alone, in any dimension
 } clast_kernel_info;
 
-enum { CLAST_N_KERNEL = 12 };
+/// Numbers of the kernels; bit k of a mask is kernel k.
+typedef enum {
+    CLAST_KERNEL_CONSTANT,
+    CLAST_KERNEL_ADDITIVE,
+    CLAST_KERNEL_PRODUCT,
+    CLAST_KERNEL_BROWNIAN,
+    CLAST_KERNEL_BROWNIAN_FREE,
+    CLAST_KERNEL_BROWNIAN_TRANSITION,
+    CLAST_KERNEL_SHEAR_LAMINAR,
+    CLAST_KERNEL_SHEAR_TURBULENT,
+    CLAST_KERNEL_SETTLING,
+    CLAST_KERNEL_INERTIAL,
+    CLAST_KERNEL_BALLISTIC,
+    CLAST_KERNEL_CLOUD_TURBULENCE,
+    CLAST_N_KERNEL
+} clast_kernel;
 
 /// The table, [CLAST_N_KERNEL]; bit k of a kernel mask stands for row k.
 CLAST_API const clast_kernel_info *clast_kernel_table(void);

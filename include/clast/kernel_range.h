@@ -17,8 +17,8 @@ typedef struct clast_kernel_range {
 
 enum { CLAST_N_KERNEL_RANGE = 23 };
 
-/// The table, [CLAST_N_KERNEL_RANGE].
-CLAST_API const clast_kernel_range *clast_kernel_range_table(void);
+/// Row k of the table; NULL where there is none.
+CLAST_API const clast_kernel_range *clast_kernel_range_row(int32_t k);
 
 /// What was held against the table: particles, collisions or rates.
 typedef struct clast_range_use {

@@ -123,41 +123,64 @@ static double ballistic(const clast_medium *m, const clast_collider *a, const cl
 #define FALLS      (SOLID | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY | CLAST_NEEDS_SETTLING)
 #define TURBULENCE CLAST_MECHANISM_TURBULENCE
 static const clast_kernel_info info[CLAST_N_KERNEL] = {
-    {"constant", "K", "Smoluchowski 1916", 0, 0, true},
-    {"additive", "b (i + j)", "Golovin 1963", 0, 0, true},
-    {"product", "c i j", "McLeod 1962", 0, 0, true},
-    {"brownian",
-     "4 pi (D1 + D2) (a1 + a2), D = k T C / (6 pi mu a), C slip (1 without a mean free path)",
-     "Smoluchowski 1917; slip Davies 1945",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, CLAST_MECHANISM_BROWNIAN,
-     false},
-    {"brownian_free", "(a1 + a2)^2 sqrt(8 pi k T (1/m1 + 1/m2))", "kinetic theory",
-     SOLID | CLAST_NEEDS_TEMPERATURE, CLAST_MECHANISM_BROWNIAN, false},
-    {"brownian_transition",
-     "brownian (1 + Kn) / (1 + 2 Kn (1 + Kn)), Kn = brownian / (2 brownian_free)", "Dahneke 1983",
-     SOLID | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY, CLAST_MECHANISM_BROWNIAN, false},
-    {"shear_laminar", "4/3 G (a1 + a2)^3", "Smoluchowski 1917",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_SHEAR, CLAST_MECHANISM_SHEAR, false},
-    {"shear_turbulent", "sqrt(8 pi/15) sqrt(eps/nu) (a1 + a2)^3", "Saffman and Turner 1956",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY,
-     TURBULENCE, false},
-    {"settling",
-     "pi (a1 + a2)^2 |w1 - w2| E, w by drag and slip, E --efficiency or by St and a1/a2",
-     "Clift and Gauvin 1971, Davies 1945; E Langmuir 1948", FALLS, CLAST_MECHANISM_SETTLING, false},
-    {"inertial",
-     "sqrt(8 pi) (a1 + a2)^2 sqrt(u1'^2 + u2'^2), u'^2 own or U^2 / (1 + 1.5 tau eps / U^2)",
-     "Abrahamson 1975", SOLID | CLAST_NEEDS_SPEED_RMS | CLAST_NEEDS_VISCOSITY, TURBULENCE, false},
-    {"ballistic", "pi (a1 + a2)^2 |u1 - u2|", "O'Rourke 1981",
-     CLAST_NEEDS_RADIUS | CLAST_NEEDS_VELOCITY,
-     CLAST_MECHANISM_SHEAR | TURBULENCE | CLAST_MECHANISM_SETTLING, false},
-    {"cloud_turbulence", "2 pi (a1 + a2)^2 <|w_r|> g12", "Ayala, Rosa and Wang 2008",
-     FALLS | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_SPEED_RMS, TURBULENCE | CLAST_MECHANISM_SETTLING,
-     false}};
+    [CLAST_KERNEL_CONSTANT] = {"constant", "K", "Smoluchowski 1916", 0, 0, true},
+    [CLAST_KERNEL_ADDITIVE] = {"additive", "b (i + j)", "Golovin 1963", 0, 0, true},
+    [CLAST_KERNEL_PRODUCT] = {"product", "c i j", "McLeod 1962", 0, 0, true},
+    [CLAST_KERNEL_BROWNIAN] =
+        {"brownian",
+         "4 pi (D1 + D2) (a1 + a2), D = k T C / (6 pi mu a), C slip (1 without a mean free path)",
+         "Smoluchowski 1917; slip Davies 1945",
+         CLAST_NEEDS_RADIUS | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY,
+         CLAST_MECHANISM_BROWNIAN, false},
+    [CLAST_KERNEL_BROWNIAN_FREE] = {"brownian_free", "(a1 + a2)^2 sqrt(8 pi k T (1/m1 + 1/m2))",
+                                    "kinetic theory", SOLID | CLAST_NEEDS_TEMPERATURE,
+                                    CLAST_MECHANISM_BROWNIAN, false},
+    [CLAST_KERNEL_BROWNIAN_TRANSITION] =
+        {"brownian_transition",
+         "brownian (1 + Kn) / (1 + 2 Kn (1 + Kn)), Kn = brownian / (2 brownian_free)",
+         "Dahneke 1983", SOLID | CLAST_NEEDS_TEMPERATURE | CLAST_NEEDS_VISCOSITY,
+         CLAST_MECHANISM_BROWNIAN, false},
+    [CLAST_KERNEL_SHEAR_LAMINAR] = {"shear_laminar", "4/3 G (a1 + a2)^3", "Smoluchowski 1917",
+                                    CLAST_NEEDS_RADIUS | CLAST_NEEDS_SHEAR, CLAST_MECHANISM_SHEAR,
+                                    false},
+    [CLAST_KERNEL_SHEAR_TURBULENT] = {"shear_turbulent", "sqrt(8 pi/15) sqrt(eps/nu) (a1 + a2)^3",
+                                      "Saffman and Turner 1956",
+                                      CLAST_NEEDS_RADIUS | CLAST_NEEDS_DISSIPATION |
+                                          CLAST_NEEDS_VISCOSITY | CLAST_NEEDS_DENSITY,
+                                      TURBULENCE, false},
+    [CLAST_KERNEL_SETTLING] =
+        {"settling",
+         "pi (a1 + a2)^2 |w1 - w2| E, w by drag and slip, E --efficiency or by St and a1/a2",
+         "Clift and Gauvin 1971, Davies 1945; E Langmuir 1948", FALLS, CLAST_MECHANISM_SETTLING,
+         false},
+    [CLAST_KERNEL_INERTIAL] =
+        {"inertial",
+         "sqrt(8 pi) (a1 + a2)^2 sqrt(u1'^2 + u2'^2), u'^2 own or U^2 / (1 + 1.5 tau eps / U^2)",
+         "Abrahamson 1975", SOLID | CLAST_NEEDS_SPEED_RMS | CLAST_NEEDS_VISCOSITY, TURBULENCE,
+         false},
+    [CLAST_KERNEL_BALLISTIC] = {"ballistic", "pi (a1 + a2)^2 |u1 - u2|", "O'Rourke 1981",
+                                CLAST_NEEDS_RADIUS | CLAST_NEEDS_VELOCITY,
+                                CLAST_MECHANISM_SHEAR | TURBULENCE | CLAST_MECHANISM_SETTLING,
+                                false},
+    [CLAST_KERNEL_CLOUD_TURBULENCE] = {"cloud_turbulence", "2 pi (a1 + a2)^2 <|w_r|> g12",
+                                       "Ayala, Rosa and Wang 2008",
+                                       FALLS | CLAST_NEEDS_DISSIPATION | CLAST_NEEDS_SPEED_RMS,
+                                       TURBULENCE | CLAST_MECHANISM_SETTLING, false}};
 
 static const rate value[CLAST_N_KERNEL] = {
-    constant,      additive,        product,  brownian, brownian_free, brownian_transition,
-    shear_laminar, shear_turbulent, settling, inertial, ballistic,     clx_turbulent_kernel};
-enum { SETTLING = 8, CLOUD_TURBULENCE = 11 };
+    [CLAST_KERNEL_CONSTANT] = constant,
+    [CLAST_KERNEL_ADDITIVE] = additive,
+    [CLAST_KERNEL_PRODUCT] = product,
+    [CLAST_KERNEL_BROWNIAN] = brownian,
+    [CLAST_KERNEL_BROWNIAN_FREE] = brownian_free,
+    [CLAST_KERNEL_BROWNIAN_TRANSITION] = brownian_transition,
+    [CLAST_KERNEL_SHEAR_LAMINAR] = shear_laminar,
+    [CLAST_KERNEL_SHEAR_TURBULENT] = shear_turbulent,
+    [CLAST_KERNEL_SETTLING] = settling,
+    [CLAST_KERNEL_INERTIAL] = inertial,
+    [CLAST_KERNEL_BALLISTIC] = ballistic,
+    [CLAST_KERNEL_CLOUD_TURBULENCE] = clx_turbulent_kernel,
+};
 
 const clast_kernel_info *clast_kernel_table(void)
 {
@@ -179,10 +202,6 @@ clast_status clast_kernel_parse(const char *text, uint32_t *mask)
     CLX_ARGUMENTS(text, mask);
     uint32_t made = 0;
     const char *at = text;
-    if (text == NULL || mask == NULL) {
-        return clx_fail(CLAST_E_ARGUMENT, "clast_kernel_parse: %s is NULL",
-                        text == NULL ? "text" : "mask");
-    }
     for (;;) {
         const size_t length = strcspn(at, "+,");
         const int32_t k = find(at, length);
@@ -260,7 +279,7 @@ clast_status clast_kernel_check(uint32_t mask, const clast_medium *m)
             }
         }
     }
-    if ((mask >> CLOUD_TURBULENCE & 1U) != 0 &&
+    if ((mask >> CLAST_KERNEL_CLOUD_TURBULENCE & 1U) != 0 &&
         !(m->speed_rms > 0.0 && m->gravity > 0.0 && m->particle_density > m->density &&
           clx_turbulent_kernel_fits(m))) {
         return clx_fail(CLAST_E_CONFIG,
@@ -303,10 +322,10 @@ double clast_impact_speed(uint32_t mask, const clast_medium *medium, const clast
         if ((mask >> k & 1U) == 0 || info[k].is_model) {
             continue;
         }
-        sum += k == SETTLING
+        sum += k == CLAST_KERNEL_SETTLING
                    ? fabs(clx_settling_speed_of(medium, a) - clx_settling_speed_of(medium, b))
-               : k == CLOUD_TURBULENCE ? clx_turbulent_speed(medium, a, b)
-                                       : value[k](medium, a, b) / section;
+               : k == CLAST_KERNEL_CLOUD_TURBULENCE ? clx_turbulent_speed(medium, a, b)
+                                                    : value[k](medium, a, b) / section;
     }
     return sum;
 }

@@ -198,96 +198,142 @@ static double tabor(const seen *s)
 
 #define INSTEAD_SLIP "give --mean-free-path (air at 20 C: 66nm)"
 #define SLIP         "mean free path over radius where none is given"
-static const clast_kernel_range text[CLAST_N_KERNEL_RANGE] = {
-    {"kernel brownian", "mean free path over radius", 0.0, 0.1, "Seinfeld and Pandis 2016",
-     "take brownian_transition"},
-    {"kernel brownian", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
-    {"kernel brownian_free", "mean free path over radius", 10.0, (double)INFINITY,
-     "Seinfeld and Pandis 2016", "take brownian_transition, with --mean-free-path"},
-    {"kernel brownian_transition", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
-    {"kernel shear_laminar", "shear Reynolds number G (a1 + a2)^2 / nu", 0.0, 1.0,
-     "Smoluchowski 1917: creeping flow", "take smaller particles or a lower shear"},
-    {"kernel shear_laminar", "Stokes number tau G", 0.0, 0.1, "Saffman and Turner 1956",
-     "take lighter particles: these cross the streamlines"},
-    {"kernel shear_turbulent", "a1 + a2 over Kolmogorov's length", 0.0, 1.0,
-     "Saffman and Turner 1956", "take inertial, if the particles are slow to respond"},
-    {"kernel shear_turbulent", "Stokes number tau over Kolmogorov's time", 0.0, 0.1,
-     "Saffman and Turner 1956", "take cloud_turbulence or inertial"},
-    {"kernel settling", "Reynolds number of settling", 0.0, 3e5, "Clift and Gauvin 1971",
-     "there is no law for such bodies"},
-    {"kernel settling", "Reynolds number of settling by Stokes' law", 0.0, 0.1,
-     "Clift, Grace and Weber 1978", "take --settling-law standard"},
-    {"kernel settling", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
-    {"kernel settling", "ratio of radii of the efficiency law", 0.0, 0.5, "Langmuir 1948",
-     "give a collision efficiency of your own with --efficiency"},
-    {"kernel inertial", "response time over the integral time, tau eps / U^2", 5.0 / 6.0,
-     (double)INFINITY, "Abrahamson 1975", "take shear_turbulent or cloud_turbulence"},
-    {"kernel inertial", "Reynolds number 2 a U / nu of Stokes' response time", 0.0, 1.0,
-     "Abrahamson 1975", "give a --speed-rms-column"},
-    {"kernel ballistic", "Stokes number of the approach", 10.0, (double)INFINITY,
-     "Langmuir 1948: nine of ten meet", "straight paths are for heavier or faster particles"},
-    {"kernel cloud_turbulence", "a1 + a2 over Kolmogorov's length", 0.0, 1.0,
-     "Ayala, Rosa and Wang 2008", "there is no kernel for such bodies"},
-    {"kernel cloud_turbulence", "smaller radius [m]", 1e-5, (double)INFINITY,
-     "Ayala, Rosa, Wang and Grabowski 2008", "take shear_turbulent+settling"},
-    {"kernel cloud_turbulence", "larger radius [m]", 0.0, 6e-5,
-     "Ayala, Rosa, Wang and Grabowski 2008", "take settling"},
-    {"kernel cloud_turbulence", "dissipation [m^2/s^3]", 0.0, 0.04,
-     "Ayala, Rosa, Wang and Grabowski 2008", "there is no kernel for such a flow"},
-    {"kernel cloud_turbulence", "density over the fluid's", 100.0, (double)INFINITY,
-     "Ayala, Rosa and Wang 2008", "take shear_turbulent+settling"},
-    {"sticking viscous", "film over the reduced radius", 0.0, 0.1, "Ennis et al. 1991",
-     "lubrication is for thinner films"},
-    {"sticking liquid", "impact Stokes number", 0.0, 100.0,
-     "fit of Costa et al. 2010; the limit is ours",
-     "hardly any of these stick: take settling and shear as they are with --alpha"},
-    {"sticking contact", "Tabor's parameter", 5.0, (double)INFINITY, "Johnson and Greenwood 1997",
-     "these are too hard or too small for JKR contacts"}};
 
-enum { OF_SETTLING = 8, STICKING = CLAST_N_KERNEL };
+/// The kernel's number, or this and the law of a sticking.
+enum { STICKING = CLAST_N_KERNEL };
 
-/// The same rows: the kernel's number (STICKING + law of a sticking), whether two unlike particles
-/// are needed, whether it concerns settling speeds.
-static const struct {
-    int32_t owner;
-    bool is_pair, is_speed;
-    double (*value)(const seen *s);
-} row[CLAST_N_KERNEL_RANGE] = {{3, false, false, knudsen_high},
-                               {3, false, false, knudsen_missing},
-                               {4, false, false, knudsen_low},
-                               {5, false, false, knudsen_missing},
-                               {6, false, false, shear_reynolds},
-                               {6, false, false, shear_stokes},
-                               {7, false, false, kolmogorov_ratio},
-                               {7, false, false, kolmogorov_stokes},
-                               {OF_SETTLING, false, true, settling_reynolds},
-                               {OF_SETTLING, false, true, stokes_reynolds},
-                               {OF_SETTLING, false, true, knudsen_missing},
-                               {OF_SETTLING, true, false, ratio},
-                               {9, false, false, integral_stokes},
-                               {9, false, false, fluctuation_reynolds},
-                               {10, true, false, ballistic_stokes},
-                               {11, false, false, kolmogorov_ratio},
-                               {11, false, false, least_radius},
-                               {11, false, false, most_radius},
-                               {11, false, false, dissipation},
-                               {11, false, false, density_ratio},
-                               {STICKING + CLAST_STICKING_VISCOUS, false, false, film_ratio},
-                               {STICKING + CLAST_STICKING_LIQUID, false, false, impact_stokes},
-                               {STICKING + CLAST_STICKING_CONTACT, false, false, tabor}};
-enum { STANDARD_ROW = 8, STOKES_ROW = 9, RATIO_ROW = 11 };
-
-const clast_kernel_range *clast_kernel_range_table(void)
+static bool by_standard_drag(const clast_collide_config *c)
 {
-    return text;
+    return c->medium.settling_law == CLAST_SETTLING_STANDARD;
 }
 
-/// Whether what the configuration chose of settling has the row.
+static bool by_stokes_drag(const clast_collide_config *c)
+{
+    return c->medium.settling_law == CLAST_SETTLING_STOKES;
+}
+
+static bool by_efficiency_law(const clast_collide_config *c)
+{
+    return !(c->medium.efficiency > 0.0);
+}
+
+static const struct {
+    clast_kernel_range text;
+    int32_t owner;
+    double (*value)(const seen *s);
+    bool is_pair;                                          ///< it takes two unlike particles
+    bool is_speed;                                         ///< it is of settling speeds
+    bool (*is_chosen)(const clast_collide_config *config); ///< NULL: always
+} row[CLAST_N_KERNEL_RANGE] = {
+    {.text = {"kernel brownian", "mean free path over radius", 0.0, 0.1, "Seinfeld and Pandis 2016",
+              "take brownian_transition"},
+     .owner = CLAST_KERNEL_BROWNIAN,
+     .value = knudsen_high},
+    {.text = {"kernel brownian", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
+     .owner = CLAST_KERNEL_BROWNIAN,
+     .value = knudsen_missing},
+    {.text = {"kernel brownian_free", "mean free path over radius", 10.0, (double)INFINITY,
+              "Seinfeld and Pandis 2016", "take brownian_transition, with --mean-free-path"},
+     .owner = CLAST_KERNEL_BROWNIAN_FREE,
+     .value = knudsen_low},
+    {.text = {"kernel brownian_transition", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
+     .owner = CLAST_KERNEL_BROWNIAN_TRANSITION,
+     .value = knudsen_missing},
+    {.text = {"kernel shear_laminar", "shear Reynolds number G (a1 + a2)^2 / nu", 0.0, 1.0,
+              "Smoluchowski 1917: creeping flow", "take smaller particles or a lower shear"},
+     .owner = CLAST_KERNEL_SHEAR_LAMINAR,
+     .value = shear_reynolds},
+    {.text = {"kernel shear_laminar", "Stokes number tau G", 0.0, 0.1, "Saffman and Turner 1956",
+              "take lighter particles: these cross the streamlines"},
+     .owner = CLAST_KERNEL_SHEAR_LAMINAR,
+     .value = shear_stokes},
+    {.text = {"kernel shear_turbulent", "a1 + a2 over Kolmogorov's length", 0.0, 1.0,
+              "Saffman and Turner 1956", "take inertial, if the particles are slow to respond"},
+     .owner = CLAST_KERNEL_SHEAR_TURBULENT,
+     .value = kolmogorov_ratio},
+    {.text = {"kernel shear_turbulent", "Stokes number tau over Kolmogorov's time", 0.0, 0.1,
+              "Saffman and Turner 1956", "take cloud_turbulence or inertial"},
+     .owner = CLAST_KERNEL_SHEAR_TURBULENT,
+     .value = kolmogorov_stokes},
+    {.text = {"kernel settling", "Reynolds number of settling", 0.0, 3e5, "Clift and Gauvin 1971",
+              "there is no law for such bodies"},
+     .owner = CLAST_KERNEL_SETTLING,
+     .value = settling_reynolds,
+     .is_speed = true,
+     .is_chosen = by_standard_drag},
+    {.text = {"kernel settling", "Reynolds number of settling by Stokes' law", 0.0, 0.1,
+              "Clift, Grace and Weber 1978", "take --settling-law standard"},
+     .owner = CLAST_KERNEL_SETTLING,
+     .value = stokes_reynolds,
+     .is_speed = true,
+     .is_chosen = by_stokes_drag},
+    {.text = {"kernel settling", SLIP, 0.0, 0.01, "Davies 1945", INSTEAD_SLIP},
+     .owner = CLAST_KERNEL_SETTLING,
+     .value = knudsen_missing,
+     .is_speed = true},
+    {.text = {"kernel settling", "ratio of radii of the efficiency law", 0.0, 0.5, "Langmuir 1948",
+              "give a collision efficiency of your own with --efficiency"},
+     .owner = CLAST_KERNEL_SETTLING,
+     .value = ratio,
+     .is_pair = true,
+     .is_chosen = by_efficiency_law},
+    {.text = {"kernel inertial", "response time over the integral time, tau eps / U^2", 5.0 / 6.0,
+              (double)INFINITY, "Abrahamson 1975", "take shear_turbulent or cloud_turbulence"},
+     .owner = CLAST_KERNEL_INERTIAL,
+     .value = integral_stokes},
+    {.text = {"kernel inertial", "Reynolds number 2 a U / nu of Stokes' response time", 0.0, 1.0,
+              "Abrahamson 1975", "give a --speed-rms-column"},
+     .owner = CLAST_KERNEL_INERTIAL,
+     .value = fluctuation_reynolds},
+    {.text = {"kernel ballistic", "Stokes number of the approach", 10.0, (double)INFINITY,
+              "Langmuir 1948: nine of ten meet",
+              "straight paths are for heavier or faster particles"},
+     .owner = CLAST_KERNEL_BALLISTIC,
+     .value = ballistic_stokes,
+     .is_pair = true},
+    {.text = {"kernel cloud_turbulence", "a1 + a2 over Kolmogorov's length", 0.0, 1.0,
+              "Ayala, Rosa and Wang 2008", "there is no kernel for such bodies"},
+     .owner = CLAST_KERNEL_CLOUD_TURBULENCE,
+     .value = kolmogorov_ratio},
+    {.text = {"kernel cloud_turbulence", "smaller radius [m]", 1e-5, (double)INFINITY,
+              "Ayala, Rosa, Wang and Grabowski 2008", "take shear_turbulent+settling"},
+     .owner = CLAST_KERNEL_CLOUD_TURBULENCE,
+     .value = least_radius},
+    {.text = {"kernel cloud_turbulence", "larger radius [m]", 0.0, 6e-5,
+              "Ayala, Rosa, Wang and Grabowski 2008", "take settling"},
+     .owner = CLAST_KERNEL_CLOUD_TURBULENCE,
+     .value = most_radius},
+    {.text = {"kernel cloud_turbulence", "dissipation [m^2/s^3]", 0.0, 0.04,
+              "Ayala, Rosa, Wang and Grabowski 2008", "there is no kernel for such a flow"},
+     .owner = CLAST_KERNEL_CLOUD_TURBULENCE,
+     .value = dissipation},
+    {.text = {"kernel cloud_turbulence", "density over the fluid's", 100.0, (double)INFINITY,
+              "Ayala, Rosa and Wang 2008", "take shear_turbulent+settling"},
+     .owner = CLAST_KERNEL_CLOUD_TURBULENCE,
+     .value = density_ratio},
+    {.text = {"sticking viscous", "film over the reduced radius", 0.0, 0.1, "Ennis et al. 1991",
+              "lubrication is for thinner films"},
+     .owner = STICKING + CLAST_STICKING_VISCOUS,
+     .value = film_ratio},
+    {.text = {"sticking liquid", "impact Stokes number", 0.0, 100.0,
+              "fit of Costa et al. 2010; the limit is ours",
+              "hardly any of these stick: take settling and shear as they are with --alpha"},
+     .owner = STICKING + CLAST_STICKING_LIQUID,
+     .value = impact_stokes},
+    {.text = {"sticking contact", "Tabor's parameter", 5.0, (double)INFINITY,
+              "Johnson and Greenwood 1997", "these are too hard or too small for JKR contacts"},
+     .owner = STICKING + CLAST_STICKING_CONTACT,
+     .value = tabor},
+};
+
+const clast_kernel_range *clast_kernel_range_row(int32_t k)
+{
+    return k >= 0 && k < CLAST_N_KERNEL_RANGE ? &row[k].text : NULL;
+}
+
 static bool is_chosen(const clast_collide_config *c, int k)
 {
-    return (k != STANDARD_ROW || c->medium.settling_law == CLAST_SETTLING_STANDARD) &&
-           (k != STOKES_ROW || c->medium.settling_law == CLAST_SETTLING_STOKES) &&
-           (k != RATIO_ROW || !(c->medium.efficiency > 0.0));
+    return row[k].is_chosen == NULL || row[k].is_chosen(c);
 }
 
 uint32_t clx_ranges_of(const clast_collide_config *c)
@@ -329,8 +375,8 @@ void clx_range_add(uint32_t rows, const clast_collide_config *config, const clas
             continue;
         }
         const double value = row[k].value(&s);
-        if (value < text[k].low || value > text[k].high) { // not where it is NaN
-            const double excess = fmax(value / text[k].high, text[k].low / value);
+        if (value < row[k].text.low || value > row[k].text.high) { // not where it is NaN
+            const double excess = fmax(value / row[k].text.high, row[k].text.low / value);
             is_outside = true;
             if (!(excess <= use->excess)) {
                 use->row = k;
@@ -390,7 +436,7 @@ const char *clast_range_words(const clast_range_use *use, size_t size, char *wor
     }
     words[0] = '\0';
     if (use->outside > 0.0 && use->row >= 0 && use->row < CLAST_N_KERNEL_RANGE) {
-        const clast_kernel_range *r = &text[use->row];
+        const clast_kernel_range *r = &row[use->row].text;
         const bool is_high = use->value > r->high;
         (void)clx_number_print(words, size,
                                "%s: %s is %.3g at the farthest, where it holds %s %.3g "
@@ -413,7 +459,8 @@ clast_status clast_range_check(const clast_range_use *use, const char *of)
                     "%s; %.3g %% %s lie beyond: %s, or take it as it is with "
                     "--out-of-range extrapolate",
                     words, 100.0 * use->outside / use->n, of,
-                    use->row >= 0 && use->row < CLAST_N_KERNEL_RANGE ? text[use->row].instead : "");
+                    use->row >= 0 && use->row < CLAST_N_KERNEL_RANGE ? row[use->row].text.instead
+                                                                     : "");
 }
 
 clast_impact clx_impact_of(const clast_collide_config *c, const clast_medium *medium,
