@@ -205,6 +205,20 @@ static ladder_cell part_of(const ladder_walk *w, const ladder_cell *cell, int64_
     return made;
 }
 
+/// The next part of an ordered cell, which begins at *begin; false after the last.
+static bool next_part(const ladder_walk *w, const ladder_cell *cell, int64_t *begin,
+                      ladder_cell *part)
+{
+    const int shift = w->ladder->d * (CLX_MORTON_LEVELS - cell->depth - 1);
+    if (*begin >= cell->end) {
+        return false;
+    }
+    const int64_t end = part_end(w, *begin, cell->end, shift);
+    *part = part_of(w, cell, *begin, end, shift);
+    *begin = end;
+    return true;
+}
+
 /// Counts the pairs of all cells that hold any.
 static void tally(ladder_walk *w, ladder_cell *cell)
 {
@@ -218,11 +232,9 @@ static void tally(ladder_walk *w, ladder_cell *cell)
     if (cell->depth >= cell->ordered) {
         order_points(w, cell);
     }
-    const int shift = w->ladder->d * (CLX_MORTON_LEVELS - cell->depth - 1);
-    for (int64_t begin = cell->begin, end = 0; begin < cell->end; begin = end) {
-        end = part_end(w, begin, cell->end, shift);
-        if (end - begin > 1) {
-            ladder_cell part = part_of(w, cell, begin, end, shift);
+    ladder_cell part;
+    for (int64_t begin = cell->begin; next_part(w, cell, &begin, &part);) {
+        if (part.end - part.begin > 1) {
             tally(w, &part);
         }
     }
@@ -241,14 +253,12 @@ static void visit(ladder_walk *w, ladder_cell *cell)
     if (cell->depth >= cell->ordered) {
         order_points(w, cell);
     }
-    const int shift = w->ladder->d * (CLX_MORTON_LEVELS - cell->depth - 1);
-    for (int64_t begin = cell->begin, end = 0; begin < cell->end; begin = end) {
-        end = part_end(w, begin, cell->end, shift);
-        if (end - begin > 1) {
-            ladder_cell part = part_of(w, cell, begin, end, shift);
+    ladder_cell part;
+    for (int64_t begin = cell->begin; next_part(w, cell, &begin, &part);) {
+        if (part.end - part.begin > 1) {
             visit(w, &part);
         } else {
-            add_met(w, begin, end, r);
+            add_met(w, part.begin, part.end, r);
         }
     }
 }
