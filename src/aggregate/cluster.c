@@ -209,13 +209,7 @@ static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_la
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     const int32_t tries = clx_search_tries(a->config);
-    if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
-        clx_walk_run(search, tries, landing);
-    } else {
-        do {
-            CLX_TRY(clx_search_run(search, landing));
-        } while (!landing->found && ++search->aim.attempt < tries);
-    }
+    CLX_TRY(clx_walk_or_search(search, tries, landing));
     CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "merger %d: all of %d %s miss the larger cluster; raise max_tries", a->n_placed + 1,
               tries, clx_search_paths(search));

@@ -115,14 +115,7 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
     const double begun = clx_clock();
     const double worked = clx_clock_thread();
     const int32_t tries = clx_search_tries(a->config);
-    if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
-        clx_walk_run(search, tries, landing);
-    } else {
-        do {
-            CLX_TRY(clx_search_run(search, landing));
-            search->beside = (clx_beside){0};
-        } while (!landing->found && ++search->aim.attempt < tries);
-    }
+    CLX_TRY(clx_walk_or_search(search, tries, landing));
     CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "particle %d of %d: all of %d %s miss the aggregate; raise max_tries",
               a->n_placed + 1, a->n_particle, tries, clx_search_paths(search));

@@ -11,6 +11,7 @@
 // Nothing turns on its way: each walk has one orientation, even over SO(3).
 #include "aggregate/walk.h"
 
+#include "base/status.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include <math.h>
@@ -140,4 +141,19 @@ void clx_walk_run(clx_search *search, int32_t tries, clx_landing *landing)
             }
         }
     }
+}
+
+clast_status clx_walk_or_search(clx_search *search, int32_t tries, clx_landing *landing)
+{
+    clast_status status = CLAST_OK;
+    if (search->approach == CLAST_APPROACH_DIFFUSIVE) {
+        clx_walk_run(search, tries, landing);
+        return CLAST_OK;
+    }
+    do {
+        CLX_TRY(clx_search_run(search, landing));
+        search->beside = (clx_beside){0}; // done by the first search
+    } while (!landing->found && ++search->aim.attempt < tries);
+done:
+    return status;
 }

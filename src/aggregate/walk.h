@@ -7,3 +7,9 @@
 ///
 /// Follows from (seed, particle) alone. @note no allocation, one thread
 void clx_walk_run(clx_search *search, int32_t tries, clx_landing *landing);
+
+/// The landing by the search's approach: a walk, or the best trial of the first axis of which some
+/// ray does not miss.
+///
+/// @return CLAST_E_MEMORY
+clast_status clx_walk_or_search(clx_search *search, int32_t tries, clx_landing *landing);
