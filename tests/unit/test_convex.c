@@ -210,7 +210,7 @@ static void a_rolling_hull_keeps_its_deepest_vertex(void **state)
     clx_hull_core *core = support_gravel_core(30, 3, 152);
     const clx_convex hull = clx_convex_hull(core, 1.0);
     clx_warm_start warm_start = {0};
-    int n_kept = 0;
+    int n_warm = 0;
     for (int k = 0; k < STEPS; ++k) {
         const double half = 0.5 * 1e-3 * k; // five radians in all, about an axis askew
         const double q[4] = {cos(half), 0.6 * sin(half), 0.48 * sin(half), 0.64 * sin(half)};
@@ -221,9 +221,9 @@ static void a_rolling_hull_keeps_its_deepest_vertex(void **state)
         const float seen = warm_start.seen[0][0];
         clx_plane_contact(&body, floor, &warm_start, &c);
         CHECK_ABS(c.gap, lowest(core, turn[0]), 1e-15);
-        n_kept += warm_start.seen[0][0] == seen ? 1 : 0;
+        n_warm += warm_start.seen[0][0] == seen ? 1 : 0;
     }
-    assert_true(n_kept > STEPS / 2); // else nothing was answered from warm_start
+    assert_true(n_warm > STEPS / 2); // else nothing was answered from warm_start
     clx_hull_core_destroy(core);
 }
 
