@@ -219,11 +219,11 @@ static bool by_efficiency_law(const clast_collide_config *c)
 
 static const struct {
     clast_kernel_range text;
-    int32_t owner;
     double (*value)(const seen *s);
-    bool is_pair;                                          ///< it takes two unlike particles
-    bool is_speed;                                         ///< it is of settling speeds
     bool (*is_chosen)(const clast_collide_config *config); ///< NULL: always
+    int32_t owner;
+    bool is_pair;  ///< it takes two unlike particles
+    bool is_speed; ///< it is of settling speeds
 } row[CLAST_N_KERNEL_RANGE] = {
     {.text = {"kernel brownian", "mean free path over radius", 0.0, 0.1, "Seinfeld and Pandis 2016",
               "take brownian_transition"},
