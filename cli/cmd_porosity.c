@@ -431,7 +431,9 @@ static void print_walls(const porosity_config *config, const clast_bed *bed, con
         (void)printf("side walls          %.4g grain sizes (of %.4g %s, mean by volume) from the "
                      "axis%s\n",
                      f->walls.ratio, f->walls.size, unit,
-                     config->core > 0.0 ? "" : ", which loosen the bed; --core 2 leaves them out");
+                     config->core > 0.0     ? ""
+                     : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
+                                            : ", which loosen the bed");
     }
     if (config->core > 0.0) {
         (void)printf(
