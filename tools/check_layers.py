@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when an include points up, or sideways into another folder of the same layer (STYLE section 1).
-
-A public header belongs to the highest layer that defines one of its functions. Only io, plot, render, base/file.c and
+"""Fails when an include or a call of a public function points up, or sideways into another folder of the same layer
+(STYLE section 1). A public header declares functions of several layers; who calls them is what counts. Only io, plot, render, base/file.c and
 base/lock.c may open files. Only base/number*.c may read or print a double by the C library, which obeys the host's locale.
 """
 import pathlib
@@ -22,23 +21,17 @@ def strip_comments(text):
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
 
 
-def header_owners():
-    """Public header name -> folder that implements it."""
+def definers():
+    """Public function -> folder that defines it."""
     defined = {}
     for path in ROOT.glob("src/*/*.c"):
         for name in re.findall(r"^[a-z_][\w \*]*?\b(clast_\w+)\(", strip_comments(path.read_text()), flags=re.M):
             defined.setdefault(name, path.parent.name)
-    owners = {}
-    for path in ROOT.glob("include/clast/*.h"):
-        text = strip_comments(path.read_text())
-        folders = {defined[n] for n in re.findall(r"\b(clast_\w+)\s*\(", text) if n in defined}
-        if folders:
-            owners[path.name] = max(folders, key=lambda f: LAYER[f])
-    return owners
+    return defined
 
 
 def problems():
-    owners = header_owners()
+    defined = definers()
     for path in sorted(ROOT.glob("src/*/*.[ch]")):
         folder = path.parent.name
         if folder not in LAYER:
@@ -46,8 +39,7 @@ def problems():
             continue
         text = strip_comments(path.read_text())
         for name in re.findall(r'#include\s+[<"]([^>"]+)[>"]', text):
-            parts = name.split("/")
-            target = owners.get(parts[1]) if parts[0] == "clast" and len(parts) == 2 else parts[0]
+            target = name.split("/")[0]
             if name == "mpi.h" and folder != "mpi":
                 yield f"{path.relative_to(ROOT)}: includes <mpi.h>; only src/mpi does"
             if target not in LAYER or target == folder:
@@ -55,6 +47,10 @@ def problems():
             if LAYER[target] >= LAYER[folder]:
                 yield (f"{path.relative_to(ROOT)}: includes {name} ({target}, layer {LAYER[target]}) "
                        f"from {folder}, layer {LAYER[folder]}")
+        for name in sorted(set(re.findall(r"\b(clast_\w+)\s*\(", text)) & defined.keys()):
+            target = defined[name]
+            if target != folder and LAYER[target] >= LAYER[folder]:
+                yield f"{path.relative_to(ROOT)}: calls {name} ({target}, layer {LAYER[target]}) from layer {LAYER[folder]}"
         opens = OPENERS.search(text)
         if opens and LAYER[folder] < 7 and path.name not in ("file.c", "lock.c"):
             yield (f"{path.relative_to(ROOT)}: opens files ({opens.group(1)}); only io, plot, render, base/file.c "
