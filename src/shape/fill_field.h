@@ -26,9 +26,9 @@ typedef struct clx_fill_field {
     double error;            ///< a distance may be too large by this much
     clx_fill_node *node;     ///< [n_node] root first
     clx_fill_leaf *leaf;     ///< [n_leaf]
-    int32_t *item;           ///< [n_tri] triangle of the mesh, in leaf order
-    double (*tri)[3][3];     ///< [n_tri] in leaf order: corner 0, edges to corners 1 and 2
-    double *size;            ///< [n_tri] radius of a sphere that holds the triangle
+    int32_t *item; ///< [n] triangle of the mesh, in leaf order; without those that are an edge
+    double (*tri)[3][3]; ///< [n] in leaf order: corner 0, edges to corners 1 and 2
+    double *size;        ///< [n] radius of a sphere that holds the triangle
     int64_t n_node, n_leaf;
     int64_t node_capacity, leaf_capacity;
 } clx_fill_field;
@@ -55,7 +55,8 @@ double clx_fill_field_closest(const clx_fill_field *field, const double point[3]
 /// True inside and on the closed surface: exact crossings, the bits of clast_bvh_inside.
 bool clx_fill_field_inside(const clx_fill_field *field, const double point[3]);
 
-/// Weights of the edges from corner 0 at the closest point; p is relative to that corner.
+/// Weights of the edges from corner 0 at the closest point; p is relative to that corner. The three
+/// corners differ.
 static inline void clx_fill_triangle_weights(const double ab[3], const double ac[3],
                                              const double p[3], double *v, double *w)
 {

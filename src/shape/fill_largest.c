@@ -18,7 +18,7 @@
 enum {
     SAMPLES = 2,
     LEVELS = 60,
-    CUBE_LIMIT = 1 << 26,
+    CUBE_LIMIT = 1 << 24,
     SHRINKS = 2,
     CLIMBS = 8,
     WAYS = 4,

@@ -356,11 +356,30 @@ done:
     return status;
 }
 
+/// Two corners in one place: an edge of other triangles, if it bounds anything.
+static bool is_edge(const clast_mesh *mesh, int32_t t)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double *a = mesh->vert[mesh->tri[t][i]];
+        const double *b = mesh->vert[mesh->tri[t][(i + 1) % 3]];
+        if (v3_distance2(a, b) <= 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Boxes of the triangles in the frame; rounding is covered by CLX_FILL_FRAME_ERROR.
-static void make_items(const clx_fill_field *field, item *items)
+///
+/// @return their number
+static int32_t make_items(const clx_fill_field *field, item *items)
 {
     const clast_mesh *mesh = field->mesh;
+    int32_t n = 0;
     for (int32_t t = 0; t < mesh->n_tri; ++t) {
+        if (is_edge(mesh, t)) {
+            continue;
+        }
         clx_float4 low = all4(INFINITY);
         clx_float4 high = all4(-INFINITY);
         for (int i = 0; i < 3; ++i) {
@@ -372,15 +391,16 @@ static void make_items(const clx_fill_field *field, item *items)
             high = most4(f, high);
         }
         low[3] = name_of(t);
-        items[t] = (item){low, high};
+        items[n++] = (item){low, high};
     }
+    return n;
 }
 
 clast_status clx_fill_field_create(const clast_mesh *mesh, clx_fill_field *field)
 {
     clast_status status = CLAST_OK;
     clx_fill_field made = {.mesh = mesh};
-    const int32_t n = mesh->n_tri;
+    int32_t n = mesh->n_tri;
     item *items = NULL;
     int32_t root = 0;
     CLX_CHECK(n >= 1 && n < 0x3f000000, CLAST_E_LIMIT, "a surface of %d triangles", n);
@@ -390,7 +410,8 @@ clast_status clx_fill_field_create(const clast_mesh *mesh, clx_fill_field *field
     CLX_TRY(clx_alloc(&made.tri, n, sizeof *made.tri));
     CLX_TRY(clx_alloc(&made.size, n, sizeof *made.size));
     CLX_TRY(clx_grow(&made.leaf, &made.leaf_capacity, n / 4 + 1, sizeof *made.leaf));
-    make_items(&made, items);
+    n = make_items(&made, items);
+    CLX_CHECK(n > 0, CLAST_E_GEOMETRY, "the surface has no size");
     part whole = {.items = items, .n = n};
     measure(&whole);
     CLX_TRY(make_node(&whole, 0, &made, &root));

@@ -28,6 +28,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 KEPT = ROOT / "build/fuzz-commands"
+LEAKS = {"LSAN_OPTIONS": f"suppressions={ROOT}/tests/support/lsan.supp:print_suppressions=0"}
 EXTREMES = ["0", "-1", "1", "2", "nan", "inf", "-inf", "1e-320", "1e-300", "1e-30", "1e-12", "1e-3", "1e3", "1e5", "1e6",
             "1e12", "1e15", "1e30", "1e200", "1e308", "-1e308", "2147483647", "-2147483648", "4294967296", "99999999999",
             "", "x", "0x10", "1e", "5mm", "1e-9m", "1e9m"]
@@ -298,7 +299,7 @@ def run_one(seeds, k, a):
         with open(folder.with_suffix(".err"), "w+b") as stderr:
             os.unlink(stderr.name)
             process = subprocess.Popen([a.clast, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                       stderr=stderr)
+                                       stderr=stderr, env=os.environ | LEAKS)
             seconds = max(1, round(a.limit))
             resource.prlimit(process.pid, resource.RLIMIT_CPU, (seconds, seconds + 5))
             timer = threading.Timer(30 * a.limit, process.send_signal, [signal.SIGKILL])

@@ -63,6 +63,40 @@ static void solid_with_a_far_vertex_is_refused(void **state)
     }
 }
 
+/* Two corners of a triangle in one place: the distance to it was 0 / 0, the search read a triangle
+ * that was never set, and its spheres were 4 % too small. */
+static void solid_with_an_empty_triangle_is_filled(void **state)
+{
+    (void)state;
+    clast_mesh box = {0};
+    clast_mesh with = {0};
+    clast_spheres s[2] = {{0}, {0}};
+    clast_fill_report report;
+    CHECK_OK(clast_mesh_box(1.0, 2.0, 3.0, &box));
+    for (int turn = 0; turn < 3; ++turn) {
+        CHECK_OK(clast_mesh_alloc(box.n_vert, box.n_tri + 2, &with));
+        memcpy(with.vert, box.vert, (size_t)box.n_vert * sizeof *box.vert);
+        memcpy(with.tri, box.tri, (size_t)box.n_tri * sizeof *box.tri);
+        const int32_t a = box.tri[0][0];
+        const int32_t b = box.tri[0][1];
+        const int32_t empty[2][3] = {{a, a, b}, {a, b, b}};
+        for (int i = 0; i < 2; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                with.tri[box.n_tri + i][k] = empty[i][(k + turn) % 3];
+            }
+        }
+        clast_fill_config config[2] = {settings(10), settings(10)};
+        fill(&with, &config[1], &s[1], &report);
+        fill(&box, &config[0], &s[0], &report);
+        assert_int_equal(s[1].n, s[0].n);
+        assert_memory_equal(s[1].radius, s[0].radius, (size_t)s[0].n * sizeof *s[0].radius);
+        clast_spheres_free(&s[0]);
+        clast_spheres_free(&s[1]);
+        clast_mesh_free(&with);
+    }
+    clast_mesh_free(&box);
+}
+
 /* A cube's inscribed sphere, then eight in the corners: their centres lie on the diagonals, where
  * sqrt(3) (1/2 - r) = 1/2 + r. The published method needs a remeshed cube for this. */
 static void cube_takes_its_inscribed_sphere_then_the_corners(void **state)
@@ -575,6 +609,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_takes_its_inscribed_sphere_then_the_corners),
         cmocka_unit_test(solid_with_a_far_vertex_is_refused),
+        cmocka_unit_test(solid_with_an_empty_triangle_is_filled),
         cmocka_unit_test(tetrahedron_and_cone_take_their_inscribed_spheres),
         cmocka_unit_test(slab_with_a_plane_of_summits_is_filled),
         cmocka_unit_test(two_bodies_are_filled_by_size),
