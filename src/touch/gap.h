@@ -3,8 +3,8 @@
 #include "touch/scene.h"
 
 typedef struct clx_gap {
-    double distance; ///< between the bodies; 0 if they intersect or one is inside the other. Two
-                     ///< round bodies that overlap give minus the depth
+    double distance;    ///< between the bodies; 0 if they intersect or one is inside the other. Two
+                        ///< round bodies that overlap give minus the depth
     double point[2][3]; ///< closest points, on the first and on the second body (of bodies that
                         ///< intersect: one such place; of one inside the other: not set)
 } clx_gap;
