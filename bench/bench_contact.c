@@ -2,7 +2,7 @@
 // and remembered, ellipsoids (mass-equivalent axes), next to the plain twins.
 // With the word verify: two million evaluations of moving pairs, remembered against cold.
 // Rows: scene,value,unit,reference,ratio. CPU time of the thread, least of several repeats.
-#include "contact/convex.h"
+#include "convex/convex.h"
 #include "gravel.h"
 #include "math/vec3.h"
 #include "ref_convex.h"

@@ -7,11 +7,11 @@
 // all pairs of items; of a query in a scene, asking every body.
 #include "support.h"
 
-#include "contact/touch_scene.h"
-#include "contact/touch_tree.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "ref_touch.h"
+#include "touch/scene.h"
+#include "touch/tree.h"
 #include "touch_bodies.h"
 #include <clast/mesh_file.h>
 #include <stdio.h>

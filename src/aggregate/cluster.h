@@ -1,6 +1,6 @@
 #pragma once
 // Clusters that meet clusters, until few are left.
-#include "contact/touch_scene.h"
+#include "touch/scene.h"
 #include <clast/aggregate.h>
 
 /// Grains that stick together; their poses are those of the assembly.

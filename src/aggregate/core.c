@@ -49,7 +49,7 @@ clast_status clx_aggregate_resolve_origin(clast_aggregate *a)
         double m[3][3], to[3], point[3];
         q_matrix(m, a->assembly.orientation[i]);
         v3_scale(to, -1.0 / a->assembly.scale[i], a->assembly.position[i]);
-        m3_mul_t(point, m, to);
+        m3_to_local(point, m, to);
         CLX_TRY(shape_holds(&a->assembly.shape[a->assembly.shape_id[i]], point, &holds));
     }
     a->origin = holds ? CLAST_ORIGIN_CORE : CLAST_ORIGIN_GRAIN;

@@ -67,9 +67,9 @@ static void group_support(const clx_kit *kit, const clx_kit_group *group, const 
         const clx_kit_part *p = &group->part[i];
         double m[3][3], local[3], at[3];
         q_matrix(m, p->orientation);
-        m3_mul_t(local, m, n);
+        m3_to_local(local, m, n);
         support(kit->shape[p->shape].shape, local, at);
-        m3_mul(local, m, at);
+        m3_to_world(local, m, at);
         v3_axpy(at, p->position, p->scale, local);
         if (v3_dot(at, n) > best) {
             best = v3_dot(at, n);

@@ -3,8 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "contact/touch_tree.h"
 #include "math/vec3.h"
+#include "touch/tree.h"
 #include <math.h>
 
 clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)

@@ -7,7 +7,7 @@
 #include "aggregate/kit.h"
 #include "aggregate/march.h"
 #include "aggregate/trial.h"
-#include "contact/touch_scene.h"
+#include "touch/scene.h"
 
 /// What follows a landing and the next search does not need, so that it is done beside that: the
 /// proof that nothing overlaps, the new grains' share of the envelopes, and what its row says of

@@ -4,10 +4,10 @@
 #include "aggregate/form.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "contact/touch_inside.h"
-#include "contact/touch_tree.h"
 #include "geom/bvh.h"
 #include "math/vec3.h"
+#include "touch/inside.h"
+#include "touch/tree.h"
 #include <string.h>
 
 void clx_kit_free(clx_kit *kit)

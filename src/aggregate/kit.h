@@ -1,6 +1,6 @@
 #pragma once
 // Everything that can be thrown, made ready once: shapes with their trees, groups with their sizes.
-#include "contact/touch_body.h"
+#include "touch/body.h"
 #include <clast/aggregate.h>
 
 /// A distinct shape of the run.

@@ -178,7 +178,7 @@ static clast_status find_spans(const marching *m, const march_ray *ray, double r
         }
         for (int32_t i = 0; i < shape->spheres.n; ++i) {
             double from[3];
-            m3_mul(to, rotation, shape->spheres.centre[i]);
+            m3_to_world(to, rotation, shape->spheres.centre[i]);
             v3_axpy(from, start, scale, to);
             for (int32_t k = 0; k < grain->n; ++k) {
                 CLX_TRY(add_pair(ray, from, scale * shape->spheres.radius[i],
@@ -267,7 +267,7 @@ static void find_touched(const clx_march *march, clx_march_landing *landing)
         for (int32_t i = 0; i < shape->spheres.n; ++i) {
             const double r = landing->scale * shape->spheres.radius[i];
             double c[3];
-            m3_mul(c, m, shape->spheres.centre[i]);
+            m3_to_world(c, m, shape->spheres.centre[i]);
             v3_axpy(c, landing->centroid, landing->scale, c);
             for (int32_t k = 0; k < grain->n; ++k) {
                 const clx_march_sphere *s = &march->sphere[grain->first + k];

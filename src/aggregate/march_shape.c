@@ -165,7 +165,7 @@ clast_status clx_march_add(clx_march *march, int32_t shape, const double centroi
     for (int32_t i = 0; i < s->spheres.n; ++i) {
         clx_march_sphere *sphere = &march->sphere[march->n_sphere++];
         double arm[3];
-        m3_mul(arm, m, s->spheres.centre[i]);
+        m3_to_world(arm, m, s->spheres.centre[i]);
         v3_axpy(sphere->centre, centroid, scale, arm);
         sphere->radius = scale * s->spheres.radius[i];
     }

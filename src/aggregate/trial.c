@@ -13,9 +13,9 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "contact/touch_tree.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include "touch/tree.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "aggregate/aim.h"
 #include "aggregate/kit.h"
 #include "base/parallel.h"
-#include "contact/touch_scene.h"
+#include "touch/scene.h"
 
 /// Work that has nothing to do with a search and is done beside it, a piece at a time: the longest
 /// first.

@@ -288,7 +288,7 @@ static void place(double out[3], double turn[3][3], const double position[3], do
                   const double point[3])
 {
     double turned[3];
-    m3_mul(turned, turn, point);
+    m3_to_world(turned, turn, point);
     v3_axpy(out, position, scale, turned);
 }
 

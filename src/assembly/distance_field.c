@@ -157,7 +157,7 @@ static void sample_grain(const clx_distance_field *field, clx_grid *g, int32_t g
                 double local[3];
                 node_at(g, i, j, (int32_t)k, x);
                 v3_sub(x, x, a->position[grain]);
-                m3_mul_t(local, turn, x);
+                m3_to_local(local, turn, x);
                 v3_scale(local, 1.0 / scale, local);
                 lower(g, i, j, (int32_t)k, scale * shape_distance(field, s, local, &row));
             }

@@ -1,9 +1,9 @@
 // Points inside placed bodies: tests and even draws.
 #include "assembly/grain_points.h"
 
-#include "contact/touch_inside.h"
-#include "contact/touch_tree.h"
 #include "math/vec3.h"
+#include "touch/inside.h"
+#include "touch/tree.h"
 
 /// Point in the frame of a body: R^T (x - position) / scale.
 static void to_body(const clx_touch_body *body, const double x[3], double out[3])

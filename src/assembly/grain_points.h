@@ -1,6 +1,6 @@
 #pragma once
 // Points inside placed bodies.
-#include "contact/touch_body.h"
+#include "touch/body.h"
 
 /// The body's solid holds this point of the world.
 bool clx_body_holds(const clx_touch_body *body, const double x[3]);

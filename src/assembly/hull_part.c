@@ -119,7 +119,7 @@ static clast_status add_spheres(const clx_hull_part *part, const double position
     for (int32_t k = 0; k < part->spheres.n; ++k) {
         clx_body body;
         double at[3];
-        m3_mul(at, turn, part->spheres.centre[k]);
+        m3_to_world(at, turn, part->spheres.centre[k]);
         v3_axpy(at, position, scale, at);
         clx_body_sphere(&body, at, scale * part->spheres.radius[k]);
         CLX_TRY(clx_smooth_hull_add_body(hull, &body));
@@ -150,7 +150,7 @@ clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *ass
     }
     CLX_TRY(add_spheres(part, position, turn, scale, hull));
     for (int32_t v = 0; v < part->n_vert; ++v) {
-        m3_mul(part->at[v], turn, part->vert[v]);
+        m3_to_world(part->at[v], turn, part->vert[v]);
         v3_axpy(part->at[v], position, scale, part->at[v]);
     }
     CLX_TRY(clx_smooth_hull_add_points(hull, part->n_vert, (const double(*)[3])part->at));

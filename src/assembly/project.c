@@ -114,7 +114,7 @@ static clast_status add_grain(const clast_assembly *assembly, int32_t i, shadow 
     } else if (shape->kind == CLAST_SHAPE_CLUMP) {
         for (int32_t k = 0; k < shape->spheres.n; ++k) {
             double at[3];
-            m3_mul(at, turn, shape->spheres.centre[k]);
+            m3_to_world(at, turn, shape->spheres.centre[k]);
             v3_axpy(at, position, scale, at);
             CLX_TRY(add_ball(s, at, scale * shape->spheres.radius[k]));
         }
@@ -122,7 +122,7 @@ static clast_status add_grain(const clast_assembly *assembly, int32_t i, shadow 
         for (int32_t t = 0; t < shape->mesh.n_tri; ++t) {
             double corner[3][3];
             for (int k = 0; k < 3; ++k) {
-                m3_mul(corner[k], turn, shape->mesh.vert[shape->mesh.tri[t][k]]);
+                m3_to_world(corner[k], turn, shape->mesh.vert[shape->mesh.tri[t][k]]);
                 v3_axpy(corner[k], position, scale, corner[k]);
             }
             CLX_TRY(add_triangle(s, corner));
@@ -261,7 +261,7 @@ static void set_lines(const clast_assembly *assembly, shadow *s, int32_t n_line)
         double l;
         double h;
         q_matrix(turn, assembly->orientation[i]);
-        m3_mul_t(u, turn, s->b);
+        m3_to_local(u, turn, s->b);
         shape_reach(&assembly->shape[assembly->shape_id[i]], u, &l, &h);
         low = fmin(low, at + assembly->scale[i] * l);
         high = fmax(high, at + assembly->scale[i] * h);

@@ -94,7 +94,7 @@ static void place_spheres(const clast_assembly *assembly, rays *r)
         q_matrix(turn, assembly->orientation[i]);
         for (int32_t k = 0; k < own.n; ++k) {
             double *at = r->at[r->n_sphere];
-            m3_mul(at, turn, own.centre[k]);
+            m3_to_world(at, turn, own.centre[k]);
             v3_axpy(at, assembly->position[i], scale, at);
             const double radius_k = scale * own.radius[k];
             const double w = radius_k * radius_k * radius_k;

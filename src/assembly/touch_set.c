@@ -3,9 +3,9 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
-#include "contact/touch_gap.h"
-#include "contact/touch_tree.h"
 #include "math/vec3.h"
+#include "touch/gap.h"
+#include "touch/tree.h"
 #include <stdlib.h>
 
 void clx_touch_set_free(clx_touch_set *set)

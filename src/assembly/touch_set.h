@@ -1,6 +1,6 @@
 #pragma once
 // All grains of an assembly as bodies that can be asked for gaps and overlaps.
-#include "contact/touch_scene.h"
+#include "touch/scene.h"
 #include <clast/assembly.h>
 
 typedef struct clx_touch_set {

@@ -1,7 +1,7 @@
 #pragma once
 // The union's volume where the grains lie in a scene of contact already.
 #include "assembly/touch_set.h"
-#include "contact/touch_scene.h"
+#include "touch/scene.h"
 #include <clast/assembly.h>
 
 /// clast_assembly_union of grains whose true solids are the scene's bodies: body i is grain i. It

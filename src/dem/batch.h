@@ -1,6 +1,6 @@
 #pragma once
 // Contacts of one kind, up to eight in SIMD lanes.
-#include "contact/facet_lanes.h"
+#include "convex/facet_lanes.h"
 #include "dem/pair_force.h"
 
 typedef enum {

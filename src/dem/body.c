@@ -283,7 +283,7 @@ void clx_items_place(clast_dem *dem, int32_t g)
     for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {
         clx_item *item = &dem->item[i];
         double arm[3];
-        m3_mul(arm, grain->turn, item->local);
+        m3_to_world(arm, grain->turn, item->local);
         v3_add(item->position, grain->position, arm);
         if (dem->item_turn == NULL) {
             continue;

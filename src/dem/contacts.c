@@ -7,8 +7,8 @@
 #include "dem/batch.h"
 
 #include "base/parallel.h"
-#include "contact/ellipsoid_lanes.h"
-#include "contact/facet.h"
+#include "convex/ellipsoid_lanes.h"
+#include "convex/facet.h"
 #include "dem/container.h"
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include "geom/whole.h"
 
 /// Contacts whose normals are closer than this cosine are one (25 degrees, as in
-/// contact/wall_mesh.c).
+/// convex/wall_mesh.c).
 static const double SAME_NORMAL = 0.9;
 
 clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh *mesh)

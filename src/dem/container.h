@@ -26,7 +26,7 @@ static inline const clx_wall_triangle *clx_pair_triangle(const clast_dem *dem,
 int64_t clx_container_end(const clast_dem *dem, int32_t i);
 
 /// Which triangles an item touches now: of contacts within 25 degrees the deepest stands for all,
-/// none leans over an edge farther than the neighbour's plane (contact/wall_mesh.h). The history
+/// none leans over an edge farther than the neighbour's plane (convex/wall_mesh.h). The history
 /// goes with the contact from triangle to triangle. Marks the pairs; at most CLX_CONTAINER_TOUCHES.
 int32_t clx_container_meet(clast_dem *dem, int32_t i,
                            clx_container_touch touch[CLX_CONTAINER_TOUCHES]);

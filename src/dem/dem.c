@@ -162,10 +162,10 @@ void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
     memcpy(m->orientation, from->orientation, sizeof m->orientation);
     q_matrix(g->turn, m->orientation);
     m->inverse_factor = 1.0 / m->inertia_factor;
-    m3_mul_t(in_body, g->turn, from->spin);
+    m3_to_local(in_body, g->turn, from->spin);
     m3_mul(momentum, body->inertia, in_body);
     v3_scale(momentum, m->inertia_factor, momentum);
-    m3_mul(m->angular, g->turn, momentum);
+    m3_to_world(m->angular, g->turn, momentum);
     if (body->shape.kind == CLAST_SHAPE_SPHERE) { // never turned, so none may depend on it
         memset(g->turn, 0, sizeof g->turn);
         g->turn[0][0] = g->turn[1][1] = g->turn[2][2] = 1.0;

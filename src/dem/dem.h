@@ -10,8 +10,8 @@
 // contact's history and warm start.
 #include "base/parallel.h"
 #include "base/status.h"
-#include "contact/convex.h"
-#include "contact/wall_mesh.h"
+#include "convex/convex.h"
+#include "convex/wall_mesh.h"
 #include "dem/law.h"
 #include "math/vec3.h"
 #include <assert.h>

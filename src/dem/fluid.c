@@ -137,7 +137,7 @@ void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double 
         v3_scale(a[k], share, dem->body[g->shape].inverse_inertia[k]);
         a[k][k] += 1.0;
     }
-    m3_mul_t(in_body, turn, x);
+    m3_to_local(in_body, turn, x);
     for (int k = 0; k < 3; ++k) {
         v3_cross(across[k], a[(k + 1) % 3], a[(k + 2) % 3]);
     }
@@ -145,5 +145,5 @@ void clx_fluid_damp_rotation(const clast_dem *dem, int64_t i, double dt, double 
     for (int k = 0; k < 3; ++k) {
         solved[k] = v3_dot(in_body, across[k]) / det;
     }
-    m3_mul(x, turn, solved);
+    m3_to_world(x, turn, solved);
 }

@@ -50,10 +50,10 @@ static void add_grain(const clast_dem *dem, int32_t i, clast_dem_measures *m)
     } else if (!dem->config.gyroscopic) {
         double in_body[3];
         double l[3];
-        m3_mul_t(in_body, dem->grain[i].turn, g->omega);
+        m3_to_local(in_body, dem->grain[i].turn, g->omega);
         m3_mul(l, dem->body[g->shape].inertia, in_body);
         v3_scale(l, motion->inertia_factor, l);
-        m3_mul(momentum, dem->grain[i].turn, l);
+        m3_to_world(momentum, dem->grain[i].turn, l);
     }
     m->mass += g->mass;
     m->mean_height += g->mass * g->position[2];

@@ -47,9 +47,9 @@ static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double 
 {
     double in_body[3];
     double w[3];
-    m3_mul_t(in_body, turn, m->angular);
+    m3_to_local(in_body, turn, m->angular);
     m3_mul(w, body->inverse_inertia, in_body);
-    m3_mul(omega, turn, w);
+    m3_to_world(omega, turn, w);
     v3_scale(omega, m->inverse_factor, omega);
 }
 
@@ -128,7 +128,7 @@ void clx_dem_arm(const clast_dem *dem, const clx_grain *g, double arm[3])
 {
     double turn[3][3];
     memcpy(turn, g->turn, sizeof turn);
-    m3_mul(arm, turn, dem->body[g->shape].shape.own.centre);
+    m3_to_world(arm, turn, dem->body[g->shape].shape.own.centre);
     v3_scale(arm, -g->scale, arm);
 }
 

@@ -8,7 +8,7 @@
 #include "dem/neighbour_list.h"
 
 #include "base/lines.h"
-#include "contact/facet.h"
+#include "convex/facet.h"
 #include "dem/container.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// Contacts of pairs that are not of spheres alone, by src/contact.
+// Contacts of pairs that are not of spheres alone, by src/convex.
 #include "dem/touch.h"
 
 /// Gaps beyond this share of the smaller radius need no digits: a lower bound serves as budget.

@@ -1,6 +1,6 @@
 #pragma once
-// Contact of a pair's two items: closed forms for spheres and walls, src/contact for the rest.
-#include "contact/convex.h"
+// Contact of a pair's two items: closed forms for spheres and walls, src/convex for the rest.
+#include "convex/convex.h"
 #include "dem/dem.h"
 
 /// A contact as seen from a: arms are from the grains' centres to the contact point.

@@ -100,7 +100,7 @@ void clast_mesh_transform(clast_mesh *mesh, double scale, const double orientati
     q_matrix(m, orientation);
     for (int32_t i = 0; i < mesh->n_vert; ++i) {
         double turned[3];
-        m3_mul(turned, m, mesh->vert[i]);
+        m3_to_world(turned, m, mesh->vert[i]);
         v3_axpy(mesh->vert[i], position, scale, turned);
     }
 }

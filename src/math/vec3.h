@@ -1,5 +1,6 @@
 #pragma once
 // Vectors of three, 3x3 matrices and quaternions, inline; out comes first, inputs may alias it.
+// A rotation takes from a body's own frame (local) to the world's: _to_world, and _to_local back.
 // Matrices are read through plain (non-const) parameters: C17 cannot pass double[3][3] as const
 // double[3][3].
 #include <math.h>
@@ -101,6 +102,45 @@ static inline void m3_mul_t(double out[3], double m[3][3], const double a[3])
     v3_set(out, m[0][0] * a[0] + m[1][0] * a[1] + m[2][0] * a[2],
            m[0][1] * a[0] + m[1][1] * a[1] + m[2][1] * a[2],
            m[0][2] * a[0] + m[1][2] * a[1] + m[2][2] * a[2]);
+}
+
+/// out = M a for a rotation matrix M of a body's axes: a in the body's frame, out in the world's.
+static inline void m3_to_world(double out[3], double m[3][3], const double a[3])
+{
+    m3_mul(out, m, a);
+}
+
+/// out = M^T a: the inverse of m3_to_world.
+static inline void m3_to_local(double out[3], double m[3][3], const double a[3])
+{
+    m3_mul_t(out, m, a);
+}
+
+/// The same for a rotation R given row by row, read only.
+static inline void rot_to_world(double out[3], const double r[9], const double a[3])
+{
+    v3_set(out, r[0] * a[0] + r[1] * a[1] + r[2] * a[2], r[3] * a[0] + r[4] * a[1] + r[5] * a[2],
+           r[6] * a[0] + r[7] * a[1] + r[8] * a[2]);
+}
+
+static inline void rot_to_local(double out[3], const double r[9], const double a[3])
+{
+    v3_set(out, r[0] * a[0] + r[3] * a[1] + r[6] * a[2], r[1] * a[0] + r[4] * a[1] + r[7] * a[2],
+           r[2] * a[0] + r[5] * a[1] + r[8] * a[2]);
+}
+
+/// out = S a, S symmetric as xx, yy, zz, yz, xz, xy
+static inline void sym_mul(double out[3], const double s[6], const double a[3])
+{
+    v3_set(out, s[0] * a[0] + s[5] * a[1] + s[4] * a[2], s[5] * a[0] + s[1] * a[1] + s[3] * a[2],
+           s[4] * a[0] + s[3] * a[1] + s[2] * a[2]);
+}
+
+/// n^T S n
+static inline double sym_form(const double s[6], const double n[3])
+{
+    return s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
+           2.0 * (s[3] * n[1] * n[2] + s[4] * n[0] * n[2] + s[5] * n[0] * n[1]);
 }
 
 /// Rotation matrix of a unit quaternion (w, x, y, z): world = M body.

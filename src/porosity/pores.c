@@ -6,10 +6,10 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include "contact/touch_gap.h"
 #include "math/sort.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"
+#include "touch/gap.h"
 #include <clast/mesh.h>
 
 enum { BLOCK = 256, POINT_LIMIT = 100000000 };

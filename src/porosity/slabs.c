@@ -141,7 +141,7 @@ static void add_mesh(const slices *s, const clast_mesh *mesh, double turn[3][3],
         double p[3][3];
         facet f;
         for (int k = 0; k < 3; ++k) {
-            m3_mul(p[k], turn, mesh->vert[mesh->tri[t][k]]);
+            m3_to_world(p[k], turn, mesh->vert[mesh->tri[t][k]]);
             v3_scale(p[k], scale, p[k]);
         }
         sort_facet(p, &f);
@@ -234,7 +234,7 @@ static clast_status place_clump(const clast_spheres *spheres, const double posit
     CLX_TRY(clx_alloc(&c->disc, n, sizeof *c->disc));
     for (int32_t i = 0; i < c->n; ++i) {
         double x[3];
-        m3_mul(x, turn, spheres->centre[i]);
+        m3_to_world(x, turn, spheres->centre[i]);
         v3_axpy(c->centre[i], position, scale, x);
         c->radius[i] = scale * spheres->radius[i];
         c->knot[c->n_knot++] = c->centre[i][2] - c->radius[i];
@@ -285,7 +285,7 @@ static void add_spheres(const slices *s, const clast_spheres *spheres, double z,
     for (int32_t i = 0; i < spheres->n; ++i) {
         const double r = scale * spheres->radius[i];
         double x[3];
-        m3_mul(x, turn, spheres->centre[i]);
+        m3_to_world(x, turn, spheres->centre[i]);
         add_ellipsoid(s, 4.0 / 3.0 * CLAST_PI * r * r * r, z + scale * x[2], r);
     }
 }

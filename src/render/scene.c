@@ -127,7 +127,7 @@ static double grain_support(const clx_scene *scene, const clx_scene_grain *grain
     for (int i = 0; i < 3; ++i) {
         v3_copy(m[i], grain->rotation[i]);
     }
-    m3_mul_t(local, m, direction);
+    m3_to_local(local, m, direction);
     return v3_dot(grain->position, direction) +
            grain->scale * shape_support(&scene->shape[grain->shape], local);
 }

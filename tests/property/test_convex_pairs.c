@@ -1,7 +1,7 @@
 /* Property: gaps and overlaps of random convex pairs equal those of the plain twins. */
 #include "support.h"
 
-#include "contact/hull_round.h"
+#include "convex/hull_round.h"
 #include "gravel.h"
 #include "math/vec3.h"
 #include "ref_convex.h"

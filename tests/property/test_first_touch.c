@@ -1,9 +1,9 @@
 /* Property: first touches of ellipsoids and spheres, random poses, axis ratios to 10. */
 #include "support.h"
 
-#include "contact/touch_frame.h"
 #include "math/rng.h"
 #include "ref_touch.h"
+#include "touch/frame.h"
 
 enum { N_PAIR = 3000 };
 

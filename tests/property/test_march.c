@@ -2,9 +2,9 @@
  * touch of the same spheres as the steps go to 0; and what the two engines do on purpose or not. */
 #include "aggregates.h"
 
-#include "contact/touch_scene.h"
-#include "contact/touch_tree.h"
 #include "math/vec3.h"
+#include "touch/scene.h"
+#include "touch/tree.h"
 #include <stdio.h>
 
 static const double axes[2][3] = {{1.0, 0.7, 0.4}, {1.0, 0.5, 0.45}};

@@ -1,8 +1,8 @@
 /* Property: distances of bodies, told by the first touches along many lines. */
 #include "support.h"
 
-#include "contact/touch_gap.h"
 #include "math/vec3.h"
+#include "touch/gap.h"
 #include "touch_bodies.h"
 
 enum { SPHERE = N_BODY_KIND, ELLIPSOID, N_KIND };

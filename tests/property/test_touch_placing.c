@@ -2,8 +2,8 @@
  * points sampled on each surface and tested against the others' insides. */
 #include "support.h"
 
-#include "contact/touch_gap.h"
 #include "math/vec3.h"
+#include "touch/gap.h"
 #include "touch_bodies.h"
 #include <clast/mesh.h>
 

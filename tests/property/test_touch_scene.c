@@ -1,9 +1,9 @@
 /* Property: a scene's answers are those of asking every body. */
 #include "support.h"
 
-#include "contact/touch_scene.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include "touch/scene.h"
 
 static clx_touch_body random_body(clx_rng *rng, double spread)
 {

@@ -1,11 +1,11 @@
 /* Property: first touches of triangle surfaces, sphere composites and round bodies with them. */
 #include "support.h"
 
-#include "contact/first_touch.h"
-#include "contact/touch_inside.h"
 #include "math/vec3.h"
 #include "ref_touch.h"
 #include "ref_touch_lanes.h"
+#include "touch/first_touch.h"
+#include "touch/inside.h"
 #include "touch_bodies.h"
 
 /// One tree of each kind, coarse enough for oracles of all pairs.

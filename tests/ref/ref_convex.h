@@ -1,6 +1,6 @@
 #pragma once
 // Plain, cold twins of the contact queries: every feature with every other, no search.
-#include "contact/convex.h"
+#include "convex/convex.h"
 
 /// A placed polytope written out: vertices, triangles' planes, edges.
 typedef struct ref_polytope {

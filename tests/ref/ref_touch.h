@@ -1,6 +1,6 @@
 #pragma once
 // Slow oracles of first-touch search, in long double and without any shared code.
-#include "contact/first_touch.h"
+#include "touch/first_touch.h"
 
 /// First t at which two ellipsoids touch: bisection on the Perram-Wertheim contact function along
 /// the line, which is sampled for an inner point first. False if no overlap was found.

@@ -1,7 +1,7 @@
 // Slow oracles of tree bodies: all pairs of items, all pairs of features, in three dimensions and
 // long double.
-#include "contact/touch_tree.h"
 #include "ref_touch.h"
+#include "touch/tree.h"
 
 #include <math.h>
 

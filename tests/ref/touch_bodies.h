@@ -1,7 +1,7 @@
 #pragma once
 // Bodies for tests and timings of first touch: shapes as trees, random poses.
-#include "contact/touch_tree.h"
 #include "math/rng.h"
+#include "touch/tree.h"
 
 typedef enum {
     BODY_ELLIPSOID_MESH, ///< icosphere, stretched, 20 * 4^level triangles

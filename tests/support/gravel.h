@@ -1,6 +1,6 @@
 #pragma once
 // Gravel-like convex grains for tests and timings (case P1 of the contact and packing benches).
-#include "contact/convex.h"
+#include "convex/convex.h"
 #include "math/rng.h"
 
 /// clx_gravel (shape/gravel.h); fails the test on error.

@@ -115,12 +115,12 @@ static void free_body_keeps_momentum_and_energy(void **state)
             clast_dem_read_grain(dem, 0, &g);
             double w[3], r[3][3];
             q_matrix(r, g.orientation);
-            m3_mul_t(w, r, g.spin);
+            m3_to_local(w, r, g.spin);
             least_y = fmin(least_y, w[1] / 100.0);
             for (int i = 0; i < 3; ++i) {
                 w[i] *= DENSITY * shape.inertia[i][i];
             }
-            m3_mul(after, r, w);
+            m3_to_world(after, r, w);
         }
         if (plain == 0) {
             for (int i = 0; i < 3; ++i) {

@@ -1,8 +1,8 @@
 /* Unit: first touches with a closed form. */
 #include "support.h"
 
-#include "contact/first_touch.h"
 #include "math/vec3.h"
+#include "touch/first_touch.h"
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
 

@@ -1,9 +1,9 @@
 /* Unit: four contacts side by side give the bits of one by one. */
 #include "support.h"
 
-#include "contact/ellipsoid_lanes.h"
-#include "contact/facet.h"
-#include "contact/facet_lanes.h"
+#include "convex/ellipsoid_lanes.h"
+#include "convex/facet.h"
+#include "convex/facet_lanes.h"
 #include "dem/batch.h"
 #include "dem_scenes.h"
 #include "gravel.h"

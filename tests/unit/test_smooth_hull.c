@@ -87,7 +87,7 @@ static void affine_map_keeps_the_share(void **state)
     q_matrix(turn, q);
     clx_body_ellipsoid(&body[0], (double[3]){0.0, 0.0, 0.0}, turn, map);
     double at[3] = {2.0 * map[0] * 0.48, -2.0 * map[1] * 0.6, 2.0 * map[2] * 0.64};
-    m3_mul(at, turn, at);
+    m3_to_world(at, turn, at);
     clx_body_ellipsoid(&body[1], at, turn, map);
     const double solid = 2.0 * 4.0 / 3.0 * CLAST_PI * map[0] * map[1] * map[2];
     CHECK_REL(1.0 - solid / hull_of(2, body, 1e-3, &v), 0.2, 1e-10);

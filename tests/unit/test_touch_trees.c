@@ -1,10 +1,10 @@
 /* Unit: first touches of surfaces with a closed form, and what the tree builders refuse. */
 #include "support.h"
 
-#include "contact/first_touch.h"
-#include "contact/touch_gap.h"
-#include "contact/touch_tree.h"
 #include "math/vec3.h"
+#include "touch/first_touch.h"
+#include "touch/gap.h"
+#include "touch/tree.h"
 #include "touch_bodies.h"
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};

@@ -1,7 +1,7 @@
 /* Unit: bodies before walls of triangles. */
 #include "support.h"
 
-#include "contact/wall_mesh.h"
+#include "convex/wall_mesh.h"
 #include "gravel.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
