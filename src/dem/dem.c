@@ -2,8 +2,8 @@
 #include <clast/dem.h>
 
 #include "base/lines.h"
+#include "dem/dem.h"
 #include "dem/fluid.h"
-#include "dem/neighbour_list.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -224,7 +224,7 @@ done:
     return status;
 }
 
-static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
+static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
 {
     const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
     return verifies || dem->item != NULL || dem->container != NULL
@@ -232,6 +232,15 @@ static clast_status meet_and_move(clast_dem *dem, bool *is_fine)
                : clx_sweep(dem, is_fine);
 }
 
+// A step, in the order in which it happens:
+//   1. neighbour list   items that have used up their margin search their neighbours anew
+//   2. inner list       pairs of it that may touch before some grain's path is used up
+//   3. starts           grains that were just added must not lie inside of each other
+//   4. fluid            solids by height, where they hinder each other's settling
+//   5. contacts         gap and normal of each active pair, its contact law, force and torques
+//   6. motion           sums, then velocities, positions and orientations; who has used up what
+// 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
+// contacts share their stiffness, a container has triangles, or contacts are verified.
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
@@ -249,7 +258,7 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_check_starts(dem));
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
-        CLX_TRY(meet_and_move(dem, &is_fine));
+        CLX_TRY(contacts_and_motion(dem, &is_fine));
         ++dem->step;
         if (!is_fine) {
             clx_inner_unpack(dem);

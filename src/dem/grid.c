@@ -1,6 +1,6 @@
 // Cells over the anchors of all items, one set a size level (each level doubles the radius), in one
 // hash table: small grains do not pay for large ones, and no domain is too tall.
-#include "dem/neighbour_list.h"
+#include "dem/dem.h"
 
 #include "base/alloc.h"
 #include "base/parallel.h"

@@ -5,7 +5,7 @@
 // has used up its margin, all that have used half of it search again, and only they: a falling
 // grain costs its own search, the bed below none. Then old and new pairs are merged in order, which
 // costs a pass over memory.
-#include "dem/neighbour_list.h"
+#include "dem/dem.h"
 
 #include "base/lines.h"
 #include "convex/facet.h"

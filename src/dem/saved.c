@@ -2,7 +2,7 @@
 #include "dem/saved.h"
 
 #include "base/lines.h"
-#include "dem/neighbour_list.h"
+#include "dem/dem.h"
 #include <string.h>
 
 enum { WARM_START = sizeof(clx_warm_start) };
