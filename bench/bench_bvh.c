@@ -5,8 +5,8 @@
 #include "math/vec3.h"
 #include "support.h"
 
+#include <clast/machine.h>
 #include <clast/mesh_file.h>
-#include <clast/parallel.h>
 #include <stdio.h>
 #include <time.h>
 

@@ -4,7 +4,7 @@
 #include "math/rng.h"
 
 #include <clast/decompose.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "support.h"
 
 #include <clast/fill.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdio.h>
 #include <time.h>
 

@@ -9,7 +9,7 @@
 //     bench_loop run N STEPS POLICY [MODE]   one policy alone, for a profiler
 #include "drifting.h"
 
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <clast/workspace.h>
 #include <math.h>
 #include <stdio.h>

@@ -9,8 +9,8 @@
 // holds.
 #include "math/rng.h"
 
+#include <clast/machine.h>
 #include <clast/pairs.h>
-#include <clast/parallel.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,9 +9,9 @@
 #include "gravel.h"
 #include "support.h"
 
-#include <clast/grading_file.h>
+#include <clast/grading.h>
+#include <clast/machine.h>
 #include <clast/pack.h>
-#include <clast/parallel.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -13,8 +13,8 @@
 #include "gravel.h"
 #include "support.h"
 
-#include <clast/parallel.h>
-#include <clast/scene.h>
+#include <clast/dem.h>
+#include <clast/machine.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

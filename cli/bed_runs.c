@@ -5,9 +5,9 @@
 #include "json.h"
 #include "results.h"
 
-#include <clast/porosity_chart.h>
-#include <clast/realisations.h>
-#include <clast/table_file.h>
+#include <clast/chart.h>
+#include <clast/porosity.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

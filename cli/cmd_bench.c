@@ -3,7 +3,7 @@
 #include "json.h"
 #include "scene.h"
 
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

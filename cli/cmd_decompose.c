@@ -9,7 +9,7 @@
 #include "results.h"
 
 #include <clast/decompose.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,9 +4,9 @@
 #include "mesh_words.h"
 
 #include <clast/fill.h>
-#include <clast/mesh_check.h>
-#include <clast/spheres_file.h>
-#include <clast/table_file.h>
+#include <clast/mesh_repair.h>
+#include <clast/shape.h>
+#include <clast/table.h>
 
 #include <stdio.h>
 #include <string.h>

@@ -4,11 +4,11 @@
 #include "results.h"
 #include "study_grains.h"
 
-#include <clast/manifest.h>
+#include <clast/chart.h>
 #include <clast/porosity_fit.h>
-#include <clast/porosity_model_file.h>
-#include <clast/statistics_charts.h>
-#include <clast/table_file.h>
+#include <clast/porosity_model.h>
+#include <clast/run_folder.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,9 +2,8 @@
 #include "command.h"
 #include "json.h"
 
-#include <clast/grading_file.h>
-#include <clast/sizes_file.h>
-#include <clast/table_file.h>
+#include <clast/grading.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 

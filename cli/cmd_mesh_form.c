@@ -4,7 +4,6 @@
 
 #include <clast/form.h>
 #include <clast/mesh_file.h>
-#include <clast/reform.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
 #include "command.h"
 #include "mesh_words.h"
 
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <clast/mesh_file.h>
-#include <clast/mesh_simplify.h>
+#include <clast/mesh_repair.h>
 #include <math.h>
 
 #include <stdio.h>

@@ -5,9 +5,9 @@
 #include "results.h"
 
 #include <clast/form.h>
+#include <clast/harmonics.h>
 #include <clast/mesh_file.h>
-#include <clast/synthesize.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -4,9 +4,9 @@
 #include "json.h"
 #include "results.h"
 
-#include <clast/overlap.h>
-#include <clast/packing_file.h>
-#include <clast/porosity_chart.h>
+#include <clast/assembly.h>
+#include <clast/chart.h>
+#include <clast/state.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

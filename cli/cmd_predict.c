@@ -4,7 +4,7 @@
 #include "predict_input.h"
 #include "results.h"
 
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "shape_statistics.h"
 #include "shape_words.h"
 
-#include <clast/table_file.h>
+#include <clast/table.h>
 
 #include <math.h>
 #include <stdio.h>

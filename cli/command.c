@@ -2,7 +2,7 @@
 #include "command.h"
 
 #include "configs.h"
-#include <clast/config.h>
+#include <clast/field.h>
 
 #include <stdarg.h>
 #include <stdio.h>

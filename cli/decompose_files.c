@@ -1,9 +1,9 @@
 // Tables, files for ParaView and charts of a decomposition.
 #include "decompose_files.h"
 
-#include <clast/decompose_charts.h>
-#include <clast/decompose_file.h>
-#include <clast/table_file.h>
+#include <clast/chart.h>
+#include <clast/decompose.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 

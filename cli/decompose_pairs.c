@@ -1,8 +1,8 @@
 // Pairs by distance of clast decompose.
 #include "decompose_pairs.h"
 
-#include <clast/pairs_chart.h>
-#include <clast/table_file.h>
+#include <clast/chart.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 

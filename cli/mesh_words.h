@@ -2,7 +2,7 @@
 // What the mesh commands say about a surface, shared by them.
 #include "command.h"
 #include "json.h"
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 
 /// Everything of a check as a JSON object (DESIGN section 7).
 json_t *cli_check_json(const char *file, const clast_mesh_check_result *result);

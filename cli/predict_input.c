@@ -2,7 +2,7 @@
 #include "predict_input.h"
 
 #include "command.h"
-#include <clast/porosity_model_file.h>
+#include <clast/porosity_model.h>
 
 #include <stdio.h>
 #include <stdlib.h>

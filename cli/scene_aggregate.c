@@ -1,7 +1,7 @@
 // Scenes that grow aggregates.
 #include "scene.h"
 
-#include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 #include <clast/mesh_file.h>
 #include <math.h>
 #include <stdio.h>

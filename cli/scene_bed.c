@@ -5,7 +5,7 @@
 // shorter window would say what phase it met. Beds are one run: repeats are windows that follow
 // each other.
 #include "scene.h"
-#include <clast/scene.h>
+#include <clast/dem.h>
 
 #include <stdint.h>
 

@@ -1,9 +1,9 @@
 // Scene of measured grains: files in, every measure of each, one table out.
 #include "scene.h"
 
-#include <clast/grains_file.h>
+#include <clast/grain.h>
 #include <clast/mesh_file.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #pragma once
 // Statistics of a set of grains, for clast shape --statistics FOLDER.
-#include <clast/grain_statistics.h>
+#include <clast/statistics.h>
 #include <jansson.h>
 
 /// Statistics of a table of grains (flatness and elongation or L, I, S). Rows left out are told on

@@ -2,7 +2,7 @@
 // What clast shape says about grains, as JSON and as tables.
 #include "command.h"
 #include "json.h"
-#include <clast/grains_file.h>
+#include <clast/grain.h>
 
 typedef struct cli_shape_result {
     clast_grains grains;

@@ -2,8 +2,8 @@
 // that depend on no mesh of a flow solver. couple_flow.c does it in every step of a time loop.
 //
 //     cc decompose_cloud.c $(pkg-config --cflags --libs clast) && ./a.out points.csv
+#include <clast/cloud.h>
 #include <clast/decompose.h>
-#include <clast/points_file.h>
 #include <stdio.h>
 
 static clast_status read(const char *path, clast_cloud *cloud)

@@ -3,7 +3,7 @@
 //
 //     cc pack_bed.c $(pkg-config --cflags --libs clast) && ./a.out
 #include <clast/field.h>
-#include <clast/pack_file.h>
+#include <clast/pack.h>
 #include <stdio.h>
 
 /// A key of `clast pack --help-all` and its text, with a unit.

@@ -3,10 +3,10 @@
 // stopped at first touch.                       [docs/theory/aggregation.md; Rossi & Bonadonna
 // 2021]
 #include <clast/assembly.h>
-#include <clast/envelope.h>
 #include <clast/field.h>
-#include <clast/monitor.h>
-#include <clast/sizes.h>
+#include <clast/grading.h>
+#include <clast/status.h>
+#include <clast/structure.h>
 #include <clast/table.h>
 
 CLAST_BEGIN

@@ -91,4 +91,11 @@ CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, dou
 /// in its bounding box, inside or not.
 CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, double *x);
 
+/// As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).
+///
+/// @param unit  of bare lengths and of the file's coordinates ("mm"); NULL or "": metres
+/// @return as clast_mesh_read and clast_domain_of_mesh, with the file's name; CLAST_E_CONFIG for an
+/// unknown unit
+CLAST_API clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain);
+
 CLAST_END

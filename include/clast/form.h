@@ -1,5 +1,7 @@
 #pragma once
+#include <clast/mesh.h>
 #include <clast/status.h>
+#include <clast/table.h>
 #include <math.h>
 
 CLAST_BEGIN
@@ -107,5 +109,127 @@ CLAST_API clast_zingg clast_form_zingg(double flatness, double elongation);
 
 /// "sphere", "disc", "rod", "blade"; "-" for no class.
 CLAST_API const char *clast_zingg_name(clast_zingg zingg);
+
+// How form varies from grain to grain: flatness and elongation as independent normal variables cut
+// to a range.                                [docs/theory/grading.md; Rettinger2022 section 7.1]
+
+typedef struct clast_form_law {
+    double flatness_mean, flatness_deviation;     ///< of the normal law before it is cut
+    double elongation_mean, elongation_deviation; ///< a deviation of 0: all grains alike
+    double low, high;                             ///< both in (0, 1]; 0.1 and 1 in the paper
+} clast_form_law;
+
+/// The paper's Rhine gravel: flatness 0.647 and 0.175, elongation 0.682 and 0.139, cut to 0.1 .. 1.
+///                                                                        [Rettinger2022 table 2]
+CLAST_API clast_form_law clast_form_law_rhine(void);
+
+/// @return CLAST_E_CONFIG for numbers that are not finite, deviations below 0, a range that is not
+///         0 < low <= high <= 1, a mean outside of it with deviation 0, or a range that holds less
+///         than 1e-6 of a law
+CLAST_API clast_status clast_form_law_check(const clast_form_law *law);
+
+/// Flatness S/I and elongation I/L of grain `index`: a function of (law, seed, index) alone.
+///
+/// Values outside the range are redrawn in the paper; here the cut law's inverse distribution is
+/// taken, which is the same law by one number each.    @param law  passes clast_form_law_check
+CLAST_API void clast_form_law_draw(const clast_form_law *law, uint64_t seed, uint64_t index,
+                                   double *flatness, double *elongation);
+
+/// Means and deviations after the cut, in closed form: what a packing really holds.
+typedef struct clast_form_law_moments {
+    double flatness_mean, flatness_deviation;
+    double elongation_mean, elongation_deviation;
+} clast_form_law_moments;
+
+CLAST_API clast_form_law_moments clast_form_law_cut(const clast_form_law *law);
+
+// The forms of a set of grains, from a table of flatness and elongation or of L, I and S.
+
+/// Why a row was left out.
+typedef enum {
+    CLAST_ROW_MISSING,    ///< an empty cell, NA or nan
+    CLAST_ROW_NOT_NUMBER, ///< a word where a number belongs
+    CLAST_ROW_INFINITE,
+    CLAST_ROW_NOT_POSITIVE, ///< zero or negative
+    CLAST_ROW_ABOVE_ONE,    ///< a ratio above 1
+    CLAST_ROW_NOT_ORDERED,  ///< not L >= I >= S
+    CLAST_N_ROW_FAULT
+} clast_row_fault;
+
+/// "missing", "not a number", ...
+CLAST_API const char *clast_row_fault_text(clast_row_fault fault);
+
+typedef struct clast_left_out {
+    int64_t row; ///< of the table, from 0
+    clast_row_fault fault;
+} clast_left_out;
+
+typedef struct clast_form_set {
+    int64_t n;                     ///< grains kept
+    int64_t *row;                  ///< [n] their rows in the table, from 0
+    double *flatness, *elongation; ///< [n] S/I and I/L in (0, 1]
+    double *size;                  ///< [n] in the table's unit, or NULL if the table has no size
+    char size_label[64];           ///< "sieve size (mm)", "diameter_m"
+    int64_t n_left_out;
+    clast_left_out *left_out; ///< [n_left_out] by row
+} clast_form_set;
+
+/// Takes the forms out of a table.
+///
+/// Columns are known by name, whatever their case and unit: flatness or FL with elongation or EL;
+/// L, I and S (also long, intermediate, short; major, middle, minor axis length; length, width,
+/// thickness); where a table has both, L, I and S count and must agree with the ratios to 0.006. A
+/// size column (sieve_size, D, size, diameter, equivalent_diameter) is kept; lengths give the sieve
+/// size of eq. 1. Rows with cells that are no numbers, not finite, not positive, ratios above 1 (by
+/// more than 1e-9) or lengths out of order are left out and listed.
+///
+/// @param columns  NULL or "": as above; "a,b": flatness and elongation by name; "a,b,c": L, I, S
+/// @return CLAST_E_FORMAT if columns are missing or disagree, or no row is left
+CLAST_API clast_status clast_form_set_of(const clast_table *table, const char *columns,
+                                         clast_form_set *set);
+CLAST_API void clast_form_set_free(clast_form_set *set);
+
+/// One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty
+/// if none was. Rows count from 1 after the header.
+CLAST_API void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size);
+
+/// The 13 form factors of every grain, in Table 1's order, and its size if known: what
+/// clast_statistics_of takes.
+CLAST_API clast_status clast_form_set_factors(const clast_form_set *set, clast_table *table);
+
+/// Rows left out, as columns row (from 1) and reason.
+CLAST_API clast_status clast_form_set_left_out(const clast_form_set *set, clast_table *table);
+
+// Form taken off a grain and put on again: stretching along the principal axes changes L, I and S
+// of the mass-equivalent ellipsoid exactly, and nothing else of the shape's character.
+//                    [docs/theory/grading.md; Rettinger2022 section 3.2, fig. 5 and appendix A]
+//
+// A grain keeps its hand: axes are right-handed and never mirrored. Their signs follow the shape's
+// skewness (third moments along L and I are positive), so that the same grain in another position
+// gives the same mesh.
+
+/// The grain with its centroid at the origin, L along x, I along y and S along z, unstretched.
+///
+/// @param mesh  closed and outward      @param out  empty; filled on success
+/// @param lis   full axes L >= I >= S of the mass-equivalent ellipsoid, in the mesh's unit
+/// @return CLAST_E_GEOMETRY if the volume is not positive or the solid has no such ellipsoid
+CLAST_API clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh *out,
+                                              double lis[3]);
+
+/// The same stretched to these lengths L >= I >= S > 0; measured ones agree within 1e-13 for grains
+/// of S/L > 0.03. L = I = S = 1 takes all form and size off: such a mesh, its vertices multiplied
+/// by (L, I, S), has any form.
+///
+/// @return CLAST_E_CONFIG for lengths that are not finite, not positive or not in order
+CLAST_API clast_status clast_reform_mesh(const clast_mesh *mesh, const double lis[3],
+                                         clast_mesh *out);
+
+/// Convex hull of at most this many triangles: the hull, simplified at constant volume where it has
+/// more, and the hull of that, for simplifying leaves faces that bend inwards by little.
+///
+/// @param mesh    any vertices; triangles are not looked at
+/// @param n_face  >= 4
+/// @return as clast_mesh_hull and clast_mesh_simplify
+CLAST_API clast_status clast_reform_hull(const clast_mesh *mesh, int32_t n_face, clast_mesh *out);
 
 CLAST_END

@@ -1,10 +1,22 @@
 #pragma once
-// Sizes of grains: sieve curves by mass, what they mean by number, and draws from them.
-//                                     [docs/theory/grading.md; Rettinger et al. 2022, section 3.2]
-#include <clast/sizes.h>
+#include <clast/status.h>
 #include <clast/table.h>
 
+// Sizes of grains: sieve curves by mass, what they mean by number, and draws from them.
+//                                     [docs/theory/grading.md; Rettinger et al. 2022, section 3.2]
+
 CLAST_BEGIN
+
+/// Sizes as they came: sizes or bins with counts. [m]
+typedef struct clast_sizes {
+    int64_t n;
+    double *low, *high; ///< [n] m; equal for a plain size
+    double *count;      ///< [n] > 0
+    double *density;    ///< [n] > 0 [kg/m3], or NULL: none is given
+} clast_sizes;
+
+CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
+CLAST_API void clast_sizes_free(clast_sizes *sizes);
 
 /// Sieve curve: the mass between neighbouring sieves. Between two sieves the curve of mass passing
 /// is a straight line over log size, as sieve curves are drawn.
@@ -159,5 +171,54 @@ typedef struct clast_grading_match {
 CLAST_API clast_status clast_grading_compare(const clast_curve *curve, const clast_grading *grading,
                                              const clast_grading_sample *sample, clast_table *table,
                                              clast_grading_match *match);
+
+/// Sieve curve from delimited text with a header, one row a sieve in any order. The size column is
+/// called sieve, size, diameter, opening, d or phi and carries its unit (sieve_mm, "size (um)",
+/// phi). A second column holds either
+///
+/// - retained, mass, weight or fraction: what stays on this sieve and passes the next larger one,
+///   in any unit; 0 on the largest sieve; or
+/// - passing, finer or undersize: what passes this sieve, in %, as a share of 1 or (unit g, kg) as
+///   a mass; 0 at the smallest sieve, all at the largest.
+///
+/// A pan may be a row of size 0 if nothing is in it.
+///
+/// @return CLAST_E_FORMAT with the row and what to do: no such columns, cells that are not finite,
+///         sieves that repeat, negative masses, passing that falls as sieves grow, mass that is
+///         finer or coarser than all sieves
+CLAST_API clast_status clast_curve_read(const char *path, clast_curve *curve);
+
+/// The same from memory; `name` stands for the path in messages.
+CLAST_API clast_status clast_curve_parse(const char *name, const void *bytes, size_t n,
+                                         clast_curve *curve);
+
+/// Sizes by one text, as in the option `curve`: a published case (U1 ... B70), "uniform:LOW,HIGH",
+/// "lognormal:MEAN,DEVIATION" or "lognormal:MEAN,DEVIATION,LOW,HIGH", one size ("11 mm"),
+/// "list:FILE" or "masses:FILE" (clast_sizes_read; its counts are numbers or masses), or the file
+/// of a sieve curve. Each size has its unit: a bare one is refused.
+///
+/// @param curve    {0}; stays empty unless the text names a curve
+/// @param grading  made in any case
+CLAST_API clast_status clast_grading_load(const char *text, clast_grading_spread spread,
+                                          clast_grading_count count, clast_curve *curve,
+                                          clast_grading **grading);
+
+/// Sizes, sizes with counts, or bins with counts, from delimited text (comma, semicolon, tab or
+/// blanks; '#' starts a comment; a first line that is no number names the columns).
+///
+/// A column `count`, `n`, `number`, `weight` or `mass` counts the row's particles; columns that
+/// begin with `low` and `high` are the ends of a bin; `density` (kg/m3 unless its name ends in
+/// another unit, density_g/cm3) is that of the row's particles. In phi units a size is 2^-phi mm.
+///
+/// @param column  name of the size column; "": the first
+/// @param unit    um, mm, m, phi, ...; "": what the column's name ends in (d_eq_um)
+/// @return CLAST_E_FORMAT with the line for sizes that are not numbers, not finite or not above 0;
+///         CLAST_E_CONFIG when the unit is not known
+CLAST_API clast_status clast_sizes_read(const char *path, const char *column, const char *unit,
+                                        clast_sizes *sizes);
+
+/// The same from memory; `name` stands for the path in messages.
+CLAST_API clast_status clast_sizes_parse(const char *name, const char *text, const char *column,
+                                         const char *unit, clast_sizes *sizes);
 
 CLAST_END

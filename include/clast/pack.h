@@ -1,10 +1,15 @@
 #pragma once
-// A bed of grains, poured, shaken and calmed: the published process as a state machine.
-//                                  [Rettinger, Ruede, Vollmer, Frings, sec. 4; docs/theory/dem.md]
 #include <clast/dem.h>
 #include <clast/grading.h>
-#include <clast/monitor.h>
 #include <clast/porosity.h>
+#include <clast/status.h>
+
+// A bed of grains, poured, shaken and calmed: the published process as a state machine.
+//                                  [Rettinger, Ruede, Vollmer, Frings, sec. 4; docs/theory/dem.md]
+
+// What a packing reads: sizes and shapes named in its configuration.
+
+// A whole run of a packing: its inputs, folder, checkpoints, and going on.
 
 CLAST_BEGIN
 
@@ -176,5 +181,53 @@ CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
 /// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
 /// @return CLAST_E_USAGE when sizes follow no sieve curve
 CLAST_API clast_status clast_pack_achieved(const clast_pack *pack, clast_table *table);
+
+/// What a configuration names, loaded. Owns what `input` points to.
+typedef struct clast_pack_source {
+    clast_curve curve;
+    clast_grading *grading;
+    int32_t n_shape;
+    clast_shape *shape; ///< [n_shape]
+    int32_t n_hull;
+    clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
+    clast_mesh container, container_closed;
+    clast_pack_input input;
+} clast_pack_source;
+
+/// @return the reader's status, with the option and the file's name before its message
+CLAST_API clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source);
+CLAST_API void clast_pack_unload(clast_pack_source *source); ///< may be called twice
+
+/// Files that a configuration names: how many, and the i-th with its role ("shapes", "curve").
+CLAST_API int32_t clast_pack_n_file(const clast_pack_config *config);
+CLAST_API const char *clast_pack_file(const clast_pack_config *config, int32_t i,
+                                      const char **role);
+
+/// Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv,
+/// summary.json, manifest.json, charts and frames into it, and checkpoints on the way.
+///
+/// All files but manifest.json are the same bytes for equal runs, however often they were stopped.
+///
+/// @param folder   NULL for no files    @param monitor  may be NULL
+/// @return CLAST_E_STOPPED when the monitor asked: a checkpoint is written, result is untouched;
+///         CLAST_E_CONVERGE when the run explodes or is never still; CLAST_E_USAGE when the folder
+///         holds a run, finished or not, and config->force is not set (run_folder.h)
+CLAST_API clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
+                                      const clast_monitor *monitor, clast_pack_result *result);
+
+/// Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps
+/// had ended early. Ends in the same bytes as one run of that many steps.
+///
+/// @param max_steps  in place of the run's own; 0: the run's own, and after an early end none
+/// @return CLAST_E_IO when there is nothing to go on from, CLAST_E_USAGE when the run has done
+///         max_steps already, else as clast_pack_run
+CLAST_API clast_status clast_pack_resume(const char *folder, int64_t max_steps,
+                                         const clast_monitor *monitor, clast_pack_result *result);
+
+/// The result as one JSON object, names of DESIGN section 7. Free it with clast_text_free.
+///
+/// @param times  with the clocks wall_s and ns_per_grain_step, which differ from run to run
+CLAST_API clast_status clast_pack_result_json(const clast_pack_result *result, bool times,
+                                              char **text);
 
 CLAST_END

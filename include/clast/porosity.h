@@ -1,7 +1,14 @@
 #pragma once
-// Porosity of a bed: its profile with height, its bulk value, and where the bed lies.
 #include <clast/assembly.h>
 #include <clast/table.h>
+
+// Porosity of a bed: its profile with height, its bulk value, and where the bed lies.
+
+// Beds that a file tells of: a run's own, or the inside of a surface.
+
+// The same bed made several times: means and what they are good for.
+
+// Stress of a bed from the forces of its contacts.                     [docs/theory/porosity.md]
 
 CLAST_BEGIN
 
@@ -165,5 +172,145 @@ CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembl
                                                    const clast_porosity_options *options,
                                                    const clast_porosity_bulk *bulk, double n_size,
                                                    clast_porosity_core *core);
+
+/// The bed that a run's state file keeps. One within a surface gets that surface, which the caller
+/// owns and frees.
+///
+/// @param surface  empty
+/// @return CLAST_E_FORMAT when the file tells of none
+CLAST_API clast_status clast_bed_read(const char *path, clast_bed *bed, clast_mesh *surface);
+
+/// "mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse
+/// takes.
+CLAST_API clast_status clast_bed_load(const char *text, clast_bed *bed, clast_mesh *surface);
+
+/// Porosity around each grain: its cell of the radical Voronoi diagram (power diagram) of the
+/// spheres of equal volume, inside the bed between two heights.           [Gellatly1982]
+///
+/// Cell of grain i: all points x with |x - c_i|^2 - r_i^2 <= |x - c_j|^2 - r_j^2 for all j; local
+/// porosity 1 - V_i / V_cell. A periodic bed repeats in x and y; a cylinder is a prism of 96 sides
+/// and equal area. Only grains with their centre inside take part; their cells add up to the
+/// volume. A grain whose cell is smaller than itself (heavy overlap, or a cut-off grain at the
+/// border) has a negative value; one without a cell (it lies inside another) has none, NaN.
+///
+/// Columns grain, cell_m3, volume_m3, porosity, n_face, border (1: the cell reaches floor, top or a
+/// wall). Rows are the grains inside, in order.
+///
+/// @param z_low   the cells lie between this height
+/// @param z_high  and this [m]
+/// @param table  must be empty; written only on success
+/// @return CLAST_E_USAGE when no grain lies inside
+/// @note O(n) for even beds; the same bytes for any thread count
+CLAST_API clast_status clast_local_porosity(const clast_assembly *assembly, const clast_bed *bed,
+                                            double z_low, double z_high, clast_table *table);
+
+typedef struct clast_radial_options {
+    clast_porosity_method method;
+    int32_t n_ring;  ///< rings of equal width up to the wall
+    int32_t n_point; ///< points a grain; 0: 512
+} clast_radial_options;
+
+/// Porosity by distance from the axis of a cylindrical bed, between two heights.
+///
+/// Each grain is stood for by `n_point` even points inside it (equal-volume spheres or true shapes
+/// by `method`); the error is that of random points, an upper bound for even ones. Columns r_low_m,
+/// r_high_m, solid_m3, solid_error_m3, porosity, porosity_error.
+///
+/// @param z      [2] lower and upper height [m]
+/// @param table  must be empty; written only on success
+/// @return CLAST_E_USAGE for a bed that is no cylinder, without grains, or rings outside 1 .. 1e6
+CLAST_API clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_bed *bed,
+                                             const double z[2], const clast_radial_options *options,
+                                             clast_table *table);
+
+typedef struct clast_pore_options {
+    int64_t n_point; ///< even points in the bed, of which those in pores count
+    int32_t n_bin;
+    double period[3]; ///< of the bed in x, y and z; 0: none
+} clast_pore_options;
+
+typedef struct clast_pores {
+    double porosity; ///< share of the points in pores: an independent estimate
+    double mean;     ///< mean delta [m]
+    clast_table sizes;
+} clast_pores;
+
+/// Frees the table.
+CLAST_API void clast_pores_free(clast_pores *pores);
+
+/// Sizes of the pores: delta(x), the distance of a point x of the pore space to the nearest grain.
+/// Its distribution is the pore-size density function.         [Torquato2002 sec. 2.6]
+///
+/// Columns of sizes: delta_low_m, delta_high_m, density_1/m, share_smaller (at delta_high),
+/// share_error. The points fill the bed between two heights; distances are exact to the true
+/// shapes.
+///
+/// @param z      [2] lower and upper height [m]
+/// @param pores  must be empty; written only on success
+/// @return CLAST_E_USAGE without grains or heights, CLAST_E_GEOMETRY when no point is in a pore
+CLAST_API clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                           const double z[2], const clast_pore_options *options,
+                                           clast_pores *pores);
+
+/// Mean of a few values and how well it is known.
+typedef struct clast_mean {
+    int32_t n;
+    double mean;
+    double deviation; ///< of one value, n - 1 below the root; NAN for one
+    double low, high; ///< 95 % interval of the mean by Student's t; NAN for one
+} clast_mean;
+
+CLAST_API clast_mean clast_mean_of(int32_t n, const double *value);
+
+/// Mean porosity profile of n beds: z_low_m, z_high_m, porosity, deviation, low, high (95 % of the
+/// mean by Student's t; deviation 0 and no width for one bed), n. A lower bed is empty above its
+/// top. Rings of clast_radial_porosity likewise, then with r_low_m, r_high_m.
+///
+/// @param profile  [n] of clast_porosity_profile, with the same floor and layer, or of
+///                 clast_radial_porosity, with the same rings
+/// @return CLAST_E_USAGE when slices differ
+CLAST_API clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile,
+                                                   clast_table *band);
+
+/// How an assembly's contacts and grains are directed: columns name, value, unit, meaning.
+///
+/// Contacts (absent where they are not known): mean coordination, shares of grains with none and
+/// with fewer than four contacts, mean without the latter; eigenvalues and vertical entry of the
+/// fabric tensor                 F = 1/N sum n n^T          [Satake1982]
+/// of unit contact normals n between grains (rows normal_*; known from `contacts`, or where all
+/// grains are spheres), and the same of unit branch vectors between the centroids of touching
+/// grains (rows branch_*). In a periodic bed pass its period, so that branches take the short way.
+///
+/// Grains (absent for spheres): the same for Q = sum V a a^T / sum V over the longest and the
+/// shortest principal axes a, by volume V, and the mean angle of the longest axis to the
+/// horizontal. Random directions give eigenvalues of 1/3; a layered bed has a high vertical entry
+/// of the shortest axis.
+///
+/// @param contacts  of clast_dem_contact_table, its columns b, normal_x, normal_y, normal_z; NULL
+/// or
+///                  without them: not known
+/// @param period  x, y and z period [m], 0 for none; NULL: none
+/// @param table   must be empty; written only on success
+CLAST_API clast_status clast_fabric(const clast_assembly *assembly, const clast_table *contacts,
+                                    const double period[3], clast_table *table);
+
+/// Mean stress between two heights, and what follows from it: columns name, value, unit, meaning.
+///
+///     sigma_ij = 1/V sum f_i l_j                            [Love1927, Weber1966; pressure > 0]
+///
+/// over contacts, f the force of a on b and l the branch from a to b; of a branch that is partly
+/// outside the heights, that part is left out. Rows: the six entries of the symmetric part, mean
+/// pressure, deviator q, ratio of horizontal to vertical stress.
+///
+/// @param contacts  of clast_dem_contact_table    @param z  heights [m]
+/// @return CLAST_E_FORMAT when the table is no such, CLAST_E_GEOMETRY where there is no volume
+CLAST_API clast_status clast_stress(const clast_table *contacts, const clast_bed *bed,
+                                    const double z[2], clast_table *table);
+
+/// The same in the slices of a porosity profile: z_low_m, z_high_m, stress_xx_Pa, .. yy, zz, xy,
+/// xz, yz. At rest stress_zz is the weight less buoyancy of the grains whose centres lie above,
+/// over the area, averaged over the slice: branches are shared out by their length in each slice.
+CLAST_API clast_status clast_stress_profile(const clast_table *contacts, const clast_bed *bed,
+                                            const clast_table *profile, clast_table *table);
 
 CLAST_END

@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/form_set.h>
+#include <clast/form.h>
 #include <clast/statistics.h>
 
 CLAST_BEGIN
@@ -166,5 +166,24 @@ CLAST_API clast_status clast_porosity_prediction_table(const clast_porosity_mode
                                                        const clast_form_inputs *inputs,
                                                        const clast_prediction *prediction,
                                                        clast_table *table);
+
+// Porosity models from files and to files.
+
+/// Reads a model file, JSON as clast_porosity_model_write makes it.
+///
+/// @return CLAST_E_IO, CLAST_E_FORMAT (with the key), CLAST_E_LIMIT beyond 1 MiB or 1000 terms
+CLAST_API clast_status clast_porosity_model_read(const char *path, clast_porosity_model *model);
+
+/// The same from memory; `name` stands for the path in messages.
+CLAST_API clast_status clast_porosity_model_parse(const char *name, const void *bytes, size_t n,
+                                                  clast_porosity_model *model);
+
+/// Writes the model as JSON that reads back as the same doubles; the file appears whole or not at
+/// all.
+///
+/// @param provenance  [n][2] keys and texts kept with it, may be NULL
+CLAST_API clast_status clast_porosity_model_write(const clast_porosity_model *model,
+                                                  const char *const (*provenance)[2], int32_t n,
+                                                  const char *path);
 
 CLAST_END

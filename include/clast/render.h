@@ -1,7 +1,7 @@
 #pragma once
 #include <clast/assembly.h>
 #include <clast/field.h>
-#include <clast/monitor.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 

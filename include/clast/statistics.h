@@ -1,4 +1,5 @@
 #pragma once
+#include <clast/form.h>
 #include <clast/table.h>
 
 CLAST_BEGIN
@@ -112,5 +113,31 @@ CLAST_API void clast_histogram_free(clast_histogram *histogram);
 /// Columns low, high, count, density, normal (mean density of the fitted normal over the bin).
 CLAST_API clast_status clast_histogram_table(const clast_histogram *histogram, const char *name,
                                              clast_table *table);
+
+// The statistics of a set of grains as one step: tables and charts into a folder.
+
+typedef struct clast_grain_statistics {
+    clast_form_set set;
+    clast_statistics statistics;  ///< of the 13 form factors and the size
+    int64_t zingg[CLAST_N_ZINGG]; ///< grains in each class
+} clast_grain_statistics;
+
+/// Statistics of the grains of a table (columns as clast_form_set_of takes them).
+///
+/// @param columns    NULL: known by their names
+/// @param bootstrap  NULL: the default
+CLAST_API clast_status clast_grain_statistics_of(const clast_table *table, const char *columns,
+                                                 const clast_bootstrap *bootstrap,
+                                                 clast_grain_statistics *statistics);
+CLAST_API void clast_grain_statistics_free(clast_grain_statistics *statistics);
+
+/// Writes into an existing folder: factors.csv, statistics.csv, correlation.csv, pca.csv,
+/// left_out.csv (if any), histogram_<column>.csv, and as charts zingg, histogram_flatness,
+/// histogram_elongation, histogram_size, correlation and pca in the format of `extension` ("svg",
+/// "pdf", "png").
+///
+/// @return CLAST_E_DISK; CLAST_E_USAGE for another extension
+CLAST_API clast_status clast_grain_statistics_write(const clast_grain_statistics *statistics,
+                                                    const char *folder, const char *extension);
 
 CLAST_END

@@ -1,8 +1,8 @@
 #pragma once
 // Many runs of one command: what varies, who has been run, one table of results.
-#include <clast/comm.h>
 #include <clast/field.h>
-#include <clast/monitor.h>
+#include <clast/machine.h>
+#include <clast/status.h>
 #include <clast/table.h>
 
 CLAST_BEGIN

@@ -41,4 +41,65 @@ CLAST_API int32_t clast_table_find(const clast_table *table, const char *name);
 /// Numbers of the named column, or NULL.
 CLAST_API double *clast_table_numbers(const clast_table *table, const char *name);
 
+// Tables from files and to files: delimited text (RFC 4180 and its common dialects) and JSON.
+
+/// How to read delimited text; {0} guesses everything.
+typedef struct clast_csv_options {
+    char
+        separator; ///< ',', ';', tab, or ' ' for runs of blanks; 0: guessed from the first two rows
+    char comment;  ///< lines that begin with it are left out; 0: '#'
+    bool no_comment; ///< no line is a comment
+    int header; ///< 1: the first row names the columns; -1: it does not; 0: it does if a cell of
+                ///< it is no number
+} clast_csv_options;
+
+/// What the reader found. Plain numbers: nothing to free.
+typedef struct clast_csv_report {
+    char separator;
+    bool has_header;
+    int64_t n_line;    ///< lines of the file
+    int64_t n_comment; ///< lines left out as comments
+    int64_t n_blank;   ///< lines left out as blank
+    int64_t n_missing; ///< empty cells and NA of number columns, which read as NaN
+    int32_t n_renamed; ///< columns without a name of their own: empty or repeated ones
+} clast_csv_report;
+
+/// Reads delimited text into an empty table named after the file.
+///
+/// A column whose cells are all numbers, empty, NA, nan or inf holds numbers, also if they are
+/// quoted; every other holds texts. Numbers have '.' whatever the locale. Quoted cells may hold
+/// separators, quotes ("") and line ends; blanks around unquoted cells are dropped. Lines end in
+/// LF, CR LF or CR; a UTF-8 byte-order mark is skipped. A header's unit, as in diameter_m,
+/// "diameter (um)" or "rho [kg/m^3]", becomes the column's unit; numbers stay as they are.
+///
+/// @param options  NULL: guess
+/// @param table    must be empty; written only on success
+/// @param report   may be NULL
+/// @return CLAST_E_FORMAT for a file without rows, and with file and line for ragged rows, stray
+/// quotes, binary bytes and UTF-16;
+///         CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB or 65,536 columns; CLAST_E_MEMORY
+CLAST_API clast_status clast_table_read_csv(const char *path, const clast_csv_options *options,
+                                            clast_table *table, clast_csv_report *report);
+
+/// The same from memory; `name` stands for the path in messages and names the table.
+CLAST_API clast_status clast_table_parse_csv(const char *name, const void *bytes, size_t n,
+                                             const clast_csv_options *options, clast_table *table,
+                                             clast_csv_report *report);
+
+/// Writes RFC 4180 text: a header of the columns' names (which end in their units), ',', lines that
+/// end in LF, numbers in the fewest digits that read back as the same double, NaN (what does not
+/// exist) as empty cells, infinities as inf.
+/// The file appears whole or not at all.
+///
+/// @return CLAST_E_DISK
+CLAST_API clast_status clast_table_write_csv(const clast_table *table, const char *path);
+
+/// The same below a line "# NOTE", which clast_table_read_csv passes over; the note is one line.
+CLAST_API clast_status clast_table_write_csv_note(const clast_table *table, const char *note,
+                                                  const char *path);
+
+/// Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON
+/// does not have, become null. The file appears whole or not at all.
+CLAST_API clast_status clast_table_write_json(const clast_table *table, const char *path);
+
 CLAST_END

@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/collide.h>
+#include <clast/agglomerate.h>
 #include <clast/decompose.h>
 
 CLAST_BEGIN

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 #include <math.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 
 enum { POINT_LEVEL = 4, RAISE_LIMIT = 100 };
 

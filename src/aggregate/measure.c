@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/parallel.h"
-#include <clast/overlap.h>
+#include <clast/assembly.h>
 #include <clast/structure.h>
 #include <math.h>
 #include <stdio.h>

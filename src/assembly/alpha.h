@@ -1,6 +1,6 @@
 #pragma once
 // The alpha envelope: what a ball that passes between surface points cannot reach.
-#include <clast/envelope.h>
+#include <clast/structure.h>
 
 /// `alpha` of clast_assembly_envelope.
 clast_status clx_envelope_alpha(const clast_assembly *assembly,

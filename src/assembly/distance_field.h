@@ -3,7 +3,7 @@
 #include "geom/isosurface.h"
 
 #include <clast/assembly.h>
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 /// What a grain's distance needs beside the assembly: a hierarchy per mesh shape.
 typedef struct clx_distance_field {

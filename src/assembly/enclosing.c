@@ -4,7 +4,7 @@
 // to the set; the sphere about the set grows until nothing is outside. For polyhedra the points are
 // vertices and the end is exact; for spheres and ellipsoids the rounds close in quadratically once
 // the touched grains are known.
-#include <clast/envelope.h>
+#include <clast/structure.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"

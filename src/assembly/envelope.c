@@ -1,5 +1,5 @@
 // Envelopes of an assembly by name: hulls, spheres, published rays.
-#include <clast/envelope.h>
+#include <clast/structure.h>
 
 #include "assembly/alpha.h"
 #include "assembly/hull_part.h"

@@ -1,6 +1,6 @@
 // Contacts and overlaps of grains that repeat periodically: the grains near the border once more as
 // images on the other side, and of each pair that meets there only one of its two sights.
-#include <clast/overlap.h>
+#include <clast/assembly.h>
 
 #include "assembly/touch_set.h"
 #include "assembly/union.h"

@@ -1,6 +1,6 @@
 // An assembly as one printable body: union of grains and necks, voids filled, checked to be one
 // piece.
-#include <clast/printable.h>
+#include <clast/assembly.h>
 
 #include "assembly/distance_field.h"
 #include "assembly/whole.h"

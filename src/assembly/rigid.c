@@ -4,7 +4,7 @@
 // interval: the intervals' lengths less that of their union, and the moments of both, are exact on
 // a line; across, lines stand on an even lattice over the boxes that parts share. The same goes for
 // mass where parts differ in density.
-#include <clast/rigid.h>
+#include <clast/assembly.h>
 
 #include "assembly/line_cut.h"
 #include "assembly/whole.h"
@@ -12,8 +12,8 @@
 #include "base/status.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
-#include <clast/hull.h>
-#include <clast/reform.h>
+#include <clast/form.h>
+#include <clast/mesh.h>
 
 enum { LEVEL = 2 }; // of the surfaces of spheres and ellipsoids: 320 triangles
 

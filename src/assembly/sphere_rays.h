@@ -1,6 +1,6 @@
 #pragma once
 // The published envelope: hull of the outermost hits of rays on the sphere composites.
-#include <clast/envelope.h>
+#include <clast/structure.h>
 
 /// sphere_rays of clast_assembly_envelope.
 clast_status clx_envelope_sphere_rays(const clast_assembly *assembly,

@@ -6,7 +6,7 @@
 // the union counts 1 in all. Points are a lattice of irrational steps [the generalised golden
 // ratio], shifted at random eight times; the shifts' spread is the error. Where no point of a grain
 // is in another its term is exact, so the noise is that of the overlaps alone.
-#include <clast/overlap.h>
+#include <clast/assembly.h>
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"

@@ -2,7 +2,7 @@
 // The union's volume where the grains lie in a scene of contact already.
 #include "assembly/touch_set.h"
 #include "touch/scene.h"
-#include <clast/overlap.h>
+#include <clast/assembly.h>
 
 /// clast_assembly_union of grains whose true solids are the scene's bodies: body i is grain i. It
 /// spares the trees of the shapes, which for a small aggregate cost as much as the rest.

@@ -1,6 +1,6 @@
 #pragma once
 // The wrap: what a ball of a stated radius, rolling in from outside, cannot reach.
-#include <clast/envelope.h>
+#include <clast/structure.h>
 
 /// `wrap` of clast_assembly_envelope.
 clast_status clx_envelope_wrap(const clast_assembly *assembly,

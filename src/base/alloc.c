@@ -7,7 +7,7 @@
 #endif
 #include "base/alloc.h"
 
-#include <clast/memory.h>
+#include <clast/machine.h>
 
 #include "base/lines.h"
 #include "base/number.h"

@@ -2,7 +2,7 @@
 // of the folder [POSIX rename(2) is atomic within one file system]. And whole inputs with a limit.
 #include "base/file.h"
 
-#include <clast/monitor.h>
+#include <clast/status.h>
 
 #include "base/alloc.h"
 #include "base/number.h"

@@ -1,7 +1,7 @@
 // OpenMP behind one function; without OpenMP the same blocks run in order.
 #include "base/parallel.h"
 
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdatomic.h>
 #include <stdio.h>
 

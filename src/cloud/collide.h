@@ -2,7 +2,7 @@
 // One well-mixed block of particles: kinds, rates and events.
 #include "math/rng.h"
 
-#include <clast/collide.h>
+#include <clast/agglomerate.h>
 
 /// Particles that are equal in all that the rates see.
 typedef struct clx_kind {

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "geom/whole.h"
 #include "math/rng.h"
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 #include <math.h>
 
 enum { N_PROBE = 64 };

@@ -1,6 +1,6 @@
 #pragma once
 // Pairs of a run against the table of ranges. [docs/theory/agglomeration.md section 7]
-#include <clast/collide.h>
+#include <clast/agglomerate.h>
 
 /// Rows of the table that the kernels and the sticking of a configuration have, as bits.
 uint32_t clx_ranges_of(const clast_collide_config *config);

@@ -1,7 +1,7 @@
 #pragma once
 // A population balance on pivots: rates of change and their Jacobian. [docs/theory/agglomeration.md
 // section 6]
-#include <clast/spectrum.h>
+#include <clast/agglomerate.h>
 
 /// State beyond the n sections: monomers that left the grid above, and that settled.
 enum { CLX_GEL, CLX_SETTLED, CLX_N_BESIDE };

@@ -1,6 +1,6 @@
 #pragma once
 // Counts of particles by their number of monomers, summed over runs.
-#include <clast/collide.h>
+#include <clast/agglomerate.h>
 #include <clast/table.h>
 
 enum { CLX_N_SINGLE = 8, CLX_N_CLASS = 112 }; ///< classes of one number; all

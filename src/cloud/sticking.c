@@ -1,5 +1,5 @@
 // Laws of sticking. [docs/theory/agglomeration.md section 8]
-#include <clast/sticking.h>
+#include <clast/kernel.h>
 
 #include "base/status.h"
 #include <math.h>

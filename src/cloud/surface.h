@@ -2,8 +2,8 @@
 // The closed surface of a mesh domain.
 #include "base/status.h"
 
-#include <clast/bvh.h>
 #include <clast/domain.h>
+#include <clast/mesh.h>
 
 struct clast_domain_surface {
     clast_mesh mesh;

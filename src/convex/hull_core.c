@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <string.h>
 
 /// Triangles within this of one plane are one face, in radii.

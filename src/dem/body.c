@@ -2,8 +2,8 @@
 #include "base/alloc.h"
 #include "dem/dem.h"
 #include "shape/whole.h"
-#include <clast/hull.h>
-#include <clast/mesh_check.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <string.h>
 
 /// Share of its hull's volume that a mesh may lack and still count as convex.

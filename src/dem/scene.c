@@ -1,5 +1,5 @@
 // Beds for timings and tests, built through the public functions alone.
-#include <clast/scene.h>
+#include <clast/dem.h>
 
 #include "base/alloc.h"
 #include "math/rng.h"

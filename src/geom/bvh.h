@@ -1,7 +1,7 @@
 #pragma once
 // What the library's own code may know of a clast_bvh: its nodes and its triangles in leaf order.
 #include "geom/tree.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 /// How clast_bvh_inside decides.
 typedef enum {

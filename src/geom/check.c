@@ -7,7 +7,7 @@
 #include "geom/weld.h"
 #include "math/predicates.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <stdlib.h>
 #include <string.h>
 

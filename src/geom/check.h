@@ -1,7 +1,7 @@
 #pragma once
 // The steps of clast_mesh_check, one file each.
 #include "geom/topology.h"
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 
 /// True when the three corners are on one line, exactly.
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);

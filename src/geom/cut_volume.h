@@ -1,7 +1,7 @@
 #pragma once
 // How much of a box, or of every bin of a regular grid, lies inside a closed surface.
 // [docs/theory/decompose.md section 12]
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 /// A box cut into bins; bin (i, j, k) has number (i nb[1] + j) nb[2] + k.
 typedef struct clx_cut_grid {

@@ -1,11 +1,11 @@
 // Distance between two surfaces by samples, each with its exact distance to the other surface.
-#include <clast/mesh_simplify.h>
+#include <clast/mesh_repair.h>
 
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 enum { BLOCK = 256, WANTED = 30000 };
 

@@ -4,7 +4,7 @@
 // by that step times g_k, a sixth of the sum of the cross products of the two other corners over
 // the vertex's triangles. Vertex by vertex, steps are taken that bring the volume nearer to what it
 // was; their sizes differ so much that a few hundred leave 1e-11.
-#include <clast/mesh_simplify.h>
+#include <clast/mesh_repair.h>
 
 #include "base/alloc.h"
 #include "geom/collapse.h"

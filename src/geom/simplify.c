@@ -4,7 +4,7 @@
 // vertex a new life (entries of its edges are thrown away and made anew) and touches its ring
 // (entries there are priced again when they come up). So each edge has one living entry, and only
 // what comes near the top is priced again.
-#include <clast/mesh_simplify.h>
+#include <clast/mesh_repair.h>
 
 #include "base/alloc.h"
 #include "geom/collapse.h"

@@ -1,14 +1,14 @@
 // Loads what an aggregation's configuration names: shapes by name or file, composites, sizes.
-#include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
 #include "io/shape_word.h"
 #include <clast/fill.h>
-#include <clast/mesh_check.h>
 #include <clast/mesh_file.h>
-#include <clast/spheres_file.h>
+#include <clast/mesh_repair.h>
+#include <clast/shape.h>
 #include <clast/state.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // Beds from state files and surfaces.
-#include <clast/bed_file.h>
+#include <clast/porosity.h>
 
 #include "base/alloc.h"
 #include "io/bed_tables.h"

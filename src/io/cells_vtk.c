@@ -1,5 +1,5 @@
 // Cells and points of a decomposition as VTU and VTP. [VTK file formats, "XML file formats"]
-#include <clast/decompose_file.h>
+#include <clast/decompose.h>
 
 #include "base/alloc.h"
 #include "cloud/contract.h"

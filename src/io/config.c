@@ -1,5 +1,5 @@
 // YAML configuration files: one mapping of keys to scalars or lists, typed by the field table.
-#include <clast/config.h>
+#include <clast/field.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

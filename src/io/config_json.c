@@ -1,5 +1,5 @@
 // A configuration as JSON text, from its field table: for manifests and state files.
-#include <clast/manifest.h>
+#include <clast/run_folder.h>
 
 #include "base/alloc.h"
 #include "base/number.h"

@@ -2,7 +2,7 @@
 //
 // Two passes over the bytes: the first checks the shape and finds which columns hold numbers, the
 // second fills the table, so memory is taken only for cells that exist.
-#include <clast/table_file.h>
+#include <clast/table.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

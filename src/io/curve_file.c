@@ -1,12 +1,11 @@
 // Sieve curves from delimited text, and sizes from one text of the command line.
-#include <clast/grading_file.h>
+#include <clast/grading.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/number.h"
 #include <clast/field.h>
-#include <clast/sizes_file.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

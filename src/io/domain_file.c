@@ -1,5 +1,5 @@
 // Domains named on the command line; those bounded by a surface are read from its file.
-#include <clast/domain_file.h>
+#include <clast/domain.h>
 
 #include "base/status.h"
 #include <clast/field.h>

@@ -6,7 +6,7 @@
 #include "base/path.h"
 #include <clast/field.h>
 #include <clast/mesh_file.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <string.h>
 
 static const char *const names[] = {"any", "vtu", "stl",  "obj", "ply",

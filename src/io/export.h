@@ -2,7 +2,7 @@
 // One writer for each format of clast_assembly_write: appends the whole file.
 #include "base/file.h"
 #include "io/parts.h"
-#include <clast/export.h>
+#include <clast/state.h>
 
 typedef struct clx_export {
     const clast_assembly *assembly;

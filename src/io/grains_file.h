@@ -1,6 +1,6 @@
 #pragma once
 // Parts of clast_grains_read: one file's task.
-#include <clast/grains_file.h>
+#include <clast/grain.h>
 
 #include "base/status.h"
 

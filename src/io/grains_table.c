@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include <clast/field.h>
-#include <clast/form_set.h>
+#include <clast/form.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // Coefficient files of spherical-harmonic series: rows n m Re(a) Im(a).
-#include <clast/harmonics_file.h>
+#include <clast/harmonics.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

@@ -1,5 +1,5 @@
 // manifest.json: version, command line, configuration, seed, inputs' digests, host and times.
-#include <clast/manifest.h>
+#include <clast/run_folder.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -7,7 +7,7 @@
 #include "base/lock.h"
 #include "io/json.h"
 #include "io/sha256.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // Loads what a packing's configuration names: sizes and shapes.
-#include <clast/pack_file.h>
+#include <clast/pack.h>
 
 #include "aggregate/config.h"
 #include "base/alloc.h"
@@ -7,13 +7,13 @@
 #include "io/bed_tables.h"
 #include "io/shape_word.h"
 #include "math/vec3.h"
-#include <clast/grading_file.h>
-#include <clast/hull.h>
-#include <clast/mesh_check.h>
+#include <clast/assembly.h>
+#include <clast/form.h>
+#include <clast/grading.h>
+#include <clast/mesh.h>
 #include <clast/mesh_file.h>
-#include <clast/reform.h>
-#include <clast/rigid.h>
-#include <clast/spheres_file.h>
+#include <clast/mesh_repair.h>
+#include <clast/shape.h>
 #include <clast/state.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // Packings of spheres from other programs' files.
-#include <clast/packing_file.h>
+#include <clast/state.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
@@ -7,8 +7,8 @@
 #include "io/bytes.h"
 #include "io/spheres_table.h"
 #include "io/text.h"
-#include <clast/points_file.h>
-#include <clast/table_file.h>
+#include <clast/cloud.h>
+#include <clast/table.h>
 #include <stdio.h>
 
 #define BYTE_LIMIT (INT64_C(16) << 30)

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

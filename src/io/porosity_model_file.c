@@ -9,7 +9,7 @@
 // A file is checked against itself before it is used: known features, finite numbers, ordered
 // ranges, a covariance that is symmetric with a diagonal >= 0. Unknown keys are refused, as a
 // misspelt key would otherwise be ignored; provenance is free.
-#include <clast/porosity_model_file.h>
+#include <clast/porosity_model.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

@@ -1,5 +1,5 @@
 // Size lists and histograms from delimited text.
-#include <clast/sizes_file.h>
+#include <clast/grading.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

@@ -1,5 +1,5 @@
 // Sphere sets from files and to files: CSV and state files.
-#include <clast/spheres_file.h>
+#include <clast/shape.h>
 
 #include "base/alloc.h"
 #include "base/lock.h"
@@ -8,7 +8,7 @@
 #include "io/spheres_table.h"
 #include "shape/whole.h"
 #include <clast/state.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 // Spheres in tables.
-#include <clast/packing_file.h>
+#include <clast/state.h>
 #include <clast/table.h>
 
 /// True when the table's columns are named as those of spheres: x, y, z and a radius or diameter.

@@ -1,5 +1,5 @@
 // Tables to delimited text (RFC 4180) and JSON.
-#include <clast/table_file.h>
+#include <clast/table.h>
 
 #include "base/file.h"
 #include "base/number.h"

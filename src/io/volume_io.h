@@ -1,6 +1,6 @@
 #pragma once
 // Formats of volumes, from memory.
-#include <clast/volume_file.h>
+#include <clast/volume.h>
 
 #include "base/status.h"
 

@@ -1,5 +1,5 @@
 // Voxel text files: sizes, edge, then one whole number a cube.
-#include <clast/voxels_file.h>
+#include <clast/volume.h>
 
 #include "base/alloc.h"
 #include "base/file.h"

@@ -3,8 +3,7 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "pack/pack.h"
-#include <clast/form_law.h>
-#include <clast/reform.h>
+#include <clast/form.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

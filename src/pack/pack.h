@@ -1,7 +1,7 @@
 #pragma once
 // A packing under way.
 #include "base/status.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 #include <clast/pack.h>
 
 /// A grain before it is made.

@@ -3,13 +3,12 @@
 //
 // A chart of 600 points is as sharp as a page shows; all 10,000 rows of five repeats would make a
 // page of several megabytes.
-#include <clast/aggregate_charts.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
 #include "math/sort.h"
-#include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,11 +1,10 @@
 // Charts of a decomposition: points and cells, densities of bins, scores of thresholds, events.
-#include <clast/decompose_charts.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "cloud/contract.h"
 #include "cloud/whole.h"
 #include "math/sort.h"
-#include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

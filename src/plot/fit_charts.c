@@ -1,12 +1,11 @@
 // Charts of a fitted porosity model.
-#include <clast/statistics_charts.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
 #include "math/least_squares.h"
 #include "porosity/whole.h"
-#include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,9 +1,8 @@
 // Sieve curves: what passes, wanted against achieved.
-#include <clast/grading_chart.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "base/whole.h"
-#include <clast/chart.h>
 #include <math.h>
 
 /// Sums a column's shares up to each sieve: sieve i is the lower end of row i + 1, so the first has

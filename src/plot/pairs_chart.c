@@ -1,8 +1,7 @@
 // Chart of the pair correlation.
-#include <clast/pairs_chart.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
-#include <clast/chart.h>
 #include <math.h>
 
 /// Shells in which a uniform cloud has less than this have no g to speak of.

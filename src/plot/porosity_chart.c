@@ -1,11 +1,10 @@
 // Charts of a bed: porosity over height and radius, with error bars over realisations; pores;
 // stress.
-#include <clast/porosity_chart.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/whole.h"
-#include <clast/chart.h>
 #include <stdio.h>
 #include <string.h>
 

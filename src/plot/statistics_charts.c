@@ -1,5 +1,5 @@
 // Charts of a set of grains: Zingg diagram, histograms, correlation, principal components.
-#include <clast/statistics_charts.h>
+#include <clast/chart.h>
 
 #include "base/alloc.h"
 #include "base/number.h"
@@ -7,7 +7,6 @@
 #include "math/sort.h"
 #include "math/whole.h"
 #include "shape/whole.h"
-#include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

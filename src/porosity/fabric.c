@@ -1,5 +1,5 @@
 // Directions of contacts and grains.
-#include <clast/fabric.h>
+#include <clast/porosity.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"

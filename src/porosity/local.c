@@ -3,7 +3,7 @@
 // Cells are cut by the nearest neighbours first, shell by shell of a grid, until no farther sphere
 // can reach: a sphere at distance d cuts at (d^2 + r_i^2 - r_j^2) / (2 d), which is beyond the
 // cell's farthest corner once d is large enough for the largest r_j.
-#include <clast/local_porosity.h>
+#include <clast/porosity.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"

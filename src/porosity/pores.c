@@ -1,5 +1,5 @@
 // Sizes of pores: distances of even points of the pore space to the nearest grain.
-#include <clast/pores.h>
+#include <clast/porosity.h>
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
@@ -10,7 +10,7 @@
 #include "math/vec3.h"
 #include "porosity/whole.h"
 #include "touch/gap.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 enum { BLOCK = 256, POINT_LIMIT = 100000000 };
 

@@ -1,5 +1,5 @@
 // Porosity by distance from the axis of a cylinder, by even points inside the grains.
-#include <clast/pores.h>
+#include <clast/porosity.h>
 
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"

@@ -1,5 +1,5 @@
 // Means over realisations of a bed.
-#include <clast/realisations.h>
+#include <clast/porosity.h>
 
 #include "base/alloc.h"
 #include "base/whole.h"

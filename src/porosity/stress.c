@@ -1,5 +1,5 @@
 // Love's and Weber's stress from contact forces, in bulk and by height.
-#include <clast/stress.h>
+#include <clast/porosity.h>
 
 #include "base/alloc.h"
 #include "base/status.h"

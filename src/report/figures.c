@@ -4,7 +4,6 @@
 #include "base/alloc.h"
 #include "base/path.h"
 #include "report/page.h"
-#include <clast/aggregate_charts.h>
 #include <clast/chart.h>
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "report/quantity.h"
 
 #include "report/page.h"
-#include <clast/envelope.h>
+#include <clast/structure.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/path.h"
 #include <clast/run_folder.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>

@@ -5,7 +5,7 @@
 #include "report/page.h"
 #include "report/quantity.h"
 #include "report/value.h"
-#include <clast/envelope.h>
+#include <clast/structure.h>
 #include <stdio.h>
 #include <string.h>
 

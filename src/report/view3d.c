@@ -5,7 +5,7 @@
 #include "io/json.h"
 #include "render/legend.h"
 #include "report/page.h"
-#include <clast/mesh_simplify.h>
+#include <clast/mesh_repair.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

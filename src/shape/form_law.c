@@ -1,5 +1,5 @@
 // Normal laws of flatness and elongation, cut to a range.
-#include <clast/form_law.h>
+#include <clast/form.h>
 
 #include "base/status.h"
 #include "math/rng.h"

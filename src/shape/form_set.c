@@ -1,5 +1,5 @@
 // Forms of a set of grains from a table's columns; rows that have none are listed, not guessed.
-#include <clast/form_set.h>
+#include <clast/form.h>
 
 #include "base/alloc.h"
 #include "base/number.h"

@@ -4,7 +4,7 @@
 #include "math/rng.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 
 /// Turns a hull to its centroid and principal axes, longest first.
 static clast_status to_principal_axes(clast_mesh *hull)

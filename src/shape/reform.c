@@ -3,14 +3,14 @@
 // With C_ij = integral of x_i x_j about the centroid, a linear map x -> A x gives V' = det A V and
 // C'/V' = A (C/V) A^T. In the principal frame C is diagonal, so a stretch by (p, q, r) multiplies
 // the semi-axes sqrt(5 C_ii / V) by exactly p, q, r.                    [docs/theory/grading.md]
-#include <clast/reform.h>
+#include <clast/form.h>
 
 #include "base/status.h"
 #include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
-#include <clast/mesh_simplify.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 
 /// Second moments by the volume, C/V, from the inertia about the centroid.
 static void second_moments(const clast_mass *mass, double c[3][3])

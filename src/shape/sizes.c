@@ -1,5 +1,5 @@
 // Lists of sizes: rows of a size or a bin with a count.
-#include <clast/sizes.h>
+#include <clast/grading.h>
 
 #include "base/alloc.h"
 

@@ -5,14 +5,13 @@
 // is measured on the finished mesh (hull, simplified, stretched), so what is matched is what the
 // user gets. Simplifying makes the measure jump by little as the amplitude moves, hence bisection
 // with a stated tolerance instead of a faster root finder.
-#include <clast/synthesize.h>
+#include <clast/harmonics.h>
 
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include "shape/random_field.h"
 #include <clast/form.h>
 #include <clast/grain.h>
-#include <clast/reform.h>
 #include <stddef.h>
 
 enum { LEAST_DEGREE = 3, N_HALVING = 40 }; // degree 1 moves a body, degree 2 is its form

@@ -1,5 +1,5 @@
 // Grains of labelled voxel volumes: which labels there are, their surfaces and points.
-#include <clast/voxels.h>
+#include <clast/volume.h>
 
 #include "base/alloc.h"
 #include "geom/isosurface.h"

@@ -2,13 +2,11 @@
 // Whether shapes and what they are made of, as a caller has filled them himself, hold together.
 // Each function says what is wrong, for people, or gives NULL.
 #include "geom/whole.h"
-#include <clast/form_set.h>
+#include <clast/form.h>
 #include <clast/grading.h>
 #include <clast/harmonics.h>
 #include <clast/shape.h>
-#include <clast/sizes.h>
 #include <clast/volume.h>
-#include <clast/voxels.h>
 
 const char *clx_spheres_fault(const clast_spheres *spheres);
 const char *clx_shape_fault(const clast_shape *shape);

@@ -1,13 +1,13 @@
 // A fit from a configuration to a folder of results.
-#include <clast/aggregate_fit_file.h>
+#include <clast/aggregate_fit.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
 #include "study/aggregate_fit_chart.h"
-#include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 #include <clast/run_folder.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>

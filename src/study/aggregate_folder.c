@@ -5,10 +5,10 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/state.h"
-#include <clast/manifest.h>
 #include <clast/mesh_file.h>
+#include <clast/run_folder.h>
 #include <clast/structure.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

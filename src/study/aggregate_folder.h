@@ -1,7 +1,7 @@
 #pragma once
 // Files of an aggregation's run folder.
 #include <clast/aggregate_run.h>
-#include <clast/manifest.h>
+#include <clast/run_folder.h>
 #include <clast/state.h>
 
 /// State of one repeat: `folder`/state.h5 for the first, state-0002.h5 for the second, ...

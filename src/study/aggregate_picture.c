@@ -6,10 +6,10 @@
 #include "base/number.h"
 #include "base/path.h"
 #include "math/vec3.h"
-#include <clast/aggregate_charts.h>
-#include <clast/mesh_check.h>
+#include <clast/assembly.h>
+#include <clast/chart.h>
 #include <clast/mesh_file.h>
-#include <clast/printable.h>
+#include <clast/mesh_repair.h>
 #include <clast/render.h>
 
 enum { PICTURE_WIDTH = 960, PICTURE_HEIGHT = 720 };

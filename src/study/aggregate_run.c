@@ -9,8 +9,7 @@
 #include "run/run.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
-#include <clast/aggregate_file.h>
-#include <clast/config.h>
+#include <clast/field.h>
 #include <clast/report.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,13 +1,13 @@
 // Statistics of a set of grains, with their tables and charts.
-#include <clast/grain_statistics.h>
+#include <clast/statistics.h>
 
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
 #include "math/whole.h"
 #include "shape/whole.h"
-#include <clast/statistics_charts.h>
-#include <clast/table_file.h>
+#include <clast/chart.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -6,12 +6,10 @@
 #include "io/checkpoint.h"
 #include "io/pack_state.h"
 #include <clast/chart.h>
-#include <clast/export.h>
 #include <clast/form.h>
-#include <clast/grading_chart.h>
-#include <clast/manifest.h>
-#include <clast/porosity_chart.h>
-#include <clast/table_file.h>
+#include <clast/run_folder.h>
+#include <clast/state.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Files of a packing's run folder.
 #include "base/status.h"
-#include <clast/pack_run.h>
+#include <clast/pack.h>
 
 /// Everything that a finished run leaves: state.h5, series.csv, profile.csv, achieved.csv,
 /// summary.json, charts; checkpoints go last.

@@ -1,5 +1,5 @@
 // A packing's results as JSON.
-#include <clast/pack_run.h>
+#include <clast/pack.h>
 
 #include "base/alloc.h"
 #include "base/status.h"

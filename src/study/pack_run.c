@@ -1,5 +1,5 @@
 // A whole run of a packing: inputs, folder, checkpoints, going on, results.
-#include <clast/pack_run.h>
+#include <clast/pack.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -7,8 +7,7 @@
 #include "io/pack_state.h"
 #include "run/run.h"
 #include "study/pack_folder.h"
-#include <clast/config.h>
-#include <clast/pack_file.h>
+#include <clast/field.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

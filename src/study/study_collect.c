@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>

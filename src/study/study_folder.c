@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "run/run.h"
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

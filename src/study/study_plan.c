@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>

@@ -11,7 +11,7 @@
 #include "base/queue.h"
 #include "io/checkpoint.h"
 #include "run/run.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // Fuzz: YAML configurations over the largest field table.
 #include <clast/aggregate.h>
-#include <clast/config.h>
+#include <clast/field.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>

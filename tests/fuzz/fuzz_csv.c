@@ -1,5 +1,5 @@
 // Any bytes are a table or one line of complaint.
-#include <clast/table_file.h>
+#include <clast/table.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
 

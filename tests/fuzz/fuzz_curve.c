@@ -1,5 +1,5 @@
 // Any bytes are a sieve curve or one line of complaint; a curve that is read can be drawn from.
-#include <clast/grading_file.h>
+#include <clast/grading.h>
 #include <math.h>
 #include <stdlib.h>
 

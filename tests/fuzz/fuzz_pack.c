@@ -4,8 +4,8 @@
 #include "h5_script.h"
 #include "io/pack_state.h"
 #include <clast/grading.h>
+#include <clast/machine.h>
 #include <clast/pack.h>
-#include <clast/parallel.h>
 #include <clast/state.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);

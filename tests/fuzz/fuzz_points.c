@@ -1,5 +1,5 @@
 // Any bytes are points in one of the formats or one line of complaint.
-#include <clast/points_file.h>
+#include <clast/cloud.h>
 
 #include <clast/status.h>
 #include <stdlib.h>

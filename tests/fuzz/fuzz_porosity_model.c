@@ -1,5 +1,5 @@
 // Fuzz: model files. What is read must also be written and read back alike, and applied.
-#include <clast/porosity_model_file.h>
+#include <clast/porosity_model.h>
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

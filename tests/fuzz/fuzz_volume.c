@@ -1,6 +1,6 @@
 // Any bytes are a volume (NRRD, TIFF, bare), which is cut into labels or parts, or one line.
 #include <clast/status.h>
-#include <clast/volume_file.h>
+#include <clast/volume.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // Any bytes are a volume, whose labels have surfaces or are refused, or one line of complaint.
-#include <clast/voxels_file.h>
+#include <clast/volume.h>
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);

@@ -8,10 +8,10 @@
 #include "mesh_maker.h"
 
 #include "math/rng.h"
-#include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 #include <clast/decompose.h>
 #include <clast/fill.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <clast/render.h>
 #include <inttypes.h>
 #include <stdio.h>

@@ -3,9 +3,8 @@
 #include "support.h"
 
 #include <clast/form.h>
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <clast/mesh_file.h>
-#include <clast/reform.h>
 #include <stdio.h>
 
 enum { N = 63 };

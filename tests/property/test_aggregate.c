@@ -2,7 +2,7 @@
 #include "aggregates.h"
 
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <string.h>
 
 static const double axes[2][3] = {{1.0, 0.7, 0.4}, {1.0, 0.5, 0.5}};

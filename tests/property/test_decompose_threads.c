@@ -5,7 +5,7 @@
 
 #include "math/rng.h"
 #include <clast/decompose.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

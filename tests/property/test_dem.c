@@ -3,8 +3,8 @@
 #include "support.h"
 
 #include "dem_scenes.h"
-#include <clast/parallel.h>
-#include <clast/scene.h>
+#include <clast/dem.h>
+#include <clast/machine.h>
 #include <stdlib.h>
 
 /// Where the grains of a simulation are.

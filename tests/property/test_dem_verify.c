@@ -3,8 +3,8 @@
 #include "support.h"
 
 #include "dem/dem.h"
-#include <clast/parallel.h>
-#include <clast/scene.h>
+#include <clast/dem.h>
+#include <clast/machine.h>
 
 static clast_dem *bed_after(int32_t verify, int64_t n_step)
 {

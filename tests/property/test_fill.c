@@ -7,7 +7,7 @@
 
 #include "math/rng.h"
 #include <clast/fill.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <string.h>
 
 static void fill(const clast_mesh *mesh, int32_t n, int32_t strategy, uint64_t seed,

@@ -5,7 +5,7 @@
 
 #include "math/rng.h"
 #include "shape/fill_field.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "math/vec3.h"
 #include "touch/gap.h"
 #include "touch_bodies.h"
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 enum { N_PLACED = 200, N_SHAPE = 4 };
 

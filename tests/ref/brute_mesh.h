@@ -1,7 +1,7 @@
 #pragma once
 // Plain twins of the hierarchy's queries: every triangle, textbook formulas, more
 // digits than a double.
-#include <clast/bvh.h>
+#include <clast/mesh.h>
 
 /// Distance to the nearest triangle by the region method of Ericson 2005, sec. 5.1.5.
 double brute_closest(const clast_mesh *mesh, const double point[3]);

@@ -1,6 +1,6 @@
 #include "dem_scenes.h"
 
-#include <clast/rigid.h>
+#include <clast/assembly.h>
 
 #include "math/rng.h"
 #include <math.h>

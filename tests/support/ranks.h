@@ -1,6 +1,6 @@
 #pragma once
 // Ranks without MPI: processes of this machine that share a piece of memory.
-#include <clast/comm.h>
+#include <clast/machine.h>
 
 /// Runs `work` on n ranks, forked from this process, and fails the test unless each returns 0
 /// within five minutes. What ranks shall tell the test goes through files or `shared`.

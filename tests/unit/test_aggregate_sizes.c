@@ -4,7 +4,7 @@
 #include "aggregate/form.h"
 #include "aggregate/sizes.h"
 #include "base/alloc.h"
-#include <clast/aggregate_file.h>
+#include <clast/aggregate_run.h>
 
 static void default_config(clast_aggregate_config *config)
 {

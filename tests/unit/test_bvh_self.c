@@ -4,7 +4,7 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "support.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

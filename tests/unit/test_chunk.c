@@ -4,7 +4,7 @@
 
 #include "dem/chunk.h"
 #include "dem_scenes.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <string.h>
 
 enum { N = 4000, WORKERS = 3 };

@@ -3,17 +3,16 @@
 
 #include <clast/agglomerate.h>
 #include <clast/aggregate.h>
-#include <clast/config.h>
 #include <clast/decompose.h>
+#include <clast/field.h>
 #include <clast/fill.h>
+#include <clast/harmonics.h>
 #include <clast/mesh_repair.h>
 #include <clast/pack.h>
 #include <clast/porosity_fit.h>
 #include <clast/render.h>
 #include <clast/report.h>
-#include <clast/spectrum.h>
 #include <clast/study.h>
-#include <clast/synthesize.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 
 #include "gravel.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 
 static const double UNTURNED[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 static const double ABOUT_Z_45[9] = {0.70710678118654752,

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "math/rng.h"
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <errno.h>
 #include <jansson.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "geom/cut_volume.h"
 #include "math/rng.h"
 #include <clast/decompose.h>
-#include <clast/domain_file.h>
+#include <clast/domain.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

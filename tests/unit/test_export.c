@@ -7,7 +7,7 @@
 #include "io/export.h"
 #include "math/vec3.h"
 #include <clast/mesh_file.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

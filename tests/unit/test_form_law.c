@@ -4,9 +4,7 @@
 #include "math/special.h"
 #include "math/vec3.h"
 #include <clast/form.h>
-#include <clast/form_law.h>
-#include <clast/hull.h>
-#include <clast/reform.h>
+#include <clast/mesh.h>
 #include <clast/shape.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Unit: sieve curves, their numbers of grains and draws from them, against closed forms. */
 #include "support.h"
 
-#include <clast/grading_file.h>
+#include <clast/grading.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

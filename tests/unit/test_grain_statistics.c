@@ -4,9 +4,9 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include <clast/grain_statistics.h>
-#include <clast/statistics_charts.h>
-#include <clast/table_file.h>
+#include <clast/chart.h>
+#include <clast/statistics.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -2,7 +2,7 @@
 #include "support.h"
 
 #include "math/legendre.h"
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
  * clouds, in a Monte Carlo box and in the sectional balance alike. */
 #include "support.h"
 
-#include <clast/spectrum.h>
+#include <clast/agglomerate.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -3,13 +3,13 @@
 
 #include "base/number.h"
 #include <clast/aggregate_run.h>
-#include <clast/bed_file.h>
-#include <clast/config.h>
-#include <clast/export.h>
+#include <clast/chart.h>
+#include <clast/field.h>
 #include <clast/mesh_file.h>
-#include <clast/porosity_chart.h>
-#include <clast/table_file.h>
-#include <clast/volume_file.h>
+#include <clast/porosity.h>
+#include <clast/state.h>
+#include <clast/table.h>
+#include <clast/volume.h>
 #include <dirent.h>
 #include <locale.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "io/sha256.h"
-#include <clast/manifest.h>
+#include <clast/run_folder.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Unit: the limit on the memory of all blocks together. */
 #include "support.h"
 
-#include <clast/memory.h>
+#include <clast/machine.h>
 
 #include "base/alloc.h"
 #include <string.h>

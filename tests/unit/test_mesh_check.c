@@ -4,8 +4,8 @@
 #include "geom/intersect.h"
 #include "math/predicates.h"
 #include "math/rng.h"
-#include <clast/hull.h>
-#include <clast/mesh_check.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <string.h>
 
 static bool has_fault(const clast_mesh_check_result *r, const char *code, const char *text)

@@ -2,7 +2,7 @@
    script, ADMesh, SolidWorks; see the data's README). */
 #include "mesh_maker.h"
 
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 
 typedef struct {
     const char *file;

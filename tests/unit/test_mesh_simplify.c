@@ -1,9 +1,8 @@
 /* Unit: simplification keeps volume and topology, and stays near; distances between surfaces. */
 #include "mesh_maker.h"
 
-#include <clast/hull.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
-#include <clast/mesh_simplify.h>
 #include <string.h>
 
 static clast_mesh_simplify_report simplify(const clast_mesh *mesh, int32_t n, clast_mesh *out)

@@ -3,7 +3,7 @@
 
 #include "math/vec3.h"
 #include "pack/saved.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

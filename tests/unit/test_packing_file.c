@@ -2,9 +2,9 @@
  */
 #include "support.h"
 
-#include <clast/local_porosity.h>
-#include <clast/overlap.h>
-#include <clast/packing_file.h>
+#include <clast/assembly.h>
+#include <clast/porosity.h>
+#include <clast/state.h>
 #include <stdio.h>
 #include <string.h>
 

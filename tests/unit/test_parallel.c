@@ -2,8 +2,8 @@
 #include "support.h"
 
 #include "base/parallel.h"
-#include <clast/local_porosity.h>
-#include <clast/parallel.h>
+#include <clast/machine.h>
+#include <clast/porosity.h>
 #include <string.h>
 
 enum { N = 1000, BLOCK = 7 };

@@ -1,7 +1,7 @@
 /* Unit: points from files that were written here by hand, number by number. */
 #include "support.h"
 
-#include <clast/points_file.h>
+#include <clast/cloud.h>
 #include <hdf5.h>
 #include <stdio.h>
 #include <string.h>

@@ -9,7 +9,7 @@
 
 #include "math/rng.h"
 #include <clast/porosity_fit.h>
-#include <clast/table_file.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,8 +2,8 @@
  * printed equations in the comments. */
 #include "support.h"
 
-#include <clast/porosity_model_file.h>
-#include <clast/table_file.h>
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "support.h"
 
 #include "geom/isosurface.h"
-#include <clast/printable.h>
+#include <clast/assembly.h>
 #include <string.h>
 
 static const double upright[4] = {1.0, 0.0, 0.0, 0.0};

@@ -2,7 +2,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include "support.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <clast/render.h>
 #include <stdio.h>
 #include <stdlib.h>

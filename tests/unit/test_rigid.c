@@ -5,9 +5,9 @@
 #include "dem/dem.h"
 #include "dem_scenes.h"
 #include "math/vec3.h"
-#include <clast/mesh_check.h>
-#include <clast/parallel.h>
-#include <clast/rigid.h>
+#include <clast/assembly.h>
+#include <clast/machine.h>
+#include <clast/mesh_repair.h>
 #include <clast/settling.h>
 
 static const clast_rigid_options AS_THEY_ARE = {.hull = false};

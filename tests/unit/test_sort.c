@@ -3,7 +3,7 @@
 
 #include "math/rng.h"
 #include "math/sort.h"
-#include <clast/parallel.h>
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Unit: spectra of a box meet exact solutions, a plain twin and each other; mass to 1e-12. */
 #include "support.h"
 
-#include <clast/spectrum.h>
+#include <clast/agglomerate.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Unit: sphere sets survive files; odd headers are understood; bad rows are named. */
 #include "support.h"
 
-#include <clast/spheres_file.h>
+#include <clast/shape.h>
 #include <stdio.h>
 #include <string.h>
 

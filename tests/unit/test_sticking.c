@@ -1,7 +1,7 @@
 /* Unit: each law of sticking equals its closed form, found here by another way. */
 #include "support.h"
 
-#include <clast/spectrum.h>
+#include <clast/agglomerate.h>
 #include <string.h>
 
 static clast_impact spheres(double a, double b, double density, double speed)

@@ -2,8 +2,7 @@
 #include "support.h"
 
 #include "dem_scenes.h"
-#include <clast/realisations.h>
-#include <clast/stress.h>
+#include <clast/porosity.h>
 
 static const double RADIUS = 4e-3;
 static const double DENSITY = 2650.0;

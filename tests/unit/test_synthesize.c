@@ -6,8 +6,8 @@
 #include "shape/random_field.h"
 #include <clast/form.h>
 #include <clast/grain.h>
-#include <clast/hull.h>
-#include <clast/synthesize.h>
+#include <clast/harmonics.h>
+#include <clast/mesh.h>
 #include <string.h>
 
 enum { DEGREES = 8, N_TERM = (DEGREES + 1) * (DEGREES + 1) };

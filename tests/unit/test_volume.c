@@ -2,7 +2,7 @@
 #include "support.h"
 
 #include "io/h5.h"
-#include <clast/volume_file.h>
+#include <clast/volume.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Unit: labelled volumes to surfaces and points. */
 #include "support.h"
 
-#include <clast/mesh_check.h>
+#include <clast/mesh_repair.h>
 #include <string.h>
 
 static clast_status parse(const char *text, clast_voxels *voxels)

@@ -4,7 +4,7 @@
 #include "convex/wall_mesh.h"
 #include "gravel.h"
 #include "math/vec3.h"
-#include <clast/hull.h>
+#include <clast/mesh.h>
 
 /* A floor z = 0 of 2 n^2 triangles on the square |x|, |y| <= 2. */
 static void make_floor(int n, clast_mesh *mesh)

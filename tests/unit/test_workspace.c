@@ -5,8 +5,8 @@
 
 #include "base/alloc.h"
 #include "math/rng.h"
+#include <clast/machine.h>
 #include <clast/mesh.h>
-#include <clast/parallel.h>
 #include <clast/workspace.h>
 #include <math.h>
 #include <pthread.h>

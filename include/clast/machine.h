@@ -1,12 +1,36 @@
 #pragma once
+#include <clast/status.h>
+
 // Processes that share one piece of work ("ranks"), behind a table of functions.
 //
 // The library itself knows one rank. libclast_mpi (clast/mpi.h) fills the table for the ranks of an
 // MPI job; a program may fill it for any other kind. What runs on several ranks ends in the same
 // bytes as on one.
-#include <clast/status.h>
 
 CLAST_BEGIN
+
+// How much memory the library's blocks may take together, over all threads of the process. What
+// would go beyond ends with CLAST_E_MEMORY before it is taken, so that a file that declares more
+// than the machine has costs a message and nothing else. There is no limit until one is set; the
+// command sets one (`clast COMMAND --max-memory`).
+
+/// Sets the limit in bytes; 0: none. Blocks that are taken already stay.
+///
+/// @return CLAST_E_ARGUMENT for a negative number
+CLAST_API clast_status clast_memory_set_limit(int64_t bytes);
+
+/// The limit in bytes; 0: none.
+CLAST_API int64_t clast_memory_limit(void);
+
+/// Bytes that the library's blocks take now.
+CLAST_API int64_t clast_memory_taken(void);
+
+/// Threads for all later work of the calling thread; 0 means one per core. Results never depend on
+/// it.
+CLAST_API void clast_parallel_set_threads(int32_t n);
+
+/// Threads in use.
+CLAST_API int32_t clast_parallel_threads(void);
 
 enum { CLAST_COMM_WORDS = 3 };
 
