@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """Fails when an include or a call of a public function points up, or sideways into another folder of the same layer
-(STYLE section 1). A public header declares functions of several layers; who calls them is what counts. Only io, plot, render, base/file.c and
-base/lock.c may open files. Only base/number*.c may read or print a double by the C library, which obeys the host's locale.
+(STYLE section 1). A public header declares functions of several layers; who calls them is what counts.
+
+It also fails when headers include each other in a circle, or when more than two files call each other in one.
+
+Only io, plot, render, base/file.c and base/lock.c may open files. Only base/number*.c may read or print a double by the C
+library, which obeys the host's locale.
 """
 import pathlib
 import re
@@ -30,7 +34,64 @@ def definers():
     return defined
 
 
+def circles(graph):
+    """Strongly connected parts of more than one node, each sorted: Tarjan's algorithm."""
+    order, low, stack, found = {}, {}, [], []
+
+    def visit(node):
+        order[node] = low[node] = len(order)
+        stack.append(node)
+        for other in sorted(graph[node]):
+            if other not in order:
+                visit(other)
+            if other in stack:
+                low[node] = min(low[node], low[other])
+        if low[node] == order[node]:
+            part = stack[stack.index(node):]
+            del stack[stack.index(node):]
+            if len(part) > 1:
+                found.append(sorted(part))
+
+    for node in sorted(graph):
+        if node not in order:
+            visit(node)
+    return found
+
+
+def include_graph():
+    """File of src or public header -> the files that it includes."""
+    graph = {}
+    for path in [*ROOT.glob("src/*/*.[ch]"), *ROOT.glob("include/clast/*.h")]:
+        names = re.findall(r'#include\s+[<"]([^>"]+)[>"]', strip_comments(path.read_text()))
+        graph[str(path.relative_to(ROOT))] = {
+            ("include/" if n.startswith("clast/") else "src/") + n for n in names if "/" in n}
+    return {name: targets & set(graph) for name, targets in graph.items()}
+
+
+def call_graph():
+    """Source -> the sources that define a function, or a table of functions, that it names."""
+    words, owner = {}, {}
+    defined = r"^(?!static|typedef|extern)[a-z_][\w \*]*?\b(\w+)\([^;]*?\)\n\{"
+    table = r"^(?!extern)const clx_\w+ (clx_\w+)(?:\[\])? = "
+    for path in sorted(ROOT.glob("src/*/*.c")):
+        text = strip_comments(path.read_text())
+        name = str(path.relative_to(ROOT))
+        words[name] = set(re.findall(r"\b(?:clx|clast|touch|xml)_\w+", text))
+        for function in re.findall(defined, text, flags=re.M) + re.findall(table, text, flags=re.M):
+            owner.setdefault(function, name)
+    return {name: {owner[w] for w in used if w in owner} - {name} for name, used in words.items()}
+
+
+def circle_problems():
+    for circle in circles(include_graph()):
+        yield f"headers include each other in a circle: {', '.join(circle)}"
+    for circle in circles(call_graph()):
+        if len(circle) > 2:
+            yield f"{len(circle)} files call each other in a circle: {', '.join(circle)}"
+
+
 def problems():
+    yield from circle_problems()
     defined = definers()
     for path in sorted(ROOT.glob("src/*/*.[ch]")):
         folder = path.parent.name

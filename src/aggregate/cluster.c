@@ -4,8 +4,8 @@
 // The larger keeps its place, so its scene only grows: N grains cost O(N log N) insertions.
 #include "aggregate/cluster.h"
 
-#include "aggregate/grow.h"
 #include "aggregate/pick.h"
+#include "aggregate/state.h"
 #include "aggregate/trial.h"
 #include "aggregate/walk.h"
 #include "base/alloc.h"
@@ -80,7 +80,8 @@ done:
     return status;
 }
 
-clast_status clx_clusters_begin(clast_aggregate *a)
+/// Every particle a cluster of its own.
+static clast_status begin(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     const double none[3] = {0.0, 0.0, 0.0};
@@ -138,7 +139,8 @@ done:
     return status;
 }
 
-clast_status clx_clusters_restore(clast_aggregate *a, const clast_table *members)
+/// The same clusters as an earlier run had, from its members table; the grains are in place.
+static clast_status restore_members(clast_aggregate *a, const clast_table *members)
 {
     clast_status status = CLAST_OK;
     clx_clusters *all = &a->clusters;
@@ -359,7 +361,7 @@ done:
     return status;
 }
 
-clast_status clx_clusters_merge(clast_aggregate *a)
+static clast_status step(clast_aggregate *a)
 {
     int32_t pair[2];
     clx_pick_pair(a, pair);
@@ -368,7 +370,8 @@ clast_status clx_clusters_merge(clast_aggregate *a)
     return first->n >= second->n ? merge(a, first, second) : merge(a, second, first);
 }
 
-const clx_cluster *clx_clusters_largest(const clx_clusters *clusters)
+/// The one with most grains, the first of equals.
+static const clx_cluster *largest_of(const clx_clusters *clusters)
 {
     const clx_cluster *best = &clusters->cluster[0];
     for (int32_t i = 1; i < clusters->n; ++i) {
@@ -377,7 +380,8 @@ const clx_cluster *clx_clusters_largest(const clx_clusters *clusters)
     return best;
 }
 
-void clx_clusters_spread(clast_aggregate *a)
+/// Sets the clusters that are left side by side along x, so that they can be looked at.
+static void spread(clast_aggregate *a)
 {
     double x = 0.0;
     for (int32_t c = 0; c < a->clusters.n; ++c) {
@@ -424,3 +428,45 @@ done:
     clast_table_free(&made);
     return status;
 }
+
+static clast_status plan(clast_aggregate *a)
+{
+    const int32_t n_final = a->config->n_final;
+    if (n_final >= a->n_particle) {
+        return clx_fail(CLAST_E_CONFIG, "n_final: %d clusters cannot be left of %d particles",
+                        n_final, a->n_particle);
+    }
+    a->n_step = a->n_particle - n_final;
+    return CLAST_OK;
+}
+
+static clx_measured measured(const clast_aggregate *a)
+{
+    const clx_cluster *largest = largest_of(&a->clusters);
+    return (clx_measured){.cluster = largest,
+                          .n_grain = largest->n,
+                          .n_contact = largest->n_contact,
+                          .n_cluster = a->clusters.n,
+                          .mass = largest->mass,
+                          .volume = largest->volume,
+                          .gyration = largest->gyration};
+}
+
+static clast_status restore(clast_aggregate *a, const clast_aggregate_saved *saved)
+{
+    clast_status status = CLAST_OK;
+    a->n_placed = (int32_t)a->history.n_row;
+    CLX_CHECK(a->n_placed <= a->n_step, CLAST_E_FORMAT, "%d saved mergers of %d", a->n_placed,
+              a->n_step);
+    CLX_TRY(clx_aggregate_copy_grains(a, saved->placed));
+    CLX_TRY(restore_members(a, saved->members));
+done:
+    return status;
+}
+
+const clx_aggregate_mode clx_aggregate_by_cluster = {.plan = plan,
+                                                     .begin = begin,
+                                                     .step = step,
+                                                     .end = spread,
+                                                     .measured = measured,
+                                                     .restore = restore};

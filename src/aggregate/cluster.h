@@ -1,5 +1,5 @@
 #pragma once
-// Clusters that meet clusters, until few are left.
+// Clusters that join clusters, until few are left.
 #include "touch/scene.h"
 #include <clast/aggregate.h>
 
@@ -24,21 +24,6 @@ typedef struct clx_clusters {
 } clx_clusters;
 
 void clx_clusters_free(clx_clusters *clusters);
-
-/// Every particle a cluster of its own.
-clast_status clx_clusters_begin(clast_aggregate *a);
-
-/// The same clusters as an earlier run had, from its members table; the grains are in place.
-clast_status clx_clusters_restore(clast_aggregate *a, const clast_table *members);
-
-/// Two clusters meet and become one.
-clast_status clx_clusters_merge(clast_aggregate *a);
-
-/// The one with most grains, the first of equals.
-const clx_cluster *clx_clusters_largest(const clx_clusters *clusters);
-
-/// Sets the clusters that are left side by side along x, so that they can be looked at.
-void clx_clusters_spread(clast_aggregate *a);
 
 /// Cluster and place in it of every grain.
 clast_status clx_clusters_members(const clast_aggregate *a, clast_table *members);

@@ -1,5 +1,5 @@
 // The core: where it lies, whether its centre is inside it, and what it may meet.
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 
 #include "base/alloc.h"
 #include "math/vec3.h"
@@ -37,7 +37,7 @@ done:
 }
 
 /// AUTO: from the core's centre, or from random grains when that lies outside the core.
-clast_status clx_aggregate_resolve_origin(clast_aggregate *a)
+static clast_status resolve_origin(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     bool holds = false;
@@ -79,7 +79,7 @@ static clast_status core_by_spheres(clast_aggregate *a)
     return clx_aggregate_add_group(a, 0, centre, UNTURNED, scale / group->part[0].scale);
 }
 
-clast_status clx_aggregate_place_core(clast_aggregate *a)
+static clast_status place_core(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     const clast_aggregate_config *c = a->config;
@@ -92,12 +92,13 @@ clast_status clx_aggregate_place_core(clast_aggregate *a)
     a->n_core = a->assembly.n_grain;
     CLX_TRY(clx_aggregate_add_row(a, &row));
     row[CLX_HISTORY_SIZE] = own * scale;
-    CLX_TRY(clx_aggregate_resolve_origin(a));
+    CLX_TRY(resolve_origin(a));
 done:
     return status;
 }
 
-clast_status clx_aggregate_check_sizes(const clast_aggregate *a)
+/// Refuses cores that are too small and masses that cannot be reached.
+static clast_status check_sizes(const clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     const double core_length =
@@ -121,6 +122,52 @@ clast_status clx_aggregate_check_sizes(const clast_aggregate *a)
     CLX_CHECK(a->config->stop_mass == 0.0 || a->config->stop_mass > a->mass, CLAST_E_CONFIG,
               "stop_mass: the core alone weighs %g kg, not below %g kg", a->mass,
               a->config->stop_mass);
+done:
+    return status;
+}
+
+clast_status clx_aggregate_begin_core(clast_aggregate *a)
+{
+    const clast_status status = place_core(a);
+    return status == CLAST_OK ? check_sizes(a) : status;
+}
+
+clx_measured clx_aggregate_measured_core(const clast_aggregate *a)
+{
+    return (clx_measured){.n_grain = a->assembly.n_grain,
+                          .n_contact = a->assembly.n_contact,
+                          .n_cluster = 1,
+                          .mass = a->mass,
+                          .volume = a->volume,
+                          .gyration = clx_aggregate_gyration(a)};
+}
+
+/// Grains that the core and the placed particles have together.
+static int64_t count_grains(const clast_aggregate *a)
+{
+    int64_t n = a->kit.group[0].n_part;
+    for (int64_t r = 1; r < a->history.n_row; ++r) {
+        const double shape = a->history.value[r * a->history.n_column + CLX_HISTORY_SHAPE];
+        if (!(shape >= 0.0 && shape < a->kit.n_group - 1)) {
+            return -1;
+        }
+        n += a->kit.group[1 + (int32_t)shape].n_part;
+    }
+    return n;
+}
+
+clast_status clx_aggregate_restore_core(clast_aggregate *a, const clast_aggregate_saved *saved)
+{
+    clast_status status = CLAST_OK;
+    const clast_assembly *placed = saved->placed;
+    a->n_core = a->kit.group[0].n_part;
+    a->n_placed = (int32_t)a->history.n_row - 1;
+    CLX_CHECK(a->history.n_row >= 1 && a->n_placed <= a->n_step &&
+                  count_grains(a) == placed->n_grain,
+              CLAST_E_FORMAT, "%lld saved rows and %d saved grains do not belong together",
+              (long long)a->history.n_row, placed->n_grain);
+    CLX_TRY(clx_aggregate_copy_grains(a, placed));
+    CLX_TRY(resolve_origin(a));
 done:
     return status;
 }

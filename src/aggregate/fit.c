@@ -15,18 +15,6 @@ enum {
 
 static const char *const PHASE = "fit: aggregates";
 
-const char *clast_fit_observable_name(int32_t observable)
-{
-    static const char *const name[] = {"size", "density", "settling_velocity"};
-    return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? name[observable] : "unknown";
-}
-
-const char *clast_fit_observable_unit(int32_t observable)
-{
-    static const char *const unit[] = {"m", "kg/m^3", "m/s"};
-    return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? unit[observable] : "-";
-}
-
 void clx_fit_free(clx_fit *fit)
 {
     clx_free(fit->packing);

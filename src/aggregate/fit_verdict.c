@@ -7,6 +7,18 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *clast_fit_observable_name(int32_t observable)
+{
+    static const char *const name[] = {"size", "density", "settling_velocity"};
+    return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? name[observable] : "unknown";
+}
+
+const char *clast_fit_observable_unit(int32_t observable)
+{
+    static const char *const unit[] = {"m", "kg/m^3", "m/s"};
+    return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? unit[observable] : "-";
+}
+
 const char *clast_fit_verdict_name(clast_fit_verdict verdict)
 {
     static const char *const name[] = {"inside", "edge", "no"};

@@ -1,19 +1,11 @@
 // What every placed grain adds: to the assembly, the scene and the sums.
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "math/vec3.h"
 #include "touch/tree.h"
 #include <math.h>
-
-clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)
-{
-    const clast_assembly *all = &a->assembly;
-    clx_touch_body body = a->kit.shape[a->kit_shape[all->shape_id[grain]]].body;
-    clx_touch_body_place(&body, all->position[grain], all->orientation[grain], all->scale[grain]);
-    return body;
-}
 
 static clast_status enter_scene(clast_aggregate *a, int32_t grain)
 {
@@ -120,39 +112,20 @@ done:
     return status;
 }
 
-double clx_aggregate_gyration(const clast_aggregate *a)
-{
-    double centre[3];
-    v3_scale(centre, 1.0 / a->mass, a->moment);
-    return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));
-}
-
-clast_status clx_aggregate_open_row(clast_aggregate *a, double **row)
+clast_status clx_aggregate_copy_grains(clast_aggregate *a, const clast_assembly *placed)
 {
     clast_status status = CLAST_OK;
-    double *made = NULL;
-    CLX_TRY(clx_history_row(&a->history, &made));
-    made[CLX_HISTORY_REPEAT] = a->repeat;
-    made[CLX_HISTORY_N] = a->n_placed;
-    made[CLX_HISTORY_CLUSTERS] = 1.0;
-    made[CLX_HISTORY_GRAINS] = a->assembly.n_grain;
-    made[CLX_HISTORY_SHAPE] = -1.0;
-    made[CLX_HISTORY_TOUCHED] = -1.0;
-    made[CLX_HISTORY_MASS] = a->mass;
-    made[CLX_HISTORY_SOLID] = a->volume;
-    made[CLX_HISTORY_GYRATION] = clx_aggregate_gyration(a);
-    *row = made;
-done:
-    return status;
-}
-
-clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
-{
-    clast_status status = CLAST_OK;
-    double *made = NULL;
-    CLX_TRY(clx_aggregate_open_row(a, &made));
-    CLX_TRY(clx_aggregate_measure_row(a, made));
-    *row = made;
+    for (int32_t i = 0; i < placed->n_grain; ++i) {
+        CLX_TRY(clast_assembly_add_grain(&a->assembly, placed->shape_id[i], placed->position[i],
+                                         placed->orientation[i], placed->scale[i],
+                                         placed->density[i]));
+    }
+    CLX_TRY(clx_aggregate_account_all(a, 0));
+    CLX_TRY(clx_aggregate_track(a, 0));
+    for (int32_t i = 0; i < placed->n_contact; ++i) {
+        CLX_TRY(clast_assembly_add_contact(&a->assembly, placed->contact[i][0],
+                                           placed->contact[i][1], placed->contact_point[i]));
+    }
 done:
     return status;
 }

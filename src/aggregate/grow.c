@@ -1,8 +1,8 @@
-// Growth on a core: each particle is thrown, lands at its best trial, and stays.
+// Growth: step by step in one of the modes, until something stops it.
 //
 // The state is the placed grains and their rows; everything else (trees, sums, envelopes) follows
 // from them in the order of placement. That is why a restored run ends in the same bytes.
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 
 #include "aggregate/config.h"
 #include "aggregate/sizes.h"
@@ -13,22 +13,17 @@
 #include <stdio.h>
 #include <string.h>
 
+static const clx_aggregate_mode *const MODE[] = {[CLAST_AGGREGATE_CORE] = &clx_aggregate_on_core,
+                                                 [CLAST_AGGREGATE_CLUSTER] =
+                                                     &clx_aggregate_by_cluster};
+
 void clast_aggregate_destroy(clast_aggregate *a)
 {
     if (a == NULL) {
         return;
     }
-    clx_touch_scene_destroy(a->scene);
-    clx_march_free(&a->march);
-    clx_kit_free(&a->kit);
-    clast_assembly_free(&a->assembly);
-    clx_history_free(&a->history);
     clx_clusters_free(&a->clusters);
-    clx_envelope_tracker_destroy(a->tracker);
-    clx_free(a->shape_id);
-    clx_free(a->kit_shape);
-    clx_free(a->size);
-    clx_free(a->sphere_end);
+    clx_aggregate_free(a);
     clx_free(a);
 }
 
@@ -40,16 +35,6 @@ static uint64_t seed_of(const clast_aggregate_config *config, int32_t repeat)
     clx_rng rng = clx_rng_at(config->seed, CLX_STREAM_AGGREGATE_REPEAT, (uint64_t)repeat);
     const uint64_t high = clx_rng_u32(&rng);
     return (high << 32) | clx_rng_u32(&rng);
-}
-
-int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle)
-{
-    return clx_sizes_shape(a->config, a->seed, particle, a->size[particle]);
-}
-
-double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape)
-{
-    return a->size[particle] / clx_kit_size(&a->kit.group[1 + shape], a->config->size_meaning);
 }
 
 /// The kit's shapes under names of their own: a name that is taken gets a number.
@@ -88,7 +73,7 @@ static clast_status prepare_contact(clast_aggregate *a)
     if (a->config->contact == CLAST_CONTACT_MARCH) {
         return clx_march_make(a->config, &a->kit, a->seed, &a->march);
     }
-    if (a->config->mode != CLAST_AGGREGATE_CORE) {
+    if (!a->mode->is_one_body) {
         return CLAST_OK;
     }
     const clast_status status = clx_touch_scene_create(&a->scene);
@@ -119,6 +104,7 @@ clast_status clx_aggregate_begin(const clast_aggregate_config *config,
 {
     clast_status status = CLAST_OK;
     CLAST_ASSERT(input->n_coat == config->coat.n);
+    a->mode = MODE[config->mode];
     a->config = config;
     a->input = input;
     a->repeat = repeat;
@@ -128,25 +114,7 @@ clast_status clx_aggregate_begin(const clast_aggregate_config *config,
     CLX_TRY(clast_aggregate_config_check(config));
     CLX_TRY(clx_aggregate_axis(config, &a->random_axis, a->axis));
     CLX_TRY(prepare(a));
-    a->n_step = a->n_particle;
-    if (config->mode == CLAST_AGGREGATE_CLUSTER) {
-        CLX_CHECK(config->n_final < a->n_particle, CLAST_E_CONFIG,
-                  "n_final: %d clusters cannot be left of %d particles", config->n_final,
-                  a->n_particle);
-        a->n_step = a->n_particle - config->n_final;
-    }
-done:
-    return status;
-}
-
-static clast_status first_grains(clast_aggregate *a)
-{
-    clast_status status = CLAST_OK;
-    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
-        return clx_clusters_begin(a);
-    }
-    CLX_TRY(clx_aggregate_place_core(a));
-    CLX_TRY(clx_aggregate_check_sizes(a));
+    CLX_TRY(a->mode->plan(a));
 done:
     return status;
 }
@@ -162,7 +130,7 @@ clast_status clast_aggregate_create(const clast_aggregate_config *config,
     const double begun = clx_clock();
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));
     CLX_TRY(clx_aggregate_begin(config, input, repeat, a));
-    CLX_TRY(first_grains(a));
+    CLX_TRY(a->mode->begin(a));
     a->wall_s = clx_clock() - begun;
     *aggregate = a;
     a = NULL;
@@ -193,16 +161,20 @@ clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a)
     return a->n_placed == a->n_step ? CLAST_STOP_LIST : CLAST_STOP_NOT;
 }
 
+static clast_status settle(clast_aggregate *a)
+{
+    return a->mode->settle != NULL ? a->mode->settle(a) : CLAST_OK;
+}
+
 static clast_status step(clast_aggregate *a)
 {
-    const bool clusters = a->config->mode == CLAST_AGGREGATE_CLUSTER;
-    clast_status status = clusters ? clx_clusters_merge(a) : clx_aggregate_place(a);
+    clast_status status = a->mode->step(a);
     if (status == CLAST_OK && (a->config->stop_size > 0.0 || a->config->stop_porosity > 0.0)) {
-        status = clx_aggregate_settle(a);
+        status = settle(a);
     }
     a->stop = status == CLAST_OK ? clx_aggregate_stop_now(a) : CLAST_STOP_NOT;
-    if (clusters && a->stop != CLAST_STOP_NOT) {
-        clx_clusters_spread(a);
+    if (a->mode->end != NULL && a->stop != CLAST_STOP_NOT) {
+        a->mode->end(a);
     }
     return status;
 }
@@ -222,7 +194,7 @@ clast_status clast_aggregate_grow(clast_aggregate *a, int32_t n, const clast_mon
         }
     }
 done:
-    settled = clx_aggregate_settle(a);
+    settled = settle(a);
     a->wall_s += clx_clock() - begun;
     return status != CLAST_OK ? status : settled;
 }
@@ -257,27 +229,6 @@ clast_status clast_aggregate_history(const clast_aggregate *a, clast_table *hist
     return clx_history_table(&a->history, history);
 }
 
-/// Mass, solid and radius of gyration of what is measured: the aggregate, or the largest cluster.
-static void sums(const clast_aggregate *a, clast_aggregate_result *r)
-{
-    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
-        const clx_cluster *largest = clx_clusters_largest(&a->clusters);
-        r->n_grain = largest->n;
-        r->n_contact = largest->n_contact;
-        r->n_cluster = a->clusters.n;
-        r->mass = largest->mass;
-        r->solid_sum = largest->volume;
-        r->radius_of_gyration = largest->gyration;
-    } else {
-        r->n_grain = a->assembly.n_grain;
-        r->n_contact = a->assembly.n_contact;
-        r->n_cluster = 1;
-        r->mass = a->mass;
-        r->solid_sum = a->volume;
-        r->radius_of_gyration = clx_aggregate_gyration(a);
-    }
-}
-
 /// The worst overlap and the lost ones, from the rows.
 static void faults(const clast_aggregate *a, clast_aggregate_result *r)
 {
@@ -299,7 +250,6 @@ clast_status clast_aggregate_measure(const clast_aggregate *a, clast_aggregate_r
                                 .contact_s = a->contact_s,
                                 .envelope_s = a->envelope_s,
                                 .wall_s = a->wall_s};
-    sums(a, &r);
     faults(a, &r);
     CLX_TRY(clx_aggregate_measure_end(a, &r));
     *result = r;

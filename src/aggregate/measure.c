@@ -1,5 +1,5 @@
 // Envelopes of a growing aggregate: one tracker, a set of columns, and the numbers at the end.
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 
 #include "assembly/union.h"
 #include "base/alloc.h"
@@ -61,7 +61,7 @@ clast_status clx_aggregate_measure_begin(clast_aggregate *a)
         }
     }
     a->n_kind = names->n;
-    if (a->config->mode == CLAST_AGGREGATE_CORE) {
+    if (a->mode->is_one_body) {
         CLX_TRY(clx_envelope_tracker_create(a->n_kind, a->kind, &options, &a->tracker));
     }
     CLX_TRY(add_columns(a));
@@ -107,6 +107,17 @@ clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row)
     }
 done:
     a->envelope_s += clx_clock() - begun;
+    return status;
+}
+
+clast_status clx_aggregate_add_row(clast_aggregate *a, double **row)
+{
+    clast_status status = CLAST_OK;
+    double *made = NULL;
+    CLX_TRY(clx_aggregate_open_row(a, &made));
+    CLX_TRY(clx_aggregate_measure_row(a, made));
+    *row = made;
+done:
     return status;
 }
 
@@ -182,7 +193,7 @@ static clast_status measure_solid(const clast_aggregate *a, const clast_assembly
     options.tolerance = SOLID_TOLERANCE;
     options.n_sample = SOLID_SAMPLES;
     options.find_depth = false; // the rows know how far each particle must step back
-    if (a->config->contact == CLAST_CONTACT_EXACT && a->config->mode == CLAST_AGGREGATE_CORE) {
+    if (a->config->contact == CLAST_CONTACT_EXACT && a->mode->is_one_body) {
         CLX_TRY(clx_union_of_scene(grains, a->scene, &options, &solid));
     } else {
         CLX_TRY(clast_assembly_union(grains, &options, &solid));
@@ -243,10 +254,17 @@ clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate
     clast_assembly part = {0};
     const clast_assembly *grains = &a->assembly;
     end_measures m = {.a = a, .result = result};
-    if (a->config->mode == CLAST_AGGREGATE_CLUSTER) {
-        CLX_TRY(view(a, clx_clusters_largest(&a->clusters), &part));
+    const clx_measured measured = a->mode->measured(a);
+    if (measured.cluster != NULL) {
+        CLX_TRY(view(a, measured.cluster, &part));
         grains = &part;
     }
+    result->n_grain = measured.n_grain;
+    result->n_contact = measured.n_contact;
+    result->n_cluster = measured.n_cluster;
+    result->mass = measured.mass;
+    result->solid_sum = measured.volume;
+    result->radius_of_gyration = measured.gyration;
     m.grains = grains;
     CLX_TRY(measure_all(&m));
     for (int32_t k = 0; k < a->n_kind; ++k) {

@@ -2,7 +2,7 @@
 //
 // Permeable: air flows through the coat, a shell of even porosity about the core (of everything
 // where there is none: clusters). Its grain size is Sauter's mean of the placed grains.
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 
 #include <clast/settling.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // Which two clusters meet next: any two, heavy ones more often, or as Brownian motion has it.
 #include "aggregate/pick.h"
 
-#include "aggregate/grow.h"
+#include "aggregate/state.h"
 #include "math/rng.h"
 #include <math.h>
 

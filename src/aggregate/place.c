@@ -1,5 +1,6 @@
-// One more particle: thrown by the method of contact, placed at its best trial, noted in a row.
-#include "aggregate/grow.h"
+// Growth on a core: each particle is thrown by the method of contact, lands at its best trial, and
+// stays.
+#include "aggregate/state.h"
 
 #include "aggregate/trial.h"
 #include "aggregate/walk.h"
@@ -8,16 +9,6 @@
 #include "math/vec3.h"
 #include <math.h>
 #include <stdio.h>
-
-clx_aim clx_aggregate_aim(const clast_aggregate *a)
-{
-    return (clx_aim){.seed = a->seed,
-                     .particle = a->n_placed,
-                     .n_ray = a->config->rays,
-                     .random_axis = a->random_axis,
-                     .axis = {a->axis[0], a->axis[1], a->axis[2]},
-                     .cone = a->config->cone};
-}
 
 // A search shorter than this is not worth waking other threads for, which takes tens of
 // microseconds on an idle machine and milliseconds on a busy one. What a shared search would take
@@ -73,7 +64,7 @@ static void arrive(int64_t begin, int64_t end, int32_t worker, void *context)
     }
 }
 
-clast_status clx_aggregate_settle(clast_aggregate *a)
+static clast_status settle(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     clx_arrival *last = &a->arrival;
@@ -140,7 +131,7 @@ static clast_status place_by_touch(clast_aggregate *a)
     const int32_t first = a->assembly.n_grain;
     prepare_search(a, shape, &search);
     CLX_TRY(throw_particle(a, &search, &landing));
-    CLX_TRY(clx_aggregate_settle(a));
+    CLX_TRY(settle(a));
     CLX_TRY(
         clx_aggregate_lay_group(a, 1 + shape, landing.centre, landing.orientation, search.scale));
     CLX_TRY(clx_aggregate_account_all(a, first));
@@ -192,7 +183,21 @@ done:
     return status;
 }
 
-clast_status clx_aggregate_place(clast_aggregate *a)
+static clast_status place(clast_aggregate *a)
 {
     return a->config->contact == CLAST_CONTACT_MARCH ? place_by_march(a) : place_by_touch(a);
 }
+
+static clast_status plan(clast_aggregate *a)
+{
+    a->n_step = a->n_particle;
+    return CLAST_OK;
+}
+
+const clx_aggregate_mode clx_aggregate_on_core = {.is_one_body = true,
+                                                  .plan = plan,
+                                                  .begin = clx_aggregate_begin_core,
+                                                  .step = place,
+                                                  .settle = settle,
+                                                  .measured = clx_aggregate_measured_core,
+                                                  .restore = clx_aggregate_restore_core};

@@ -291,7 +291,7 @@ double clast_dem_time(const clast_dem *dem)
     if (dem == NULL) {
         return (double)NAN;
     }
-    return (double)dem->step * dem->config.time_step;
+    return clx_dem_time(dem);
 }
 
 void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain)

@@ -176,6 +176,29 @@ int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_
 /// Compares the contacts that clx_contacts has just found with ones found without warm start.
 void clx_verify(clast_dem *dem);
 
+/// How far an item's surface may have moved since its neighbours were searched.
+static inline double clx_item_moved(const clast_dem *dem, int32_t i)
+{
+    const clx_anchor *at = &dem->list.anchor[i];
+    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position));
+    if (clx_item_is_round(dem, i)) {
+        return shifted;
+    }
+    const double *q = dem->motion[clx_item_grain(dem, i)].orientation;
+    double s = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        s += (q[k] - at->orientation[k]) * (q[k] - at->orientation[k]);
+    }
+    // the angle is 4 asin(|dq| / 2) <= 2.1 |dq| up to 60 degrees
+    return shifted + 2.1 * sqrt(s) * clx_item_radius(dem, i);
+}
+
+/// Simulated time [s].
+static inline double clx_dem_time(const clast_dem *dem)
+{
+    return (double)dem->step * dem->config.time_step;
+}
+
 /// Sums pair forces; velocities, positions and orientations one step on. True when no grain moved
 /// farther than its stride.
 bool clx_move(clast_dem *dem);

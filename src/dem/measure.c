@@ -106,7 +106,7 @@ void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures)
         return;
     }
     clast_dem_measures m = {.step = dem->step,
-                            .time = clast_dem_time(dem),
+                            .time = clx_dem_time(dem),
                             .n_grain = dem->n_grain,
                             .top = -INFINITY,
                             .n_listed = dem->list.n_pair,

@@ -174,35 +174,13 @@ static double shift(const clx_moving *c, int64_t i, const double f[3])
     return v3_norm(g->velocity);
 }
 
-/// How far an item's surface may have moved since its neighbours were searched.
-static inline double moved(const clast_dem *dem, int32_t i)
-{
-    const clx_anchor *at = &dem->list.anchor[i];
-    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position));
-    if (clx_item_is_round(dem, i)) {
-        return shifted;
-    }
-    const double *q = dem->motion[clx_item_grain(dem, i)].orientation;
-    double s = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        s += (q[k] - at->orientation[k]) * (q[k] - at->orientation[k]);
-    }
-    // the angle is 4 asin(|dq| / 2) <= 2.1 |dq| up to 60 degrees
-    return shifted + 2.1 * sqrt(s) * clx_item_radius(dem, i);
-}
-
-bool clx_item_has_left(const clast_dem *dem, int32_t i, double share)
-{
-    return !(moved(dem, i) <= share * dem->list.anchor[i].margin);
-}
-
 /// Whether an item has used up its margin. Its path tells that it has not, most of the time.
 static inline bool is_beyond(clast_dem *dem, int32_t i, double travel)
 {
     if (travel < dem->list.limit[i]) {
         return false;
     }
-    const double left = dem->list.anchor[i].margin - moved(dem, i);
+    const double left = dem->list.anchor[i].margin - clx_item_moved(dem, i);
     dem->list.limit[i] = travel + CLX_SURE * left;
     return !(left >= 0.0);
 }
@@ -333,7 +311,7 @@ static double shaking(const clast_dem *dem)
         return 0.0;
     }
     const double w = 2.0 * CLAST_PI / d->shake_period;
-    return d->shake_amplitude * w * w * sin(w * clast_dem_time(dem));
+    return d->shake_amplitude * w * w * sin(w * clx_dem_time(dem));
 }
 
 clx_moving clx_move_begin(clast_dem *dem)

@@ -76,7 +76,9 @@ static void mark_stale(clast_dem *dem)
 {
     clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
-        l->is_stale[i] = i >= l->n_known || clx_item_has_left(dem, i, 0.5) ? 1 : 0;
+        const bool is_within =
+            i < l->n_known && clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
+        l->is_stale[i] = is_within ? 0 : 1;
         if (l->is_stale[i] != 0) {
             set_anchor(dem, i);
         }

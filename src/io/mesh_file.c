@@ -8,7 +8,6 @@
 #include "io/mesh_io.h"
 #include <clast/field.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -45,17 +44,6 @@ clast_mesh_format clast_mesh_format_of_path(const char *path)
         }
     }
     return CLAST_MESH_ANY;
-}
-
-void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)
-{
-    if (report->n_warning < CLAST_MESH_N_WARNING) {
-        va_list args;
-        va_start(args, format);
-        (void)clx_number_print_list(report->warning[report->n_warning++], CLAST_MESH_WARNING_SIZE,
-                                    format, args);
-        va_end(args);
-    }
 }
 
 static clast_status parse(const void *bytes, size_t n, clast_mesh_format format, clast_mesh *mesh,

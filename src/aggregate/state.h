@@ -1,5 +1,7 @@
 #pragma once
-// The inside of a growing aggregate, for the files of this folder.
+// The inside of a growing aggregate, for the files of this folder, from the bottom up: its state
+// (state.c), what a grain adds (grains.c), rows and envelopes (measure.c), the two modes of growing
+// (place.c on a core, cluster.c), growth (grow.c, restore.c). Calls go down only.
 #include "aggregate/aim.h"
 #include "aggregate/cluster.h"
 #include "aggregate/envelope.h"
@@ -24,7 +26,37 @@ typedef struct clx_arrival {
     char detail[512]; ///< the worker's message
 } clx_arrival;
 
+/// What the numbers of an aggregate are of.
+typedef struct clx_measured {
+    const clx_cluster *cluster; ///< NULL: all grains
+    int32_t n_grain, n_contact, n_cluster;
+    double mass, volume, gyration;
+} clx_measured;
+
+/// A way to grow: what growth on a core and growth of clusters do not share.
+typedef struct clx_aggregate_mode {
+    bool is_one_body; ///< all grains are one body, followed by one scene and one tracker
+    /// Sets n_step; the configuration's counts are checked.
+    clast_status (*plan)(clast_aggregate *a);
+    /// The grains that growth starts with.
+    clast_status (*begin)(clast_aggregate *a);
+    /// One more particle, or one merger.
+    clast_status (*step)(clast_aggregate *a);
+    /// Ends what the last step left to be done beside the next, so that its row is whole; may be
+    /// NULL.
+    clast_status (*settle)(clast_aggregate *a);
+    /// After the last step; may be NULL.
+    void (*end)(clast_aggregate *a);
+    clx_measured (*measured)(const clast_aggregate *a);
+    /// Grains of an earlier run; the history is restored already.
+    clast_status (*restore)(clast_aggregate *a, const clast_aggregate_saved *saved);
+} clx_aggregate_mode;
+
+extern const clx_aggregate_mode clx_aggregate_on_core;
+extern const clx_aggregate_mode clx_aggregate_by_cluster;
+
 struct clast_aggregate {
+    const clx_aggregate_mode *mode;
     const clast_aggregate_config *config; ///< borrowed
     const clast_aggregate_input *input;   ///< borrowed
     int32_t repeat;
@@ -64,11 +96,25 @@ struct clast_aggregate {
     double alone_s; ///< how long the last search took on one thread, or would have at most
 };
 
+/// state.c: empties the aggregate.
+void clx_aggregate_free(clast_aggregate *a);
+
 /// Coating shape and scale of a particle.
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle);
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape);
 
-/// Adds the grains of a placed group: all three of the next.
+/// A grain of the assembly as contact sees it.
+clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain);
+
+/// The cone of rays of the next step.
+clx_aim clx_aggregate_aim(const clast_aggregate *a);
+
+double clx_aggregate_gyration(const clast_aggregate *a);
+
+/// A row of the sums as they are, without the envelopes.
+clast_status clx_aggregate_open_row(clast_aggregate *a, double **row);
+
+/// grains.c: adds the grains of a placed group: all three of the next.
 clast_status clx_aggregate_add_group(clast_aggregate *a, int32_t group, const double centre[3],
                                      const double orientation[4], double scale);
 
@@ -80,24 +126,10 @@ clast_status clx_aggregate_account_all(clast_aggregate *a, int32_t first);
 /// Grains of the assembly from `first` on are taken into the envelopes.
 clast_status clx_aggregate_track(clast_aggregate *a, int32_t first);
 
-/// Kit, sizes, scene, columns; no grain yet.
-clast_status clx_aggregate_begin(const clast_aggregate_config *config,
-                                 const clast_aggregate_input *input, int32_t repeat,
-                                 clast_aggregate *a);
+/// All grains and contacts of an earlier run, in their order.
+clast_status clx_aggregate_copy_grains(clast_aggregate *a, const clast_assembly *placed);
 
-/// Whether, after this step, growing ends.
-clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a);
-
-/// AUTO origin resolved, once the core's n_core grains lie.
-clast_status clx_aggregate_resolve_origin(clast_aggregate *a);
-
-/// A grain of the assembly as contact sees it.
-clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain);
-
-/// The cone of rays of the next step.
-clx_aim clx_aggregate_aim(const clast_aggregate *a);
-
-/// Envelopes: kinds, tracker and columns; a grain; a row's columns; the numbers at the end.
+/// measure.c: envelopes: kinds, tracker and columns; a row's columns; the numbers at the end.
 clast_status clx_aggregate_measure_begin(clast_aggregate *a);
 clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row);
 clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster *cluster,
@@ -107,19 +139,18 @@ clast_status clx_aggregate_measure_settling(const clast_aggregate *a, const clas
                                             const double width[3], clast_aggregate_result *result);
 clast_status clx_aggregate_measure_end(const clast_aggregate *a, clast_aggregate_result *result);
 
-/// A row of the sums as they are; without the envelopes, or with them.
-clast_status clx_aggregate_open_row(clast_aggregate *a, double **row);
+/// A row of the sums as they are, with the envelopes.
 clast_status clx_aggregate_add_row(clast_aggregate *a, double **row);
 
-double clx_aggregate_gyration(const clast_aggregate *a);
+/// core.c: the core's grains and their row, or those of an earlier run.
+clast_status clx_aggregate_begin_core(clast_aggregate *a);
+clast_status clx_aggregate_restore_core(clast_aggregate *a, const clast_aggregate_saved *saved);
+clx_measured clx_aggregate_measured_core(const clast_aggregate *a);
 
-clast_status clx_aggregate_place_core(clast_aggregate *a);
+/// grow.c: kit, sizes, scene, columns; no grain yet.
+clast_status clx_aggregate_begin(const clast_aggregate_config *config,
+                                 const clast_aggregate_input *input, int32_t repeat,
+                                 clast_aggregate *a);
 
-/// Refuses cores that are too small and masses that cannot be reached.
-clast_status clx_aggregate_check_sizes(const clast_aggregate *a);
-
-/// Throws and places the next particle.
-clast_status clx_aggregate_place(clast_aggregate *a);
-
-/// Ends the last particle's arrival, so that its row is whole.
-clast_status clx_aggregate_settle(clast_aggregate *a);
+/// Whether, after this step, growing ends.
+clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a);
