@@ -27,26 +27,24 @@ static void print_fit(const clast_aggregate_fit *fit)
 clast_status aggregate_fit(const cli_common *common, const clast_aggregate_config *config)
 {
     const clast_monitor monitor = cli_monitor(common);
+    clast_status status = CLAST_OK;
     clast_aggregate_fit fit;
     char *text = NULL;
     if (config->resume[0] != '\0') {
         return cli_fail(CLAST_E_USAGE, "--fit cannot --resume: start it again");
     }
-    clast_status status = clast_aggregate_fit_study(config, common->output, &monitor, &fit);
-    if (status == CLAST_OK && common->json) {
-        status = clast_aggregate_fit_json(&fit, &text);
-        if (status == CLAST_OK) {
-            (void)puts(text);
-        }
-    } else if (status == CLAST_OK) {
+    CLI_TRY(clast_aggregate_fit_study(config, common->output, &monitor, &fit));
+    if (common->json) {
+        CLI_TRY(clast_aggregate_fit_json(&fit, &text));
+        (void)puts(text);
+    } else {
         print_fit(&fit);
     }
+    CLI_CHECK(fit.verdict == CLAST_FIT_INSIDE, CLAST_E_NO,
+              fit.verdict == CLAST_FIT_EDGE
+                  ? "not explained: the best lies at the edge of what was tried"
+                  : "not explained by what was tried");
+done:
     clast_text_free(text);
-    if (status == CLAST_OK && fit.verdict != CLAST_FIT_INSIDE) {
-        return cli_fail(CLAST_E_NO,
-                        fit.verdict == CLAST_FIT_EDGE
-                            ? "not explained: the best lies at the edge of what was tried"
-                            : "not explained by what was tried");
-    }
     return status;
 }

@@ -191,8 +191,8 @@ static clast_status write_table(const clast_run_folder *run, const char *name,
                                 const clast_table *table)
 {
     char path[CLAST_RUN_PATH];
-    const clast_status status = clast_run_folder_file(run, name, path);
-    return status == CLAST_OK ? clast_table_write_csv(table, path) : status;
+    CLI_GUARD(clast_run_folder_file(run, name, path));
+    return clast_table_write_csv(table, path);
 }
 
 /// SI unit of a number of clast porosity; "-" for lengths in the unit of a file that does not tell
@@ -218,23 +218,24 @@ static clast_status write_means(const cli_bed_runs *runs, const clast_run_folder
     static const char *const name[] = {"mean", "deviation", "low", "high"};
     const quantities q = named_means_of(runs);
     clast_table table = {0};
-    clast_status status = clast_table_init(&table, "means", q.n);
-    status = status == CLAST_OK ? clast_table_add_text(&table, "quantity") : status;
-    status = status == CLAST_OK ? clast_table_add_text(&table, "unit") : status;
-    for (int c = 0; c < 4 && status == CLAST_OK; ++c) {
-        status = clast_table_add_number(&table, name[c], "-", NULL);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_table_init(&table, "means", q.n));
+    CLI_TRY(clast_table_add_text(&table, "quantity"));
+    CLI_TRY(clast_table_add_text(&table, "unit"));
+    for (int c = 0; c < 4; ++c) {
+        CLI_TRY(clast_table_add_number(&table, name[c], "-", NULL));
     }
-    for (int k = 0; k < q.n && status == CLAST_OK; ++k) {
+    for (int k = 0; k < q.n; ++k) {
         const clast_mean *m = &q.of[k].mean;
         const double value[4] = {m->mean, m->deviation, m->low, m->high};
-        status = clast_table_set_text(&table, 0, k, q.of[k].key);
-        status = status == CLAST_OK ? clast_table_set_text(&table, 1, k, unit_of(runs, &q.of[k]))
-                                    : status;
+        CLI_TRY(clast_table_set_text(&table, 0, k, q.of[k].key));
+        CLI_TRY(clast_table_set_text(&table, 1, k, unit_of(runs, &q.of[k])));
         for (int c = 0; c < 4; ++c) {
             table.column[c + 2].number[k] = value[c];
         }
     }
-    status = status == CLAST_OK ? write_table(run, "means.csv", &table) : status;
+    CLI_TRY(write_table(run, "means.csv", &table));
+done:
     clast_table_free(&table);
     return status;
 }
@@ -245,25 +246,25 @@ static clast_status write_band(const cli_bed_runs *runs, const clast_table *prof
 {
     char path[CLAST_RUN_PATH];
     clast_table band = {0};
-    clast_status status = clast_porosity_mean_profile(runs->n, profile, &band);
-    status = status == CLAST_OK ? clast_run_folder_file(run, svg, path) : status;
-    status = status == CLAST_OK ? clast_porosity_band_chart_write(&band, runs->unit, path) : status;
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_porosity_mean_profile(runs->n, profile, &band));
+    CLI_TRY(clast_run_folder_file(run, svg, path));
+    CLI_TRY(clast_porosity_band_chart_write(&band, runs->unit, path));
     if (strcmp(runs->unit, "m") != 0) {
         cli_table_without_unit(&band);
     }
-    status = status == CLAST_OK ? write_table(run, csv, &band) : status;
+    CLI_TRY(write_table(run, csv, &band));
+done:
     clast_table_free(&band);
     return status;
 }
 
 clast_status cli_bed_runs_write(const cli_bed_runs *runs, const clast_run_folder *run)
 {
-    clast_status status = write_means(runs, run);
-    if (status == CLAST_OK) {
-        status = write_band(runs, runs->profile, run, "mean_profile.csv", "mean_profile.svg");
+    CLI_GUARD(write_means(runs, run));
+    CLI_GUARD(write_band(runs, runs->profile, run, "mean_profile.csv", "mean_profile.svg"));
+    if (runs->radial[0].n_column > 0) {
+        CLI_GUARD(write_band(runs, runs->radial, run, "mean_radial.csv", "mean_radial.svg"));
     }
-    if (status == CLAST_OK && runs->radial[0].n_column > 0) {
-        status = write_band(runs, runs->radial, run, "mean_radial.csv", "mean_radial.svg");
-    }
-    return status;
+    return CLAST_OK;
 }

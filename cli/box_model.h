@@ -30,11 +30,3 @@ typedef struct cli_box_job {
 
 /// Runs the box and writes or prints what it gives; clears `force`, as cli_results_begin.
 clast_status cli_box_run(const cli_box_job *job, bool *force);
-
-/// Lines of several columns over time_s (names and legends end with NULL, 8 at most; a missing
-/// column is left out), with bands of one standard deviation where there are columns NAME_sd.
-clast_status cli_draw_columns(const clast_table *history, const char *const *name,
-                              const char *const *label, const char *axis, const char *path);
-
-/// Spectra of a table of times x sizes at up to five times: density over size.
-clast_status cli_draw_spectra(const clast_table *spectrum, const char *axis, const char *path);

@@ -5,6 +5,7 @@
 #include "points.h"
 #include "ranges.h"
 #include "results.h"
+#include "spectrum_charts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -127,25 +128,24 @@ static clast_status load_snapshot(const cli_common *common, const config *c, int
 {
     clast_table later = {0};
     clast_table *table = k == 0 ? &l->first : &later;
-    clast_status status = cli_points_read(common->argument[k], &c->points, table);
-    if (status == CLAST_OK) {
-        status = clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]);
-        l->input.n_snapshot = k + 1;
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_points_read(common->argument[k], &c->points, table));
+    CLI_TRY(clast_cloud_from_table(table, &c->points.columns, &l->cloud[k]));
+    l->input.n_snapshot = k + 1;
+done:
     clast_table_free(&later);
     return status;
 }
 
 static clast_status load(const cli_common *common, const config *c, loaded *l)
 {
-    clast_status status = CLAST_OK;
     l->cloud = calloc((size_t)common->n_argument, sizeof *l->cloud);
     if (l->cloud == NULL) {
         return cli_fail(CLAST_E_MEMORY, "not enough memory for %d snapshots", common->n_argument);
     }
     l->input.snapshot = l->cloud;
-    for (int32_t k = 0; k < common->n_argument && status == CLAST_OK; ++k) {
-        status = load_snapshot(common, c, k, l);
+    for (int32_t k = 0; k < common->n_argument; ++k) {
+        CLI_GUARD(load_snapshot(common, c, k, l));
     }
     const struct {
         const char *name;
@@ -155,12 +155,12 @@ static clast_status load(const cli_common *common, const config *c, loaded *l)
         {c->temperature_column, &l->input.temperature},  {c->shear_column, &l->input.shear},
         {c->dissipation_column, &l->input.dissipation},  {c->fixed_column, &l->input.fixed_cell},
         {c->fixed_volume_column, &l->input.fixed_volume}};
-    for (size_t k = 0; k < sizeof wanted / sizeof wanted[0] && status == CLAST_OK; ++k) {
+    for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; ++k) {
         double *column = NULL;
-        status = clast_cloud_column(&l->first, wanted[k].name, &column);
+        CLI_GUARD(clast_cloud_column(&l->first, wanted[k].name, &column));
         *wanted[k].column = column;
     }
-    return status;
+    return CLAST_OK;
 }
 
 static void set_column(json_t *object, const char *key, const clast_table *table, const char *name)
@@ -249,49 +249,6 @@ static void print_words(const config *c, const clast_agglomeration *r)
     }
 }
 
-static clast_status write_charts(const clast_agglomeration *r, const char *end, const char *folder)
-{
-    static const char *const number[] = {"n_particle", "exact_n_particle", "fixed_n_particle",
-                                         NULL};
-    static const char *const square[] = {"M2", "exact_M2", NULL};
-    static const char *const legend[] = {"cells", "exact", "your mesh", NULL};
-    static const char *const cluster[] = {"n_1", "n_2", "n_3", "n_4", "n_5",
-                                          "n_6", "n_7", "n_8", NULL};
-    static const char *const size[] = {"k = 1", "2", "3", "4", "5", "6", "7", "8", NULL};
-    const struct {
-        const char *file, *const *name, *const *label, *axis;
-    } chart[3] = {{"number", number, legend, "particles (-)"},
-                  {"moments", square, legend, "sum of squared monomer numbers (-)"},
-                  {"clusters", cluster, size, "particles of k monomers (-)"}};
-    clast_status status = CLAST_OK;
-    char path[4096];
-    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
-        (void)snprintf(path, sizeof path, "%s/%s.%s", folder, chart[k].file, end);
-        status = cli_draw_columns(&r->history, chart[k].name, chart[k].label, chart[k].axis, path);
-    }
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/spectrum.%s", folder, end);
-        status = cli_draw_spectra(&r->spectrum, "particles a monomer (-)", path);
-    }
-    return status;
-}
-
-static clast_status write_folder(const clast_agglomeration *r, const char *end, const char *folder)
-{
-    const struct {
-        const char *file;
-        const clast_table *table;
-    } table[3] = {
-        {"history", &r->history}, {"particles", &r->particles}, {"spectrum", &r->spectrum}};
-    clast_status status = CLAST_OK;
-    char path[4096];
-    for (int k = 0; k < 3 && status == CLAST_OK; ++k) {
-        (void)snprintf(path, sizeof path, "%s/%s.csv", folder, table[k].file);
-        status = clast_table_write_csv(table[k].table, path);
-    }
-    return status == CLAST_OK ? write_charts(r, end, folder) : status;
-}
-
 static clast_status keep_results(const cli_common *common, const config *c,
                                  const clast_agglomeration *r, const json_t *out,
                                  clast_run_folder *folder)
@@ -299,61 +256,50 @@ static clast_status keep_results(const cli_common *common, const config *c,
     clast_status status = CLAST_OK;
     const cli_input inputs[] = {{"domain", cli_domain_file(c->agglomerate.decompose.domain)},
                                 {NULL, NULL}};
-    for (int32_t k = 0; k < common->n_argument && status == CLAST_OK; ++k) {
-        status = clast_run_folder_input(folder, "points", common->argument[k]);
+    for (int32_t k = 0; k < common->n_argument; ++k) {
+        CLI_TRY(clast_run_folder_input(folder, "points", common->argument[k]));
     }
-    if (status == CLAST_OK) {
-        status = cli_results_open(folder, fields, c, &c->agglomerate.decompose.seed, inputs);
-    }
-    if (status == CLAST_OK) {
-        status = write_folder(r, chart_end[c->charts], clast_run_folder_path(folder));
-    }
-    status = status == CLAST_OK ? cli_results_summary(folder, out) : status;
+    CLI_TRY(cli_results_open(folder, fields, c, &c->agglomerate.decompose.seed, inputs));
+    CLI_TRY(cli_agglomerate_files(r, chart_end[c->charts], clast_run_folder_path(folder)));
+    CLI_TRY(cli_results_summary(folder, out));
+done:
     return clast_run_folder_end(folder, status);
 }
 
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
-    const clast_status checked = cli_box_check(common, fields, c, &c->box);
-    if (checked != CLAST_OK || c->box.box_model) {
+    CLI_GUARD(cli_box_check(common, fields, c, &c->box));
+    if (c->box.box_model) {
         const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
-        return checked != CLAST_OK ? checked : cli_box_run(&job, &c->force);
+        return cli_box_run(&job, &c->force);
     }
     loaded l = {0};
     clast_agglomeration result = {0};
     clast_domain domain = {0};
+    json_t *out = NULL;
     clast_run_folder *folder = NULL;
     const double begun = cli_clock();
-    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
-    if (status == CLAST_OK) {
-        status = cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain);
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
+    CLI_TRY(cli_domain_read(c->agglomerate.decompose.domain, &c->points, &domain));
+    CLI_TRY(load(common, c, &l));
+    l.input.domain = &domain;
+    CLI_TRY(clast_agglomerate(&l.input, &c->agglomerate, &result));
+    out = summary(c, &result, cli_clock() - begun);
+    cli_range_warn(common, &result.range);
+    cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
+    (void)json_object_set_new(out, "seed", json_integer((json_int_t)c->agglomerate.decompose.seed));
+    if (folder != NULL) {
+        CLI_TRY(keep_results(common, c, &result, out, folder));
     }
-    if (status == CLAST_OK) {
-        status = load(common, c, &l);
-        l.input.domain = &domain;
+    if (common->json) {
+        CLI_TRY(cli_print_json(json_incref(out)));
+    } else {
+        print_words(c, &result);
     }
-    if (status == CLAST_OK) {
-        status = clast_agglomerate(&l.input, &c->agglomerate, &result);
-    }
-    if (status == CLAST_OK) {
-        json_t *out = summary(c, &result, cli_clock() - begun);
-        cli_range_warn(common, &result.range);
-        cli_domain_json(out, c->agglomerate.decompose.domain, &domain);
-        (void)json_object_set_new(out, "seed",
-                                  json_integer((json_int_t)c->agglomerate.decompose.seed));
-        if (folder != NULL) {
-            status = keep_results(common, c, &result, out, folder);
-        }
-        if (status == CLAST_OK && common->json) {
-            status = cli_print_json(out);
-        } else {
-            json_decref(out);
-            if (status == CLAST_OK) {
-                print_words(c, &result);
-            }
-        }
-    }
+done:
+    json_decref(out);
     clast_run_folder_destroy(folder);
     clast_agglomeration_free(&result);
     clast_domain_free(&domain);

@@ -10,12 +10,9 @@
 static clast_status resume(const cli_common *common, const clast_aggregate_config *config,
                            const clast_monitor *monitor, clast_aggregate_report *report)
 {
-    const clast_status status =
-        cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields, config,
-                                           sizeof *config, NULL));
-    return status != CLAST_OK
-               ? status
-               : clast_aggregate_resume(config->resume, common->comm, monitor, report);
+    CLI_GUARD(cli_agree(common, cli_resume_check(common, config->resume, clast_aggregate_fields,
+                                                 config, sizeof *config, NULL)));
+    return clast_aggregate_resume(config->resume, common->comm, monitor, report);
 }
 
 static clast_status print(const cli_common *common, const clast_aggregate_report *report)
@@ -25,10 +22,10 @@ static clast_status print(const cli_common *common, const clast_aggregate_report
         aggregate_report_print(report);
         return CLAST_OK;
     }
-    const clast_status status = clast_aggregate_report_json(report, true, &text);
-    if (status == CLAST_OK) {
-        (void)puts(text);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_aggregate_report_json(report, true, &text));
+    (void)puts(text);
+done:
     clast_text_free(text);
     return status;
 }
@@ -61,7 +58,7 @@ static clast_status run(const cli_common *common, void *context)
         config->resume[0] != '\0'
             ? resume(common, config, &monitor, &report)
             : clast_aggregate_run(config, common->output, common->comm, &monitor, &report);
-    if (report.n > 0) {
+    if (report.n > 0) { // of a run that stopped or failed too
         const clast_status printed = print(common, &report);
         status = status == CLAST_OK ? printed : status;
         print_surfaces(common, config, status == CLAST_OK ? report.folder : NULL);

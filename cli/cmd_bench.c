@@ -143,26 +143,26 @@ static clast_status list_json(void)
     return cli_print_json(out);
 }
 
-static void print_list(void)
+static clast_status print_list(void)
 {
     for (int32_t i = 0; i < N_SCENE; ++i) {
         (void)printf("%-15s %-12s %s%s\n", scenes[i].name, scenes[i].unit, scenes[i].summary,
                      scenes[i].is_slow ? " (only when named)" : "");
     }
+    return CLAST_OK;
 }
 
 static clast_status run_all(const cli_common *common, const config *c, json_t *list)
 {
-    clast_status status = CLAST_OK;
     if (common->n_argument == 0) {
-        for (int32_t i = 0; i < N_SCENE && status == CLAST_OK; ++i) {
-            status = scenes[i].is_slow ? CLAST_OK : run_scene(c, &scenes[i], common->json, list);
+        for (int32_t i = 0; i < N_SCENE; ++i) {
+            CLI_GUARD(scenes[i].is_slow ? CLAST_OK : run_scene(c, &scenes[i], common->json, list));
         }
     }
-    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
-        status = run_scene(c, find(common->argument[i]), common->json, list);
+    for (int32_t i = 0; i < common->n_argument; ++i) {
+        CLI_GUARD(run_scene(c, find(common->argument[i]), common->json, list));
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status run(const cli_common *common, void *context)
@@ -172,30 +172,22 @@ static clast_status run(const cli_common *common, void *context)
     json_t *out = json_object();
     clast_status status = CLAST_OK;
     for (int32_t i = 0; i < common->n_argument; ++i) {
-        if (find(common->argument[i]) == NULL) {
-            status = cli_fail(CLAST_E_USAGE, "no scene is called %s; see clast bench --list",
-                              common->argument[i]);
-            goto done;
-        }
-    }
-    if (c->list && common->json) {
-        status = list_json();
-        goto done;
+        CLI_CHECK(find(common->argument[i]) != NULL, CLAST_E_USAGE,
+                  "no scene is called %s; see clast bench --list", common->argument[i]);
     }
     if (c->list) {
-        print_list();
+        status = common->json ? list_json() : print_list();
         goto done;
     }
     if (!common->json) {
         (void)printf("%-15s %10s %-12s %10s %8s %8s %8s  reference is\n", "scene", "value", "unit",
                      "reference", "ratio", "cpu s", "peak MB");
     }
-    status = run_all(common, c, list);
-    if (status == CLAST_OK && common->json) {
+    CLI_TRY(run_all(common, c, list));
+    if (common->json) {
         (void)json_object_set(out, "scenes", list);
-        status = cli_print_json(out);
-        out = NULL;
-    } else if (status == CLAST_OK) {
+        CLI_TRY(cli_print_json(json_incref(out)));
+    } else {
         (void)printf("%d threads; value: wall time, least of %d; ratio above 1: better than the "
                      "reference;\npeak MB: most memory held so far\n",
                      clast_parallel_threads(), c->repeats);

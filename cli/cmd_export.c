@@ -50,14 +50,12 @@ static clast_status export_table(const cli_common *common, const char *state, co
     if (format != CLAST_EXPORT_CSV && format != CLAST_EXPORT_JSON) {
         return cli_fail(CLAST_E_USAGE, "%s: a table is written as .csv or .json", common->output);
     }
-    clast_status status = clast_state_read_table(state, name, &table);
-    if (status == CLAST_OK) {
-        status = format == CLAST_EXPORT_CSV ? clast_table_write_csv(&table, common->output)
-                                            : clast_table_write_json(&table, common->output);
-    }
-    if (status == CLAST_OK) {
-        status = report_table(common, &table);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_state_read_table(state, name, &table));
+    CLI_TRY(format == CLAST_EXPORT_CSV ? clast_table_write_csv(&table, common->output)
+                                       : clast_table_write_json(&table, common->output));
+    CLI_TRY(report_table(common, &table));
+done:
     clast_table_free(&table);
     return status;
 }
@@ -103,14 +101,12 @@ static clast_status export_assembly(const cli_common *common, const char *state,
     clast_export_report report = {0};
     clast_export_options options = {
         .level = config->level, .points = config->points, .colour = (clast_colour)config->colour};
-    clast_status status = clast_state_read_assembly(state, &assembly);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_state_read_assembly(state, &assembly));
     options.unit = unit_of(config, clast_export_format_of_path(common->output), &assembly);
-    if (status == CLAST_OK) {
-        status = clast_assembly_write(&assembly, common->output, &options, &report);
-    }
-    if (status == CLAST_OK) {
-        status = report_assembly(common, &assembly, &report);
-    }
+    CLI_TRY(clast_assembly_write(&assembly, common->output, &options, &report));
+    CLI_TRY(report_assembly(common, &assembly, &report));
+done:
     clast_assembly_free(&assembly);
     return status;
 }

@@ -92,14 +92,13 @@ static clast_status save(const cli_common *common, const clast_fill_config *conf
     clast_table history = {0};
     clast_status status = CLAST_OK;
     if (common->output != NULL) {
-        status = clast_spheres_write(common->output, name, spheres, NULL);
+        CLI_TRY(clast_spheres_write(common->output, name, spheres, NULL));
     }
-    if (status == CLAST_OK && config->history[0] != '\0') {
-        status = clast_fill_history(mesh, spheres, &history);
-        if (status == CLAST_OK) {
-            status = clast_table_write_csv(&history, config->history);
-        }
+    if (config->history[0] != '\0') {
+        CLI_TRY(clast_fill_history(mesh, spheres, &history));
+        CLI_TRY(clast_table_write_csv(&history, config->history));
     }
+done:
     clast_table_free(&history);
     return status;
 }
@@ -140,21 +139,15 @@ static clast_status run(const cli_common *common, void *context)
     if (config->name[0] != '\0') {
         (void)snprintf(name, sizeof name, "%s", config->name);
     }
-    clast_status status = cli_mesh_welded(common, &mesh);
-    if (status == CLAST_OK) {
-        status = clast_fill(&mesh, config, &monitor, &spheres, &report);
-        status =
-            cli_mesh_refused(common->argument[0], &mesh, "cap its holes with --allow-open", status);
-    }
-    if (status == CLAST_OK) {
-        status = save(common, config, name, &mesh, &spheres);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_check(&mesh, &found);
-    }
-    if (status == CLAST_OK) {
-        status = show(common, name, &found, &report);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_welded(common, &mesh));
+    status = clast_fill(&mesh, config, &monitor, &spheres, &report);
+    CLI_TRY(
+        cli_mesh_refused(common->argument[0], &mesh, "cap its holes with --allow-open", status));
+    CLI_TRY(save(common, config, name, &mesh, &spheres));
+    CLI_TRY(clast_mesh_check(&mesh, &found));
+    CLI_TRY(show(common, name, &found, &report));
+done:
     clast_mesh_check_free(&found);
     clast_spheres_free(&spheres);
     clast_mesh_free(&mesh);

@@ -73,10 +73,7 @@ static bool has_forms(const config *c, const clast_table *beds)
 
 static clast_status gather(const config *c, const char *path, job *j)
 {
-    clast_status status = clast_table_read_csv(path, NULL, &j->beds, NULL);
-    if (status != CLAST_OK) {
-        return status;
-    }
+    CLI_GUARD(clast_table_read_csv(path, NULL, &j->beds, NULL));
     int32_t what = c->features;
     if (what == AUTO) {
         what = c->grains[0] != '\0' ? MIXTURE : has_forms(c, &j->beds) ? FORM : COLUMNS;
@@ -93,11 +90,10 @@ static clast_status gather(const config *c, const char *path, job *j)
     if (what == COLUMNS) {
         return clast_fit_data_columns(&j->beds, &c->fit, &j->data);
     }
-    status = cli_is_folder(c->grains)
-                 ? cli_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
-                 : clast_table_read_csv(c->grains, NULL, &j->grains, NULL);
-    return status == CLAST_OK ? clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data)
-                              : status;
+    CLI_GUARD(cli_is_folder(c->grains)
+                  ? cli_study_grains(c->grains, &j->beds, c->fit.group, &j->grains)
+                  : clast_table_read_csv(c->grains, NULL, &j->grains, NULL));
+    return clast_fit_data_mixture(&j->beds, &j->grains, &c->fit, &j->data);
 }
 
 /// Rows of a table as JSON objects.
@@ -200,9 +196,9 @@ static clast_status write_model(const cli_common *common, const config *c, const
     char hash[2][65] = {"", ""};
     char seed[32];
     int64_t n_byte = 0;
-    clast_status status = clast_sha256_file(common->argument[0], hash[0], &n_byte);
-    if (status == CLAST_OK && c->grains[0] != '\0' && !cli_is_folder(c->grains)) {
-        status = clast_sha256_file(c->grains, hash[1], &n_byte);
+    CLI_GUARD(clast_sha256_file(common->argument[0], hash[0], &n_byte));
+    if (c->grains[0] != '\0' && !cli_is_folder(c->grains)) {
+        CLI_GUARD(clast_sha256_file(c->grains, hash[1], &n_byte));
     }
     (void)snprintf(seed, sizeof seed, "%llu", (unsigned long long)c->fit.seed);
     const char *const notes[][2] = {{"clast", clast_version()},
@@ -211,10 +207,8 @@ static clast_status write_model(const cli_common *common, const config *c, const
                                     {"target", c->fit.target},
                                     {"seed", seed}};
     (void)snprintf(path, sizeof path, "%s/model.json", folder);
-    return status == CLAST_OK
-               ? clast_porosity_model_write(&j->fit.model, notes,
-                                            (int32_t)(sizeof notes / sizeof notes[0]), path)
-               : status;
+    return clast_porosity_model_write(&j->fit.model, notes,
+                                      (int32_t)(sizeof notes / sizeof notes[0]), path);
 }
 
 static clast_status write_folder(const cli_common *common, const config *c, const job *j,
@@ -227,26 +221,25 @@ static clast_status write_folder(const cli_common *common, const config *c, cons
     } tables[] = {{"ranking", &j->fit.ranking}, {"trials", &j->fit.trials},
                   {"terms", &j->fit.terms},     {"rows", &j->fit.rows},
                   {"features", &j->data.beds},  {"left_out", &j->data.left_out}};
-    clast_status status = write_model(common, c, j, folder);
-    for (size_t k = 0; k < sizeof tables / sizeof tables[0] && status == CLAST_OK; ++k) {
+    CLI_GUARD(write_model(common, c, j, folder));
+    for (size_t k = 0; k < sizeof tables / sizeof tables[0]; ++k) {
         if (tables[k].table->n_row > 0) {
             (void)snprintf(path, sizeof path, "%s/%s.csv", folder, tables[k].name);
-            status = clast_table_write_csv(tables[k].table, path);
+            CLI_GUARD(clast_table_write_csv(tables[k].table, path));
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status write_charts(const char *folder, const job *j)
 {
     char path[4096];
-    clast_status status = CLAST_OK;
-    for (int k = 0; k < CLAST_N_FIT_CHART && status == CLAST_OK; ++k) {
+    for (int k = 0; k < CLAST_N_FIT_CHART; ++k) {
         (void)snprintf(path, sizeof path, "%s/%s.svg", folder,
                        clast_fit_chart_name((clast_fit_chart)k));
-        status = clast_chart_fit((clast_fit_chart)k, &j->data, &j->fit, path);
+        CLI_GUARD(clast_chart_fit((clast_fit_chart)k, &j->data, &j->fit, path));
     }
-    return status;
+    return CLAST_OK;
 }
 
 static void tell_left_out(const job *j)
@@ -267,10 +260,12 @@ static clast_status keep_results(const cli_common *common, const config *c, cons
                                 {NULL, NULL}};
     const char *path = clast_run_folder_path(folder);
     json_t *out = summary(j);
-    clast_status status = cli_results_open(folder, fields, c, &c->fit.seed, inputs);
-    status = status == CLAST_OK ? write_folder(common, c, j, path) : status;
-    status = status == CLAST_OK ? write_charts(path, j) : status;
-    status = status == CLAST_OK ? cli_results_summary(folder, out) : status;
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_results_open(folder, fields, c, &c->fit.seed, inputs));
+    CLI_TRY(write_folder(common, c, j, path));
+    CLI_TRY(write_charts(path, j));
+    CLI_TRY(cli_results_summary(folder, out));
+done:
     json_decref(out);
     return clast_run_folder_end(folder, status);
 }
@@ -281,24 +276,21 @@ static clast_status run(const cli_common *common, void *values)
     char source[256];
     job j = {0};
     clast_run_folder *folder = NULL;
-    clast_status status = cli_results_begin(common, common->output, &c->force, &folder);
-    if (status == CLAST_OK) {
-        status = gather(c, common->argument[0], &j);
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
+    CLI_TRY(gather(c, common->argument[0], &j));
+    tell_left_out(&j);
+    (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(), j.beds.name);
+    CLI_TRY(clast_porosity_fit_data(&j.data, &c->fit, c->name, source, &j.fit));
+    if (folder != NULL) {
+        CLI_TRY(keep_results(common, c, &j, folder));
     }
-    if (status == CLAST_OK) {
-        tell_left_out(&j);
-        (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(),
-                       j.beds.name);
-        status = clast_porosity_fit_data(&j.data, &c->fit, c->name, source, &j.fit);
-    }
-    if (status == CLAST_OK && folder != NULL) {
-        status = keep_results(common, c, &j, folder);
-    }
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(summary(&j));
-    } else if (status == CLAST_OK) {
+    if (common->json) {
+        CLI_TRY(cli_print_json(summary(&j)));
+    } else {
         print_words(c, &j);
     }
+done:
     clast_run_folder_destroy(folder);
     free_job(&j);
     return status;

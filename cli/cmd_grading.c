@@ -61,20 +61,18 @@ static void free_answer(answer *a)
 
 static clast_status begin_sizes(int64_t n, clast_table *sizes)
 {
-    clast_status status = clast_table_init(sizes, "sizes", n);
-    if (status == CLAST_OK) {
-        status = clast_table_add_number(sizes, "diameter_m", "m", NULL);
-    }
-    return status;
+    CLI_GUARD(clast_table_init(sizes, "sizes", n));
+    CLI_GUARD(clast_table_add_number(sizes, "diameter_m", "m", NULL));
+    return CLAST_OK;
 }
 
 static clast_status draw_sizes(answer *a)
 {
-    const clast_status status = begin_sizes(a->config->sample, &a->sizes);
-    for (int32_t i = 0; i < a->config->sample && status == CLAST_OK; ++i) {
+    CLI_GUARD(begin_sizes(a->config->sample, &a->sizes));
+    for (int32_t i = 0; i < a->config->sample; ++i) {
         a->sizes.column[0].number[i] = clast_grading_draw(a->grading, a->config->seed, (uint64_t)i);
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// Sizes that someone measured: single ones, not bins or counts.
@@ -82,30 +80,28 @@ static clast_status read_sizes(answer *a)
 {
     const char *path = a->config->compare;
     clast_sizes list = {0};
-    clast_status status = clast_sizes_read(path, "", "", &list);
-    if (status == CLAST_OK) {
-        status = begin_sizes(list.n, &a->sizes);
-    }
-    for (int64_t i = 0; i < list.n && status == CLAST_OK; ++i) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_sizes_read(path, "", "", &list));
+    CLI_TRY(begin_sizes(list.n, &a->sizes));
+    for (int64_t i = 0; i < list.n; ++i) {
         a->sizes.column[0].number[i] = list.low[i];
-        if (list.low[i] < list.high[i] || list.count[i] != 1.0) {
-            status = cli_fail(CLAST_E_FORMAT,
-                              "%s: size %lld is a bin or counted; give one row for each grain",
-                              path, (long long)i + 1);
-        }
+        CLI_CHECK(list.low[i] >= list.high[i] && list.count[i] == 1.0, CLAST_E_FORMAT,
+                  "%s: size %lld is a bin or counted; give one row for each grain", path,
+                  (long long)i + 1);
     }
+done:
     clast_sizes_free(&list);
     return status;
 }
 
 static clast_status take_sizes(answer *a)
 {
-    clast_status status = a->config->compare[0] != '\0' ? read_sizes(a) : draw_sizes(a);
-    if (status == CLAST_OK && a->curve.n_class > 0 && a->sizes.n_row > 0) {
+    CLI_GUARD(a->config->compare[0] != '\0' ? read_sizes(a) : draw_sizes(a));
+    if (a->curve.n_class > 0 && a->sizes.n_row > 0) {
         const clast_grading_sample sample = {a->sizes.n_row, a->sizes.column[0].number, NULL};
-        status = clast_grading_compare(&a->curve, a->grading, &sample, &a->classes, &a->match);
+        CLI_GUARD(clast_grading_compare(&a->curve, a->grading, &sample, &a->classes, &a->match));
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// Grains that the mass holds on average under the law as it is drawn.
@@ -271,30 +267,27 @@ static clast_status run(const cli_common *common, void *config_bytes)
 {
     const grading_config *config = config_bytes;
     answer a = {.config = config, .text = common->argument[0]};
-    clast_status status = check_options(common, config);
-    if (status == CLAST_OK) {
-        status = clast_grading_load(a.text, (clast_grading_spread)config->spread,
-                                    (clast_grading_count)config->count, &a.curve, &a.grading);
+    clast_status status = CLAST_OK;
+    CLI_TRY(check_options(common, config));
+    CLI_TRY(clast_grading_load(a.text, (clast_grading_spread)config->spread,
+                               (clast_grading_count)config->count, &a.curve, &a.grading));
+    CLI_TRY(take_sizes(&a));
+    CLI_CHECK(config->compare[0] == '\0' || a.curve.n_class != 0, CLAST_E_USAGE,
+              "'%s' is no sieve curve to compare with", a.text);
+    if (config->chart[0] != '\0') {
+        CLI_TRY(a.classes.n_row > 0
+                    ? clast_grading_chart_write(&a.classes, config->chart)
+                    : cli_fail(CLAST_E_USAGE, "chart: '%s' is no sieve curve", a.text));
     }
-    if (status == CLAST_OK) {
-        status = take_sizes(&a);
+    if (common->output != NULL) {
+        CLI_TRY(clast_table_write_csv(&a.sizes, common->output));
     }
-    if (status == CLAST_OK && config->compare[0] != '\0' && a.curve.n_class == 0) {
-        status = cli_fail(CLAST_E_USAGE, "'%s' is no sieve curve to compare with", a.text);
-    }
-    if (status == CLAST_OK && config->chart[0] != '\0') {
-        status = a.classes.n_row > 0
-                     ? clast_grading_chart_write(&a.classes, config->chart)
-                     : cli_fail(CLAST_E_USAGE, "chart: '%s' is no sieve curve", a.text);
-    }
-    if (status == CLAST_OK && common->output != NULL) {
-        status = clast_table_write_csv(&a.sizes, common->output);
-    }
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(answer_json(&a));
-    } else if (status == CLAST_OK) {
+    if (common->json) {
+        CLI_TRY(cli_print_json(answer_json(&a)));
+    } else {
         answer_words(&a);
     }
+done:
     free_answer(&a);
     return status;
 }

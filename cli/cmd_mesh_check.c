@@ -50,13 +50,11 @@ static clast_status weld_within(clast_mesh *mesh, double tolerance,
 {
     clast_mesh welded = {0};
     const int32_t n_tri = mesh->n_tri;
-    const clast_status status = clast_mesh_weld(mesh, tolerance, &welded, &report->n_merged);
-    if (status == CLAST_OK) {
-        report->n_collapsed = n_tri - welded.n_tri;
-        clast_mesh_free(mesh);
-        *mesh = welded;
-    }
-    return status;
+    CLI_GUARD(clast_mesh_weld(mesh, tolerance, &welded, &report->n_merged));
+    report->n_collapsed = n_tri - welded.n_tri;
+    clast_mesh_free(mesh);
+    *mesh = welded;
+    return CLAST_OK;
 }
 
 /// Checks the surface as the file has it, and again where the weld changed it.
@@ -64,24 +62,24 @@ static clast_status check(const config *c, clast_mesh *mesh, clast_mesh_check_re
                           clast_mesh_repair_report *weld)
 {
     const int32_t n_vertex = mesh->n_vert;
-    clast_status status = clast_mesh_check(mesh, result);
+    CLI_GUARD(clast_mesh_check(mesh, result));
     const int32_t n_open = result->n_open_edge;
-    if (status == CLAST_OK && c->weld == CLAST_WELD_WITHIN) {
-        status = weld_within(mesh, c->weld_tolerance, weld);
-    } else if (status == CLAST_OK && c->weld == CLAST_WELD_AUTO && !result->closed) {
-        status = clast_mesh_weld_auto(mesh, weld);
+    if (c->weld == CLAST_WELD_WITHIN) {
+        CLI_GUARD(weld_within(mesh, c->weld_tolerance, weld));
+    } else if (c->weld == CLAST_WELD_AUTO && !result->closed) {
+        CLI_GUARD(clast_mesh_weld_auto(mesh, weld));
     }
-    if (status != CLAST_OK || weld->n_merged == 0) {
-        return status;
+    if (weld->n_merged == 0) {
+        return CLAST_OK;
     }
     clast_mesh_check_free(result);
-    status = clast_mesh_check(mesh, result);
-    if (status == CLAST_OK && c->weld == CLAST_WELD_AUTO) {
+    CLI_GUARD(clast_mesh_check(mesh, result));
+    if (c->weld == CLAST_WELD_AUTO) {
         result->n_degenerate += weld->n_collapsed;
         result->n_vertex = weld->weld_distance == 0.0 ? n_vertex : result->n_vertex;
         note_weld(result, weld, n_open);
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status tell(const cli_common *common, const config *c, const clast_mesh *mesh,
@@ -90,10 +88,8 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
 {
     char cure[400] = "";
     const bool solid = result->closed && result->oriented;
-    const clast_status status =
-        solid ? CLAST_OK : clast_mesh_cure(common->argument[0], mesh, cure, sizeof cure);
-    if (status != CLAST_OK) {
-        return status;
+    if (!solid) {
+        CLI_GUARD(clast_mesh_cure(common->argument[0], mesh, cure, sizeof cure));
     }
     if (common->json) {
         json_t *object = cli_check_json(common->argument[0], result);
@@ -119,16 +115,12 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_mesh mesh = {0};
     clast_mesh_check_result result = {0};
     clast_mesh_repair_report weld = {0};
-    clast_status status = cli_mesh_input(common, &mesh);
-    if (status == CLAST_OK) {
-        status = check(c, &mesh, &result, &weld);
-    }
-    if (status == CLAST_OK) {
-        status = tell(common, c, &mesh, &result, &weld);
-    }
-    if (status == CLAST_OK && !clast_mesh_check_passed(&result)) {
-        status = CLAST_E_NO;
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(check(c, &mesh, &result, &weld));
+    CLI_TRY(tell(common, c, &mesh, &result, &weld));
+    status = clast_mesh_check_passed(&result) ? CLAST_OK : CLAST_E_NO;
+done:
     clast_mesh_check_free(&result);
     clast_mesh_free(&mesh);
     return status;

@@ -48,15 +48,12 @@ static clast_status find_factor(const convert_config *config, job *j)
         return cli_fail(CLAST_E_USAGE, "3MF is in millimetres: give --unit, the unit of %s",
                         j->input);
     }
-    clast_status status = CLAST_OK;
     if (unit != NULL) {
-        status = clast_unit_factor(unit, "m", &in);
-    }
-    if (status == CLAST_OK && unit != NULL) {
-        status = clast_unit_factor(j->out_unit, "m", &out);
+        CLI_GUARD(clast_unit_factor(unit, "m", &in));
+        CLI_GUARD(clast_unit_factor(j->out_unit, "m", &out));
         j->factor *= strcmp(unit, j->out_unit) == 0 ? 1.0 : in / out;
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status check_job(const cli_common *common, job *j)
@@ -196,32 +193,22 @@ static clast_status run(const cli_common *common, void *context)
     static const double unmoved[3] = {0.0, 0.0, 0.0};
     const convert_config *config = context;
     job j = {0};
-    clast_status status = check_job(common, &j);
-    if (status == CLAST_OK) {
-        status = find_factor(config, &j);
+    clast_status status = CLAST_OK;
+    CLI_TRY(check_job(common, &j));
+    CLI_TRY(find_factor(config, &j));
+    CLI_TRY(clast_mesh_read(j.input, &j.mesh, &j.report));
+    CLI_TRY(check_surface(&j));
+    if (j.factor != 1.0) {
+        clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);
     }
-    if (status == CLAST_OK) {
-        status = clast_mesh_read(j.input, &j.mesh, &j.report);
-    }
-    if (status == CLAST_OK) {
-        status = check_surface(&j);
-    }
-    if (status == CLAST_OK) {
-        if (j.factor != 1.0) {
-            clast_mesh_transform(&j.mesh, j.factor, unturned, unmoved);
-        }
-        warn_of_loss(&j);
-        status = clast_mesh_write(
-            j.output, &j.mesh,
-            &(clast_mesh_write_options){.unit = j.out_unit,
-                                        .name = config->name[0] != '\0' ? config->name : NULL});
-    }
-    if (status == CLAST_OK) {
-        warn_of_folded(&j);
-    }
-    if (status == CLAST_OK) {
-        status = common->json ? print_json(&j) : print_text(&j);
-    }
+    warn_of_loss(&j);
+    CLI_TRY(clast_mesh_write(
+        j.output, &j.mesh,
+        &(clast_mesh_write_options){.unit = j.out_unit,
+                                    .name = config->name[0] != '\0' ? config->name : NULL}));
+    warn_of_folded(&j);
+    CLI_TRY(common->json ? print_json(&j) : print_text(&j));
+done:
     clast_mesh_free(&j.mesh);
     return status;
 }

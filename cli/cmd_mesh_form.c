@@ -68,18 +68,15 @@ static clast_status reform(const form_config *c, const clast_mesh *mesh, clast_m
     r->n_before = mesh->n_tri;
     r->volume_before = mesh->n_tri > 0 ? clast_mesh_volume(mesh) : (double)NAN;
     if (c->hull > 0) {
-        status = clast_reform_hull(mesh, c->hull, &hull);
+        CLI_TRY(clast_reform_hull(mesh, c->hull, &hull));
     } else {
-        status = clast_mesh_copy(mesh, &hull);
+        CLI_TRY(clast_mesh_copy(mesh, &hull));
     }
-    if (status == CLAST_OK) {
-        r->volume_hull = clast_mesh_volume(&hull);
-        status = clast_reform_principal(&hull, &turned, r->before);
-    }
-    if (status == CLAST_OK) {
-        wanted_lengths(c, r->before, lis);
-        status = clast_reform_mesh(&turned, lis, out);
-    }
+    r->volume_hull = clast_mesh_volume(&hull);
+    CLI_TRY(clast_reform_principal(&hull, &turned, r->before));
+    wanted_lengths(c, r->before, lis);
+    CLI_TRY(clast_reform_mesh(&turned, lis, out));
+done:
     clast_mesh_free(&turned);
     clast_mesh_free(&hull);
     return status;
@@ -145,32 +142,23 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_mesh mesh = {0};
     clast_mesh out = {0};
     form_report report = {0};
-    clast_status status = cli_mesh_output(common);
-    if (status == CLAST_OK) {
-        status = check_config(config);
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_output(common));
+    CLI_TRY(check_config(config));
+    CLI_TRY(cli_mesh_welded(common, &mesh));
+    if (config->hull == 0) {
+        CLI_TRY(
+            clast_mesh_require_solid(common->argument[0], &mesh, "take its hull with --hull N"));
     }
-    if (status == CLAST_OK) {
-        status = cli_mesh_welded(common, &mesh);
-    }
-    if (status == CLAST_OK) {
-        status = config->hull > 0 ? CLAST_OK
-                                  : clast_mesh_require_solid(common->argument[0], &mesh,
-                                                             "take its hull with --hull N");
-    }
-    if (status == CLAST_OK) {
-        status = reform(config, &mesh, &out, &report);
-    }
-    if (status == CLAST_OK) {
-        status = measure(&out, &report);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(common->output, &out, NULL);
-    }
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(report_json(common, &report));
-    } else if (status == CLAST_OK) {
+    CLI_TRY(reform(config, &mesh, &out, &report));
+    CLI_TRY(measure(&out, &report));
+    CLI_TRY(clast_mesh_write(common->output, &out, NULL));
+    if (common->json) {
+        CLI_TRY(cli_print_json(report_json(common, &report)));
+    } else {
         report_words(common, &report);
     }
+done:
     clast_mesh_free(&out);
     clast_mesh_free(&mesh);
     return status;

@@ -105,26 +105,16 @@ static clast_status run(const cli_common *common, void *config)
     clast_mesh repaired = {0};
     clast_mesh_repair_report report = {0};
     clast_mesh_check_result check = {0};
-    clast_status status = cli_mesh_output(common);
-    if (status == CLAST_OK) {
-        status = cli_mesh_input(common, &mesh);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_repair(&mesh, config, &repaired, &report);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(common->output, &repaired, NULL);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_check(&repaired, &check);
-    }
-    if (status == CLAST_OK) {
-        warn_format(common, &report);
-        status = tell(common, &report, &check);
-    }
-    if (status == CLAST_OK && !clast_mesh_check_passed(&check)) {
-        status = CLAST_E_NO;
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_output(common));
+    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(clast_mesh_repair(&mesh, config, &repaired, &report));
+    CLI_TRY(clast_mesh_write(common->output, &repaired, NULL));
+    CLI_TRY(clast_mesh_check(&repaired, &check));
+    warn_format(common, &report);
+    CLI_TRY(tell(common, &report, &check));
+    status = clast_mesh_check_passed(&check) ? CLAST_OK : CLAST_E_NO;
+done:
     clast_mesh_check_free(&check);
     clast_mesh_free(&repaired);
     clast_mesh_free(&mesh);

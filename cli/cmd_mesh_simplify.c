@@ -62,32 +62,26 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
     clast_mesh mesh = {0};
     clast_mesh out = {0};
     clast_mesh_simplify_report report = {0};
-    clast_status status = cli_mesh_output(common);
-    if (status == CLAST_OK) {
-        status = cli_mesh_welded(common, &mesh);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
-        status = cli_mesh_refused(common->argument[0], &mesh, NULL, status);
-    }
-    if (status == CLAST_OK && clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
-        status = clast_mesh_round_float(&out);
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_output(common));
+    CLI_TRY(cli_mesh_welded(common, &mesh));
+    status = clast_mesh_simplify(&mesh, config->faces, &out, &report);
+    CLI_TRY(cli_mesh_refused(common->argument[0], &mesh, NULL, status));
+    if (clast_mesh_format_of_path(common->output) == CLAST_MESH_STL) {
+        CLI_TRY(clast_mesh_round_float(&out));
         report.volume_after = clast_mesh_volume(&out);
     }
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(common->output, &out, NULL);
-    }
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(simplify_json(common, &report));
-    } else if (status == CLAST_OK) {
+    CLI_TRY(clast_mesh_write(common->output, &out, NULL));
+    if (common->json) {
+        CLI_TRY(cli_print_json(simplify_json(common, &report)));
+    } else {
         simplify_words(common, &report);
     }
-    if (status == CLAST_OK && !report.reached) {
-        status = cli_fail(CLAST_E_CONVERGE,
-                          "%s has %d triangles, not %d: no further edge can go without changing "
-                          "the topology or folding over",
-                          common->output, report.n_triangle_after, config->faces);
-    }
+    CLI_CHECK(report.reached, CLAST_E_CONVERGE,
+              "%s has %d triangles, not %d: no further edge can go without changing "
+              "the topology or folding over",
+              common->output, report.n_triangle_after, config->faces);
+done:
     clast_mesh_free(&out);
     clast_mesh_free(&mesh);
     return status;
@@ -98,17 +92,17 @@ static clast_status solid_volume(const clast_mesh *mesh, double *volume)
 {
     clast_mesh welded = {0};
     clast_mesh_check_result found = {0};
-    clast_status status = clast_mesh_copy(mesh, &welded);
+    clast_status status = CLAST_OK;
     *volume = (double)NAN;
-    if (status == CLAST_OK) {
-        status = clast_mesh_weld_auto(&welded, NULL);
+    CLI_TRY(clast_mesh_copy(mesh, &welded));
+    CLI_TRY(clast_mesh_weld_auto(&welded, NULL));
+    if (welded.n_tri > 0) {
+        CLI_TRY(clast_mesh_check(&welded, &found));
     }
-    if (status == CLAST_OK && welded.n_tri > 0) {
-        status = clast_mesh_check(&welded, &found);
-    }
-    if (status == CLAST_OK && found.closed && found.oriented) {
+    if (found.closed && found.oriented) {
         *volume = found.volume;
     }
+done:
     clast_mesh_check_free(&found);
     clast_mesh_free(&welded);
     return status;
@@ -155,24 +149,18 @@ static clast_status run_hull(const cli_common *common, void *config)
     clast_mesh hull = {0};
     double volume = 0.0;
     (void)config;
-    clast_status status = cli_mesh_output(common);
-    if (status == CLAST_OK) {
-        status = cli_mesh_input(common, &mesh);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_hull(&mesh, &hull);
-    }
-    if (status == CLAST_OK) {
-        status = solid_volume(&mesh, &volume);
-    }
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(common->output, &hull, NULL);
-    }
-    if (status == CLAST_OK && common->json) {
-        status = cli_print_json(hull_json(common, &mesh, &hull, volume));
-    } else if (status == CLAST_OK) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_mesh_output(common));
+    CLI_TRY(cli_mesh_input(common, &mesh));
+    CLI_TRY(clast_mesh_hull(&mesh, &hull));
+    CLI_TRY(solid_volume(&mesh, &volume));
+    CLI_TRY(clast_mesh_write(common->output, &hull, NULL));
+    if (common->json) {
+        CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, volume)));
+    } else {
         hull_words(common, &mesh, &hull, volume);
     }
+done:
     clast_mesh_free(&hull);
     clast_mesh_free(&mesh);
     return status;

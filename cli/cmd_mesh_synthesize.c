@@ -62,14 +62,12 @@ static clast_status begin_table(int32_t n, clast_table *table)
     static const char *const name[N_COLUMN] = {"flatness",         "elongation", "amplitude",
                                                "normal_roundness", "angularity", "volume",
                                                "n_triangle"};
-    clast_status status = clast_table_init(table, "grains", n);
-    if (status == CLAST_OK) {
-        status = clast_table_add_text(table, "file");
+    CLI_GUARD(clast_table_init(table, "grains", n));
+    CLI_GUARD(clast_table_add_text(table, "file"));
+    for (int k = 0; k < N_COLUMN; ++k) {
+        CLI_GUARD(clast_table_add_number(table, name[k], "-", NULL));
     }
-    for (int k = 0; k < N_COLUMN && status == CLAST_OK; ++k) {
-        status = clast_table_add_number(table, name[k], "-", NULL);
-    }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status save_row(clast_table *table, int32_t i, const char *file,
@@ -90,16 +88,14 @@ static clast_status make_one(const cli_common *common, const synthesize_config *
     char file[64];
     char path[CLAST_RUN_PATH];
     (void)snprintf(file, sizeof file, "grain%0*d.ply", c->count > 10000 ? 6 : 4, i);
-    clast_status status = clast_synthesize_grain(&c->synthesize, (uint64_t)i, &mesh, &report);
-    if (status == CLAST_OK && folder != NULL) {
-        status = clast_run_folder_file(folder, file, path);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_synthesize_grain(&c->synthesize, (uint64_t)i, &mesh, &report));
+    if (folder != NULL) {
+        CLI_TRY(clast_run_folder_file(folder, file, path));
     }
-    if (status == CLAST_OK) {
-        status = clast_mesh_write(folder != NULL ? path : common->output, &mesh, NULL);
-    }
-    if (status == CLAST_OK) {
-        status = save_row(table, i, folder != NULL ? file : common->output, &report);
-    }
+    CLI_TRY(clast_mesh_write(folder != NULL ? path : common->output, &mesh, NULL));
+    CLI_TRY(save_row(table, i, folder != NULL ? file : common->output, &report));
+done:
     clast_mesh_free(&mesh);
     return status;
 }
@@ -176,10 +172,8 @@ static clast_status begin_output(const cli_common *common, synthesize_config *c,
                         "-o OUT is needed: a surface file, or a folder with --count");
     }
     const bool is_set = c->count > 1;
-    const clast_status status = is_set ? CLAST_OK : cli_mesh_output(common);
-    return status == CLAST_OK
-               ? cli_results_begin(common, is_set ? common->output : NULL, &c->force, folder)
-               : status;
+    CLI_GUARD(is_set ? CLAST_OK : cli_mesh_output(common));
+    return cli_results_begin(common, is_set ? common->output : NULL, &c->force, folder);
 }
 
 /// All grains of the table, one after the other.
@@ -187,31 +181,40 @@ static clast_status make_all(const cli_common *common, const synthesize_config *
                              const clast_run_folder *folder, clast_table *table)
 {
     const clast_monitor monitor = cli_monitor(common);
-    clast_status status = CLAST_OK;
-    for (int32_t i = 0; i < c->count && status == CLAST_OK; ++i) {
-        status = make_one(common, c, folder, i, table);
-        if (status == CLAST_OK && monitor.stop != NULL && monitor.stop(monitor.context)) {
-            status = cli_fail(CLAST_E_STOPPED, "stopped after %d of %d grains", i + 1, c->count);
+    for (int32_t i = 0; i < c->count; ++i) {
+        CLI_GUARD(make_one(common, c, folder, i, table));
+        if (monitor.stop != NULL && monitor.stop(monitor.context)) {
+            return cli_fail(CLAST_E_STOPPED, "stopped after %d of %d grains", i + 1, c->count);
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// Table and summary of the folder.
 static clast_status describe(const cli_common *common, const clast_run_folder *folder,
                              const clast_table *table)
 {
+    clast_status status = CLAST_OK;
     char path[CLAST_RUN_PATH];
-    clast_status status = clast_run_folder_file(folder, "grains.csv", path);
-    status = status == CLAST_OK ? clast_table_write_csv(table, path) : status;
-    if (status == CLAST_OK) {
-        json_t *summary = table_json(common, table);
-        (void)json_object_del(summary, "output");
-        (void)json_object_del(summary, "grains"); // grains.csv
-        status = cli_results_summary(folder, summary);
-        json_decref(summary);
-    }
+    json_t *summary = table_json(common, table);
+    CLI_TRY(clast_run_folder_file(folder, "grains.csv", path));
+    CLI_TRY(clast_table_write_csv(table, path));
+    (void)json_object_del(summary, "output");
+    (void)json_object_del(summary, "grains"); // grains.csv
+    CLI_TRY(cli_results_summary(folder, summary));
+done:
+    json_decref(summary);
     return status;
+}
+
+static clast_status make(const cli_common *common, const synthesize_config *config,
+                         clast_run_folder *folder, clast_table *table)
+{
+    CLI_GUARD(cli_results_open(folder, fields, config, &config->synthesize.seed,
+                               &(cli_input){NULL, NULL}));
+    CLI_GUARD(begin_table(config->count, table));
+    CLI_GUARD(make_all(common, config, folder, table));
+    return folder != NULL ? describe(common, folder, table) : CLAST_OK;
 }
 
 static clast_status run(const cli_common *common, void *config_bytes)
@@ -219,22 +222,13 @@ static clast_status run(const cli_common *common, void *config_bytes)
     synthesize_config *config = config_bytes;
     clast_run_folder *folder = NULL;
     clast_table table = {0};
-    clast_status status = begin_output(common, config, &folder);
-    if (status == CLAST_OK) {
-        status = cli_results_open(folder, fields, config, &config->synthesize.seed,
-                                  &(cli_input){NULL, NULL});
-    }
-    status = status == CLAST_OK ? begin_table(config->count, &table) : status;
-    status = status == CLAST_OK ? make_all(common, config, folder, &table) : status;
-    if (status == CLAST_OK && folder != NULL) {
-        status = describe(common, folder, &table);
-    }
-    status = clast_run_folder_end(folder, status);
+    clast_status status = CLAST_OK;
+    CLI_TRY(begin_output(common, config, &folder));
+    CLI_TRY(clast_run_folder_end(folder, make(common, config, folder, &table)));
+    CLI_TRY(common->json ? cli_print_json(table_json(common, &table))
+                         : table_words(common, &table));
+done:
     clast_run_folder_destroy(folder);
-    if (status == CLAST_OK && table.column != NULL) {
-        status =
-            common->json ? cli_print_json(table_json(common, &table)) : table_words(common, &table);
-    }
     clast_table_free(&table);
     return status;
 }

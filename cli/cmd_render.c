@@ -50,16 +50,12 @@ static clast_status add_surface(const char *path, clast_assembly *assembly)
     clast_shape shape = {0};
     int32_t id = 0;
     name_of(path, assembly, name, sizeof name);
-    clast_status status = clast_mesh_read(path, &mesh, NULL);
-    if (status == CLAST_OK) {
-        status = shape_of(name, &mesh, &shape);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_shape(assembly, &shape, &id);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_grain(assembly, id, shape.source_origin, upright, 1.0, 1.0);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_mesh_read(path, &mesh, NULL));
+    CLI_TRY(shape_of(name, &mesh, &shape));
+    CLI_TRY(clast_assembly_add_shape(assembly, &shape, &id));
+    CLI_TRY(clast_assembly_add_grain(assembly, id, shape.source_origin, upright, 1.0, 1.0));
+done:
     clast_shape_free(&shape);
     clast_mesh_free(&mesh);
     return status;
@@ -71,14 +67,14 @@ static clast_status add_spheres(const clast_spheres *spheres, clast_assembly *as
     static const double upright[4] = {1.0, 0.0, 0.0, 0.0};
     clast_shape ball = {0};
     int32_t id = 0;
-    clast_status status = clast_shape_sphere("sphere", 1.0, &ball);
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_shape(assembly, &ball, &id);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_shape_sphere("sphere", 1.0, &ball));
+    CLI_TRY(clast_assembly_add_shape(assembly, &ball, &id));
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        CLI_TRY(clast_assembly_add_grain(assembly, id, spheres->centre[i], upright,
+                                         spheres->radius[i], 1.0));
     }
-    for (int32_t i = 0; i < spheres->n && status == CLAST_OK; ++i) {
-        status = clast_assembly_add_grain(assembly, id, spheres->centre[i], upright,
-                                          spheres->radius[i], 1.0);
-    }
+done:
     clast_shape_free(&ball);
     return status;
 }
@@ -105,24 +101,23 @@ static clast_status load_state(const char *path, clast_assembly *assembly)
 static clast_status load(const cli_common *common, clast_assembly *assembly)
 {
     char path[CLAST_RUN_PATH];
-    clast_status status = CLAST_OK;
     (void)snprintf(assembly->unit, sizeof assembly->unit, "model");
-    for (int32_t i = 0; i < common->n_argument && status == CLAST_OK; ++i) {
+    for (int32_t i = 0; i < common->n_argument; ++i) {
         const char *input = common->argument[i];
         if (common->n_argument > 1 && cli_is_folder(input)) {
             return cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", input);
         }
-        status = clast_run_folder_state(input, path);
+        CLI_GUARD(clast_run_folder_state(input, path));
         const char *dot = strrchr(path, '.');
-        if (status == CLAST_OK && (dot == NULL || strcmp(dot, ".h5") != 0)) {
-            status = add_surface(path, assembly);
-        } else if (status == CLAST_OK && common->n_argument == 1) {
-            status = load_state(path, assembly);
-        } else if (status == CLAST_OK) {
-            status = cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
+        if (dot == NULL || strcmp(dot, ".h5") != 0) {
+            CLI_GUARD(add_surface(path, assembly));
+        } else if (common->n_argument == 1) {
+            CLI_GUARD(load_state(path, assembly));
+        } else {
+            return cli_fail(CLAST_E_USAGE, "%s is a run; draw it alone", path);
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 static int64_t count_triangles(const clast_assembly *assembly)
@@ -166,16 +161,12 @@ static clast_status run(const cli_common *common, void *config)
     if (common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "name the picture with -o picture.png");
     }
-    clast_status status = load(common, &assembly);
-    if (status == CLAST_OK) {
-        status = clast_render_assembly(&assembly, config, &monitor, &image);
-    }
-    if (status == CLAST_OK) {
-        status = clast_image_write_png(&image, common->output);
-    }
-    if (status == CLAST_OK) {
-        status = report(common, &assembly, &image, cli_clock() - start);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(load(common, &assembly));
+    CLI_TRY(clast_render_assembly(&assembly, config, &monitor, &image));
+    CLI_TRY(clast_image_write_png(&image, common->output));
+    CLI_TRY(report(common, &assembly, &image, cli_clock() - start));
+done:
     clast_image_free(&image);
     clast_assembly_free(&assembly);
     return status;

@@ -27,22 +27,18 @@ static clast_status run(const cli_common *common, void *context)
 {
     const clast_report_config *config = context;
     char path[PATH_SIZE];
-    clast_status status = find_output(common, path);
-    if (status == CLAST_OK) {
-        status = clast_report_write((const char *const *)common->argument, common->n_argument,
-                                    config, path);
-    }
-    if (status == CLAST_OK && common->json) {
+    CLI_GUARD(find_output(common, path));
+    CLI_GUARD(clast_report_write((const char *const *)common->argument, common->n_argument, config,
+                                 path));
+    if (common->json) {
         json_t *o = json_object();
         cli_json_count(o, "n_run", common->n_argument);
         cli_json_text(o, "output", path);
         return cli_print_json(o);
     }
-    if (status == CLAST_OK) {
-        (void)printf("%s: %d run%s\n", cli_name(path), common->n_argument,
-                     common->n_argument == 1 ? "" : "s");
-    }
-    return status;
+    (void)printf("%s: %d run%s\n", cli_name(path), common->n_argument,
+                 common->n_argument == 1 ? "" : "s");
+    return CLAST_OK;
 }
 
 const cli_command cli_report = {

@@ -161,11 +161,10 @@ static clast_status write_csv(const cli_common *common, const cli_shape_result *
     clast_table table = {0};
     clast_status status = CLAST_OK;
     if (common->output != NULL) {
-        status = clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table);
-        if (status == CLAST_OK) {
-            status = clast_table_write_csv(&table, common->output);
-        }
+        CLI_TRY(clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table));
+        CLI_TRY(clast_table_write_csv(&table, common->output));
     }
+done:
     clast_table_free(&table);
     return status;
 }
@@ -201,14 +200,11 @@ static clast_status add_statistics(const cli_common *common, const config *c,
     clast_table table = {0};
     clast_status status = CLAST_OK;
     if (folder != NULL && shape->grains.n > 0) {
-        status = clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table);
-        if (status == CLAST_OK) {
-            status = cli_shape_statistics(common->command, &table, &bootstrap, statistics);
-        }
-        if (status == CLAST_OK) {
-            status = keep_statistics(common, c, shape->in_metres, statistics, folder);
-        }
+        CLI_TRY(clast_grains_table(&shape->grains, shape->axes, shape->in_metres, &table));
+        CLI_TRY(cli_shape_statistics(common->command, &table, &bootstrap, statistics));
+        CLI_TRY(keep_statistics(common, c, shape->in_metres, statistics, folder));
     }
+done:
     clast_table_free(&table);
     return status;
 }
@@ -266,33 +262,21 @@ static clast_status run(const cli_common *common, void *config_bytes)
         .columns = c->columns[0] != '\0' ? c->columns : NULL,
         .folder = c->surfaces[0] != '\0' ? c->surfaces : NULL,
     };
-    clast_status status = cli_results_begin(common, c->statistics, &c->force, &folder);
-    if (status == CLAST_OK) {
-        status = unit_factor(c, &unit_m);
-    }
-    if (status == CLAST_OK) {
-        status = volume_options(c, &options);
-    }
-    if (status == CLAST_OK) {
-        status = clast_grains_read(common->n_argument, (const char *const *)common->argument,
-                                   &options, &shape.grains);
-    }
-    if (status == CLAST_OK && all_have_unit(&shape.grains, unit_m)) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(cli_results_begin(common, c->statistics, &c->force, &folder));
+    CLI_TRY(unit_factor(c, &unit_m));
+    CLI_TRY(volume_options(c, &options));
+    CLI_TRY(clast_grains_read(common->n_argument, (const char *const *)common->argument, &options,
+                              &shape.grains));
+    if (all_have_unit(&shape.grains, unit_m)) {
         clast_grains_to_metres(&shape.grains, unit_m);
         shape.in_metres = true;
     }
-    if (status == CLAST_OK) {
-        status = write_csv(common, &shape);
-    }
-    if (status == CLAST_OK) {
-        status = add_statistics(common, c, &shape, folder, &statistics);
-    }
-    if (status == CLAST_OK) {
-        status = print(common, &shape, &statistics);
-    }
-    if (status == CLAST_OK) {
-        status = tell_faults(common, &shape.grains);
-    }
+    CLI_TRY(write_csv(common, &shape));
+    CLI_TRY(add_statistics(common, c, &shape, folder, &statistics));
+    CLI_TRY(print(common, &shape, &statistics));
+    CLI_TRY(tell_faults(common, &shape.grains));
+done:
     clast_run_folder_destroy(folder);
     clast_grains_free(&shape.grains);
     clast_grain_statistics_free(&statistics);

@@ -38,20 +38,19 @@ static clast_status check_key(const cli_command *command, const char *key, size_
 static clast_status check_keys(const cli_command *command, const clast_study_config *config,
                                const clast_table *plan)
 {
-    clast_status status = CLAST_OK;
-    for (int32_t c = 0; c < plan->n_column && status == CLAST_OK; ++c) {
+    for (int32_t c = 0; c < plan->n_column; ++c) {
         if (plan->column[c].text != NULL) {
-            status = check_key(command, plan->column[c].name, strlen(plan->column[c].name));
+            CLI_GUARD(check_key(command, plan->column[c].name, strlen(plan->column[c].name)));
         }
     }
-    for (int32_t i = 0; i < config->set.n && status == CLAST_OK; ++i) {
+    for (int32_t i = 0; i < config->set.n; ++i) {
         const char *pair = config->set.item[i];
         if (strchr(pair, '=') == NULL) {
             return cli_fail(CLAST_E_CONFIG, "fix takes key=value, not '%s'", pair);
         }
-        status = check_key(command, pair, strcspn(pair, "="));
+        CLI_GUARD(check_key(command, pair, strcspn(pair, "=")));
     }
-    return status;
+    return CLAST_OK;
 }
 
 static bool has_field(const cli_command *command, const char *name)
@@ -69,14 +68,12 @@ static clast_status check(const clast_study_config *config, const cli_command **
                         "--help",
                         config->run);
     }
-    clast_status status = clast_study_plan(config, &plan);
-    if (status == CLAST_OK) {
-        status = check_keys(*command, config, &plan);
-    }
-    if (status == CLAST_OK && config->seeds > 1 && !has_field(*command, "seed")) {
-        status = cli_fail(CLAST_E_CONFIG, "clast %s draws nothing at random: seeds must be 1",
-                          config->run);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_study_plan(config, &plan));
+    CLI_TRY(check_keys(*command, config, &plan));
+    CLI_CHECK(!(config->seeds > 1 && !has_field(*command, "seed")), CLAST_E_CONFIG,
+              "clast %s draws nothing at random: seeds must be 1", config->run);
+done:
     clast_table_free(&plan);
     return status;
 }
@@ -110,25 +107,26 @@ static clast_status print(const cli_common *common, const clast_study_report *re
     return CLAST_OK;
 }
 
+static clast_status begin(const cli_common *common, const clast_study_config *config,
+                          const cli_command **command, cli_workers *workers)
+{
+    clast_status status = CLAST_OK;
+    CLI_TRY(check(config, command));
+    CLI_CHECK(common->output != NULL, CLAST_E_USAGE,
+              "-o FOLDER is missing: a study needs a place for its runs");
+    CLI_TRY(workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers));
+done:
+    return cli_agree(common, status);
+}
+
 static clast_status run(const cli_common *common, void *context)
 {
     const clast_study_config *config = context;
     const cli_command *command = NULL;
     clast_study_report report = {0};
-    clast_status status = check(config, &command);
-    if (status == CLAST_OK && common->output == NULL) {
-        status =
-            cli_fail(CLAST_E_USAGE, "-o FOLDER is missing: a study needs a place for its runs");
-    }
+    clast_status status = CLAST_OK;
     cli_workers *workers = calloc(1, sizeof *workers);
-    if (status == CLAST_OK) {
-        status = workers == NULL ? CLAST_E_MEMORY : cli_workers_init(workers);
-    }
-    status = cli_agree(common, status);
-    if (status != CLAST_OK) {
-        free(workers);
-        return status;
-    }
+    CLI_TRY(begin(common, config, &command, workers));
     const clast_monitor monitor = cli_monitor(common);
     const clast_study_worker worker = {.has_folder = command->writes_folder,
                                        .has_seed = has_field(command, "seed"),
@@ -140,8 +138,9 @@ static clast_status run(const cli_common *common, void *context)
     status = clast_study_run(config, common->output, &worker, common->comm, &monitor, &report);
     if (common->comm->rank == 0 && (status == CLAST_OK || status == CLAST_E_NO)) {
         const clast_status printed = print(common, &report);
-        status = printed == CLAST_OK ? status : printed;
+        status = printed != CLAST_OK ? printed : status;
     }
+done:
     free(workers);
     return status;
 }

@@ -47,6 +47,36 @@ clast_status cli_agree(const cli_common *common, clast_status status);
 clast_status cli_fail(clast_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+// A function of the command fails as one of the library does: one status, one `done:` that frees
+// what it holds, or an early end where it holds nothing.
+
+/// Ends the function at `done:` with a refusal (printf style) unless the condition holds.
+#define CLI_CHECK(condition, code, ...)                                                            \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            status = cli_fail(code, __VA_ARGS__);                                                  \
+            goto done;                                                                             \
+        }                                                                                          \
+    } while (0)
+
+/// Ends the function at `done:` with the status of a call that fails.
+#define CLI_TRY(call)                                                                              \
+    do {                                                                                           \
+        status = (call);                                                                           \
+        if (status != CLAST_OK) {                                                                  \
+            goto done;                                                                             \
+        }                                                                                          \
+    } while (0)
+
+/// Returns the status of a call that fails, where the function holds nothing that must be freed.
+#define CLI_GUARD(call)                                                                            \
+    do {                                                                                           \
+        const clast_status cli_guarded = (call);                                                   \
+        if (cli_guarded != CLAST_OK) {                                                             \
+            return cli_guarded;                                                                    \
+        }                                                                                          \
+    } while (0)
+
 /// A file's name, or any text from outside, as a terminal may show it; lives until the 8th call
 /// after this one.
 const char *cli_name(const char *text);

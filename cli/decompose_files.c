@@ -1,6 +1,7 @@
 // Tables, files for ParaView and charts of a decomposition.
 #include "decompose_files.h"
 
+#include "command.h"
 #include <clast/chart.h>
 #include <clast/decompose.h>
 #include <clast/table.h>
@@ -34,13 +35,13 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
     const char *const *low = name_of[is_mapped ? 1 : 0][0];
     const char *const *high = name_of[is_mapped ? 1 : 0][1];
     const clast_cells *cells = &r->cells;
-    clast_status status = clast_table_init(table, "cells", cells->n);
-    for (int32_t j = 0; j < 2 * r->dimension && status == CLAST_OK; ++j) {
+    CLI_GUARD(clast_table_init(table, "cells", cells->n));
+    for (int32_t j = 0; j < 2 * r->dimension; ++j) {
         double *column = NULL;
         const int32_t axis = j / 2;
-        status = clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis],
-                                        is_mapped ? "-" : "m", &column);
-        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+        CLI_GUARD(clast_table_add_number(table, j % 2 == 0 ? low[axis] : high[axis],
+                                         is_mapped ? "-" : "m", &column));
+        for (int32_t c = 0; c < cells->n; ++c) {
             column[c] = j % 2 == 0 ? cells->low[c][axis] : cells->high[c][axis];
         }
     }
@@ -52,10 +53,10 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
     (void)snprintf(unit[0], sizeof unit[0], "m^%d", r->dimension);
     (void)snprintf(unit[1], sizeof unit[1], "1/m^%d", r->dimension);
     const char *const unit_of[7] = {unit[0], "-", unit[1], is_pairs ? unit[1] : "-", "-", "-", "-"};
-    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 7 : 5) && status == CLAST_OK; ++k) {
+    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 7 : 5); ++k) {
         double *column = NULL;
-        status = clast_table_add_number(table, name[k], unit_of[k], &column);
-        for (int32_t c = 0; c < cells->n && status == CLAST_OK; ++c) {
+        CLI_GUARD(clast_table_add_number(table, name[k], unit_of[k], &column));
+        for (int32_t c = 0; c < cells->n; ++c) {
             const double value[7] = {cells->volume[c],
                                      (double)cells->count[c],
                                      (double)cells->count[c] / cells->volume[c],
@@ -66,7 +67,7 @@ static clast_status cell_table(const clast_decomposition *r, bool is_mapped, cla
             column[c] = value[k];
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// A row a point: cell, and label and pass where cells have them.
@@ -74,11 +75,11 @@ static clast_status label_table(const clast_decomposition *r, int64_t n_point, c
 {
     static const char *const name[3] = {"cell", "label", "pass"};
     const clast_cells *cells = &r->cells;
-    clast_status status = clast_table_init(table, "points", n_point);
-    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 3 : 1) && status == CLAST_OK; ++k) {
+    CLI_GUARD(clast_table_init(table, "points", n_point));
+    for (int k = 0; k < (clast_cells_are_labelled(cells) ? 3 : 1); ++k) {
         double *column = NULL;
-        status = clast_table_add_number(table, name[k], "-", &column);
-        for (int64_t i = 0; i < n_point && status == CLAST_OK; ++i) {
+        CLI_GUARD(clast_table_add_number(table, name[k], "-", &column));
+        for (int64_t i = 0; i < n_point; ++i) {
             const int32_t c = cells->of_point[i];
             column[i] = k == 0   ? c
                         : c < 0  ? (double)NAN // outside of the domain
@@ -86,7 +87,7 @@ static clast_status label_table(const clast_decomposition *r, int64_t n_point, c
                                  : cells->pass[c];
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status write_tables(const cli_decompose_job *j, const char *folder)
@@ -99,22 +100,18 @@ static clast_status write_tables(const cli_decompose_job *j, const char *folder)
     cli_decompose_note(j, note);
     clast_table cells = {0};
     clast_table points = {0};
-    clast_status status = cell_table(r, is_mapped, &cells);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
-        status = clast_table_write_csv_note(&cells, note, path);
-    }
-    if (status == CLAST_OK) {
-        status = label_table(r, j->cloud->n, &points);
-    }
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
-        status = clast_table_write_csv_note(&points, note, path);
-    }
-    if (status == CLAST_OK && r->search.n_row > 0) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(cell_table(r, is_mapped, &cells));
+    (void)snprintf(path, sizeof path, "%s/cells.csv", folder);
+    CLI_TRY(clast_table_write_csv_note(&cells, note, path));
+    CLI_TRY(label_table(r, j->cloud->n, &points));
+    (void)snprintf(path, sizeof path, "%s/point_cells.csv", folder);
+    CLI_TRY(clast_table_write_csv_note(&points, note, path));
+    if (r->search.n_row > 0) {
         (void)snprintf(path, sizeof path, "%s/thresholds.csv", folder);
-        status = clast_table_write_csv_note(&r->search, note, path);
+        CLI_TRY(clast_table_write_csv_note(&r->search, note, path));
     }
+done:
     clast_table_free(&cells);
     clast_table_free(&points);
     return status;
@@ -125,23 +122,21 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     const clast_decomposition *r = j->result;
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
-    clast_status status = clast_cells_write_vtu(path, r, j->domain);
-    if (status == CLAST_OK) {
-        (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
-        status = clast_points_write_vtp(path, j->cloud, r, j->domain);
-    }
-    for (int k = 0; k < CLAST_N_DECOMPOSE_CHART && status == CLAST_OK; ++k) {
+    CLI_GUARD(clast_cells_write_vtu(path, r, j->domain));
+    (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
+    CLI_GUARD(clast_points_write_vtp(path, j->cloud, r, j->domain));
+    for (int k = 0; k < CLAST_N_DECOMPOSE_CHART; ++k) {
         if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
             (void)snprintf(path, sizeof path, "%s/%s.%s", folder,
                            clast_decompose_chart_name((clast_decompose_chart)k, r), j->chart_end);
-            status = clast_decompose_chart_write((clast_decompose_chart)k, j->cloud, r, path);
+            CLI_GUARD(clast_decompose_chart_write((clast_decompose_chart)k, j->cloud, r, path));
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 clast_status cli_decompose_files(const cli_decompose_job *j, const char *folder)
 {
-    const clast_status status = write_tables(j, folder);
-    return status == CLAST_OK ? write_pictures(j, folder) : status;
+    CLI_GUARD(write_tables(j, folder));
+    return write_pictures(j, folder);
 }

@@ -1,6 +1,7 @@
 // Pairs by distance of clast decompose.
 #include "decompose_pairs.h"
 
+#include "command.h"
 #include <clast/chart.h>
 #include <clast/table.h>
 #include <math.h>
@@ -166,7 +167,7 @@ clast_status cli_decompose_pairs_write(const cli_decompose_job *j, const char *f
     char note[CLI_DECOMPOSE_NOTE];
     cli_decompose_note(j, note);
     (void)snprintf(path, sizeof path, "%s/pairs.csv", folder);
-    const clast_status status = clast_table_write_csv_note(&r->pairs.shells, note, path);
+    CLI_GUARD(clast_table_write_csv_note(&r->pairs.shells, note, path));
     (void)snprintf(path, sizeof path, "%s/pairs.%s", folder, j->chart_end);
-    return status == CLAST_OK ? clast_pairs_chart_write(&r->pairs, path) : status;
+    return clast_pairs_chart_write(&r->pairs, path);
 }

@@ -45,14 +45,10 @@ static clast_status shuffled(const clast_cloud *cloud, uint64_t seed, clast_clou
 {
     const int32_t d = cloud->dimension;
     rank *order = malloc(((size_t)cloud->n + 1) * sizeof *order);
-    clast_status status = clast_cloud_alloc(cloud->n, d, out);
-    if (status == CLAST_OK && order == NULL) {
-        status = cli_fail(CLAST_E_MEMORY, "not enough memory for %lld points", (long long)cloud->n);
-    }
-    if (status != CLAST_OK || order == NULL) {
-        free(order);
-        return status;
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_cloud_alloc(cloud->n, d, out));
+    CLI_CHECK(order != NULL, CLAST_E_MEMORY, "not enough memory for %lld points",
+              (long long)cloud->n);
     for (int64_t i = 0; i < cloud->n; ++i) {
         order[i] = (rank){mix(mix(seed) ^ (uint64_t)i), i};
     }
@@ -60,8 +56,9 @@ static clast_status shuffled(const clast_cloud *cloud, uint64_t seed, clast_clou
     for (int64_t i = 0; i < cloud->n; ++i) {
         memcpy(out->x + i * d, cloud->x + order[i].point * d, (size_t)d * sizeof *out->x);
     }
+done:
     free(order);
-    return CLAST_OK;
+    return status;
 }
 
 /// Pairs in the cells of a regular mesh of the unit cube, capped as the events of cells are.
@@ -105,19 +102,19 @@ static clast_status one_size(const clast_domain *domain, const clast_cloud *all,
     clast_decomposition r = {0};
     clast_cloud part = *all;
     part.n = n;
-    clast_status status = clast_decompose_in(domain, &part, config, &r);
-    if (status == CLAST_OK && sizes->regular > 0) {
-        status = regular_events(domain, &part, sizes->regular, config->beta_dt, &row[8]);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_decompose_in(domain, &part, config, &r));
+    if (sizes->regular > 0) {
+        CLI_TRY(regular_events(domain, &part, sizes->regular, config->beta_dt, &row[8]));
     }
-    if (status == CLAST_OK) {
-        const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
-        const double high = r.resolved ? r.events_high : (double)NAN;
-        const double made[8] = {
-            (double)n,         r.events,         r.events_low,         high,
-            (double)r.cells.n, r.events * scale, r.events_low * scale, high * scale};
-        memcpy(row, made, sizeof made);
-        row[9] = row[8] * scale;
-    }
+    const double scale = (double)all->n / (double)n * ((double)all->n / (double)n);
+    const double high = r.resolved ? r.events_high : (double)NAN;
+    const double made[8] = {
+        (double)n,         r.events,         r.events_low,         high,
+        (double)r.cells.n, r.events * scale, r.events_low * scale, high * scale};
+    memcpy(row, made, sizeof made);
+    row[9] = row[8] * scale;
+done:
     clast_decomposition_free(&r);
     return status;
 }
@@ -146,24 +143,22 @@ clast_status cli_decompose_sizes(const clast_domain *domain, const clast_cloud *
                                  clast_table *table)
 {
     clast_cloud all = {0};
-    clast_status status = check(domain, cloud, sizes);
-    if (status == CLAST_OK) {
-        status = shuffled(cloud, config->seed, &all);
-    }
-    if (status == CLAST_OK) {
-        status = clast_table_init(table, "sizes", sizes->n_size);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(check(domain, cloud, sizes));
+    CLI_TRY(shuffled(cloud, config->seed, &all));
+    CLI_TRY(clast_table_init(table, "sizes", sizes->n_size));
     const int n_column = sizes->regular > 0 ? N_COLUMN : N_COLUMN - 2;
-    for (int k = 0; k < n_column && status == CLAST_OK; ++k) {
-        status = clast_table_add_number(table, name[config->beta_dt > 0.0 ? 0 : 1][k], "-", NULL);
+    for (int k = 0; k < n_column; ++k) {
+        CLI_TRY(clast_table_add_number(table, name[config->beta_dt > 0.0 ? 0 : 1][k], "-", NULL));
     }
-    for (int32_t i = 0; i < sizes->n_size && status == CLAST_OK; ++i) {
+    for (int32_t i = 0; i < sizes->n_size; ++i) {
         double row[N_COLUMN] = {0};
-        status = one_size(domain, &all, all.n >> (sizes->n_size - 1 - i), config, sizes, row);
-        for (int k = 0; k < n_column && status == CLAST_OK; ++k) {
+        CLI_TRY(one_size(domain, &all, all.n >> (sizes->n_size - 1 - i), config, sizes, row));
+        for (int k = 0; k < n_column; ++k) {
             table->column[k].number[i] = row[k];
         }
     }
+done:
     clast_cloud_free(&all);
     return status;
 }

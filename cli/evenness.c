@@ -22,8 +22,10 @@ static clast_status measure(const clast_domain *domain, const clast_cloud *cloud
     for (int64_t i = 0; i < cloud->n; ++i) {
         n += clast_domain_map(domain, cloud->x + i * d, u + n * d) ? 1 : 0;
     }
-    const clast_status status = clast_spacing_test(u, n, d, &evenness->spacing);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_spacing_test(u, n, d, &evenness->spacing));
     evenness->has_spacing = status == CLAST_OK;
+done:
     free(u);
     return status;
 }

@@ -141,14 +141,10 @@ static void note_weld(const cli_common *common, const clast_mesh_repair_report *
 clast_status cli_mesh_welded(const cli_common *common, clast_mesh *mesh)
 {
     clast_mesh_repair_report weld = {0};
-    clast_status status = cli_mesh_input(common, mesh);
-    if (status == CLAST_OK) {
-        status = clast_mesh_weld_auto(mesh, &weld);
-    }
-    if (status == CLAST_OK) {
-        note_weld(common, &weld);
-    }
-    return status;
+    CLI_GUARD(cli_mesh_input(common, mesh));
+    CLI_GUARD(clast_mesh_weld_auto(mesh, &weld));
+    note_weld(common, &weld);
+    return CLAST_OK;
 }
 
 clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const char *otherwise,
@@ -164,10 +160,10 @@ clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const ch
 clast_status cli_mesh_input(const cli_common *common, clast_mesh *mesh)
 {
     clast_mesh_read_report report = {0};
-    const clast_status status = clast_mesh_read(common->argument[0], mesh, &report);
-    for (int32_t i = 0; i < report.n_warning && status == CLAST_OK && !common->quiet; ++i) {
+    CLI_GUARD(clast_mesh_read(common->argument[0], mesh, &report));
+    for (int32_t i = 0; i < report.n_warning && !common->quiet; ++i) {
         (void)fprintf(stderr, "clast %s: %s: %s\n", common->command, cli_name(common->argument[0]),
                       report.warning[i]);
     }
-    return status;
+    return CLAST_OK;
 }

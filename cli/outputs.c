@@ -131,18 +131,17 @@ static clast_status check_input(const outputs *o, const char *input)
 
 static clast_status check_field(const outputs *o, const clast_field *f, const void *config)
 {
-    clast_status status = CLAST_OK;
     if (f->type == CLAST_FIELD_TEXT && !is_output(f)) {
         return check_input(o, text_of(f, config));
     }
     if (f->type == CLAST_FIELD_TEXT_LIST) {
         clast_text_list list;
         memcpy(&list, (const char *)config + f->offset, sizeof list);
-        for (int32_t i = 0; i < list.n && status == CLAST_OK; ++i) {
-            status = check_input(o, list.item[i]);
+        for (int32_t i = 0; i < list.n; ++i) {
+            CLI_GUARD(check_input(o, list.item[i]));
         }
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// Each output against the runs on this disk and the outputs before it.
@@ -169,18 +168,17 @@ clast_status cli_check_outputs(const cli_command *command, const cli_common *com
 {
     outputs o = {0};
     find_outputs(command, common, config, &o);
-    clast_status status = o.n > 0 ? check_each(&o) : CLAST_OK;
+    CLI_GUARD(o.n > 0 ? check_each(&o) : CLAST_OK);
     // every word: YAML configurations are no arguments any more
-    for (int32_t i = 1; i < common->n_word && o.n > 0 && status == CLAST_OK; ++i) {
+    for (int32_t i = 1; i < common->n_word && o.n > 0; ++i) {
         const bool is_value = i > 1 && common->word[i - 1][0] == '-';
-        status = is_value ? CLAST_OK : check_input(&o, common->word[i]);
+        CLI_GUARD(is_value ? CLAST_OK : check_input(&o, common->word[i]));
     }
-    for (int32_t i = 0; i < common->n_argument && o.n > 0 && status == CLAST_OK; ++i) {
-        status = check_input(&o, common->argument[i]);
+    for (int32_t i = 0; i < common->n_argument && o.n > 0; ++i) {
+        CLI_GUARD(check_input(&o, common->argument[i]));
     }
-    for (const clast_field *f = command->fields;
-         f != NULL && f->name != NULL && o.n > 0 && status == CLAST_OK; ++f) {
-        status = check_field(&o, f, config);
+    for (const clast_field *f = command->fields; f != NULL && f->name != NULL && o.n > 0; ++f) {
+        CLI_GUARD(check_field(&o, f, config));
     }
-    return status;
+    return CLAST_OK;
 }

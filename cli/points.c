@@ -49,12 +49,12 @@ int cli_point_fields(clast_field *fields, int n, size_t offset)
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
 {
     const clast_points_options options = {points->dataset, points->frame};
-    clast_status status = clast_points_read(path, &options, table);
-    if (status == CLAST_OK && table->n_row == 0) {
+    CLI_GUARD(clast_points_read(path, &options, table));
+    if (table->n_row == 0) {
         clast_table_free(table);
-        status = cli_fail(CLAST_E_FORMAT, "%s holds no points", path);
+        return cli_fail(CLAST_E_FORMAT, "%s holds no points", path);
     }
-    return status;
+    return CLAST_OK;
 }
 
 clast_status cli_domain_read(const char *text, const cli_points *points, clast_domain *domain)

@@ -67,15 +67,13 @@ clast_status cli_parse_moments(const char *flatness, const char *elongation, dou
         return cli_fail(CLAST_E_USAGE, "--%s is missing: give both --flatness and --elongation",
                         flatness[0] == '\0' ? "flatness" : "elongation");
     }
-    clast_status status = parse_one("flatness", flatness, &mean[0], &deviation[0]);
-    if (status == CLAST_OK) {
-        status = parse_one("elongation", elongation, &mean[1], &deviation[1]);
-    }
-    if (status == CLAST_OK && (deviation[0] < 0.0) != (deviation[1] < 0.0)) {
+    CLI_GUARD(parse_one("flatness", flatness, &mean[0], &deviation[0]));
+    CLI_GUARD(parse_one("elongation", elongation, &mean[1], &deviation[1]));
+    if ((deviation[0] < 0.0) != (deviation[1] < 0.0)) {
         return cli_fail(CLAST_E_USAGE, "--%s has a deviation and --%s has none: give both or none",
                         deviation[0] < 0.0 ? "elongation" : "flatness",
                         deviation[0] < 0.0 ? "flatness" : "elongation");
     }
-    *has_spread = status == CLAST_OK && deviation[0] >= 0.0 && deviation[0] + deviation[1] > 0.0;
-    return status;
+    *has_spread = deviation[0] >= 0.0 && deviation[0] + deviation[1] > 0.0;
+    return CLAST_OK;
 }

@@ -30,13 +30,13 @@ clast_status cli_results_open(clast_run_folder *run, const clast_field *fields, 
     if (seed != NULL) {
         clast_manifest_seed(manifest, *seed);
     }
-    clast_status status = clast_manifest_config(manifest, fields, config);
-    for (; input->role != NULL && status == CLAST_OK; ++input) {
+    CLI_GUARD(clast_manifest_config(manifest, fields, config));
+    for (; input->role != NULL; ++input) {
         if (input->path != NULL && input->path[0] != '\0') {
-            status = clast_run_folder_input(run, input->role, input->path);
+            CLI_GUARD(clast_run_folder_input(run, input->role, input->path));
         }
     }
-    return status == CLAST_OK ? clast_run_folder_open(run) : status;
+    return clast_run_folder_open(run);
 }
 
 void cli_table_without_unit(clast_table *table)

@@ -23,26 +23,20 @@ clast_status cli_resume_check(const cli_common *common, const char *folder,
                               const char *free_option)
 {
     const char *changed = NULL;
+    clast_status status = CLAST_OK;
     void *fresh = calloc(1, size);
-    if (fresh == NULL) {
-        return CLAST_E_MEMORY;
+    CLI_TRY(fresh == NULL ? CLAST_E_MEMORY : clast_fields_default(fields, fresh));
+    for (const clast_field *f = fields; f->name != NULL && changed == NULL; ++f) {
+        const bool is_free = strcmp(f->name, "resume") == 0 ||
+                             (free_option != NULL && strcmp(f->name, free_option) == 0);
+        const bool is_other = !is_free && differs(f, config, fresh);
+        changed = is_other ? f->name : NULL;
     }
-    clast_status status = clast_fields_default(fields, fresh);
-    if (status == CLAST_OK) {
-        for (const clast_field *f = fields; f->name != NULL && changed == NULL; ++f) {
-            const bool is_free = strcmp(f->name, "resume") == 0 ||
-                                 (free_option != NULL && strcmp(f->name, free_option) == 0);
-            const bool is_other = !is_free && differs(f, config, fresh);
-            changed = is_other ? f->name : NULL;
-        }
-        clast_fields_free(fields, fresh);
-    }
+    clast_fields_free(fields, fresh);
+    CLI_CHECK(changed == NULL, CLAST_E_USAGE, "--resume takes every option from %s; drop %s",
+              folder, changed);
+    CLI_CHECK(common->output == NULL, CLAST_E_USAGE, "--resume writes into %s; drop -o", folder);
+done:
     free(fresh);
-    if (status == CLAST_OK && changed != NULL) {
-        status = cli_fail(CLAST_E_USAGE, "--resume takes every option from %s; drop %s", folder,
-                          changed);
-    } else if (status == CLAST_OK && common->output != NULL) {
-        status = cli_fail(CLAST_E_USAGE, "--resume writes into %s; drop -o", folder);
-    }
     return status;
 }

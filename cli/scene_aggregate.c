@@ -26,10 +26,9 @@ clast_status cli_scene_tight5(cli_lap *b);
 static clast_status set_options(clast_aggregate_config *config, const char *data,
                                 const char *options)
 {
-    clast_status status = CLAST_OK;
     const char *before = "";
     char item[512];
-    for (const char *at = options; *at != '\0' && status == CLAST_OK;) {
+    for (const char *at = options; *at != '\0';) {
         const int n = (int)strcspn(at, ";");
         const char *key = at;
         const int n_key = (int)strcspn(at, "=");
@@ -42,11 +41,11 @@ static clast_status set_options(clast_aggregate_config *config, const char *data
         }
         (void)snprintf(item, sizeof item, "%s%.*s", in_data ? data : "",
                        n - n_key - 1 - (in_data ? 1 : 0), value + (in_data ? 1 : 0));
-        status = clast_field_set(field, config, item, strcmp(before, field->name) == 0);
+        CLI_GUARD(clast_field_set(field, config, item, strcmp(before, field->name) == 0));
         before = field->name;
         at += n + (at[n] == ';' ? 1 : 0);
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// Grows one aggregate to its end, porosity after each particle, and measures it.
@@ -54,13 +53,11 @@ static clast_status grow(const clast_aggregate_config *config, const clast_aggre
 {
     clast_aggregate *a = NULL;
     clast_aggregate_result result;
-    clast_status status = clast_aggregate_create(config, input, 0, &a);
-    if (status == CLAST_OK) {
-        status = clast_aggregate_grow(a, INT32_MAX, NULL);
-    }
-    if (status == CLAST_OK) {
-        status = clast_aggregate_measure(a, &result);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_aggregate_create(config, input, 0, &a));
+    CLI_TRY(clast_aggregate_grow(a, INT32_MAX, NULL));
+    CLI_TRY(clast_aggregate_measure(a, &result));
+done:
     clast_aggregate_destroy(a);
     return status;
 }
@@ -69,18 +66,16 @@ static clast_status grow_options(cli_lap *b, const char *options)
 {
     clast_aggregate_config config;
     clast_aggregate_source source = {0};
-    clast_status status = clast_fields_default(clast_aggregate_fields, &config);
-    if (status == CLAST_OK) {
-        status = set_options(&config, b->data, options);
-    }
-    if (status == CLAST_OK) {
-        status = clast_aggregate_load(&config, &source);
-    }
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_aggregate_fields, &config));
+    CLI_TRY(set_options(&config, b->data, options));
+    CLI_TRY(clast_aggregate_load(&config, &source));
+    while (cli_lap_again(b)) {
         cli_lap_start(b);
-        status = grow(&config, &source.input);
+        CLI_TRY(grow(&config, &source.input));
         cli_lap_stop(b);
     }
+done:
     b->value = b->wall;
     clast_aggregate_unload(&source);
     clast_fields_free(clast_aggregate_fields, &config);
@@ -133,15 +128,13 @@ static clast_status grow_half(const clast_aggregate_config *config,
 {
     clast_aggregate *a = NULL;
     const int32_t half = n / 2;
-    clast_status status = clast_aggregate_create(config, input, 0, &a);
-    if (status == CLAST_OK) {
-        status = clast_aggregate_grow(a, n - half, NULL);
-    }
-    if (status == CLAST_OK) {
-        const double begun = cli_clock_cpu();
-        status = clast_aggregate_grow(a, half, NULL);
-        *each = (cli_clock_cpu() - begun) / half;
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_aggregate_create(config, input, 0, &a));
+    CLI_TRY(clast_aggregate_grow(a, n - half, NULL));
+    const double begun = cli_clock_cpu();
+    CLI_TRY(clast_aggregate_grow(a, half, NULL));
+    *each = (cli_clock_cpu() - begun) / half;
+done:
     clast_aggregate_destroy(a);
     return status;
 }
@@ -153,22 +146,20 @@ static clast_status cost_at(cli_lap *b, const char *search, int32_t n, double *e
     clast_aggregate_config config;
     clast_aggregate_source source = {0};
     double least = HUGE_VAL;
-    clast_status status = clast_fields_default(clast_aggregate_fields, &config);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_aggregate_fields, &config));
     (void)snprintf(options, sizeof options, EQUAL_SPHERES "%s;n_particle=%d;replicate=%d", search,
                    n, n);
-    if (status == CLAST_OK) {
-        status = set_options(&config, b->data, options);
-    }
-    if (status == CLAST_OK) {
-        status = clast_aggregate_load(&config, &source);
-    }
-    for (int32_t i = 0; i < b->repeats && status == CLAST_OK; ++i) {
+    CLI_TRY(set_options(&config, b->data, options));
+    CLI_TRY(clast_aggregate_load(&config, &source));
+    for (int32_t i = 0; i < b->repeats; ++i) {
         double seconds = 0.0;
         cli_lap_start(b);
-        status = grow_half(&config, &source.input, n, &seconds);
+        CLI_TRY(grow_half(&config, &source.input, n, &seconds));
         cli_lap_stop(b);
         least = fmin(least, seconds);
     }
+done:
     *each = 1e6 * least;
     clast_aggregate_unload(&source);
     clast_fields_free(clast_aggregate_fields, &config);
@@ -179,13 +170,11 @@ static clast_status cost_at(cli_lap *b, const char *search, int32_t n, double *e
 static clast_status compare_growth(cli_lap *b, const char *search, int32_t n)
 {
     double small = 0.0;
-    clast_status status = cost_at(b, search, 100, &small);
+    CLI_GUARD(cost_at(b, search, 100, &small));
     b->wall = b->cpu = HUGE_VAL;
     b->reference = small * log(n) / log(100.0);
-    if (status == CLAST_OK) {
-        status = cost_at(b, search, n, &b->value);
-    }
-    return status;
+    CLI_GUARD(cost_at(b, search, n, &b->value));
+    return CLAST_OK;
 }
 
 #define LOOSE "cone=1 deg;rays=1"
@@ -253,17 +242,13 @@ static clast_status add_scan(const char *path, int32_t number, clast_assembly *a
     clast_shape shape = {0};
     char name[32];
     (void)snprintf(name, sizeof name, "scan%d", number);
-    clast_status status = clast_mesh_read(path, &mesh, NULL);
-    if (status == CLAST_OK) {
-        deform(&mesh, number);
-        status = clast_shape_mesh(name, &mesh, &shape);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_shape(assembly, &shape, NULL);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_grain(assembly, 0, origin, unturned, 1.0, 2500.0);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_mesh_read(path, &mesh, NULL));
+    deform(&mesh, number);
+    CLI_TRY(clast_shape_mesh(name, &mesh, &shape));
+    CLI_TRY(clast_assembly_add_shape(assembly, &shape, NULL));
+    CLI_TRY(clast_assembly_add_grain(assembly, 0, origin, unturned, 1.0, 2500.0));
+done:
     clast_shape_free(&shape);
     clast_mesh_free(&mesh);
     return status;
@@ -278,12 +263,11 @@ static clast_status grow_scans(cli_lap *b, const clast_aggregate_config *config,
     }
     const clast_aggregate_input input = {.core = scan, .n_coat = N_SCAN, .coat = scan + 1};
     cli_lap_start(b);
-    for (int32_t i = 0; i <= N_SCAN && status == CLAST_OK; ++i) {
-        status = add_scan(path, i, &scan[i]);
+    for (int32_t i = 0; i <= N_SCAN; ++i) {
+        CLI_TRY(add_scan(path, i, &scan[i]));
     }
-    if (status == CLAST_OK) {
-        status = grow(config, &input);
-    }
+    CLI_TRY(grow(config, &input));
+done:
     cli_lap_stop(b);
     for (int32_t i = 0; i <= N_SCAN; ++i) {
         clast_assembly_free(&scan[i]);
@@ -297,23 +281,21 @@ clast_status cli_scene_scans(cli_lap *b)
     clast_aggregate_config config;
     char path[1024];
     char coats[16 * N_SCAN];
-    clast_status status = clast_fields_default(clast_aggregate_fields, &config);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_aggregate_fields, &config));
     (void)snprintf(path, sizeof path, "%s/stl/particle.stl", b->data);
     coats[0] = '\0';
     for (int32_t i = 0; i < N_SCAN; ++i) {
         (void)snprintf(coats + strlen(coats), sizeof coats - strlen(coats), "coat=scan%d;", i + 1);
     }
-    if (status == CLAST_OK) {
-        status = set_options(&config, b->data, coats);
+    CLI_TRY(set_options(&config, b->data, coats));
+    CLI_TRY(set_options(&config, b->data,
+                        "core=scan0;core_size=1;size_law=loguniform;size_low=0.1;size_high=1;"
+                        "n_particle=1000"));
+    while (cli_lap_again(b)) {
+        CLI_TRY(grow_scans(b, &config, path));
     }
-    if (status == CLAST_OK) {
-        status = set_options(&config, b->data,
-                             "core=scan0;core_size=1;size_law=loguniform;size_low=0.1;size_high=1;"
-                             "n_particle=1000");
-    }
-    while (status == CLAST_OK && cli_lap_again(b)) {
-        status = grow_scans(b, &config, path);
-    }
+done:
     b->value = b->wall;
     clast_fields_free(clast_aggregate_fields, &config);
     return status;

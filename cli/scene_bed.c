@@ -21,11 +21,12 @@ clast_status cli_scene_s1(cli_lap *b);
 static clast_status time_steps(cli_lap *b, clast_dem *dem, int64_t n_step)
 {
     clast_status status = CLAST_OK;
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    while (cli_lap_again(b)) {
         cli_lap_start(b);
-        status = clast_dem_step(dem, n_step);
+        CLI_TRY(clast_dem_step(dem, n_step));
         cli_lap_stop(b);
     }
+done:
     b->value = 1e9 * b->wall / ((double)n_step * clast_dem_n_grain(dem));
     return status;
 }
@@ -33,13 +34,11 @@ static clast_status time_steps(cli_lap *b, clast_dem *dem, int64_t n_step)
 static clast_status run_p1(cli_lap *b, clast_scene_bed bed, int64_t n_settle, int64_t n_step)
 {
     clast_dem *dem = NULL;
-    clast_status status = clast_scene_p1(&bed, &dem);
-    if (status == CLAST_OK) {
-        status = clast_dem_step(dem, n_settle);
-    }
-    if (status == CLAST_OK) {
-        status = time_steps(b, dem, n_step);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_scene_p1(&bed, &dem));
+    CLI_TRY(clast_dem_step(dem, n_settle));
+    CLI_TRY(time_steps(b, dem, n_step));
+done:
     clast_dem_destroy(dem);
     return status;
 }
@@ -74,19 +73,13 @@ clast_status cli_scene_e1(cli_lap *b)
     const clast_scene_bed bed = {4000, 152, 0.1, 0.0};
     clast_dem *p1 = NULL;
     clast_dem *dem = NULL;
-    clast_status status = clast_scene_p1(&bed, &p1);
-    if (status == CLAST_OK) {
-        status = clast_dem_step(p1, 155000);
-    }
-    if (status == CLAST_OK) {
-        status = clast_scene_e1(&bed, p1, &dem);
-    }
-    if (status == CLAST_OK) {
-        status = clast_dem_step(dem, 200);
-    }
-    if (status == CLAST_OK) {
-        status = time_steps(b, dem, 400);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_scene_p1(&bed, &p1));
+    CLI_TRY(clast_dem_step(p1, 155000));
+    CLI_TRY(clast_scene_e1(&bed, p1, &dem));
+    CLI_TRY(clast_dem_step(dem, 200));
+    CLI_TRY(time_steps(b, dem, 400));
+done:
     clast_dem_destroy(p1);
     clast_dem_destroy(dem);
     return status;
@@ -95,13 +88,11 @@ clast_status cli_scene_e1(cli_lap *b)
 clast_status cli_scene_s1(cli_lap *b)
 {
     clast_dem *dem = NULL;
-    clast_status status = clast_scene_s1(&dem);
-    if (status == CLAST_OK) {
-        status = clast_dem_step(dem, 40000);
-    }
-    if (status == CLAST_OK) {
-        status = time_steps(b, dem, 2000);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_scene_s1(&dem));
+    CLI_TRY(clast_dem_step(dem, 40000));
+    CLI_TRY(time_steps(b, dem, 2000));
+done:
     clast_dem_destroy(dem);
     return status;
 }

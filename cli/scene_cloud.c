@@ -25,8 +25,8 @@ static double draw(uint64_t *state)
 static clast_status make_points(int64_t n, bool is_blob, clast_cloud *cloud)
 {
     uint64_t state = 1;
-    const clast_status status = clast_cloud_alloc(n, 3, cloud);
-    for (int64_t i = 0; status == CLAST_OK && i < 3 * n; ++i) {
+    CLI_GUARD(clast_cloud_alloc(n, 3, cloud));
+    for (int64_t i = 0; i < 3 * n; ++i) {
         const double x = draw(&state);
         cloud->x[i] = i / 3 % 2 == 0 ? x : 0.25 + 0.5 * x;
         for (int k = 1; k < 8 && is_blob && i / 3 % 2 == 1; ++k) {
@@ -34,32 +34,28 @@ static clast_status make_points(int64_t n, bool is_blob, clast_cloud *cloud)
         }
         cloud->x[i] /= is_blob && i / 3 % 2 == 1 ? 8.0 : 1.0;
     }
-    return status;
+    return CLAST_OK;
 }
 
 static clast_status decompose(cli_lap *b, int64_t n, bool is_blob, const char *mesh)
 {
     clast_decompose_config config;
     clast_cloud cloud = {0};
-    clast_status status = clast_fields_default(clast_decompose_fields, &config);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_decompose_fields, &config));
     const clast_field *domain = clast_fields_find(clast_decompose_fields, "domain");
-    if (status == CLAST_OK) {
-        status = clast_field_set(domain, &config, "box:0,0,0,1,1,1", false);
-    }
-    if (status == CLAST_OK) {
-        status = clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &config, mesh,
-                                 false);
-    }
-    if (status == CLAST_OK) {
-        status = make_points(n, is_blob, &cloud);
-    }
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    CLI_TRY(clast_field_set(domain, &config, "box:0,0,0,1,1,1", false));
+    CLI_TRY(
+        clast_field_set(clast_fields_find(clast_decompose_fields, "mesh"), &config, mesh, false));
+    CLI_TRY(make_points(n, is_blob, &cloud));
+    while (cli_lap_again(b)) {
         clast_decomposition result = {0};
         cli_lap_start(b);
-        status = clast_decompose(&cloud, &config, &result);
+        CLI_TRY(clast_decompose(&cloud, &config, &result));
         cli_lap_stop(b);
         clast_decomposition_free(&result);
     }
+done:
     b->value = b->wall;
     clast_cloud_free(&cloud);
     clast_fields_free(clast_decompose_fields, &config);
@@ -92,20 +88,20 @@ clast_status cli_scene_pairs6(cli_lap *b)
     uint64_t state = 1;
     clast_pairs_config config;
     clast_cloud cloud = {0};
-    clast_status status = clast_fields_default(clast_pairs_fields, &config);
-    if (status == CLAST_OK) {
-        status = clast_cloud_alloc(1000000, 3, &cloud);
-    }
-    for (int64_t i = 0; status == CLAST_OK && i < 3 * cloud.n; ++i) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_pairs_fields, &config));
+    CLI_TRY(clast_cloud_alloc(1000000, 3, &cloud));
+    for (int64_t i = 0; i < 3 * cloud.n; ++i) {
         cloud.x[i] = draw(&state);
     }
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    while (cli_lap_again(b)) {
         clast_pairs pairs = {0};
         cli_lap_start(b);
-        status = clast_pairs_count(&cube, &cloud, &config, &pairs);
+        CLI_TRY(clast_pairs_count(&cube, &cloud, &config, &pairs));
         cli_lap_stop(b);
         clast_pairs_free(&pairs);
     }
+done:
     b->value = b->wall;
     clast_cloud_free(&cloud);
     return status;

@@ -20,30 +20,35 @@ static clast_status make_grain(int32_t number, clast_mesh *mesh)
 {
     const double turn = 0.618034 * number; // golden ratio: no two alike
     const double axes[3] = {1.0, 0.45 + 0.5 * (turn - floor(turn)), 0.3 + 0.1 * (number % 7 / 7.0)};
-    const clast_status status = clast_mesh_ellipsoid(axes, 2, mesh);
-    for (int32_t i = 0; status == CLAST_OK && i < mesh->n_vert; ++i) {
+    CLI_GUARD(clast_mesh_ellipsoid(axes, 2, mesh));
+    for (int32_t i = 0; i < mesh->n_vert; ++i) {
         double *p = mesh->vert[i];
         const double f = 1.0 + 0.02 * sin(5.0 * p[0] + turn) * cos(4.0 * p[1] + 2.0 * turn);
         for (int k = 0; k < 3; ++k) {
             p[k] *= f;
         }
     }
+    return CLAST_OK;
+}
+
+static clast_status write_grain(int32_t i, const char *path)
+{
+    clast_mesh mesh = {0};
+    clast_status status = CLAST_OK;
+    CLI_TRY(make_grain(i, &mesh));
+    CLI_TRY(clast_mesh_write(path, &mesh, NULL));
+done:
+    clast_mesh_free(&mesh);
     return status;
 }
 
 static clast_status write_grains(const char *folder, char *const path[])
 {
-    clast_status status = CLAST_OK;
-    for (int32_t i = 0; i < N_FILE && status == CLAST_OK; ++i) {
-        clast_mesh mesh = {0};
+    for (int32_t i = 0; i < N_FILE; ++i) {
         (void)snprintf(path[i], PATH_SIZE, "%s/%d.ply", folder, i);
-        status = make_grain(i, &mesh);
-        if (status == CLAST_OK) {
-            status = clast_mesh_write(path[i], &mesh, NULL);
-        }
-        clast_mesh_free(&mesh);
+        CLI_GUARD(write_grain(i, path[i]));
     }
-    return status;
+    return CLAST_OK;
 }
 
 /// What `clast shape *.ply -o table.csv` does.
@@ -52,16 +57,12 @@ static clast_status measure(char *const path[], const char *table_path)
     const clast_grains_options options = {.level = 5, .degree = -1};
     clast_grains grains = {0};
     clast_table table = {0};
-    clast_status status = clast_grains_read(N_FILE, (const char *const *)path, &options, &grains);
-    if (status == CLAST_OK && grains.n_fault > 0) {
-        status = cli_fail(grains.fault[0].status, "%s", grains.fault[0].text);
-    }
-    if (status == CLAST_OK) {
-        status = clast_grains_table(&grains, CLAST_AXES_ELLIPSOID, false, &table);
-    }
-    if (status == CLAST_OK) {
-        status = clast_table_write_csv(&table, table_path);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_grains_read(N_FILE, (const char *const *)path, &options, &grains));
+    CLI_CHECK(grains.n_fault <= 0, grains.fault[0].status, "%s", grains.fault[0].text);
+    CLI_TRY(clast_grains_table(&grains, CLAST_AXES_ELLIPSOID, false, &table));
+    CLI_TRY(clast_table_write_csv(&table, table_path));
+done:
     clast_table_free(&table);
     clast_grains_free(&grains);
     return status;
@@ -72,12 +73,14 @@ static clast_status measure_in(cli_lap *b, const char *folder, char *const path[
 {
     char table[PATH_SIZE];
     (void)snprintf(table, sizeof table, "%s/grains.csv", folder);
-    clast_status status = write_grains(folder, path);
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(write_grains(folder, path));
+    while (cli_lap_again(b)) {
         cli_lap_start(b);
-        status = measure(path, table);
+        CLI_TRY(measure(path, table));
         cli_lap_stop(b);
     }
+done:
     for (int32_t i = 0; i < N_FILE; ++i) {
         (void)unlink(path[i]);
     }

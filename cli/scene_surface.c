@@ -24,23 +24,21 @@ static clast_status fill(cli_lap *b, const char *name)
     clast_fill_config config;
     clast_mesh mesh = {0};
     char path[1024];
-    clast_status status = clast_fields_default(clast_fill_fields, &config);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_fill_fields, &config));
     (void)snprintf(path, sizeof path, "%s/stl/%s.stl", b->data, name);
-    if (status == CLAST_OK) {
-        status = clast_mesh_read(path, &mesh, NULL);
-    }
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    CLI_TRY(clast_mesh_read(path, &mesh, NULL));
+    while (cli_lap_again(b)) {
         clast_spheres spheres = {0};
         clast_fill_report report;
         cli_lap_start(b);
-        status = clast_fill(&mesh, &config, NULL, &spheres, &report);
+        CLI_TRY(clast_fill(&mesh, &config, NULL, &spheres, &report));
         cli_lap_stop(b);
-        if (status == CLAST_OK && report.max_protrusion > 1e-6) {
-            status = cli_fail(CLAST_E_CONVERGE, "a sphere pokes out by %g of its radius",
-                              report.max_protrusion);
-        }
+        CLI_CHECK(report.max_protrusion <= 1e-6, CLAST_E_CONVERGE,
+                  "a sphere pokes out by %g of its radius", report.max_protrusion);
         clast_spheres_free(&spheres);
     }
+done:
     b->value = b->wall;
     clast_mesh_free(&mesh);
     clast_fields_free(clast_fill_fields, &config);
@@ -191,13 +189,14 @@ static clast_status read_all(cli_lap *b, const buffer *file, clast_mesh_format f
         return cli_fail(CLAST_E_MEMORY, "no room for %zu bytes", file->n);
     }
     memset(copy, 0, file->n + 1);
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    while (cli_lap_again(b)) {
         clast_mesh mesh = {0};
         cli_lap_start(b);
-        status = clast_mesh_parse(file->bytes, file->n, format, &mesh, NULL);
+        CLI_TRY(clast_mesh_parse(file->bytes, file->n, format, &mesh, NULL));
         cli_lap_stop(b);
         clast_mesh_free(&mesh);
     }
+done:
     b->value = 1e-6 * (double)file->n / b->wall;
     b->reference = 1e-6 * (double)file->n / twin_seconds(b, file, is_text, copy);
     free(copy);
@@ -211,18 +210,16 @@ static clast_status read_scene(cli_lap *b, writer write, clast_mesh_format forma
     const double axes[3] = {1.1, 2.3, 3.7};
     clast_mesh mesh = {0};
     buffer file = {0};
-    clast_status status = clast_mesh_ellipsoid(axes, 7, &mesh);
-    if (status == CLAST_OK) {
-        write(&mesh, &file); // counts
-        file.room = file.n;
-        file.n = 0;
-        file.bytes = calloc(file.room + 1, 1); // ends in a zero for the twin
-        status = file.bytes == NULL ? cli_fail(CLAST_E_MEMORY, "no room for a file") : CLAST_OK;
-    }
-    if (status == CLAST_OK) {
-        write(&mesh, &file);
-        status = read_all(b, &file, format, is_text);
-    }
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_mesh_ellipsoid(axes, 7, &mesh));
+    write(&mesh, &file); // counts
+    file.room = file.n;
+    file.n = 0;
+    file.bytes = calloc(file.room + 1, 1); // ends in a zero for the twin
+    CLI_TRY(file.bytes == NULL ? cli_fail(CLAST_E_MEMORY, "no room for a file") : CLAST_OK);
+    write(&mesh, &file);
+    CLI_TRY(read_all(b, &file, format, is_text));
+done:
     free(file.bytes);
     clast_mesh_free(&mesh);
     return status;
@@ -253,7 +250,8 @@ static clast_status rough_grain(clast_shape *shape)
 {
     const double axes[3] = {3.0, 2.0, 1.0};
     clast_mesh mesh = {0};
-    clast_status status = clast_mesh_ellipsoid(axes, 8, &mesh);
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_mesh_ellipsoid(axes, 8, &mesh));
     for (int32_t i = 0; i < mesh.n_vert; ++i) {
         double *p = mesh.vert[i];
         const double f = 1.0 + 0.06 * sin(7.0 * p[0]) * cos(9.0 * p[1] + 2.0 * p[2]) +
@@ -263,9 +261,8 @@ static clast_status rough_grain(clast_shape *shape)
             p[k] *= f;
         }
     }
-    if (status == CLAST_OK) {
-        status = clast_shape_mesh("rough", &mesh, shape);
-    }
+    CLI_TRY(clast_shape_mesh("rough", &mesh, shape));
+done:
     clast_mesh_free(&mesh);
     return status;
 }
@@ -277,23 +274,19 @@ clast_status cli_scene_render(cli_lap *b)
     clast_assembly assembly = {0};
     clast_shape shape = {0};
     clast_render_config config;
-    clast_status status = clast_fields_default(clast_render_fields, &config);
-    if (status == CLAST_OK) {
-        status = rough_grain(&shape);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_shape(&assembly, &shape, NULL);
-    }
-    if (status == CLAST_OK) {
-        status = clast_assembly_add_grain(&assembly, 0, origin, unturned, 1.0, 1.0);
-    }
-    while (status == CLAST_OK && cli_lap_again(b)) {
+    clast_status status = CLAST_OK;
+    CLI_TRY(clast_fields_default(clast_render_fields, &config));
+    CLI_TRY(rough_grain(&shape));
+    CLI_TRY(clast_assembly_add_shape(&assembly, &shape, NULL));
+    CLI_TRY(clast_assembly_add_grain(&assembly, 0, origin, unturned, 1.0, 1.0));
+    while (cli_lap_again(b)) {
         clast_image image = {0};
         cli_lap_start(b);
-        status = clast_render_assembly(&assembly, &config, NULL, &image);
+        CLI_TRY(clast_render_assembly(&assembly, &config, NULL, &image));
         cli_lap_stop(b);
         clast_image_free(&image);
     }
+done:
     b->value = b->wall;
     clast_fields_free(clast_render_fields, &config);
     clast_shape_free(&shape);

@@ -1,0 +1,124 @@
+// Options of clast agglomerate --box-model, and which of them go with one another.
+#include "box_model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int cli_box_fields(clast_field *fields, int n, size_t offset)
+{
+    fields[n++] =
+        (clast_field){"box_model",
+                      offset + offsetof(cli_box, box_model),
+                      CLAST_FIELD_BOOL,
+                      0,
+                      0,
+                      1,
+                      "-",
+                      "a well-mixed box without POINTS: --concentration and a law of sizes",
+                      NULL,
+                      "box without positions",
+                      false};
+    for (const clast_field *f = clast_spectrum_fields; f->name != NULL; ++f) {
+        fields[n] = *f;
+        fields[n].group = NULL;
+        fields[n++].offset += offset + offsetof(cli_box, spectrum);
+    }
+    fields[n++] = (clast_field){.name = "initial_file",
+                                .offset = offset + offsetof(cli_box, initial_file),
+                                .type = CLAST_FIELD_TEXT,
+                                .unit = "-",
+                                .text = "",
+                                .help = "table of --initial table: columns size (monomers) and "
+                                        "number (1/m^3)"};
+    return n;
+}
+
+/// Whether the field still has its default.
+static bool is_default(const clast_field *fields, const clast_field *field, const void *config)
+{
+    static _Alignas(16) char plain[16384]; // beyond every configuration
+    char value[512] = "";
+    char usual[512] = "";
+    bool is_same = true;
+    if (clast_fields_default(fields, plain) != CLAST_OK) {
+        return true;
+    }
+    is_same = clast_field_count(field, config) == clast_field_count(field, plain);
+    for (int32_t k = 0; k < clast_field_count(field, config) && is_same; ++k) {
+        (void)clast_field_format(field, config, k, value, sizeof value);
+        (void)clast_field_format(field, plain, k, usual, sizeof usual);
+        is_same = strcmp(value, usual) == 0;
+    }
+    clast_fields_free(fields, plain);
+    return is_same;
+}
+
+static bool is_among(const char *name, const char *const *list)
+{
+    while (*list != NULL && strcmp(*list, name) != 0) {
+        ++list;
+    }
+    return *list != NULL;
+}
+
+/// 1: of a box alone, -1: of clouds alone, 0: of both.
+static int side_of(const char *name)
+{
+    static const char *const box[] = {"initial_file", NULL};
+    static const char *const both[] = {"box_model", "charts", "force", "seed", NULL};
+    static const char *const cloud[] = {"rebuild", "change_level",    "fixed",
+                                        "depth",   "self_collisions", NULL};
+    if (is_among(name, box) || clast_fields_find(clast_spectrum_fields, name) != NULL) {
+        return 1;
+    }
+    if (is_among(name, both) ||
+        (clast_fields_find(clast_agglomerate_fields, name) != NULL && !is_among(name, cloud))) {
+        return 0;
+    }
+    return -1;
+}
+
+/// What one solver of a box does not look at.
+static bool is_idle(const cli_box *box, const char *name)
+{
+    static const char *const draws[] = {"particles", "collisions", "leap", "block", NULL};
+    static const char *const integrates[] = {"tolerance",         "breakage_exponent", "fragments",
+                                             "fragment_exponent", "source_size",       NULL};
+    return is_among(name, box->spectrum.solver == CLAST_SOLVER_SECTIONAL ? draws : integrates);
+}
+
+clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
+                           const cli_box *box)
+{
+    if (!box->box_model && common->n_argument == 0) {
+        return cli_fail(CLAST_E_USAGE,
+                        "missing POINTS... (or --box-model: a box without positions)");
+    }
+    if (box->box_model && common->n_argument > 0) {
+        return cli_fail(CLAST_E_USAGE, "a box has no positions: leave '%s' or --box-model out",
+                        cli_name(common->argument[0]));
+    }
+    for (const clast_field *f = fields; f->name != NULL; ++f) {
+        char option[64];
+        const bool is_wrong = side_of(f->name) == (box->box_model ? -1 : 1) ||
+                              (box->box_model && is_idle(box, f->name));
+        (void)snprintf(option, sizeof option, "%s", f->name);
+        for (char *at = strchr(option, '_'); at != NULL; at = strchr(at, '_')) {
+            *at = '-';
+        }
+        if (is_wrong && !is_default(fields, f, config)) {
+            return cli_fail(CLAST_E_USAGE, "--%s %s", option,
+                            !box->box_model ? "is an option of a box: it needs --box-model"
+                            : side_of(f->name) < 0
+                                ? "is an option of clouds: a box has no positions"
+                                : "does nothing with this --solver");
+        }
+    }
+    if (box->box_model &&
+        (box->spectrum.initial == CLAST_INITIAL_TABLE) != (box->initial_file[0] != '\0')) {
+        return cli_fail(CLAST_E_USAGE, "--initial table and --initial-file go together");
+    }
+    return CLAST_OK;
+}

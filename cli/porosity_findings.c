@@ -1,0 +1,253 @@
+// What clast porosity found: as JSON, as tables and charts, in words.
+#include "porosity_findings.h"
+
+#include "json.h"
+#include "results.h"
+#include <clast/chart.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void cli_porosity_free(cli_porosity_findings *f)
+{
+    clast_table_free(&f->profile);
+    clast_table_free(&f->coordination);
+    clast_table_free(&f->fabric);
+    clast_table_free(&f->local);
+    clast_table_free(&f->radial);
+    clast_pores_free(&f->pores);
+    clast_table_free(&f->stress);
+    clast_table_free(&f->stress_profile);
+}
+
+/// Mean and standard deviation of the local porosity of grains whose cell no wall cuts.
+static int64_t local_moments(const clast_table *local, double *mean, double *deviation)
+{
+    const double *porosity = clast_table_numbers(local, "porosity");
+    const double *border = clast_table_numbers(local, "border");
+    int64_t n = 0;
+    double sum = 0.0;
+    double square = 0.0;
+    for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
+        if (border[i] == 0.0 && isfinite(porosity[i])) {
+            ++n;
+            sum += porosity[i];
+        }
+    }
+    *mean = n > 0 ? sum / (double)n : (double)NAN;
+    for (int64_t i = 0; porosity != NULL && border != NULL && i < local->n_row; ++i) {
+        if (border[i] == 0.0 && isfinite(porosity[i])) {
+            square += (porosity[i] - *mean) * (porosity[i] - *mean);
+        }
+    }
+    *deviation = n > 1 ? sqrt(square / (double)(n - 1)) : (double)NAN;
+    return n;
+}
+
+static json_t *profile_json(const cli_porosity_findings *f)
+{
+    json_t *rows = json_array();
+    const double *low = f->profile.column[0].number; // z_low, z_high, with _m where that is known
+    const double *high = f->profile.column[1].number;
+    const double *porosity = clast_table_numbers(&f->profile, "porosity");
+    for (int64_t k = 0; k < f->profile.n_row; ++k) {
+        json_t *row = json_object();
+        cli_json_number(row, "z", 0.5 * (low[k] + high[k]));
+        cli_json_number(row, "porosity", porosity[k]);
+        (void)json_array_append_new(rows, row);
+    }
+    return rows;
+}
+
+json_t *cli_porosity_json(const clast_assembly *assembly, const cli_porosity_findings *f)
+{
+    json_t *object = json_object();
+    cli_json_text(object, "method", f->method == CLAST_POROSITY_EXACT ? "exact" : "spheres");
+    cli_json_count(object, "n_grain", assembly->n_grain);
+    cli_json_number(object, "bulk", f->bulk.porosity);
+    cli_json_number(object, "z_low", f->bulk.z_low);
+    cli_json_number(object, "z_high", f->bulk.z_high);
+    cli_json_number(object, "top", f->bulk.top);
+    cli_json_number(object, "solid", f->bulk.solid);
+    cli_json_number(object, "grain_size", f->walls.size);
+    if (isfinite(f->walls.ratio)) {
+        cli_json_number(object, "wall_ratio", f->walls.ratio);
+    }
+    if (f->core_depth > 0.0) {
+        cli_json_number(object, "core_depth", f->core.depth);
+        cli_json_number(object, "core", f->core.porosity);
+        cli_json_number(object, "core_error", f->core.error);
+        cli_json_number(object, "wall_share", f->core.share);
+    }
+    cli_json_number(object, "coordination", f->mean_coordination);
+    if (f->overlaps.n >= 0) {
+        cli_json_count(object, "n_overlap", f->overlaps.n);
+        cli_json_number(object, "max_overlap", f->overlaps.depth);
+        cli_json_number(object, "max_overlap_share", f->overlaps.share);
+    }
+    cli_json_text(object, "unit", assembly->unit);
+    if (f->local.n_column > 0) {
+        double mean = NAN;
+        double deviation = NAN;
+        cli_json_count(object, "n_local", local_moments(&f->local, &mean, &deviation));
+        cli_json_number(object, "local_mean", mean);
+        cli_json_number(object, "local_deviation", deviation);
+    }
+    if (f->pores.sizes.n_column > 0) {
+        cli_json_number(object, "pore_mean", f->pores.mean);
+        cli_json_number(object, "pore_porosity", f->pores.porosity);
+    }
+    json_t *fabric = json_object();
+    for (int64_t k = 0; k < f->fabric.n_row; ++k) {
+        cli_json_number(fabric, f->fabric.column[0].text[k], f->fabric.column[1].number[k]);
+    }
+    (void)json_object_set_new(object, "fabric", fabric);
+    if (f->stress.n_column > 0) {
+        json_t *stress = json_object();
+        for (int64_t k = 0; k < f->stress.n_row; ++k) {
+            cli_json_number(stress, f->stress.column[0].text[k], f->stress.column[1].number[k]);
+        }
+        (void)json_object_set_new(object, "stress", stress);
+    }
+    return object;
+}
+
+static clast_status write_tables(const clast_run_folder *run, const clast_assembly *assembly,
+                                 cli_porosity_findings *f)
+{
+    char path[CLAST_RUN_PATH];
+    const struct {
+        const char *name;
+        clast_table *table;
+    } files[] = {{"profile.csv", &f->profile}, {"coordination.csv", &f->coordination},
+                 {"fabric.csv", &f->fabric},   {"local.csv", &f->local},
+                 {"radial.csv", &f->radial},   {"pores.csv", &f->pores.sizes},
+                 {"stress.csv", &f->stress},   {"stress_profile.csv", &f->stress_profile}};
+    for (size_t k = 0; k < sizeof files / sizeof files[0]; ++k) {
+        if (files[k].table->n_column > 0) {
+            if (strcmp(assembly->unit, "m") != 0) {
+                cli_table_without_unit(files[k].table);
+            }
+            CLI_GUARD(clast_run_folder_file(run, files[k].name, path));
+            CLI_GUARD(clast_table_write_csv(files[k].table, path));
+        }
+    }
+    return CLAST_OK;
+}
+
+/// Charts, then the tables that they are drawn from.
+clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembly *assembly,
+                                cli_porosity_findings *f)
+{
+    char path[CLAST_RUN_PATH];
+    CLI_GUARD(clast_run_folder_file(run, "profile.svg", path));
+    CLI_GUARD(clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path));
+    if (f->radial.n_column > 0) {
+        CLI_GUARD(clast_run_folder_file(run, "radial.svg", path));
+        CLI_GUARD(clast_radial_chart_write(&f->radial, assembly->unit, path));
+    }
+    if (f->stress_profile.n_column > 0) {
+        CLI_GUARD(clast_run_folder_file(run, "stress.svg", path));
+        CLI_GUARD(clast_stress_chart_write(&f->stress_profile, assembly->unit, path));
+    }
+    if (f->pores.sizes.n_column > 0) {
+        CLI_GUARD(clast_run_folder_file(run, "pores.svg", path));
+        CLI_GUARD(clast_pore_chart_write(&f->pores.sizes, assembly->unit, path));
+    }
+    return write_tables(run, assembly, f);
+}
+
+/// What the side walls do to the bulk porosity.
+static void print_walls(const clast_bed *bed, const char *unit, const cli_porosity_findings *f)
+{
+    if (bed->kind == CLAST_BED_MESH) {
+        (void)printf("side walls          a surface: its distance in grain sizes is not known\n");
+    } else if (!isfinite(f->walls.ratio)) {
+        (void)printf("side walls          none: the bed is periodic\n");
+    } else {
+        (void)printf("side walls          %.4g grain sizes (of %.4g %s, mean by volume) from the "
+                     "axis%s\n",
+                     f->walls.ratio, f->walls.size, unit,
+                     f->core_depth > 0.0    ? ""
+                     : f->walls.ratio > 2.5 ? ", which loosen the bed; --core 2 leaves them out"
+                                            : ", which loosen the bed");
+    }
+    if (f->core_depth > 0.0) {
+        (void)printf(
+            "core                %.6f   +- %.2g, farther than %g grain sizes from the side "
+            "walls; their share of the bulk porosity is %.4f\n",
+            f->core.porosity, f->core.error, f->core_depth, f->core.share);
+    }
+}
+
+clast_status cli_porosity_print(const cli_common *common, const clast_assembly *assembly,
+                                const clast_bed *bed, const cli_porosity_findings *f)
+{
+    const bool is_model = strcmp(assembly->unit, "model") == 0;
+    const char *unit = is_model ? "model units" : assembly->unit;
+    if (common->json) {
+        json_t *object = cli_porosity_json(assembly, f);
+        (void)json_object_set_new(object, "profile", profile_json(f));
+        return cli_print_json(object);
+    }
+    (void)printf("%d grain%s, %s\n", assembly->n_grain, cli_plural(assembly->n_grain),
+                 f->method == CLAST_POROSITY_EXACT ? "true shapes" : "spheres of equal volume");
+    (void)printf("bulk porosity       %.6f   from z = %.6g to %.6g %s\n", f->bulk.porosity,
+                 f->bulk.z_low, f->bulk.z_high, unit);
+    if (bed->kind == CLAST_BED_PERIODIC_3D) {
+        (void)printf("bed                 periodic in all three directions: the whole box\n");
+    } else {
+        (void)printf("top of the bed      %.6g %s   where the porosity rises through %g\n",
+                     f->bulk.top, unit, f->cut);
+    }
+    print_walls(bed, unit, f);
+    if (f->overlaps.n > 0) {
+        (void)printf(
+            "overlaps            %d pair%s of grains, the deepest by %.3g %% of the smaller "
+            "one's radius (of equal volume); the solid counts what they share twice\n",
+            f->overlaps.n, f->overlaps.n == 1 ? "" : "s", 100.0 * f->overlaps.share);
+    } else if (f->overlaps.n < 0) {
+        (void)printf("overlaps            those of the run's own contacts: max_overlap in its "
+                     "summary.json\n");
+    } else {
+        (void)printf("overlaps            none\n");
+    }
+    if (isfinite(f->mean_coordination)) {
+        (void)printf("mean coordination   %.4f   from %d contacts\n", f->mean_coordination,
+                     assembly->n_contact);
+    }
+    if (f->local.n_column > 0) {
+        double mean = NAN;
+        double deviation = NAN;
+        const int64_t n = local_moments(&f->local, &mean, &deviation);
+        if (n > 1) {
+            (void)printf(
+                "local porosity      %.4f mean, %.4f standard deviation, of %lld grains whose "
+                "cells reach no wall\n",
+                mean, deviation, (long long)n);
+        } else {
+            (void)printf(
+                "local porosity      every grain's cell but %lld reaches a wall: no mean\n",
+                (long long)n);
+        }
+    }
+    if (f->pores.sizes.n_column > 0) {
+        (void)printf(
+            "pores               %.6g %s   mean distance to the nearest grain; porosity by "
+            "points %.4f\n",
+            f->pores.mean, unit, f->pores.porosity);
+    }
+    for (int64_t k = 0; k < f->fabric.n_row; ++k) {
+        (void)printf("%-20s %.4f   %s\n", f->fabric.column[0].text[k],
+                     f->fabric.column[1].number[k], f->fabric.column[3].text[k]);
+    }
+    for (int64_t k = 0; k < f->stress.n_row; ++k) {
+        (void)printf("%-20s %.4g %s   %s\n", f->stress.column[0].text[k],
+                     f->stress.column[1].number[k], f->stress.column[2].text[k],
+                     f->stress.column[3].text[k]);
+    }
+    if (common->output != NULL) {
+        (void)printf("tables and profile.svg are in %s\n", common->output);
+    }
+    return CLAST_OK;
+}

@@ -1,0 +1,29 @@
+#pragma once
+// One bed, and what clast porosity measures of it.
+#include "porosity_findings.h"
+
+/// A run that is measured.
+typedef struct cli_porosity_bed {
+    clast_assembly assembly;
+    clast_bed bed;
+    clast_mesh surface;   ///< of the bed, or empty
+    clast_table contacts; ///< forces, without columns where the run does not know them
+    bool has_bed;
+} cli_porosity_bed;
+
+/// What is asked for; lengths in the bed's unit, 0: not.
+typedef struct cli_porosity_wanted {
+    clast_porosity_options options;
+    double gap;  ///< grains this close touch
+    double core; ///< grain sizes from the side walls
+    bool local;
+    int32_t rings; ///< of radial porosity
+    int64_t pores; ///< points
+} cli_porosity_wanted;
+
+void cli_porosity_bed_free(cli_porosity_bed *s);
+
+/// Wraps the grains of a periodic bed into it, then measures. CLAST_E_GEOMETRY for a bed that holds
+/// more solid than room.
+clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted *wanted,
+                                  cli_porosity_findings *f);

@@ -1,0 +1,17 @@
+#pragma once
+// What clast predict found: as JSON, in words.
+#include <clast/clast.h>
+#include <jansson.h>
+
+/// Everything of one run.
+typedef struct cli_prediction {
+    clast_porosity_model model;
+    clast_table table, beds;
+    clast_form_set set;
+    clast_form_inputs inputs;
+    clast_prediction prediction;
+    bool has_table, has_one; ///< has_one: `prediction` is the answer for one bed
+} cli_prediction;
+
+json_t *cli_prediction_json(const cli_prediction *prediction);
+void cli_prediction_print(const cli_prediction *prediction);
