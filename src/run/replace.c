@@ -24,7 +24,8 @@
 #include <sys/syscall.h>
 #endif
 
-#define MARK ".replaced"
+#define MARK     ".replaced"
+#define MANIFEST "manifest.json"
 
 /// What pack, aggregate and aggregate --fit leave; for runs whose manifest does not list it yet.
 static const char *const left[] = {
@@ -36,7 +37,7 @@ static const char *const left[] = {
     "structure.csv"};
 
 /// What is a run's own in any case.
-static const char *const always[] = {"manifest.json", "summary.json", "report.html", MARK};
+static const char *const always[] = {MANIFEST, "summary.json", "report.html", MARK};
 
 static bool is_among(const char *name, const char *const *list, size_t n)
 {
@@ -84,6 +85,18 @@ static int remove_entry(const char *path, const struct stat *found, int kind, st
     (void)kind;
     (void)place;
     return remove(path);
+}
+
+/// All but the folder's own mark and manifest.
+static int remove_unmarked(const char *path, const struct stat *found, int kind, struct FTW *place)
+{
+    (void)found;
+    (void)kind;
+    const char *name = path + place->base;
+    const bool stays =
+        place->level == 0 ||
+        (place->level == 1 && (strcmp(name, MARK) == 0 || strcmp(name, MANIFEST) == 0));
+    return stays ? 0 : remove(path);
 }
 
 static int remove_temporary(const char *path, const struct stat *found, int kind, struct FTW *place)
@@ -162,6 +175,23 @@ done:
     return status;
 }
 
+/// Removes a run that is replaced. Its manifest goes last but one and its mark last, so that what a
+/// kill leaves of it can be told from a run of someone else, and its files from the user's.
+static clast_status remove_old(const char *old)
+{
+    clast_status status = CLAST_OK;
+    char manifest[CLX_PATH_LIMIT];
+    CLX_TRY(clx_path_join(manifest, old, MANIFEST));
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread is at a run's folder
+    CLX_CHECK(nftw(old, remove_unmarked, 16, FTW_DEPTH | FTW_PHYS) == 0, CLAST_E_DISK,
+              "cannot remove %s: %s", old, clx_errno_text());
+    CLX_CHECK(unlink(manifest) == 0 || errno == ENOENT, CLAST_E_DISK, "cannot remove %s: %s",
+              manifest, clx_errno_text());
+    CLX_TRY(clx_run_remove_tree(old));
+done:
+    return status;
+}
+
 /// After the exchange: the user's files go to the new run, then the old one is removed.
 static clast_status clear_old(const char *old, const char *fresh)
 {
@@ -175,7 +205,7 @@ static clast_status clear_old(const char *old, const char *fresh)
     CLX_TRY(clx_path_join(to, fresh, "frames"));
     CLX_TRY(carry(from, NULL, to));
     CLX_TRY(clx_folder_sync(fresh));
-    CLX_TRY(clx_run_remove_tree(old));
+    CLX_TRY(remove_old(old));
 done:
     clx_run_state_free(&state);
     return status;

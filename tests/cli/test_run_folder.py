@@ -242,6 +242,22 @@ class RunFolder(Case):
         self.assertEqual(set(contents(run)), {"prediction.csv", "summary.json", "manifest.json", "notes.txt", "mine.txt"})
         self.assertFalse((self.folder / "run.old").exists())
 
+    def test_what_a_kill_leaves_of_a_replaced_run_is_removed(self):
+        run, new = self.folder / "run", self.folder / "run.new"
+        words = ("predict", self.forms, "--force", "-o", run)
+        self.assertEqual(clast(*words[:2], "-o", run).code, 0)
+        self.assertEqual(clast(*GROW, "-o", new).code, 0)
+        for left in ([".replaced", "manifest.json", "history.csv"], [".replaced", "manifest.json"], [".replaced"], []):
+            new.mkdir(exist_ok=True)
+            (new / ".replaced").write_text("")
+            for path in new.iterdir():
+                if path.name not in left:
+                    path.unlink()
+            self.assertEqual(clast(*words).code, 0, left)
+            self.assertFalse(new.exists())
+            self.assertEqual(set(contents(run)), {"prediction.csv", "summary.json", "manifest.json"})
+            self.assertEqual(clast(*GROW, "-o", new).code, 0)
+
     def test_kinds_without_grains_and_studies_are_named(self):
         run = self.folder / "run"
         self.assertEqual(clast("predict", self.forms, "-o", run).code, 0)

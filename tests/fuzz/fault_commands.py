@@ -205,6 +205,23 @@ def faults(bench, each, only, jobs):
     return tries, bad
 
 
+def after_kill(bench, name, words, folder, which):
+    """What is wrong after a kill, or None. An old run that a whole new one is about to replace is marked (.replaced)."""
+    results = {f: v for f, v in bench.results(folder).items()
+               if not f.startswith("out.new") and "/.clast-" not in f and f != "out/.replaced"}
+    telling = ["state.h5"] if name == "pack" else ["history.csv"]
+    if not is_new(results, bench.new[name], telling) and results != bench.results(bench.old[name]):
+        return f"{name} {which}: neither the old nor the new result: {sorted(results)[:5]}"
+    if (folder / "out.new").exists():
+        done = bench.run([words[0], "--resume", "out.new"], folder)
+        if done.returncode == 0 and not is_new(bench.results(folder), bench.new[name], telling):
+            return f"{name} {which}: resumed, other bytes"
+        if done.returncode not in (0, 2, 3):
+            return f"{name} {which}: resume: {done.returncode} {done.stderr}"
+    done = bench.run(words, folder)
+    return None if done.returncode == 0 else f"{name} {which}: afterwards {done.returncode} {done.stderr}"
+
+
 def one_kill(bench, name, words, seconds, k):
     """What is wrong after a kill at a random moment, or None."""
     folder = bench.place(bench.old[name])
@@ -213,25 +230,25 @@ def one_kill(bench, name, words, seconds, k):
                               stderr=subprocess.DEVNULL) as process:
             time.sleep(random.Random(k).random() * seconds)
             process.send_signal(signal.SIGKILL)
-        results = {f: v for f, v in bench.results(folder).items() if not f.startswith("out.new") and "/.clast-" not in f}
-        telling = ["state.h5"] if name == "pack" else ["history.csv"]
-        if not is_new(results, bench.new[name], telling) and results != bench.results(bench.old[name]):
-            return f"{name} {k}: neither the old nor the new result: {sorted(results)[:5]}"
-        if (folder / "out.new").exists():
-            done = bench.run([words[0], "--resume", "out.new"], folder)
-            if done.returncode == 0 and not is_new(bench.results(folder), bench.new[name], telling):
-                return f"{name} {k}: resumed, other bytes"
-            if done.returncode not in (0, 2, 3):
-                return f"{name} {k}: resume: {done.returncode} {done.stderr}"
-        done = bench.run(words, folder)
-        return None if done.returncode == 0 else f"{name} {k}: afterwards {done.returncode} {done.stderr}"
+        return after_kill(bench, name, words, folder, f"at moment {k}")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def kills(bench, n, jobs, first=0):
-    """(tries, what was wrong, how many were resumed) of kills spread over the long commands."""
-    bad = []
+def one_kill_before(bench, name, words, at):
+    """The same for a kill before operation `at`."""
+    folder = bench.place(bench.old[name])
+    try:
+        bench.run(words, folder, at=at, mode="kill")
+        return after_kill(bench, name, words, folder, f"before operation {at}")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def kills(bench, n, jobs):
+    """(tries, what was wrong) of kills of the long commands: n at random moments, and one before each operation on the disk
+    (before n evenly spread ones where there are more)."""
+    tries, bad = 0, []
     cases = {c[0]: c for c in CASES}
     for name, words in KILLED.items():
         words = words_of(words)
@@ -239,14 +256,21 @@ def kills(bench, n, jobs, first=0):
         began = time.monotonic()
         bench.run(words, bench.place(bench.old[name]))
         seconds = 1.1 * (time.monotonic() - began)
+        count = pathlib.Path(bench.home.name) / "count"
+        bench.run(words, bench.place(bench.old[name]), count=count, mode="kill")
+        n_operation = int(count.read_text())
+        each = n // len(KILLED)
+        before = sorted({1 + i * (n_operation - 1) // max(1, min(each, n_operation) - 1) for i in range(min(each, n_operation))})
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            todo = range(first, first + n // len(KILLED))
-            found = [f for f in pool.map(lambda k: one_kill(bench, name, words, seconds, k), todo) if f]
-        print(f"kills: {name}: {len(todo)} within {seconds:.2f} s, {len(found)} bad", flush=True)
+            found = [f for f in pool.map(lambda k: one_kill(bench, name, words, seconds, k), range(each)) if f]
+            found += [f for f in pool.map(lambda k: one_kill_before(bench, name, words, k), before) if f]
+        print(f"kills: {name}: {each} within {seconds:.2f} s, {len(before)} before one of {n_operation} operations, {len(found)} bad",
+              flush=True)
         for line in found[:6]:
             print("  " + line, flush=True)
+        tries += each + len(before)
         bad += found
-    return n, bad
+    return tries, bad
 
 
 def main():

@@ -3,16 +3,18 @@
 //     CLAST_FAULT_FOLDER  only what lies below it counts
 //     CLAST_FAULT_AT      k, from 1; 0 or absent: none fails
 //     CLAST_FAULT_ERRNO   the number that it fails with
-//     CLAST_FAULT_MODE    once (default); on: all from the k-th; short: the k-th write takes half
+//     CLAST_FAULT_MODE    once (default); on: all from the k-th; short: the k-th write takes half;
+//                         kill: the process ends before the k-th, by SIGKILL
 //     CLAST_FAULT_COUNT   file that gets the number of operations at the end
 //
 // Operations: files opened for writing, writes, syncs, renames, folders made, files cut or closed
-// by stdio. Removing files never fails: a full disk lets one do that.
+// by stdio. Removing files never fails: a full disk lets one do that; with kill it counts too.
 #define _GNU_SOURCE 1
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -53,6 +55,11 @@ static bool is_ours(int descriptor)
     return n > 0 && is_below(path);
 }
 
+static bool kills(void)
+{
+    return strcmp(word("CLAST_FAULT_MODE"), "kill") == 0;
+}
+
 /// Counts an operation; true when it is to fail, errno set.
 static bool fails(void)
 {
@@ -60,6 +67,9 @@ static bool fails(void)
     const long at = strtol(word("CLAST_FAULT_AT"), NULL, 10);
     const bool is_hit =
         at > 0 && (k == at || (k > at && strcmp(word("CLAST_FAULT_MODE"), "on") == 0));
+    if (is_hit && kills()) {
+        (void)raise(SIGKILL);
+    }
     if (is_hit) {
         errno = (int)strtol(word("CLAST_FAULT_ERRNO"), NULL, 10);
     }
@@ -153,3 +163,16 @@ int fclose(FILE *stream)
     errno = is_hit ? error : errno;
     return is_hit ? EOF : code;
 }
+
+#define REMOVE(name)                                                                               \
+    int name(const char *path)                                                                     \
+    {                                                                                              \
+        if (kills() && is_below(path)) {                                                           \
+            (void)fails();                                                                         \
+        }                                                                                          \
+        return REAL(name)(path);                                                                   \
+    }
+
+REMOVE(remove)
+REMOVE(unlink)
+REMOVE(rmdir)
