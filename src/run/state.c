@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "io/checkpoint.h"
+#include "run/checkpoint.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>

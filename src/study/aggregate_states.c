@@ -4,9 +4,9 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "io/checkpoint.h"
 #include "io/folder.h"
 #include "io/state.h"
+#include "run/checkpoint.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "io/checkpoint.h"
-#include "io/pack_state.h"
+#include "run/checkpoint.h"
+#include "run/pack_state.h"
 #include <clast/chart.h>
 #include <clast/form.h>
 #include <clast/run_folder.h>

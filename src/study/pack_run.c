@@ -3,8 +3,8 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "io/checkpoint.h"
-#include "io/pack_state.h"
+#include "run/checkpoint.h"
+#include "run/pack_state.h"
 #include "run/run.h"
 #include "study/pack_folder.h"
 #include <clast/field.h>

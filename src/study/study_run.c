@@ -9,7 +9,7 @@
 #include "base/lock.h"
 #include "base/path.h"
 #include "base/queue.h"
-#include "io/checkpoint.h"
+#include "run/checkpoint.h"
 #include "run/run.h"
 #include <clast/machine.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 // what was accepted can be stepped, measured and saved again. The input is a script (h5_script.h);
 // the packing's shapes are those of the file, so that the check of shapes lets it pass.
 #include "h5_script.h"
-#include "io/pack_state.h"
+#include "run/pack_state.h"
 #include <clast/grading.h>
 #include <clast/machine.h>
 #include <clast/pack.h>

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "io/checkpoint.h"
+#include "run/checkpoint.h"
 #include <dirent.h>
 #include <errno.h>
 #include <hdf5.h>

@@ -1,12 +1,12 @@
 // Packings to state files and back. Beside what every state holds (docs/theory/state-file.md), the
 // folder /pack has the process and the simulation, array by array.
-#include "io/pack_state.h"
+#include "run/pack_state.h"
 
 #include "base/alloc.h"
 #include "io/bed_tables.h"
-#include "io/checkpoint.h"
 #include "io/state.h"
 #include "pack/saved.h"
+#include "run/checkpoint.h"
 #include <string.h>
 
 enum { N_ARRAY = 12 };

@@ -1,6 +1,6 @@
 // Checkpoints: each a new file, written whole or not at all; the older ones go only afterwards, so
 // that a good one is always there.
-#include "io/checkpoint.h"
+#include "run/checkpoint.h"
 
 #include "base/alloc.h"
 #include "base/file.h"
