@@ -5,7 +5,8 @@
 
 // What an aggregation reads: sizes, surfaces and composites named in its configuration.
 
-// A whole run of an aggregation: all repeats, their folder, checkpoints and going on.
+// A whole run of an aggregation: all repeats, their folder, checkpoints and going on
+// (clast_aggregate_run and clast_aggregate_resume are of libclast_view).
 
 CLAST_BEGIN
 

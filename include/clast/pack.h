@@ -9,7 +9,8 @@
 
 // What a packing reads: sizes and shapes named in its configuration.
 
-// A whole run of a packing: its inputs, folder, checkpoints, and going on.
+// A whole run of a packing: its inputs, folder, checkpoints, and going on (clast_pack_run and
+// clast_pack_resume are of libclast_view).
 
 CLAST_BEGIN
 

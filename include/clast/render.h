@@ -5,7 +5,7 @@
 
 CLAST_BEGIN
 
-// Pictures of assemblies by a ray tracer, without a display or a graphics card.
+// Pictures of assemblies by a ray tracer, without a display or a graphics card. Of libclast_view.
 
 /// Pixels in memory, row by row from the top, straight (not premultiplied) sRGB and alpha.
 typedef struct clast_image {

@@ -1,5 +1,5 @@
 #pragma once
-// Many runs of one command: what varies, who has been run, one table of results.
+// Many runs of one command: what varies, who has been run, one table of results. Of libclast_view.
 #include <clast/field.h>
 #include <clast/machine.h>
 #include <clast/status.h>
