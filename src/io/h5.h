@@ -17,6 +17,10 @@ typedef enum { CLX_H5_F64, CLX_H5_I32, CLX_H5_I64, CLX_H5_U64, CLX_H5_U8 } clx_h
 
 enum { CLX_H5_RANK_LIMIT = 4, CLX_H5_NAME_LIMIT = 512 };
 
+/// CLAST_E_USAGE, with one line, where clast was built without HDF5: asked before hours of work
+/// whose end could not be written.
+CLX_SHARED clast_status clx_h5_available(void);
+
 /// An empty file in memory.
 CLX_SHARED clast_status clx_h5_create(clx_h5 **h5);
 
