@@ -37,6 +37,7 @@ typedef struct clast_aggregate_report {
     char *folder;                   ///< where the run lies now; NULL: nowhere
 } clast_aggregate_report;
 
+/// Frees what clast_aggregate_run filled; may be called twice.
 CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);
 
 /// The report as one JSON object: means over repeats under the names of DESIGN section 7, each

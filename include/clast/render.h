@@ -15,7 +15,9 @@ typedef struct clast_image {
                        ///< middle of the view; 0 when not a picture of an assembly
 } clast_image;
 
+/// Room for the pixels, zeroed; `image` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_image_alloc(int32_t width, int32_t height, clast_image *image);
+/// Frees the pixels; may be called twice.
 CLAST_API void clast_image_free(clast_image *image);
 
 /// Writes a PNG file, whole or not at all. Opaque images are written without alpha.
