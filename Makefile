@@ -60,7 +60,7 @@ paper-d2sd:
 	@CLAST_POINTS=1200000 build/release/tests/property_test_decompose_threads
 paper-packing:
 	@tools/setup.sh paper
-	@tools/build.sh release clast_cli clast
+	@tools/build.sh release clast_cli clast_view
 	@tools/paper_packing.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 ctest --test-dir build/dev -R 'test_golden|test_transcripts' --output-on-failure --no-tests=error

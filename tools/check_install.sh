@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What `make install` lays down works from where it lies: a program that finds clast by pkg-config and one that finds it by CMake
 # build and run, shared and static, without LD_LIBRARY_PATH, as does one that has clast as
-# a folder of its own; the installed command answers, its manual page formats and its bash completion completes.
+# a folder of its own; what links the core alone loads no cairo, what draws a chart needs the view; the installed command answers, its manual page formats and its bash completion completes.
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -27,6 +27,25 @@ int main(void)
     return 0;
 }
 C
+cat > "$work/user/chart.c" <<'C'
+#include <clast/chart.h>
+#include <stdio.h>
+int main(void)
+{
+    const double x[3] = {1.0, 2.0, 3.0};
+    unsigned char *svg = NULL;
+    const clast_series line = {.kind = CLAST_SERIES_LINE, .x = x, .y = x, .n = 3};
+    const clast_chart wanted = {.title = "user", .series = &line, .n_series = 1};
+    size_t n_byte = 0;
+    if (clast_chart_svg(&wanted, &svg, &n_byte) != CLAST_OK) {
+        puts(clast_error_detail());
+        return 1;
+    }
+    printf("%zu\n", n_byte);
+    clast_bytes_free(svg);
+    return 0;
+}
+C
 cat > "$work/user/CMakeLists.txt" <<'C'
 cmake_minimum_required(VERSION 3.20)
 project(user C)
@@ -36,6 +55,14 @@ target_link_libraries(user PRIVATE clast::clast)
 find_package(clast REQUIRED COMPONENTS static)
 add_executable(user_static user.c)
 target_link_libraries(user_static PRIVATE clast::clast_static)
+if(TARGET clast::view_static)
+  message(FATAL_ERROR "clast::view_static without COMPONENTS view")
+endif()
+find_package(clast REQUIRED COMPONENTS view static)
+add_executable(chart chart.c)
+target_link_libraries(chart PRIVATE clast::view)
+add_executable(chart_static chart.c)
+target_link_libraries(chart_static PRIVATE clast::view_static)
 C
 # The documents' line: no LD_LIBRARY_PATH, and from C++ too.
 export PKG_CONFIG_PATH=$lib/pkgconfig
@@ -49,7 +76,12 @@ for example in examples/*.c; do
     name=$(basename "$example" .c)
     cc -std=c17 "$example" $(pkg-config --cflags --libs clast) -lm -o "$work/$name"
     "$work/$name" > "$work/$name.txt" && [ -s "$work/$name.txt" ] || { echo "$example fails from the installed package"; exit 1; }
+    ! ldd "$work/$name" | grep 'cairo\|libpng\|libX11' || { echo "$example links the core and loads a library of pictures (above)"; exit 1; }
 done
+chart=$work/user/chart.c
+! cc -std=c17 "$chart" $(pkg-config --cflags --libs clast) -o "$work/chart" 2> "$work/log.chart" || { echo "a chart is drawn by the core alone"; exit 1; }
+cc -std=c17 "$chart" $(pkg-config --cflags --libs clast_view) -o "$work/chart"
+drawn=$("$work/chart")
 if command -v g++ > /dev/null; then
     g++ -std=c++17 -x c++ "$user" -x none $(pkg-config --cflags --libs clast) -o "$work/by_cpp"
     same "C++" "$work/by_cpp"
@@ -59,15 +91,21 @@ else
     echo "SKIPPED: g++ is not here, no C++ program was linked"
 fi
 # The archive, with the shared library out of sight.
-mkdir "$work/hidden"; mv "$lib"/libclast.so* "$work/hidden"
+mkdir "$work/hidden"; mv "$lib"/libclast*.so* "$work/hidden"
 cc -std=c17 "$user" $(pkg-config --static --cflags --libs clast) -o "$work/by_archive"
 same "pkg-config --static" "$work/by_archive"
+! ldd "$work/by_archive" | grep 'cairo\|libpng' || { echo "libclast.a brings a library of pictures (above)"; exit 1; }
+cc -std=c17 "$chart" $(pkg-config --static --cflags --libs clast_view) -o "$work/chart_archive"
+[ "$("$work/chart_archive")" = "$drawn" ] || { echo "pkg-config --static clast_view draws another chart"; exit 1; }
 mv "$work/hidden"/* "$lib"
 cmake -S "$work/user" -B "$work/by_cmake" -DCMAKE_PREFIX_PATH="$prefix" >> "$work/log"
 cmake --build "$work/by_cmake" >> "$work/log"
 same "find_package" "$work/by_cmake/user"
 same "find_package, static" "$work/by_cmake/user_static"
-! readelf -d "$work/by_cmake/user_static" | grep -q libclast || { echo "clast::clast_static is linked to libclast.so"; exit 1; }
+[ "$("$work/by_cmake/chart")" = "$drawn" ] && [ "$("$work/by_cmake/chart_static")" = "$drawn" ] ||
+    { echo "find_package, view: another chart"; exit 1; }
+! ldd "$work/by_cmake/user" | grep -q cairo || { echo "clast::clast brings cairo"; exit 1; }
+! readelf -d "$work/by_cmake/user_static" "$work/by_cmake/chart_static" | grep -q libclast || { echo "clast::clast_static is linked to libclast.so"; exit 1; }
 
 # As a part of another project: no test, command or tool is looked for, only the library is built.
 mkdir "$work/part"
@@ -77,12 +115,16 @@ project(part C)
 add_subdirectory("$PWD" clast)
 add_executable(user "$user")
 target_link_libraries(user PRIVATE clast::clast)
+add_executable(chart EXCLUDE_FROM_ALL "$chart")
+target_link_libraries(chart PRIVATE clast::view)
 enable_testing()
 C
 cmake -S "$work/part" -B "$work/by_part" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 >> "$work/log"
 ! grep -qi 'cmocka\|python\|mpi_c' "$work/by_part/CMakeCache.txt" || { echo "add_subdirectory looks for test tools or MPI"; exit 1; }
 cmake --build "$work/by_part" >> "$work/log"
 same "add_subdirectory" "$work/by_part/user"
+cmake --build "$work/by_part" --target chart >> "$work/log"
+[ "$("$work/by_part/chart")" = "$drawn" ] || { echo "add_subdirectory, view: another chart"; exit 1; }
 [ ! -e "$work/by_part/clast/clast" ] || { echo "add_subdirectory builds the command"; exit 1; }
 
 version=$("$prefix/bin/clast" --version)
@@ -98,4 +140,5 @@ offered=$(bash -c '. "$1"; COMP_WORDS=(clast agg); COMP_CWORD=1; $(complete -p c
                    echo "${COMPREPLY[*]}"' bash "$(find "$prefix" -path '*bash-completion*' -type f)")
 [ "$offered" = "agglomerate aggregate" ] || [ "$offered" = "aggregate agglomerate" ] ||
     { echo "bash completion of 'clast agg' offers '$offered'"; exit 1; }
-echo "installed: command, library by pkg-config, CMake and add_subdirectory, shared and static ($first), the examples, manual page, completion"
+echo "installed: command, core and view by pkg-config, CMake and add_subdirectory, shared and static ($first), the examples, manual page," \
+    "completion; decompose_cloud loads $(ldd "$work/decompose_cloud" | wc -l) libraries, a chart $(ldd "$work/chart" | wc -l)"

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Fails when an include or a call of a public function points up, or sideways into another folder of the same layer
-(STYLE section 1). A public header declares functions of several layers; who calls them is what counts.
+(STYLE section 1), or from the core into the view (docs/adr/0010-two-libraries.md), or when the view calls a function of the
+core that is not marked CLX_SHARED, or a mark has no call. A public header declares functions of several layers; who calls
+them is what counts.
 
 It also fails when headers include each other in a circle, or when more than two files call each other in one.
 
@@ -14,6 +16,7 @@ import sys
 LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "convex": 3, "touch": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
          "dem": 5, "porosity": 5, "pack": 6, "io": 7, "plot": 7, "render": 7, "mpi": 7, "run": 8, "report": 9,
          "study": 10}
+VIEW = {"plot", "render", "report", "study"}  # libclast_view; what is not here is libclast (CMakeLists.txt has the same list)
 OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
 READERS = re.compile(r"\b(strto(?:d|f|ld)|atof|v?[fs]?scanf)\s*\(")
 PRINTERS = re.compile(r"\b(?:vs|s|f|vf)n?printf\s*\((?:[^;\"]|\"(?:[^\"\\]|\\.)*\")*?;", re.S)
@@ -90,8 +93,43 @@ def circle_problems():
             yield f"{len(circle)} files call each other in a circle: {', '.join(circle)}"
 
 
+def shared():
+    """clx_ function that the core shares with the view -> header that says so."""
+    return {name: path for path in ROOT.glob("src/*/*.h")
+            for name in re.findall(r"^CLX_SHARED [\w \*]*?\b(clx_\w+)\(", path.read_text(), flags=re.M)}
+
+
+def uses(text, macros):
+    """clx_ names in a text, those of the macros it uses too."""
+    found = set(re.findall(r"\bclx_\w+\b", text))
+    found |= {f"clx_{noun}_fault" for noun in re.findall(r"\bCLX_WHOLE\((\w+)", text)}
+    for macro, body in macros.items():
+        if re.search(rf"\b{macro}\b", text):
+            found |= uses(body, {})
+    return found
+
+
+def view_problems():
+    marked, core, called, macros = shared(), {}, set(), {}
+    for path in ROOT.glob("src/*/*.h"):
+        if path.parent.name not in VIEW:
+            macros.update(re.findall(r"^#define (CLX_\w+)((?:.*\\\n)*.*)", path.read_text(), flags=re.M))
+            for name in re.findall(r"^(?:extern |CLX_SHARED )?(?!static|CLX_INLINE|typedef)[a-z][\w \*]*?\b(clx_\w+)[\[\(]",
+                                   strip_comments(path.read_text()), flags=re.M):
+                core[name] = path
+    for path in sorted(ROOT.glob("src/*/*.[ch]")):
+        if path.parent.name in VIEW:
+            used = uses(strip_comments(path.read_text()), macros) & core.keys()
+            called |= used
+            for name in sorted(used - marked.keys()):
+                yield f"{path.relative_to(ROOT)}: the view uses {name}, which {core[name].relative_to(ROOT)} does not mark CLX_SHARED"
+    for name in sorted(marked.keys() - called):
+        yield f"{marked[name].relative_to(ROOT)}: {name} is marked CLX_SHARED, and the view does not call it"
+
+
 def problems():
     yield from circle_problems()
+    yield from view_problems()
     defined = definers()
     for path in sorted(ROOT.glob("src/*/*.[ch]")):
         folder = path.parent.name
@@ -105,11 +143,15 @@ def problems():
                 yield f"{path.relative_to(ROOT)}: includes <mpi.h>; only src/mpi does"
             if target not in LAYER or target == folder:
                 continue
+            if target in VIEW and folder not in VIEW:
+                yield f"{path.relative_to(ROOT)}: includes {name}: the core knows nothing of the view"
             if LAYER[target] >= LAYER[folder]:
                 yield (f"{path.relative_to(ROOT)}: includes {name} ({target}, layer {LAYER[target]}) "
                        f"from {folder}, layer {LAYER[folder]}")
         for name in sorted(set(re.findall(r"\b(clast_\w+)\s*\(", text)) & defined.keys()):
             target = defined[name]
+            if target in VIEW and folder not in VIEW:
+                yield f"{path.relative_to(ROOT)}: calls {name} ({target}): the core knows nothing of the view"
             if target != folder and LAYER[target] >= LAYER[folder]:
                 yield f"{path.relative_to(ROOT)}: calls {name} ({target}, layer {LAYER[target]}) from layer {LAYER[folder]}"
         opens = OPENERS.search(text)

@@ -685,7 +685,7 @@ def main():
         measured = part_of_u1([float(ns) for ns in args.u1[0].split(",")], folder, earlier, *full_u1(args.clast)[1:])
     record = Record(args.runs)
     record.write()
-    library = pathlib.Path(args.clast).resolve().parent / "libclast.so"
+    library = pathlib.Path(args.clast).resolve().parent / "libclast_view.so"
     draw_curves(record, library)
     draw_forms(record, library)
     text = page(record, args.clast, timed, measured)

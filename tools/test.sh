@@ -12,7 +12,7 @@ say "format"
 tools/check_format.sh
 say "spelling"
 tools/list_files.sh '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs -0 codespell --ignore-words=tools/spelling.txt
-say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py
+say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py; python3 tools/check_interface.py
 say "pages of the theory"; python3 tools/check_pages.py; python3 tools/pooled.py
 say "headers in C and C++"; tools/check_headers.sh
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"

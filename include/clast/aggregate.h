@@ -231,6 +231,7 @@ CLAST_API void clast_aggregate_destroy(clast_aggregate *aggregate); ///< NULL is
 CLAST_API clast_status clast_aggregate_grow(clast_aggregate *aggregate, int32_t n,
                                             const clast_monitor *monitor);
 
+/// Whether a stop criterion is met or all particles of the list are placed.
 CLAST_API bool clast_aggregate_is_done(const clast_aggregate *aggregate);
 
 /// All particles of the run, placed or not.
@@ -276,6 +277,7 @@ typedef struct clast_interval {
     double low, high; ///< mean -+ t deviation / sqrt(n); infinite for n = 1
 } clast_interval;
 
+/// Mean of n values and its interval at this confidence (0 to 1), in the unit of the values.
 CLAST_API clast_interval clast_interval_of(int32_t n, const double *value, double confidence);
 
 /// Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, ...

@@ -77,7 +77,7 @@ CLAST_API clast_status clast_aggregate_fit_run(const clast_aggregate_config *con
                                                const clast_monitor *monitor,
                                                clast_aggregate_fit *fit, clast_table *nodes);
 
-// Fits from files and to files.
+// Fits from files and to files. Of libclast_view.
 
 /// The outcome as one JSON object; free the text with clast_text_free.
 CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text);

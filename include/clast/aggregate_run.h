@@ -5,7 +5,8 @@
 
 // What an aggregation reads: sizes, surfaces and composites named in its configuration.
 
-// A whole run of an aggregation: all repeats, their folder, checkpoints and going on.
+// A whole run of an aggregation: all repeats, their folder, checkpoints and going on
+// (clast_aggregate_run and clast_aggregate_resume are of libclast_view).
 
 CLAST_BEGIN
 
@@ -36,6 +37,7 @@ typedef struct clast_aggregate_report {
     char *folder;                   ///< where the run lies now; NULL: nowhere
 } clast_aggregate_report;
 
+/// Frees what clast_aggregate_run filled; may be called twice.
 CLAST_API void clast_aggregate_report_free(clast_aggregate_report *report);
 
 /// The report as one JSON object: means over repeats under the names of DESIGN section 7, each

@@ -12,7 +12,7 @@
 CLAST_BEGIN
 
 // Charts from one drawing code to SVG, PDF and PNG: axes, lines, steps, scatter, bars, bands, error
-// bars, heat maps.
+// bars, heat maps. Of libclast_view.
 
 typedef enum {
     CLAST_SERIES_LINE,

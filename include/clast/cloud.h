@@ -17,7 +17,9 @@ typedef struct clast_cloud {
     double *variable;  ///< [n] temperature or the like: cells shall be uniform in it too; or NULL
 } clast_cloud;
 
+/// Room for n points, zeroed; `cloud` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
+/// Frees the arrays; may be called twice.
 CLAST_API void clast_cloud_free(clast_cloud *cloud);
 
 /// Which columns of a table hold what; an empty list, an empty text or NULL: nothing does.

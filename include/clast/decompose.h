@@ -73,6 +73,7 @@ typedef struct clast_decompose_config {
     uint64_t seed;
 } clast_decompose_config;
 
+/// Fields of clast_decompose_config: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_decompose_fields[];
 
 enum { CLAST_N_TEST = 5, CLAST_MAX_PASS = 64 };

@@ -97,6 +97,7 @@ typedef struct clast_dem_config {
     int32_t verify;          ///< steps between comparisons of contacts with cold ones; 0: never
 } clast_dem_config;
 
+/// Fields of the configuration: keys, defaults, ranges and units; ends with a row of zeros.
 CLAST_API extern const clast_field clast_dem_fields[];
 
 /// A grain to add: shape scaled, turned, moved.
@@ -187,6 +188,7 @@ CLAST_API void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 /// by half its radius, docs/theory/dem.md): the message names step, grain and likely cause
 CLAST_API clast_status clast_dem_step(clast_dem *dem, int64_t n_step);
 
+/// Grains so far.
 CLAST_API int32_t clast_dem_n_grain(const clast_dem *dem);
 CLAST_API int64_t clast_dem_n_step(const clast_dem *dem); ///< steps so far
 CLAST_API double clast_dem_time(const clast_dem *dem);    ///< [s]
@@ -194,6 +196,7 @@ CLAST_API double clast_dem_time(const clast_dem *dem);    ///< [s]
 /// Grain i as it is now; position not wrapped into the period.
 CLAST_API void clast_dem_read_grain(const clast_dem *dem, int32_t i, clast_dem_grain *grain);
 
+/// Energies, contacts and overlaps of the moment, SI.
 CLAST_API void clast_dem_measure(const clast_dem *dem, clast_dem_measures *measures);
 
 /// Mass-mean of z and the highest centre [m]: what the process asks often.
@@ -225,6 +228,7 @@ typedef struct clast_scene_bed {
     double fall;    ///< speed at the start, downwards, beside random ones of 0.1 [m/s]
 } clast_scene_bed;
 
+/// Case P1 into *dem, which the caller destroys.
 CLAST_API clast_status clast_scene_p1(const clast_scene_bed *bed, clast_dem **dem);
 
 /// Case E1: the grains of a P1 as they are now, replaced by their mass-equivalent ellipsoids (axes

@@ -47,6 +47,7 @@ typedef struct clast_fill_config {
     char *history; ///< the command writes the errors after each sphere to this CSV; "": none
 } clast_fill_config;
 
+/// Fields of clast_fill_config: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_fill_fields[];
 
 /// What a sphere set is worth, all errors against the solid bounded by the mesh.

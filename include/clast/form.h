@@ -141,6 +141,7 @@ typedef struct clast_form_law_moments {
     double elongation_mean, elongation_deviation;
 } clast_form_law_moments;
 
+/// Moments of the law as it is drawn from, cut to its range.
 CLAST_API clast_form_law_moments clast_form_law_cut(const clast_form_law *law);
 
 // The forms of a set of grains, from a table of flatness and elongation or of L, I and S.

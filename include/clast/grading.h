@@ -15,7 +15,9 @@ typedef struct clast_sizes {
     double *density;    ///< [n] > 0 [kg/m3], or NULL: none is given
 } clast_sizes;
 
+/// Room for n rows, zeroed; `sizes` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_sizes_alloc(int64_t n, clast_sizes *sizes);
+/// Frees the arrays; may be called twice.
 CLAST_API void clast_sizes_free(clast_sizes *sizes);
 
 /// Sieve curve: the mass between neighbouring sieves. Between two sieves the curve of mass passing

@@ -80,6 +80,7 @@ typedef struct clast_mesh_check_result {
 /// @note O(n log n)
 CLAST_API clast_status clast_mesh_check(const clast_mesh *mesh, clast_mesh_check_result *result);
 
+/// Frees what clast_mesh_check found; may be called twice.
 CLAST_API void clast_mesh_check_free(clast_mesh_check_result *result);
 
 /// Closed, oriented and manifold, and not flat: no blocking fault.

@@ -9,7 +9,8 @@
 
 // What a packing reads: sizes and shapes named in its configuration.
 
-// A whole run of a packing: its inputs, folder, checkpoints, and going on.
+// A whole run of a packing: its inputs, folder, checkpoints, and going on (clast_pack_run and
+// clast_pack_resume are of libclast_view).
 
 CLAST_BEGIN
 
@@ -90,6 +91,7 @@ typedef struct clast_pack_config {
     bool force;              ///< replace an earlier run in the output folder
 } clast_pack_config;
 
+/// Fields of clast_pack_config: keys, defaults, ranges and units; ends with a row of zeros.
 CLAST_API extern const clast_field clast_pack_fields[];
 
 /// What a packing is made of, loaded. Borrowed by clast_pack_create.
@@ -117,8 +119,10 @@ CLAST_API void clast_pack_destroy(clast_pack *pack); ///< NULL is allowed
 CLAST_API clast_status clast_pack_advance(clast_pack *pack, int64_t n_step);
 
 CLAST_API bool clast_pack_is_over(const clast_pack *pack); ///< done, or at max_steps
+/// The phase that the process is in.
 CLAST_API clast_pack_phase clast_pack_phase_of(const clast_pack *pack);
 CLAST_API const char *clast_pack_phase_name(clast_pack_phase phase); ///< "generate"
+/// The simulation inside. Borrowed: lives as long as the packing.
 CLAST_API const clast_dem *clast_pack_dem(const clast_pack *pack);
 CLAST_API double clast_pack_mass(const clast_pack *pack); ///< made so far [kg]
 
@@ -167,7 +171,9 @@ typedef struct clast_pack_result {
     double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
 } clast_pack_result;
 
+/// The numbers of the bed as it lies, SI; free them with clast_pack_result_free.
 CLAST_API clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *result);
+/// Frees what clast_pack_measure or clast_pack_run filled; may be called twice.
 CLAST_API void clast_pack_result_free(clast_pack_result *result);
 
 /// Where the grains lie, for porosities.

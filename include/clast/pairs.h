@@ -16,6 +16,8 @@ typedef struct clast_pairs_config {
 
 enum { CLAST_MAX_SHELL = 64 };
 
+/// Fields of the configuration of pairs: keys, defaults, ranges and units; ends with a row of
+/// zeros.
 extern CLAST_API const clast_field clast_pairs_fields[];
 
 /// A number with its 95 % interval.

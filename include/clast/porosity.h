@@ -260,6 +260,7 @@ typedef struct clast_mean {
     double low, high; ///< 95 % interval of the mean by Student's t; NAN for one
 } clast_mean;
 
+/// Mean of n values with its interval, in the unit of the values.
 CLAST_API clast_mean clast_mean_of(int32_t n, const double *value);
 
 /// Mean porosity profile of n beds: z_low_m, z_high_m, porosity, deviation, low, high (95 % of the

@@ -33,6 +33,7 @@ typedef struct clast_porosity_fit_config {
     uint64_t seed;
 } clast_porosity_fit_config;
 
+/// Fields of the configuration of fits: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_porosity_fit_fields[];
 
 /// Beds with their candidate features.

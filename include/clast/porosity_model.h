@@ -91,6 +91,7 @@ typedef struct clast_porosity_model {
     double leverage_limit; ///< greatest leverage of a bed that it was fitted to; NaN: not known
 } clast_porosity_model;
 
+/// Frees all that a model owns; may be called twice.
 CLAST_API void clast_porosity_model_free(clast_porosity_model *model);
 
 enum { CLAST_N_PUBLISHED_MODEL = 5 };

@@ -5,7 +5,7 @@
 
 CLAST_BEGIN
 
-// Pictures of assemblies by a ray tracer, without a display or a graphics card.
+// Pictures of assemblies by a ray tracer, without a display or a graphics card. Of libclast_view.
 
 /// Pixels in memory, row by row from the top, straight (not premultiplied) sRGB and alpha.
 typedef struct clast_image {
@@ -15,7 +15,9 @@ typedef struct clast_image {
                        ///< middle of the view; 0 when not a picture of an assembly
 } clast_image;
 
+/// Room for the pixels, zeroed; `image` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_image_alloc(int32_t width, int32_t height, clast_image *image);
+/// Frees the pixels; may be called twice.
 CLAST_API void clast_image_free(clast_image *image);
 
 /// Writes a PNG file, whole or not at all. Opaque images are written without alpha.

@@ -4,7 +4,7 @@
 CLAST_BEGIN
 
 // One offline HTML page for one or more run folders: numbers, charts, pictures, an interactive 3-D
-// view, tables, configuration and provenance.
+// view, tables, configuration and provenance. Of libclast_view.
 
 typedef struct clast_report_config {
     char *title;        ///< of the page; "": from the runs' names

@@ -10,8 +10,11 @@ typedef struct clast_spheres {
     double *radius;      ///< [n] m
 } clast_spheres;
 
+/// Room for n spheres, zeroed; `spheres` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres);
+/// Frees the arrays; may be called twice.
 CLAST_API void clast_spheres_free(clast_spheres *spheres);
+/// Copy that owns all it has; `copy` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_spheres_copy(const clast_spheres *spheres, clast_spheres *copy);
 
 typedef enum {
@@ -64,7 +67,9 @@ typedef struct clast_shape {
                              ///< x - source_origin here)
 } clast_shape;
 
+/// Frees all that a shape owns; may be called twice.
 CLAST_API void clast_shape_free(clast_shape *shape);
+/// Copy that owns all it has; `copy` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_shape_copy(const clast_shape *shape, clast_shape *copy);
 
 /// Sphere of this radius.

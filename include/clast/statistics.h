@@ -136,6 +136,7 @@ CLAST_API void clast_grain_statistics_free(clast_grain_statistics *statistics);
 /// histogram_elongation, histogram_size, correlation and pca in the format of `extension` ("svg",
 /// "pdf", "png").
 ///
+/// Of libclast_view.
 /// @return CLAST_E_DISK; CLAST_E_USAGE for another extension
 CLAST_API clast_status clast_grain_statistics_write(const clast_grain_statistics *statistics,
                                                     const char *folder, const char *extension);

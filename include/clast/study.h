@@ -1,5 +1,5 @@
 #pragma once
-// Many runs of one command: what varies, who has been run, one table of results.
+// Many runs of one command: what varies, who has been run, one table of results. Of libclast_view.
 #include <clast/field.h>
 #include <clast/machine.h>
 #include <clast/status.h>
@@ -24,6 +24,7 @@ typedef struct clast_study_config {
 /// Values of several `vary` entries: all combinations (the last varies fastest), or one by one.
 typedef enum { CLAST_STUDY_GRID, CLAST_STUDY_ZIP } clast_study_design;
 
+/// Fields of clast_study_config: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_study_fields[];
 
 /// The runs as a table: number column `run` (from 1), a text column for each varied key, number

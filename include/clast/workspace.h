@@ -54,6 +54,7 @@ typedef struct clast_workspace_policy {
     double cells_level;  ///< of the chi-square test that finds the cloud changed
 } clast_workspace_policy;
 
+/// Fields of clast_workspace_policy: keys, defaults, ranges and units; ends with a row of zeros.
 extern CLAST_API const clast_field clast_workspace_fields[];
 
 /// What the calls did since the workspace was made.
@@ -64,6 +65,7 @@ typedef struct clast_workspace_calls {
     double p_change; ///< by the last call: of its counts, NAN where not measured
 } clast_workspace_calls;
 
+/// An empty workspace, which the caller destroys; CLAST_E_MEMORY.
 CLAST_API clast_status clast_workspace_create(clast_workspace **workspace);
 CLAST_API void clast_workspace_destroy(clast_workspace *workspace); ///< NULL is allowed
 

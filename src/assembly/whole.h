@@ -1,6 +1,7 @@
 #pragma once
 // Whether an assembly that a caller has filled himself holds together. Both say what is wrong, for
 // people, or give NULL.
+#include "base/shared.h"
 #include "base/whole.h"
 #include <clast/assembly.h>
 
@@ -8,4 +9,4 @@
 const char *clx_arrays_fault(const clast_assembly *assembly);
 
 /// Shapes, grains and contacts as well.
-const char *clx_assembly_fault(const clast_assembly *assembly);
+CLX_SHARED const char *clx_assembly_fault(const clast_assembly *assembly);

@@ -1,25 +1,26 @@
 #pragma once
 // All heap use of the library goes through here, so that tests can count live blocks and refuse the
 // k-th.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// Zeroed block of n items of `size` bytes into *block; n * size is checked for overflow.
 ///
 /// @return CLAST_E_MEMORY with the wanted size in the message; *block is then NULL
 /// @note n = 0 gives a valid block of one byte, so that NULL always means failure
-clast_status clx_alloc(void *block, int64_t n, size_t size);
+CLX_SHARED clast_status clx_alloc(void *block, int64_t n, size_t size);
 
 /// Grows *block to n items, contents kept, new items not zeroed; *block is untouched on failure.
-clast_status clx_realloc(void *block, int64_t n, size_t size);
+CLX_SHARED clast_status clx_realloc(void *block, int64_t n, size_t size);
 
 /// Copy of a text.
-clast_status clx_alloc_text(char **copy, const char *text);
+CLX_SHARED clast_status clx_alloc_text(char **copy, const char *text);
 
 /// Ensures room for `need` items: *capacity grows by half, at least to 16.
-clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size);
+CLX_SHARED clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size);
 
 /// Frees; NULL is allowed.
-void clx_free(void *block);
+CLX_SHARED void clx_free(void *block);
 
 /// Blocks that wait for the next call instead of going back to the system. Sizes are rounded up to
 /// powers of two, so that the same sequence of calls takes nothing from the system the second time.

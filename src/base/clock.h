@@ -1,8 +1,9 @@
 #pragma once
 // Time that passes, for reports; no result depends on it.
+#include "base/shared.h"
 
 /// Seconds since some fixed moment; never goes back.
-double clx_clock(void);
+CLX_SHARED double clx_clock(void);
 
 /// Seconds that this thread has worked: a busy machine does not stretch them.
 double clx_clock_thread(void);

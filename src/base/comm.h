@@ -1,5 +1,6 @@
 #pragma once
 // What the library does with ranks beyond the table's own functions.
+#include "base/shared.h"
 #include "base/status.h"
 #include <clast/machine.h>
 
@@ -10,9 +11,9 @@ typedef struct clx_gathered {
 } clx_gathered;
 
 /// Called by all ranks; fails on all when it fails on one.
-clast_status clx_comm_gather(const clast_comm *comm, const void *bytes, int64_t n,
-                             clx_gathered *all);
-void clx_gathered_free(clx_gathered *all);
+CLX_SHARED clast_status clx_comm_gather(const clast_comm *comm, const void *bytes, int64_t n,
+                                        clx_gathered *all);
+CLX_SHARED void clx_gathered_free(clx_gathered *all);
 
 /// `comm`, or the only rank for NULL.
-const clast_comm *clx_comm_or_one(const clast_comm *comm);
+CLX_SHARED const clast_comm *clx_comm_or_one(const clast_comm *comm);

@@ -3,6 +3,7 @@
 //
 // Lives in base so that io, plot and render, which may not include each other, write alike; nothing
 // below io may use it (STYLE section 1: only io, plot, render and cli open files).
+#include "base/shared.h"
 #include "base/status.h"
 
 /// An output under construction: written to a temporary file beside `path`, renamed by commit.
@@ -33,37 +34,38 @@ enum { CLX_FILE_BUFFER = 1 << 16 };
 /// Opens a temporary file in the folder of `path`.
 ///
 /// @return CLAST_E_DISK if the folder is missing or not writable, or `path` is a folder
-clast_status clx_file_begin(const char *path, clx_file *file);
+CLX_SHARED clast_status clx_file_begin(const char *path, clx_file *file);
 
 /// Appends bytes. CLAST_E_DISK when the disk refuses.
-clast_status clx_file_write(clx_file *file, const void *bytes, size_t n);
+CLX_SHARED clast_status clx_file_write(clx_file *file, const void *bytes, size_t n);
 
 /// Appends text, printf style, of any length. The locale must have '.' as the decimal point, which
 /// clast never changes.
-clast_status clx_file_print(clx_file *file, const char *format, ...)
+CLX_SHARED clast_status clx_file_print(clx_file *file, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /// Flushes, syncs, renames over `path` and syncs the folder. After any status the file is closed:
 /// on failure `path` holds what it held before (or, if only the folder's sync failed, the whole new
 /// file) and the temporary file is gone.
-clast_status clx_file_commit(clx_file *file);
+CLX_SHARED clast_status clx_file_commit(clx_file *file);
 
 /// Removes the temporary file of an uncommitted output; does nothing after commit or for {0}.
-void clx_file_abandon(clx_file *file);
+CLX_SHARED void clx_file_abandon(clx_file *file);
 
 /// One whole output at once: begin, write, commit.
-clast_status clx_file_write_all(const char *path, const void *bytes, size_t n);
+CLX_SHARED clast_status clx_file_write_all(const char *path, const void *bytes, size_t n);
 
 /// The same of a text, with a newline after it.
-clast_status clx_file_write_line(const char *path, const char *text);
+CLX_SHARED clast_status clx_file_write_line(const char *path, const char *text);
 
 /// Whole file into a fresh block (clx_free it) of *n bytes and one 0 byte more, pipes too.
 ///
 /// @return CLAST_E_IO if missing, unreadable or a folder; CLAST_E_LIMIT beyond `limit` bytes
-clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes, int64_t *n);
+CLX_SHARED clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes,
+                                          int64_t *n);
 
 /// Makes a folder and those above it; fine if it exists. CLAST_E_DISK if it cannot be made.
-clast_status clx_folder_make(const char *path);
+CLX_SHARED clast_status clx_folder_make(const char *path);
 
 /// Makes renames in a folder durable.
 clast_status clx_folder_sync(const char *path);

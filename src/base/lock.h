@@ -3,6 +3,7 @@
 //
 // The lock is a file beside it, PATH.lock, held by flock(2): the kernel (of an NFS server, too)
 // lets it go with its process, so that none is ever stale. Who holds it is written inside.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// {0} holds nothing.
@@ -14,7 +15,8 @@ typedef struct clx_lock {
 /// Takes the lock of PATH, waiting for up to `patience` seconds while another process has it.
 ///
 /// @return CLAST_E_DISK when it cannot be taken; who has it is in the message, and *is_busy is true
-clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy);
+CLX_SHARED clast_status clx_lock_take(const char *path, double patience, clx_lock *lock,
+                                      bool *is_busy);
 
 enum { CLX_PROCESS_NAME = 300 };
 
@@ -22,4 +24,4 @@ enum { CLX_PROCESS_NAME = 300 };
 void clx_process_name(char name[CLX_PROCESS_NAME]);
 
 /// Lets go; does nothing for {0}.
-void clx_lock_release(clx_lock *lock);
+CLX_SHARED void clx_lock_release(clx_lock *lock);

@@ -1,6 +1,7 @@
 #pragma once
 // Decimal texts to doubles and back, correctly rounded, whatever the locale of the host program: no
 // other file of the library calls strtod, or prints a double by the C library.
+#include "base/shared.h"
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,7 +14,7 @@ const char *clx_number_parse(const char *text, const char *end, double *value);
 
 /// strtod in its place: blanks, then a number as above; *end (may be NULL) is after it, or the text
 /// itself, with 0, where there is none.
-double clx_number_read(const char *text, char **end);
+CLX_SHARED double clx_number_read(const char *text, char **end);
 
 enum { CLX_NUMBER_POWER = 27 }; // 5^27 < 2^63
 
@@ -23,11 +24,11 @@ double clx_number_scaled(uint64_t word, int exponent);
 enum { CLX_NUMBER_SIZE = 32 };
 
 /// Shortest of 15, 16 or 17 digits that reads back as the same double; returns its length.
-int clx_number_format(double value, char text[CLX_NUMBER_SIZE]);
+CLX_SHARED int clx_number_format(double value, char text[CLX_NUMBER_SIZE]);
 
 /// snprintf with a decimal point, whatever the host's locale; of this thread alone, and only
 /// within.
-int clx_number_print(char *text, size_t size, const char *format, ...)
+CLX_SHARED int clx_number_print(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 int clx_number_print_list(char *text, size_t size, const char *format, va_list args)
     __attribute__((format(printf, 3, 0)));

@@ -1,5 +1,6 @@
 #pragma once
 // Threads out of sight: a kernel is a function on a range that writes only its own slots.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// Works on items [begin, end) as worker number `worker` (0 .. clx_parallel_workers()-1).
@@ -9,7 +10,7 @@ typedef void (*clx_kernel)(int64_t begin, int64_t end, int32_t worker, void *con
 ///
 /// A block's bounds depend on n and block alone, so results that are kept per block and then added
 /// in block order are the same bytes for any thread count. Nested calls run in the calling thread.
-void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context);
+CLX_SHARED void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context);
 
 /// The same for work that can fail.
 typedef clast_status (*clx_task)(int64_t begin, int64_t end, int32_t worker, void *context);

@@ -5,6 +5,7 @@
 // else calls clx_queue_serve now and then. A stop asked for on any rank reaches all. With one rank
 // nothing is sent.
 #include "base/comm.h"
+#include "base/shared.h"
 
 /// Whose items they are. Called on rank 0 only.
 typedef struct clx_queue_owner {
@@ -28,25 +29,25 @@ typedef struct clx_queue {
     bool may_leave;   ///< other ranks: rank 0 has no more for this one
 } clx_queue;
 
-clx_queue clx_queue_begin(const clast_comm *comm, int64_t n, clx_queue_owner owner);
+CLX_SHARED clx_queue clx_queue_begin(const clast_comm *comm, int64_t n, clx_queue_owner owner);
 
 /// The next item of this rank into *item: true; the first item is always rank 0's. False when none
 /// has come yet, or, by is_empty or is_stopping, none will.
-bool clx_queue_take(clx_queue *queue, int64_t *item);
+CLX_SHARED bool clx_queue_take(clx_queue *queue, int64_t *item);
 
 /// Tells rank 0 that an item of this rank has ended.
-void clx_queue_end(clx_queue *queue, int64_t item, int64_t code);
+CLX_SHARED void clx_queue_end(clx_queue *queue, int64_t item, int64_t code);
 
 /// Deals with what has come from other ranks.
-void clx_queue_serve(clx_queue *queue);
+CLX_SHARED void clx_queue_serve(clx_queue *queue);
 
 /// Asks all ranks to stop.
-void clx_queue_stop(clx_queue *queue);
+CLX_SHARED void clx_queue_stop(clx_queue *queue);
 
 /// Waits until every rank has left; each must call it, whatever became of its items.
 ///
 /// @param asks_stop  asked while waiting: true stops all; may be NULL
-void clx_queue_leave(clx_queue *queue, bool (*asks_stop)(void *context), void *context);
+CLX_SHARED void clx_queue_leave(clx_queue *queue, bool (*asks_stop)(void *context), void *context);
 
 /// A short sleep, for a rank that waits for others.
-void clx_queue_rest(void);
+CLX_SHARED void clx_queue_rest(void);

@@ -1,19 +1,20 @@
 #pragma once
 // How library code fails: one `status`, one `done:`, a message for the person at the terminal.
+#include "base/shared.h"
 #include <clast/status.h>
 
 enum { CLX_DETAIL_SIZE = 1024 }; ///< bytes of the thread's error text, its end too
 
 /// Sets the thread's error text (printf style, cut at 1023 bytes) and returns `status`.
-clast_status clx_fail(clast_status status, const char *format, ...)
+CLX_SHARED clast_status clx_fail(clast_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /// Puts "prefix: " before the thread's error text, to name a file or an item further out.
-void clx_fail_prefix(const char *format, ...) __attribute__((format(printf, 1, 2)));
+CLX_SHARED void clx_fail_prefix(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /// Text of errno, or of an errno kept from before, for messages; lives until the thread's next
 /// call.
-const char *clx_errno_text(void);
+CLX_SHARED const char *clx_errno_text(void);
 const char *clx_error_text(int error);
 
 #define CLX_CHECK(condition, code, ...)                                                            \
@@ -47,9 +48,10 @@ const char *clx_error_text(int error);
 #define CLX_ARRAY(array, n) CLX_GUARD(clx_array_given(__func__, #array, array, #n, (int64_t)(n)))
 
 /// None of n pointers is NULL; `names` are theirs as one text, with commas.
-clast_status clx_given(const char *function, const char *names, const void *const *pointer, int n);
-clast_status clx_array_given(const char *function, const char *name, const void *array,
-                             const char *count, int64_t n);
+CLX_SHARED clast_status clx_given(const char *function, const char *names,
+                                  const void *const *pointer, int n);
+CLX_SHARED clast_status clx_array_given(const char *function, const char *name, const void *array,
+                                        const char *count, int64_t n);
 
 #define CLX_TRY(call)                                                                              \
     do {                                                                                           \

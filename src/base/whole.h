@@ -2,6 +2,7 @@
 // Whether what a caller has filled himself holds together: counts that are not negative, arrays
 // where counts say so, numbers of items that exist. Each noun has one function for it, in its own
 // folder.
+#include "base/shared.h"
 #include "base/status.h"
 #include <clast/field.h>
 #include <clast/table.h>
@@ -11,10 +12,10 @@
     CLX_GUARD(clx_fault_given(__func__, #object, clx_##noun##_fault(object)))
 
 /// CLAST_E_ARGUMENT with the fault; CLAST_OK for none (NULL).
-clast_status clx_fault_given(const char *function, const char *name, const char *fault);
+CLX_SHARED clast_status clx_fault_given(const char *function, const char *name, const char *fault);
 
 /// What is wrong with a table, for people, or NULL.
-const char *clx_table_fault(const clast_table *table);
+CLX_SHARED const char *clx_table_fault(const clast_table *table);
 
 /// CLAST_E_ARGUMENT for a list with a negative count, without items, or with one that is NULL.
 clast_status clx_texts_given(const char *function, const char *name, const clast_text_list *list);

@@ -1,9 +1,10 @@
 #pragma once
 // What callers hand to the functions on clouds, checked once at the public boundary.
+#include "base/shared.h"
 #include <clast/decompose.h>
 
 /// 1 to 3 dimensions, n >= 0 and coordinates for them; optional arrays are not looked at.
-clast_status clx_cloud_check(const clast_cloud *cloud);
+CLX_SHARED clast_status clx_cloud_check(const clast_cloud *cloud);
 
 /// n >= `least` points of the unit cube; `what` names the caller in messages.
 ///

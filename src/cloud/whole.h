@@ -1,10 +1,11 @@
 #pragma once
 // Whether a decomposition, as a caller hands it back, holds together.
+#include "base/shared.h"
 #include "base/whole.h"
 #include <clast/decompose.h>
 
 /// What is wrong, for people, or NULL.
-const char *clx_decomposition_fault(const clast_decomposition *result);
+CLX_SHARED const char *clx_decomposition_fault(const clast_decomposition *result);
 
 /// The same of the cells alone, in which `n_point` points lie.
 const char *clx_cells_fault(const clast_cells *cells, int64_t n_point);

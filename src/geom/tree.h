@@ -1,6 +1,7 @@
 #pragma once
 // A binary tree over boxes, flat and in preorder; what clast_bvh, pair traversals and pictures
 // stand on.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// No path from the root is longer than this many edges, whatever the boxes: a depth-first walk
@@ -37,5 +38,6 @@ typedef struct clx_tree_box {
 ///
 /// Deterministic: depends on the boxes and their order alone. O(n log n).
 /// @return CLAST_E_GEOMETRY for n < 1
-clast_status clx_tree_build(clx_tree_box *box, int32_t n, int32_t leaf_size, clx_tree *tree);
-void clx_tree_free(clx_tree *tree);
+CLX_SHARED clast_status clx_tree_build(clx_tree_box *box, int32_t n, int32_t leaf_size,
+                                       clx_tree *tree);
+CLX_SHARED void clx_tree_free(clx_tree *tree);

@@ -1,5 +1,6 @@
 #pragma once
 // What lies in a folder.
+#include "base/shared.h"
 #include "base/status.h"
 
 typedef struct clx_folder {
@@ -8,5 +9,5 @@ typedef struct clx_folder {
 } clx_folder;
 
 /// @return CLAST_E_IO if it cannot be read, CLAST_E_LIMIT beyond 65,536 entries
-clast_status clx_folder_list(const char *path, clx_folder *folder);
-void clx_folder_free(clx_folder *folder);
+CLX_SHARED clast_status clx_folder_list(const char *path, clx_folder *folder);
+CLX_SHARED void clx_folder_free(clx_folder *folder);

@@ -6,6 +6,7 @@
 // file is refused instead of tried (HDF5 1.10 leaks, and hangs at exit, on some). See
 // docs/theory/state-file.md. HDF5's serial library holds one global state: calls from several
 // threads take turns.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// A file being built (clx_h5_create) or read (clx_h5_open). Opaque.
@@ -16,8 +17,12 @@ typedef enum { CLX_H5_F64, CLX_H5_I32, CLX_H5_I64, CLX_H5_U64, CLX_H5_U8 } clx_h
 
 enum { CLX_H5_RANK_LIMIT = 4, CLX_H5_NAME_LIMIT = 512 };
 
+/// CLAST_E_USAGE, with one line, where clast was built without HDF5: asked before hours of work
+/// whose end could not be written.
+CLX_SHARED clast_status clx_h5_available(void);
+
 /// An empty file in memory.
-clast_status clx_h5_create(clx_h5 **h5);
+CLX_SHARED clast_status clx_h5_create(clx_h5 **h5);
 
 /// Adds an array; folders in its name ("/engine/state") are made. Fletcher-32, no object times.
 ///
@@ -49,7 +54,7 @@ clast_status clx_h5_open(const char *path, clx_h5 **h5);
 clast_status clx_h5_open_foreign(const char *path, clx_h5 **h5);
 
 /// Closes either kind; NULL is allowed. A file being built that was not committed is lost.
-void clx_h5_close(clx_h5 *h5);
+CLX_SHARED void clx_h5_close(clx_h5 *h5);
 
 /// Whether an array or folder of this name exists.
 bool clx_h5_has(clx_h5 *h5, const char *name);

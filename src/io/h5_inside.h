@@ -10,10 +10,6 @@ struct clx_h5 {
     char label[256]; ///< file's name for messages
 };
 
-/// Last line of a file: CRC-32 and size of all bytes before it. HDF5 ignores bytes after its own.
-#define CLX_H5_TRAILER "\nclast-crc32 %08" PRIx32 " of %016" PRId64 "\n"
-enum { CLX_H5_TRAILER_SIZE = 1 + 12 + 8 + 4 + 16 + 1 };
-
 /// One thread at a time inside HDF5, with its printing of errors off.
 typedef struct clx_h5_session {
     H5E_auto2_t report;
@@ -25,4 +21,3 @@ void clx_h5_leave(const clx_h5_session *session);
 hid_t clx_h5_memory_type(clx_h5_type type);
 hid_t clx_h5_file_type(clx_h5_type type);
 size_t clx_h5_type_size(clx_h5_type type);
-uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n);

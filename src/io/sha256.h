@@ -1,5 +1,6 @@
 #pragma once
 // SHA-256. [FIPS 180-4 section 6.2]
+#include "base/shared.h"
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,6 +10,6 @@ typedef struct clx_sha256 {
     unsigned char block[64];
 } clx_sha256;
 
-clx_sha256 clx_sha256_begin(void);
-void clx_sha256_add(clx_sha256 *sha, const void *bytes, size_t n);
-void clx_sha256_end(clx_sha256 *sha, char hex[65]);
+CLX_SHARED clx_sha256 clx_sha256_begin(void);
+CLX_SHARED void clx_sha256_add(clx_sha256 *sha, const void *bytes, size_t n);
+CLX_SHARED void clx_sha256_end(clx_sha256 *sha, char hex[65]);

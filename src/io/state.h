@@ -1,5 +1,6 @@
 #pragma once
 // The parts of a state file, for checkpoints and other files that hold them too.
+#include "base/shared.h"
 #include "io/h5.h"
 #include <clast/state.h>
 
@@ -22,4 +23,4 @@ clast_status clx_state_take_spheres(clx_h5 *h5, const char *folder, clast_sphere
 clast_status clx_state_take_table(clx_h5 *h5, const char *folder, clast_table *table);
 
 /// Keeps all of a state, as clast_state_write does, in a file being built.
-clast_status clx_state_put(clx_h5 *h5, const clast_state *state);
+CLX_SHARED clast_status clx_state_put(clx_h5 *h5, const clast_state *state);

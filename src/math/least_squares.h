@@ -1,5 +1,6 @@
 #pragma once
 // Linear least squares y = X b with what a regression report needs, by the singular values of X.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// What is to be fitted: y = X b. Borrowed.
@@ -24,8 +25,8 @@ typedef struct clx_least_squares {
 
 /// @return CLAST_E_FORMAT if n < p or the columns depend on each other (condition above 1e12);
 ///         CLAST_E_CONVERGE if LAPACK gives up; CLAST_E_MEMORY; `fit` is then untouched
-clast_status clx_least_squares_fit(const clx_regression *data, clx_least_squares *fit);
-void clx_least_squares_free(clx_least_squares *fit);
+CLX_SHARED clast_status clx_least_squares_fit(const clx_regression *data, clx_least_squares *fit);
+CLX_SHARED void clx_least_squares_free(clx_least_squares *fit);
 
 /// Prediction of each row by the fit of the rows in the other folds.
 ///

@@ -1,6 +1,7 @@
 #pragma once
 // Random draws as pure functions of (seed, stream, index), never of call order, threads or ranks.
 // Philox4x32-10 from Random123 [Salmon2011]; counter = (index, part of stream), key = seed.
+#include "base/shared.h"
 #include <stdint.h>
 
 /// A cursor over one stream: the k-th draw from (seed, stream, index) is always the same number.
@@ -53,7 +54,7 @@ enum clx_stream {
 };
 
 /// Cursor at the first draw of (seed, stream, index).
-clx_rng clx_rng_at(uint64_t seed, uint32_t stream, uint64_t index);
+CLX_SHARED clx_rng clx_rng_at(uint64_t seed, uint32_t stream, uint64_t index);
 
 uint32_t clx_rng_u32(clx_rng *rng);
 
@@ -64,7 +65,7 @@ double clx_rng_uniform(clx_rng *rng);
 double clx_rng_normal(clx_rng *rng);
 
 /// Uniform on 0 .. n-1 without bias.
-int64_t clx_rng_below(clx_rng *rng, int64_t n);
+CLX_SHARED int64_t clx_rng_below(clx_rng *rng, int64_t n);
 
 /// Poisson number of this mean (>= 0), exact; O(mean) uniforms.
 int64_t clx_rng_poisson(clx_rng *rng, double mean);

@@ -1,6 +1,7 @@
 #pragma once
 // Sorting numbers: radix sorts whose cost does not depend on their order, the same bytes for any
 // number of threads.
+#include "base/shared.h"
 #include "base/status.h"
 
 /// What a key belongs to.
@@ -10,7 +11,7 @@ typedef struct clx_keyed {
 } clx_keyed;
 
 /// Sorts n finite doubles ascending in place; O(n), two scratch arrays of n.
-clast_status clx_sort_doubles(double *value, int64_t n);
+CLX_SHARED clast_status clx_sort_doubles(double *value, int64_t n);
 
 /// Sorts by key, ascending and stable; O(n), one scratch array of n.
 clast_status clx_sort_keyed(clx_keyed *entry, int64_t n);

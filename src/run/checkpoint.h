@@ -1,5 +1,6 @@
 #pragma once
 // Checkpoints of a run: FOLDER/checkpoint-NNNNNNNNNNNN.h5, the last two kept.
+#include "base/shared.h"
 #include "io/h5.h"
 
 enum { CLX_CHECKPOINT_KEEP = 2 };
@@ -8,7 +9,7 @@ enum { CLX_CHECKPOINT_KEEP = 2 };
 /// leaves every older checkpoint in place. The folder is made if needed.
 ///
 /// @param step  0 .. 10^12 - 1, rising through a run
-clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
+CLX_SHARED clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
 
 /// Newest checkpoint that is whole: its path (clx_free it) and step; damaged ones are passed over
 /// and counted.
@@ -16,11 +17,11 @@ clast_status clx_checkpoint_write(clx_h5 *h5, const char *folder, int64_t step);
 /// @param n_damaged  checkpoints newer than it that are damaged, all when none is whole; may be
 /// NULL
 /// @return CLAST_E_IO if the folder cannot be read or holds no whole checkpoint
-clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
-                                   int32_t *n_damaged);
+CLX_SHARED clast_status clx_checkpoint_newest(const char *folder, char **path, int64_t *step,
+                                              int32_t *n_damaged);
 
 /// True when the folder holds one, whole or not.
-bool clx_checkpoint_exists(const char *folder);
+CLX_SHARED bool clx_checkpoint_exists(const char *folder);
 
 /// Removes all checkpoints of a finished run.
-clast_status clx_checkpoint_clear(const char *folder);
+CLX_SHARED clast_status clx_checkpoint_clear(const char *folder);

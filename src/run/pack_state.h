@@ -1,5 +1,6 @@
 #pragma once
 // Packings in state files: what they are to everyone, and what they need to go on.
+#include "base/shared.h"
 #include "base/status.h"
 #include <clast/pack.h>
 
@@ -11,19 +12,22 @@ typedef struct clx_pack_checkpoint {
 } clx_pack_checkpoint;
 
 /// FOLDER/state.h5: grains, contacts, series, bed, configuration, and all to go on from.
-clast_status clx_pack_state_write(const char *path, const char *config, clast_pack *pack);
+CLX_SHARED clast_status clx_pack_state_write(const char *path, const char *config,
+                                             clast_pack *pack);
 
 /// The same as a checkpoint of this step.
-clast_status clx_pack_checkpoint_write(const char *folder, const char *config, clast_pack *pack);
+CLX_SHARED clast_status clx_pack_checkpoint_write(const char *folder, const char *config,
+                                                  clast_pack *pack);
 
 /// Newest whole checkpoint of a folder. Free `found` whatever the status.
 ///
 /// @return CLAST_E_IO when there is no whole one
-clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *found);
+CLX_SHARED clast_status clx_pack_checkpoint_find(const char *folder, clx_pack_checkpoint *found);
 
 /// The same of a state.h5, where a run ended. CLAST_E_IO when there is none.
-clast_status clx_pack_end_find(const char *path, clx_pack_checkpoint *found);
-void clx_pack_checkpoint_free(clx_pack_checkpoint *found);
+CLX_SHARED clast_status clx_pack_end_find(const char *path, clx_pack_checkpoint *found);
+CLX_SHARED void clx_pack_checkpoint_free(clx_pack_checkpoint *found);
 
 /// Fills a fresh packing from it. CLAST_E_FORMAT when it is none of this configuration's.
-clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found, clast_pack *pack);
+CLX_SHARED clast_status clx_pack_checkpoint_read(const clx_pack_checkpoint *found,
+                                                 clast_pack *pack);

@@ -1,5 +1,6 @@
 #pragma once
 // Run folders inside the library: what one holds, going on in it, changing places.
+#include "base/shared.h"
 #include "base/status.h"
 #include <clast/run_folder.h>
 #include <jansson.h>
@@ -18,8 +19,8 @@ typedef struct clx_run_state {
 } clx_run_state;
 
 /// What cannot be read is not there; CLAST_E_MEMORY alone is a failure.
-clast_status clx_run_state_read(const char *folder, clx_run_state *state);
-void clx_run_state_free(clx_run_state *state);
+CLX_SHARED clast_status clx_run_state_read(const char *folder, clx_run_state *state);
+CLX_SHARED void clx_run_state_free(clx_run_state *state);
 
 enum { CLX_RUN_LINE = 1024 };
 
@@ -31,18 +32,18 @@ bool clx_run_owns(const clx_run_state *state, const char *name);
 
 /// Goes on in a folder: as clast_run_folder_begin and open, for a run that left a checkpoint or a
 /// state. CLAST_E_DISK while another process is at it.
-clast_status clx_run_folder_resume(const char *folder, const char *command,
-                                   const clast_monitor *monitor, clast_run_folder **run);
+CLX_SHARED clast_status clx_run_folder_resume(const char *folder, const char *command,
+                                              const clast_monitor *monitor, clast_run_folder **run);
 
 /// The files are whole: manifest.json says so and lists them. What is written after that (a page
 /// that reads the run) is no output of it; the end still has to follow.
-clast_status clx_run_folder_seal(clast_run_folder *run);
+CLX_SHARED clast_status clx_run_folder_seal(clast_run_folder *run);
 
 /// The folder that was asked for: where the run will be once it has ended. Borrowed.
-const char *clx_run_folder_place(const clast_run_folder *run);
+CLX_SHARED const char *clx_run_folder_place(const clast_run_folder *run);
 
 /// Keeps in the manifest how much of the run is done (0 to 1); to be called beside a checkpoint.
-clast_status clx_run_folder_progress(clast_run_folder *run, double share);
+CLX_SHARED clast_status clx_run_folder_progress(clast_run_folder *run, double share);
 
 /// Lets `made` take the place of the run in `old`: exchanged in one step where the file system can;
 /// files in `old` that are not its run's own move along, then the old run is removed.
@@ -63,4 +64,4 @@ clast_status clx_run_replace_recover(const char *made, const char *old);
 void clx_run_remove_temporaries(const char *folder);
 
 /// A folder with all that is in it, without following links; fine when it is not there.
-clast_status clx_run_remove_tree(const char *folder);
+CLX_SHARED clast_status clx_run_remove_tree(const char *folder);

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/queue.h"
+#include "io/h5.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
@@ -263,6 +264,7 @@ static clast_status begin(run *r, const char *folder, bool force)
 {
     clast_status status = CLAST_OK;
     if (is_first(r) && r->has_folder) {
+        CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, force, "aggregate", r->monitor, &r->own));
         clast_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
         (void)snprintf(r->folder, sizeof r->folder, "%s", clast_run_folder_path(r->own));

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "io/h5.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
 #include "run/run.h"
@@ -206,6 +207,7 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
     CLX_CHECK(folder != NULL || !config->force, CLAST_E_USAGE,
               "force: there is no output folder (-o) whose run it could replace");
     if (folder != NULL) {
+        CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, config->force, "pack", monitor, &r.own));
         clast_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
         r.folder = clast_run_folder_path(r.own);

@@ -1,0 +1,11 @@
+# What libclast exports: its interface, and under a name of this release what it shares with its view (src/base/shared.h):
+# cmake -DOUT=libclast.map -DVERSION=0.1.0 -DHEADERS="a;b" -P Exports.cmake
+set(shared)
+foreach(header ${HEADERS})
+  file(STRINGS ${header} marks REGEX "^CLX_SHARED ")
+  list(TRANSFORM marks REPLACE "^[^(]*(clx_[a-z0-9_]+)\\(.*" "\\1")
+  list(APPEND shared ${marks})
+endforeach()
+list(JOIN shared "; " shared)
+string(REGEX MATCH "^[0-9]+" major ${VERSION})
+file(WRITE ${OUT} "CLAST_${major} { global: clast_*; local: *; };\nCLAST_PRIVATE_${VERSION} { global: ${shared}; };\n")
