@@ -304,12 +304,14 @@ def matrix_sums(rows):
     excluded = sum(int(r["clouds"]) * float(r["excluded"]) for r in rows)
     open_rows = [(int(r["clouds"]) * (1 - float(r["resolved"])), float(r["low_holds"])) for r in rows if float(r["resolved"]) < 1]
     bias = sum(int(r["clouds"]) * float(r["resolved"]) * float(r["bias"]) for r in rows if float(r["resolved"]) > 0)
+    weight = sum(w for w, _ in open_rows)
+    holds = f"{sum(w * s for w, s in open_rows) / weight:.3f}" if weight else "-"
     worst = max((abs(float(r["bias"])) - 2 * float(r["bias_error"]) for r in rows
                  if float(r["resolved"]) * int(r["clouds"]) >= 8), default=0)
     covered = f"{1 - excluded / resolved:.3f}" if resolved else "-"
     mean = f"{100 * bias / resolved:+.2f} %" if resolved else "-"
     return (f"| {rows[0]['n']} | {clouds} | {resolved / clouds:.3f} | {mean} | {100 * max(0.0, worst):.1f} % | {covered} | "
-            f"{excluded / clouds:.3f} | {sum(w * s for w, s in open_rows) / sum(w for w, _ in open_rows):.3f} |")
+            f"{excluded / clouds:.3f} | {holds} |")
 
 
 def matrix_bad(rows):
