@@ -26,7 +26,16 @@ html_theme_options = {  # contrast of 4.5 at least, in light and dark
     "light_css_variables": {"color-brand-primary": "#1a5a7a", "color-brand-content": "#1a5a7a", "color-foreground-muted": "#5c6066",
                             "color-foreground-secondary": "#54575c", "color-highlight-on-target": "#fff6cc"},
     "dark_css_variables": {"color-brand-primary": "#7cc4ea", "color-brand-content": "#7cc4ea", "color-foreground-muted": "#9aa0a6",
-                           "color-foreground-secondary": "#a4a9b0"},
+                           "color-foreground-secondary": "#a4a9b0",
+                           # Debian's furo.css has these only for a chosen dark, not for the reader's system
+                           "color-foreground-primary": "#e4e6ea", "color-foreground-border": "#7d828a",
+                           "color-background-primary": "#131416", "color-background-secondary": "#1a1c1e", "color-background-hover": "#1e2124",
+                           "color-background-hover--transparent": "#1e212400", "color-background-border": "#303335",
+                           "color-background-item": "#444", "color-announcement-background": "#000000dd", "color-announcement-text": "#eeebee",
+                           "color-admonition-background": "#18181a", "color-card-border": "#1a1c1e", "color-card-background": "#18181a",
+                           "color-card-marginals-background": "#1e2124", "color-inline-code-background": "#1a1c1e",
+                           "color-highlighted-background": "#083563", "color-guilabel-background": "#08356380", "color-guilabel-border": "#13395f80",
+                           "color-api-keyword": "#9ca0a5", "color-api-background": "#1a1c1e", "color-highlight-on-target": "#333300"},
 }
 pygments_style = "default"
 pygments_dark_style = "monokai"
