@@ -18,7 +18,7 @@ def mend(app, error):
     text = script.read_text()
     if text.startswith("import Gumshoe"):
         inside = re.sub(r"^export default ", "const Gumshoe = ", helper.read_text(), flags=re.M)
-        script.write_text("(function () {\n" + inside + "\n" + text.split("\n", 1)[1] + "\n})();\n")
+        script.write_text("(function () {\nvar exports, module, define;  // a section named exports would be taken for one\n" + inside + "\n" + text.split("\n", 1)[1] + "\n})();\n")
     style = static / "styles/furo.css"
     (style.parent / "normalize.css").write_text(NORMALIZE.read_text())
     style.write_text(style.read_text().replace("url(/javascript/normalize.css/normalize.css)", "url(normalize.css)"))
