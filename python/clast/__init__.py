@@ -1,0 +1,8 @@
+"""Particles that stick, settle and cluster: grains, aggregates, packings and clouds. Lengths are SI, or texts with a unit."""
+from ._commands import Assembly, Decomposition, Result, Run, aggregate, decompose, open, pack, read_table
+from ._core import Error
+from ._mesh import Mesh, MeshCheck, Shape
+from ._bindings import VERSION as __version__
+
+__all__ = ["Assembly", "Decomposition", "Error", "Mesh", "MeshCheck", "Result", "Run", "Shape", "__version__", "aggregate", "decompose",
+           "open", "pack", "read_table"]
