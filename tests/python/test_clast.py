@@ -67,6 +67,24 @@ class Numbers(unittest.TestCase):
         self.assertEqual(found.state_hash, said["state_hash"])
 
 
+    def test_fill(self):
+        said, found = command("fill", GRAIN), clast.fill(clast.Mesh.read(GRAIN))
+        for name in ("n_sphere", "filled_fraction", "sphere_volume", "inertia_error", "max_protrusion"):
+            self.assertEqual(getattr(found, name), said[name], name)
+        self.assertEqual(found.centres.shape, (said["n_sphere"], 3))
+
+    def test_porosity(self):
+        bed = pathlib.Path(self.folder.name, "bed")
+        clast.pack(curve="4mm", mass="40g", width="30mm", height="0.1m", shaking_time=0, max_steps=20000, output=bed)
+        for method in ("exact", "spheres"):
+            said, found = command("porosity", bed, "--method", method), clast.porosity(bed, method=method)
+            self.assertEqual((found.porosity, found.z_low, found.z_high), (said["bulk"], said["z_low"], said["z_high"]))
+
+    def test_a_folder_that_is_no_run(self):
+        with self.assertRaises(clast.Error):
+            clast.open(self.folder.name)
+
+
 class Arrays(unittest.TestCase):
     def setUp(self):
         self.x = np.loadtxt(POINTS, delimiter=",", skiprows=1)
