@@ -166,6 +166,10 @@ class Assembly:
         """Sum of the grains' own volumes."""
         return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
 
+    def write(self, path: Path) -> None:
+        """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), os.fsencode(path), None, None))
+
     def table(self) -> NDArray[Any]:
         """One row a grain, as `clast export -o grains.csv`."""
         table = c.clast_table()

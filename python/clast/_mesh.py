@@ -181,3 +181,13 @@ class Mesh:
 
     def __repr__(self) -> str:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
+
+
+def mesh_check(path: str | os.PathLike[str]) -> MeshCheck:
+    """What is this file's surface, and can it be trusted? Welded as the command does."""
+    return Mesh.read(path).check()
+
+
+def shape(path: str | os.PathLike[str], *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
+    """Size and form of a file's grain, lengths in the file's own unit."""
+    return Mesh.read(path).shape(axes, hull)

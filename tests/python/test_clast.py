@@ -32,10 +32,14 @@ class Numbers(unittest.TestCase):
         self.x = np.loadtxt(POINTS, delimiter=",", skiprows=1)
 
     def test_mesh(self):
-        mesh, said = clast.Mesh.read(GRAIN), command("mesh", "check", GRAIN)
-        found = mesh.check()
+        said, found = command("mesh", "check", GRAIN), clast.mesh_check(GRAIN)
         for name in ("volume", "area", "closed", "oriented", "manifold", "extent", "hull_volume"):
             self.assertEqual(getattr(found, name), said[name], name)
+
+    def test_shape(self):
+        for axes in ("ellipsoid", "box", "feret"):
+            said, found = command("shape", GRAIN, "--axes", axes)["grains"][0], clast.shape(GRAIN, axes=axes)
+            self.assertEqual([found.L, found.I, found.S, found.sieve_size, found.flatness], [said[k] for k in ("L", "I", "S", "D", "flatness")])
 
     def test_decompose(self):
         said = command("decompose", POINTS, "--domain", BOX)
@@ -58,6 +62,9 @@ class Numbers(unittest.TestCase):
         run = clast.open(one)
         self.assertEqual((run.command, len(run.grains), run.grains.positions.shape), ("aggregate", 21, (21, 3)))
         self.assertEqual(len(run.grains.table()), 21)
+        run.grains.write(one / "grains.csv")
+        subprocess.run([os.environ["CLAST"], "export", two, "-o", two / "grains.csv"], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual((one / "grains.csv").read_bytes(), (two / "grains.csv").read_bytes())
         self.assertGreater(len(run.table("history")), 0)
 
     def test_pack(self):
