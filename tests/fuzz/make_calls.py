@@ -6,6 +6,9 @@ import pathlib
 import re
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from headers import HEAP, Declared, Headers  # noqa: E402
+
 SCALARS = {"double": "f64", "float": "f32", "bool": "flag", "size_t": "size", "int": "int", "char": "char", "uint8_t": "u8",
            "unsigned char": "u8", "int32_t": "i32", "int64_t": "i64", "uint32_t": "u32", "uint64_t": "u64"}
 COUNTS = re.compile(r"^(n|n_\w+|\w*capacity|size|width|height|degree|argc|count)$")
@@ -37,67 +40,10 @@ CHANGED = {
     "clast_volume_parts.volume", "clast_bed_wrap.assembly", "clast_grain_scale.grain", "clast_grains_to_metres.grains",
     "clast_workspace_collide.population", "clast_bed_read.surface", "clast_bed_load.surface"}
 # Not called with filled structs: what they do is outside the process or takes minutes by design. Each is called with NULL.
-HEAP = {"clast_text_free", "clast_bytes_free", "clast_voxels_labels_free"}  # free what they are given
 PASSING = {"clast_comm_agree", "clast_run_folder_end"}  # give back the status that they are given
 LONG = {"clast_outputs_abandon", "clast_study_run", "clast_pack_run", "clast_pack_resume", "clast_aggregate_run",
         "clast_aggregate_resume", "clast_aggregate_fit_study", "clast_aggregate_fit_run", "clast_run_folder_begin",
         "clast_scene_p1", "clast_scene_e1", "clast_scene_s1", "clast_parallel_set_threads", "clast_memory_set_limit"}
-
-
-def split(text, at=","):
-    parts, depth, part = [], 0, ""
-    for c in text:
-        depth += (c in "([{") - (c in ")]}")
-        if c == at and depth == 0:
-            parts.append(part.strip())
-            part = ""
-        else:
-            part += c
-    return parts + [part.strip()] if part.strip() else parts
-
-
-class Declared:
-    """One member or argument: name, element type, stars and array bounds before the element."""
-
-    def __init__(self, text):
-        text = " ".join(text.split())
-        self.is_function = re.search(r"\(\*\s*\w*\)\s*\(", text) is not None
-        inner = re.search(r"\(\s*\*\s*(?:const\s*)?(\w+)\s*\)", text)
-        self.dims = re.findall(r"\[([^\]]*)\]", text)
-        bare = re.sub(r"\[[^\]]*\]", "", text)
-        self.name = inner.group(1) if inner else re.findall(r"\w+", bare)[-1]
-        self.stars = text.count("*")
-        head = bare[:bare.rindex(self.name)]
-        self.is_const = head.strip().startswith("const ")
-        self.type = " ".join(w for w in re.findall(r"\w+", head) if w not in ("const", "struct"))
-        self.is_row = inner is not None  # pointer to arrays
-        self.text = text
-
-
-def members(body):
-    for line in split(body, ";"):
-        parts = split(line)
-        yield Declared(parts[0])
-        for more in parts[1:]:
-            yield Declared(re.match(r"(?:const )?(?:unsigned )?\w+", parts[0]).group(0) + " " + more)
-
-
-class Headers:
-    def __init__(self, folder):
-        text = "\n".join(p.read_text() for p in sorted(pathlib.Path(folder).glob("clast/*.h")) if p.name not in ("mpi.h",))
-        text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
-        self.enums = set(re.findall(r"typedef enum\s*\w*\s*\{[^}]*\}\s*(clast_\w+);", text))
-        self.structs = {}
-        for name, body in re.findall(r"typedef struct (clast_\w+) \{(.*?)^\} clast_\w+;", text, flags=re.S | re.M):
-            self.structs[name] = list(members(body))
-        self.opaque = set(re.findall(r"typedef struct (clast_\w+) clast_\w+;", text))
-        self.functions = []
-        for result, name, arguments in re.findall(r"CLAST_API\s+([^;{()]*?)\b(clast_\w+)\s*\(([^;]*?)\)\s*;", text, flags=re.S):
-            arguments = [] if arguments.strip() == "void" else [Declared(a) for a in split(arguments)]
-            self.functions.append((" ".join(result.split()), name, arguments))
-        self.free = {a[0].type: name for result, name, a in self.functions
-                     if re.search(r"_(free|unload)$", name) and len(a) == 1 and a[0].type in self.structs and name not in HEAP}
-        self.destroy = {a[0].type: name for result, name, a in self.functions if name.endswith("_destroy")}
 
 
 class Writer:

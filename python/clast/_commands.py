@@ -1,0 +1,219 @@
+"""One function for a command of the library: the same numbers as `clast COMMAND --json`."""
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+from ._core import Config, Floats, Monitor, Owner, Progress, call, check, numbers, refuse, table_array, text_of, view
+from ._mesh import html_table
+
+Path = str | os.PathLike[str]
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """Cells of uniform concentration, and what they say of events; NaN where the command prints null."""
+
+    n: int
+    n_outside: int
+    dimension: int
+    reject: bool
+    score: float
+    stop: str
+    n_cell: int
+    events: float
+    events_low: float
+    events_high: float
+    pair_integral: float
+    pair_integral_low: float
+    pair_integral_high: float
+    resolved: bool
+    points_needed: float
+    cells: NDArray[Any]  #: low, high, volume, count, weight, events of each cell
+    cell_of_point: NDArray[np.int32]  #: -1 for points left out; the library's own memory
+
+    def _repr_html_(self) -> str:
+        return html_table({k: v for k, v in vars(self).items() if not isinstance(v, np.ndarray)})
+
+
+def decompose(positions: Any, *, domain: str, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
+              **keys: Any) -> Decomposition:
+    """Splits a cloud of positions (n, 1 to 3) [m] into cells of uniform concentration and counts events.
+
+    float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
+    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
+    """
+    x = numbers("positions", positions, [1, 2, 3])
+    cloud = c.clast_cloud()
+    cloud.n, cloud.dimension = x.shape
+    held = [x]
+    for name, value in (("radius", radius), ("mass", mass), ("weight", weight), ("velocity", velocity)):
+        if value is not None:
+            held.append(numbers(name, value, [x.shape[1]] if name == "velocity" else None))
+            if len(held[-1]) != len(x):
+                raise refuse(f"{name}: {len(held[-1])} rows where there are {len(x)} positions")
+            setattr(cloud, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
+    cloud.x = ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double))
+    result = c.clast_decomposition()
+    with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": domain, **keys}) as config:
+        check(call("clast_decompose")(ctypes.byref(cloud), ctypes.byref(config.struct), ctypes.byref(result)))
+    return _decomposition(Owner(result, "clast_decomposition_free"))
+
+
+def _decomposition(owner: Owner) -> Decomposition:
+    r, nan = owner.struct, float("nan")
+    n, is_bound = r.cells.n, not np.isnan(r.events_low)
+    kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
+    cells = np.zeros(n, np.dtype(kinds))
+    for name, *kind in kinds:
+        cells[name] = view(owner, getattr(r.cells, name), (n, *kind[1:]), kind[0])
+    given = tuple(v if np.isfinite(v) else nan for v in
+                  (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
+    none = (nan, nan, nan)
+    events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
+    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
+                         stop=call("clast_decompose_stop_text")(r.stop).decode(), n_cell=n, events=events[0], events_low=events[1],
+                         events_high=events[2], pair_integral=pairs[0], pair_integral_low=pairs[1], pair_integral_high=pairs[2],
+                         resolved=r.resolved, points_needed=r.points_needed if np.isfinite(r.points_needed) else nan, cells=cells,
+                         cell_of_point=view(owner, r.cells.of_point, (r.n + r.n_outside,), np.int32))
+
+
+@dataclass(frozen=True)
+class Result:
+    """A run's results under the names of its summary.json: `result.porosity`, `result["porosity"]`."""
+
+    values: dict[str, Any]
+    folder: str | None
+
+    def __getitem__(self, name: str) -> Any:
+        return self.values[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self.values:
+            raise AttributeError(f"no result {name}; there are {', '.join(self.values)}" if not name.startswith("_") else name)
+        return self.values[name]
+
+    def _repr_html_(self) -> str:
+        return html_table({k: v for k, v in self.values.items() if not isinstance(v, (list, dict))})
+
+
+def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
+    """Grows virtual aggregates grain by grain: aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um").
+
+    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one.
+    """
+    report = c.clast_aggregate_report()
+    monitor = Monitor(progress)
+    folder = None if output is None else os.fsencode(output)
+    try:
+        with Config(c.clast_aggregate_config(), "clast_aggregate_fields", keys) as config:
+            check(monitor.run(lambda m: call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
+        values = json.loads(text_of(lambda text: call("clast_aggregate_report_json")(ctypes.byref(report), True, text)))
+        return Result(values, None if output is None else os.fspath(output))
+    finally:
+        call("clast_aggregate_report_free")(ctypes.byref(report))
+
+
+def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
+    """Pours, shakes and calms a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0)."""
+    result = c.clast_pack_result()
+    monitor = Monitor(progress)
+    folder = None if output is None else os.fsencode(output)
+    try:
+        with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
+            check(monitor.run(lambda m: call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+        values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
+        return Result(values, None if output is None else os.fspath(output))
+    finally:
+        call("clast_pack_result_free")(ctypes.byref(result))
+
+
+class Assembly:
+    """Placed grains: views of the state's own memory."""
+
+    def __init__(self, owner: Owner) -> None:
+        a = owner.struct
+        n = a.n_grain
+        self._owner = owner
+        self.unit: str = a.unit.decode()
+        self.positions: Floats = view(owner, a.position, (n, 3), np.float64)
+        self.orientations: Floats = view(owner, a.orientation, (n, 4), np.float64)  #: quaternions w, x, y, z
+        self.scales: Floats = view(owner, a.scale, (n,), np.float64)
+        self.densities: Floats = view(owner, a.density, (n,), np.float64)
+        self.shape_ids: NDArray[np.int32] = view(owner, a.shape_id, (n,), np.int32)
+
+    @classmethod
+    def read(cls, path: Path) -> Assembly:
+        """The grains of a state file or a run's folder."""
+        found = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
+        check(call("clast_run_folder_state")(os.fsencode(path), ctypes.cast(found, ctypes.c_char_p)))
+        struct = c.clast_assembly()
+        check(call("clast_state_read_assembly")(found.value, ctypes.byref(struct)))
+        return cls(Owner(struct, "clast_assembly_free"))
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    @property
+    def volume(self) -> float:
+        """Sum of the grains' own volumes."""
+        return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
+
+    def write(self, path: Path) -> None:
+        """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), os.fsencode(path), None, None))
+
+    def table(self) -> NDArray[Any]:
+        """One row a grain, as `clast export -o grains.csv`."""
+        table = c.clast_table()
+        check(call("clast_assembly_table")(ctypes.byref(self._owner.struct), ctypes.byref(table)))
+        return table_array(Owner(table, "clast_table_free"))
+
+
+class Run:
+    """A run's folder: its summary, manifest, tables and grains."""
+
+    def __init__(self, folder: Path) -> None:
+        check(call("clast_run_folder_check")(os.fsencode(folder)))
+        self.folder = os.fspath(folder)
+        self.manifest: dict[str, Any] = self._json("manifest.json")
+        self.summary: dict[str, Any] = self._json("summary.json")
+        self.command: str = self.manifest["command"]
+
+    def _json(self, name: str) -> dict[str, Any]:
+        with _open_file(os.path.join(self.folder, name)) as file:
+            values: dict[str, Any] = json.load(file)
+        return values
+
+    @property
+    def grains(self) -> Assembly:
+        return Assembly.read(self.folder)
+
+    def table(self, name: str) -> NDArray[Any]:
+        """A table of the folder by its name ("history", "profile")."""
+        return read_table(os.path.join(self.folder, name + ".csv"))
+
+    def _repr_html_(self) -> str:
+        return html_table({k: v for k, v in self.summary.items() if not isinstance(v, (list, dict))})
+
+
+def read_table(path: Path) -> NDArray[Any]:
+    """Delimited text as a structured array; numbers stay as they are, names tell their unit."""
+    table = c.clast_table()
+    check(call("clast_table_read_csv")(os.fsencode(path), None, ctypes.byref(table), None))
+    return table_array(Owner(table, "clast_table_free"))
+
+
+_open_file = open
+
+
+def open(folder: Path) -> Run:  # noqa: A001 (clast.open)
+    """A run's folder, whatever command wrote it."""
+    return Run(folder)

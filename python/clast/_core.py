@@ -1,0 +1,233 @@
+"""The library, its errors and configurations, and NumPy arrays over its memory."""
+from __future__ import annotations
+
+import ctypes
+import importlib
+import os
+import pathlib
+import signal
+import threading
+from typing import Any, Callable, Iterator, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+
+Floats = NDArray[np.float64]
+Progress = Union[bool, None, Callable[[str, int, int], None]]
+
+
+class Error(Exception):
+    """What the library refused: `code` ("CLAST_E_FORMAT") and the one line that says what, where and what to do."""
+
+    def __init__(self, code: str, line: str) -> None:
+        super().__init__(line)
+        self.code = code
+
+
+def _candidates() -> Iterator[str]:
+    yield from (str(p) for p in sorted(pathlib.Path(__file__).parent.glob("libclast_view.so*")))
+    if os.environ.get("CLAST_LIBRARY"):
+        yield os.environ["CLAST_LIBRARY"]
+    yield from ("libclast_view.so.0", "libclast_view.so")  # whose handle finds the core's functions too
+
+
+def _load() -> ctypes.CDLL:
+    reasons = []
+    for name in _candidates():
+        try:
+            library = ctypes.CDLL(name)
+        except OSError as reason:
+            reasons.append(str(reason))
+            continue
+        library.clast_version.restype = ctypes.c_char_p
+        version = library.clast_version().decode()
+        if version != c.VERSION:
+            raise ImportError(f"clast: {name} is version {version}, this package is for {c.VERSION}; install both from one release")
+        return library
+    raise ImportError(f"clast: no libclast_view.so ({reasons[-1]}); install clast (make install), or set CLAST_LIBRARY to the file")
+
+
+library = _load()
+_STATUS = {value: name for name, value in c.VALUES.items()
+           if name == "CLAST_OK" or name.startswith("CLAST_E_")}
+_ready: dict[str, Any] = {}
+
+
+def call(name: str) -> Any:
+    """The function of the library, with its prototype."""
+    function = _ready.get(name)
+    if function is None:
+        function = getattr(library, name)
+        function.restype, function.argtypes, _ = c.PROTOTYPES[name]
+        _ready[name] = function
+    return function
+
+
+def check(status: int) -> None:
+    """Raises what the calling thread's last call failed with."""
+    if status != 0:
+        raise Error(_STATUS.get(status, str(status)), call("clast_error_detail")().decode("utf-8", "replace"))
+
+
+def refuse(line: str) -> Error:
+    return Error("CLAST_E_ARGUMENT", line)
+
+
+class Owner:
+    """A struct of the library's and the function that frees it, when nothing looks into it any more."""
+
+    def __init__(self, struct: Any, free: str) -> None:
+        self.struct = struct
+        self._free = call(free)
+        self._byref = ctypes.byref
+
+    def __del__(self) -> None:
+        free = getattr(self, "_free", None)
+        if free is not None:
+            free(self._byref(self.struct))
+
+
+def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
+    """The library's memory as an array that keeps `owner` alive; nothing is copied."""
+    kind = np.dtype(dtype)
+    n_byte = int(np.prod(shape, dtype=np.int64)) * kind.itemsize
+    address = ctypes.cast(pointer, ctypes.c_void_p).value
+    if not n_byte or address is None:
+        return np.empty(shape, kind)
+    memory: Any = (ctypes.c_char * n_byte).from_address(address)
+    memory.owner = owner
+    return np.frombuffer(memory, kind).reshape(shape)
+
+
+def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = np.float64) -> NDArray[Any]:
+    """`value` as the library reads it: as it is where it fits, else converted once; refused by `name` where it is no numbers."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu" or (np.dtype(dtype).kind == "i" and array.dtype.kind == "f"):
+        raise refuse(f"{name}: an array of {array.dtype} where numbers ({np.dtype(dtype).name}) are wanted")
+    if columns is not None and (array.ndim != 2 or array.shape[1] not in columns):
+        wanted = " or ".join(f"(n, {k})" for k in columns)
+        raise refuse(f"{name}: an array of shape {array.shape} where {wanted} is wanted")
+    if columns is None and array.ndim != 1:
+        raise refuse(f"{name}: an array of shape {array.shape} where (n,) is wanted")
+    if array.shape[0] == 0:
+        raise refuse(f"{name}: an empty array")
+    if np.dtype(dtype).itemsize < 8 and array.dtype.itemsize >= 4 and (array.max() > 2**31 - 1 or array.min() < -2**31):
+        raise refuse(f"{name}: a number beyond 32 bits")
+    return np.require(array, np.dtype(dtype), ["C", "A"])
+
+
+class Config:
+    """A configuration of the library's: its table's defaults, then keywords in SI numbers or texts with a unit ("50deg")."""
+
+    def __init__(self, struct: Any, table: str, keys: dict[str, Any]) -> None:
+        self._fields: Any = ctypes.cast(ctypes.addressof(ctypes.c_char.in_dll(library, table)), ctypes.POINTER(c.clast_field))
+        self.struct = struct
+        self._bytes = ctypes.cast(ctypes.byref(struct), ctypes.c_void_p)
+        check(call("clast_fields_default")(self._fields, self._bytes))
+        try:
+            for name, value in keys.items():
+                self._set(name, value)
+        except BaseException:
+            self.close()
+            raise
+
+    def _set(self, name: str, value: Any) -> None:
+        field = call("clast_fields_find")(self._fields, name.encode())
+        if not field:
+            near = call("clast_fields_nearest")(self._fields, name.encode())
+            raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
+        items = value if isinstance(value, (list, tuple, np.ndarray)) else [value]
+        for k, item in enumerate(items):
+            is_text = isinstance(item, (str, os.PathLike))
+            text = os.fspath(item) if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
+                repr(item.item() if isinstance(item, np.generic) else item)
+            check(call("clast_field_set" if is_text else "clast_field_set_si")(field, self._bytes, os.fsencode(text), k > 0))
+
+    def close(self) -> None:
+        if self._fields is not None:
+            call("clast_fields_free")(self._fields, self._bytes)
+            self._fields = None
+
+    def __enter__(self) -> Config:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Monitor:
+    """Progress to a callback or tqdm; Ctrl-C asks the work to end at its checkpoint, then is KeyboardInterrupt."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress if callable(progress) else _bar() if progress else None
+        self._failed: BaseException | None = None
+        self._asked = False
+        self._report = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int64, ctypes.c_int64)(self._tell)
+        self._stop = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_void_p)(lambda _: self._asked or self._failed is not None)
+        self.struct = c.clast_monitor()
+        self.struct.report = ctypes.cast(self._report, ctypes.c_void_p)
+        self.struct.stop = ctypes.cast(self._stop, ctypes.c_void_p)
+
+    def _tell(self, _: Any, phase: bytes, done: int, total: int) -> None:
+        if self._progress is not None and self._failed is None:
+            try:
+                self._progress(phase.decode(), done, total)
+            except BaseException as failed:  # raised again when the library has returned
+                self._failed = failed
+
+    def _interrupt(self, *_: object) -> None:
+        self._asked = True
+
+    def run(self, work: Callable[[Any], Any]) -> Any:
+        """work(monitor): its status."""
+        is_main = threading.current_thread() is threading.main_thread()
+        before = signal.signal(signal.SIGINT, self._interrupt) if is_main else None
+        try:
+            status = work(ctypes.byref(self.struct))
+        finally:
+            if is_main:
+                signal.signal(signal.SIGINT, before)
+        if self._failed is not None:
+            raise self._failed
+        if self._asked:
+            raise KeyboardInterrupt
+        return status
+
+
+def _bar() -> Callable[[str, int, int], None] | None:
+    try:
+        bar: Any = importlib.import_module("tqdm.auto").tqdm()
+    except ImportError:
+        return None
+
+    def tell(phase: str, done: int, total: int) -> None:
+        bar.set_description(phase)
+        bar.total = total if total > 0 else None
+        bar.n = done
+        bar.refresh()
+    return tell
+
+
+def text_of(make: Callable[[Any], Any]) -> str:
+    """A text that the library made, freed."""
+    text = ctypes.c_char_p()
+    check(make(ctypes.byref(text)))
+    value = (text.value or b"").decode("utf-8", "replace")
+    call("clast_text_free")(text)
+    return value
+
+
+def table_array(owner: Owner) -> NDArray[Any]:
+    """A table as a structured array (a copy: columns lie apart in the library)."""
+    table = owner.struct
+    columns = [table.column[k] for k in range(table.n_column)]
+    n = int(table.n_row)
+    texts = {k: [(column.text[i] or b"").decode("utf-8", "replace") for i in range(n)]
+             for k, column in enumerate(columns) if not column.number}
+    kinds = [(column.name.decode(), f"U{max([1, *map(len, texts[k])])}" if k in texts else "f8") for k, column in enumerate(columns)]
+    out = np.zeros(n, np.dtype(kinds))
+    for k, column in enumerate(columns):
+        out[kinds[k][0]] = texts[k] if k in texts else view(None, column.number, (n,), np.float64)
+    return out

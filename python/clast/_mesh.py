@@ -1,0 +1,200 @@
+"""Surfaces."""
+from __future__ import annotations
+
+import ctypes
+import importlib
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+from ._core import Error, Floats, Owner, call, check, numbers, refuse, view
+
+
+@dataclass(frozen=True)
+class MeshCheck:
+    """What `clast mesh check` counts; lengths are in the mesh's own unit."""
+
+    closed: bool
+    oriented: bool
+    manifold: bool
+    n_vertex: int
+    n_triangle: int
+    n_edge: int
+    n_part: int
+    n_open_edge: int
+    n_open_loop: int
+    n_nonmanifold_edge: int
+    n_nonmanifold_vertex: int
+    n_misoriented_edge: int
+    n_inside_out: int
+    n_degenerate: int
+    n_duplicate: int
+    n_intersection: int
+    extent: float
+    volume: float
+    area: float
+    hull_volume: float
+
+    @property
+    def is_solid(self) -> bool:
+        return self.closed and self.oriented and self.manifold
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Size and form of one grain, lengths in the mesh's own unit; L >= I >= S by the named definition of axes."""
+
+    volume: float
+    area: float
+    L: float
+    I: float  # noqa: E741 (the field's symbol)
+    S: float
+    flatness: float
+    elongation: float
+    sieve_size: float
+    sphericity: float
+    convexity: float
+    roundness: float
+    feret_max: float
+    feret_min: float
+    axes: str
+
+    def _repr_html_(self) -> str:
+        return html_table({k: v for k, v in vars(self).items()})
+
+
+def html_table(values: dict[str, Any]) -> str:
+    from html import escape
+    rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(f'{v:.6g}' if isinstance(v, float) else str(v))}</td></tr>"
+                   for k, v in values.items())
+    return f"<table>{rows}</table>"
+
+
+def locked(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
+    """A view that cannot be written through: vertex numbers are checked once, and C trusts them."""
+    seen = triangles.view()
+    seen.flags.writeable = False
+    return seen
+
+
+class Mesh:
+    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or the arrays given."""
+
+    def __init__(self, vertices: Any, triangles: Any) -> None:
+        """From arrays, which are borrowed where they are float64 and int32 in C order, else converted once."""
+        vert, tri = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        if tri.size and (tri.min() < 0 or tri.max() >= len(vert)):
+            raise refuse(f"triangles: vertex numbers from {tri.min()} to {tri.max()} where there are {len(vert)} vertices, from 0")
+        self._mesh: Any = c.clast_mesh()
+        self._mesh.n_vert, self._mesh.n_tri = len(vert), len(tri)
+        self._mesh.vert = ctypes.cast(vert.ctypes.data, ctypes.POINTER(ctypes.c_double))
+        self._mesh.tri = ctypes.cast(tri.ctypes.data, ctypes.POINTER(ctypes.c_int32))
+        self._owner: Any = (vert, tri)
+        self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, locked(tri))
+
+    @classmethod
+    def _own(cls, struct: Any) -> Mesh:
+        mesh = cls.__new__(cls)
+        owner = Owner(struct, "clast_mesh_free")
+        mesh._mesh, mesh._owner = struct, owner
+        mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), locked(view(owner, struct.tri, (struct.n_tri, 3), np.int32)))
+        return mesh
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str], weld: bool = True) -> Mesh:
+        """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
+        struct = c.clast_mesh()
+        name = os.fsencode(path)
+        check(call("clast_mesh_read_welded" if weld else "clast_mesh_read")(name, ctypes.byref(struct), None))
+        return cls._own(struct)
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any) -> Mesh:
+        """From anything with `vertices` and `faces` (trimesh)."""
+        return cls(mesh.vertices, mesh.faces)
+
+    def to_trimesh(self) -> Any:
+        return importlib.import_module("trimesh").Trimesh(self.vertices, self.triangles, process=False)
+
+    @classmethod
+    def ellipsoid(cls, semi_axes: tuple[float, float, float], level: int = 4) -> Mesh:
+        """An ellipsoid of 20 * 4^level triangles."""
+        struct = c.clast_mesh()
+        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), level, ctypes.byref(struct)))
+        return cls._own(struct)
+
+    def close(self) -> None:
+        """Lets go of the memory; views of it stay good as long as they are held."""
+        self._mesh = self._owner = None
+
+    def _struct(self) -> Any:
+        if self._mesh is None:
+            raise Error("CLAST_E_USAGE", "this mesh is closed")
+        return ctypes.byref(self._mesh)
+
+    @property
+    def vertices(self) -> Floats:
+        self._struct()
+        return self._arrays[0]
+
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        self._struct()
+        return self._arrays[1]
+
+    @property
+    def volume(self) -> float:
+        """Signed: below 0 when inside out, meaningless when open."""
+        return float(call("clast_mesh_volume")(self._struct()))
+
+    @property
+    def area(self) -> float:
+        return float(call("clast_mesh_area")(self._struct()))
+
+    def hull(self) -> Mesh:
+        """The convex hull."""
+        struct = c.clast_mesh()
+        check(call("clast_mesh_hull")(self._struct(), ctypes.byref(struct)))
+        return Mesh._own(struct)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes STL, OBJ, PLY or OFF by the name's end."""
+        check(call("clast_mesh_write")(os.fsencode(path), self._struct(), None))
+
+    def check(self) -> MeshCheck:
+        """What is this surface, and can it be trusted?"""
+        result = c.clast_mesh_check_result()
+        check(call("clast_mesh_check")(self._struct(), ctypes.byref(result)))
+        try:
+            return MeshCheck(**{name: getattr(result, name) for name in MeshCheck.__dataclass_fields__})
+        finally:
+            call("clast_mesh_check_free")(ctypes.byref(result))
+
+    def shape(self, axes: str = "ellipsoid", hull: bool = False) -> Shape:
+        """Size and form, as `clast shape` measures them."""
+        kind = c.VALUES.get(f"CLAST_AXES_{axes.upper()}")
+        if kind is None:
+            raise refuse(f"axes: '{axes}' is none of ellipsoid, box, fitted, feret, principal")
+        grain = c.clast_grain()
+        check(call("clast_grain_measure_hull" if hull else "clast_grain_measure")(self._struct(), ctypes.byref(grain)))
+        long, middle, least = grain.axes[kind].lis
+        return Shape(volume=grain.volume, area=grain.area, L=long, I=middle, S=least, flatness=least / middle, elongation=middle / long,
+                     sieve_size=float(np.sqrt((least * least + middle * middle) / 2)), sphericity=grain.sphericity,
+                     convexity=grain.convexity, roundness=grain.roundness, feret_max=grain.longest, feret_min=grain.shortest, axes=axes)
+
+    def __repr__(self) -> str:
+        return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
+
+
+def mesh_check(path: str | os.PathLike[str]) -> MeshCheck:
+    """What is this file's surface, and can it be trusted? Welded as the command does."""
+    return Mesh.read(path).check()
+
+
+def shape(path: str | os.PathLike[str], *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
+    """Size and form of a file's grain, lengths in the file's own unit."""
+    return Mesh.read(path).shape(axes, hull)

@@ -1,0 +1,202 @@
+"""The Python package: the command's numbers, arrays in and out, what is refused, and what is closed or let go of."""
+import gc
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import tracemalloc
+import unittest
+
+import numpy as np
+
+import clast
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GRAIN = ROOT / "data/standin63/grain00.ply"
+POINTS = ROOT / "data/d2sd/points_b3_n500.csv"
+BOX = "box:0,0,0,1,1,1"
+AGGREGATE = {"core": "sphere", "core_size": 270e-6, "coat": "sphere", "size": "30um", "replicate": 20}
+
+
+def command(*words):
+    return json.loads(subprocess.run([os.environ["CLAST"], *map(str, words), "--json"], check=True, stdout=subprocess.PIPE).stdout)
+
+
+class Numbers(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.x = np.loadtxt(POINTS, delimiter=",", skiprows=1)
+
+    def test_mesh(self):
+        said, found = command("mesh", "check", GRAIN), clast.mesh_check(GRAIN)
+        for name in ("volume", "area", "closed", "oriented", "manifold", "extent", "hull_volume"):
+            self.assertEqual(getattr(found, name), said[name], name)
+
+    def test_shape(self):
+        for axes in ("ellipsoid", "box", "feret"):
+            said, found = command("shape", GRAIN, "--axes", axes)["grains"][0], clast.shape(GRAIN, axes=axes)
+            self.assertEqual([found.L, found.I, found.S, found.sieve_size, found.flatness], [said[k] for k in ("L", "I", "S", "D", "flatness")])
+
+    def test_decompose(self):
+        said = command("decompose", POINTS, "--domain", BOX)
+        found = clast.decompose(self.x, domain=BOX)
+        for name in ("n", "n_cell", "score", "stop", "reject", "resolved", "pair_integral", "pair_integral_low", "pair_integral_high"):
+            self.assertEqual(getattr(found, name), said[name], name)
+        self.assertEqual(found.cells["count"].sum(), 500)
+        self.assertTrue(np.array_equal(np.bincount(found.cell_of_point), found.cells["count"]))
+
+    def test_aggregate_and_its_folder(self):
+        one, two = pathlib.Path(self.folder.name, "one"), pathlib.Path(self.folder.name, "two")
+        told = []
+        found = clast.aggregate(**AGGREGATE, output=one, progress=lambda *what: told.append(what))
+        said = command("aggregate", "--core", "sphere", "--core-size", "270um", "--coat", "sphere", "--size", "30um", "--replicate", 20,
+                       "-o", two)
+        clocks = ("wall_s", "contact_s", "envelope_s", "repeats")
+        self.assertEqual({k: v for k, v in found.values.items() if k not in clocks}, {k: v for k, v in said.items() if k not in clocks})
+        self.assertTrue(told)
+        self.assertEqual((one / "state.h5").read_bytes(), (two / "state.h5").read_bytes())
+        run = clast.open(one)
+        self.assertEqual((run.command, len(run.grains), run.grains.positions.shape), ("aggregate", 21, (21, 3)))
+        self.assertEqual(len(run.grains.table()), 21)
+        run.grains.write(one / "grains.csv")
+        subprocess.run([os.environ["CLAST"], "export", two, "-o", two / "grains.csv"], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual((one / "grains.csv").read_bytes(), (two / "grains.csv").read_bytes())
+        self.assertGreater(len(run.table("history")), 0)
+
+    def test_pack(self):
+        keys = {"curve": "4mm", "mass": "1g", "width": "30mm", "height": 0.1, "shaking_time": 0, "max_steps": 500}
+        said = command("pack", *(w for k, v in keys.items() for w in (f"--{k.replace('_', '-')}", "0.1m" if k == "height" else v)))
+        found = clast.pack(**keys)
+        self.assertEqual(found.state_hash, said["state_hash"])
+
+
+    def test_fill(self):
+        said, found = command("fill", GRAIN), clast.fill(clast.Mesh.read(GRAIN))
+        for name in ("n_sphere", "filled_fraction", "sphere_volume", "inertia_error", "max_protrusion"):
+            self.assertEqual(getattr(found, name), said[name], name)
+        self.assertEqual(found.centres.shape, (said["n_sphere"], 3))
+
+    def test_porosity(self):
+        bed = pathlib.Path(self.folder.name, "bed")
+        clast.pack(curve="4mm", mass="40g", width="30mm", height="0.1m", shaking_time=0, max_steps=20000, output=bed)
+        for method in ("exact", "spheres"):
+            said, found = command("porosity", bed, "--method", method), clast.porosity(bed, method=method)
+            self.assertEqual((found.porosity, found.z_low, found.z_high), (said["bulk"], said["z_low"], said["z_high"]))
+
+    def test_a_folder_that_is_no_run(self):
+        with self.assertRaises(clast.Error):
+            clast.open(self.folder.name)
+
+
+class Arrays(unittest.TestCase):
+    def setUp(self):
+        self.x = np.loadtxt(POINTS, delimiter=",", skiprows=1)
+
+    def test_what_is_taken_gives_the_same(self):
+        wide = np.zeros((len(self.x), 6))
+        wide[:, ::2] = self.x
+        still = self.x.copy()
+        still.flags.writeable = False
+        want = clast.decompose(self.x, domain=BOX).pair_integral
+        for same in (wide[:, ::2], self.x.astype(">f8"), np.asfortranarray(self.x), still, self.x.tolist()):
+            self.assertEqual(clast.decompose(same, domain=BOX).pair_integral, want)
+        single = self.x.astype(np.float32)
+        self.assertEqual(clast.decompose(single, domain=BOX).pair_integral, clast.decompose(single.astype(float), domain=BOX).pair_integral)
+
+    def test_what_is_no_cloud_is_refused_by_name(self):
+        for bad in (np.zeros((0, 3)), np.zeros(3), np.zeros((2, 4)), self.x.astype(complex), np.array([["a", "b"]]), np.array([[None]])):
+            with self.assertRaisesRegex(clast.Error, "^positions: "):
+                clast.decompose(bad, domain=BOX)
+        with self.assertRaisesRegex(clast.Error, "^radius: 3 rows"):
+            clast.decompose(self.x, domain=BOX, radius=np.ones(3))
+        with self.assertRaisesRegex(clast.Error, "^triangles: vertex numbers from 0 to 9"):
+            clast.Mesh(np.zeros((4, 3)), [[0, 1, 9]])
+        with self.assertRaisesRegex(clast.Error, "^triangles: an array of float64"):
+            clast.Mesh(np.zeros((4, 3)), np.zeros((1, 3)))
+
+    def test_keywords_are_checked_by_the_tables(self):
+        with self.assertRaisesRegex(clast.Error, "did you mean seed") as caught:
+            clast.decompose(self.x, domain=BOX, sed=1)
+        self.assertEqual(caught.exception.code, "CLAST_E_CONFIG")
+        with self.assertRaises(clast.Error):
+            clast.aggregate(**{**AGGREGATE, "cone": "50kg"})
+
+    def test_a_million_positions_are_not_copied_by_python(self):
+        x = np.random.default_rng(1).random((10**6, 3))
+        tracemalloc.start()
+        clast.decompose(x, domain=BOX, variant="test")
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        self.assertLess(peak, x.nbytes / 4)
+
+
+class Lives(unittest.TestCase):
+    def test_a_view_keeps_its_owner(self):
+        mesh = clast.Mesh.read(GRAIN)
+        vertices, before = mesh.vertices, mesh.vertices.copy()
+        mesh.close()
+        del mesh
+        gc.collect()
+        np.zeros(10**6)
+        self.assertTrue(np.array_equal(vertices, before))
+
+    def test_use_after_close_is_an_error(self):
+        mesh = clast.Mesh.read(GRAIN)
+        mesh.close()
+        mesh.close()
+        for use in (lambda: mesh.volume, lambda: mesh.vertices, mesh.check, mesh.shape, mesh.hull):
+            with self.assertRaisesRegex(clast.Error, "closed"):
+                use()
+
+    def test_arrays_are_borrowed(self):
+        read = clast.Mesh.read(GRAIN)
+        vertices, triangles = read.vertices.copy(), read.triangles.copy()
+        mesh = clast.Mesh(vertices, triangles)
+        self.assertIs(mesh.vertices, vertices)
+        del vertices, triangles
+        self.assertEqual(mesh.volume, read.volume)
+
+    def test_threads_at_once(self):
+        found = []
+        threads = [threading.Thread(target=lambda: found.append(clast.Mesh.read(GRAIN).shape().sieve_size)) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(set(found)), 1)
+        self.assertEqual(len(found), 8)
+
+    def test_a_child_process_may_free(self):
+        mesh = clast.Mesh.read(GRAIN)
+        child = os.fork()
+        if child == 0:
+            mesh.close()
+            os._exit(0)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.assertGreater(mesh.volume, 0)
+
+    def test_what_a_callback_raises_comes_out(self):
+        def fail(*_):
+            raise RuntimeError("mine")
+        with self.assertRaisesRegex(RuntimeError, "mine"):
+            clast.aggregate(**AGGREGATE, progress=fail)
+
+    def test_interrupt_ends_at_a_checkpoint(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyboardInterrupt):
+                clast.aggregate(**{**AGGREGATE, "replicate": 2000}, output=folder + "/run", progress=lambda *_: os.kill(os.getpid(), 2))
+            self.assertGreater(clast.Mesh.read(GRAIN).volume, 0)
+            self.assertIn("stopped", pathlib.Path(folder, "run/manifest.json").read_text())
+
+    def test_without_the_library_the_cure_is_named(self):
+        env = {k: v for k, v in os.environ.items() if k not in ("CLAST_LIBRARY", "LD_LIBRARY_PATH")}
+        done = subprocess.run([sys.executable, "-c", "import clast"], env=env, stderr=subprocess.PIPE, text=True)
+        if done.returncode:  # no library installed beside this build
+            self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*install clast")
+
+
+unittest.main()
