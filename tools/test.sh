@@ -26,8 +26,8 @@ rm -f build-release.log
 tools/check_symbols.sh
 tools/check_install.sh
 say "commands of the documents"; python3 tools/check_docs_commands.py build/release/clast
-say "ranks (mpirun)"
-ctest --test-dir build/release -L mpi --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
+say "ranks (mpirun), Python"
+ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
 say "documents"; skip docs || tools/docs.sh
