@@ -329,11 +329,12 @@ def table_matrix(_, share):
     rows = []
     for k, (n, clouds) in enumerate(MATRIX):
         rows += bench("bench_resolution", n, max(2, round(clouds * share)), (16 + k) * 100000000, "all")
-    return matrix_lines(rows)
+    return matrix_lines(rows, MATRIX_CSV if share >= 1 else pathlib.Path("build/d2sd_matrix.csv"))
 
 
-def matrix_lines(rows):
-    with open(MATRIX_CSV, "w", newline="") as f:
+def matrix_lines(rows, table):
+    """The part's lines; all figures go to `table`, the page's own only where no share of the clouds was left out."""
+    with open(table, "w", newline="") as f:
         out = csv.DictWriter(f, rows[0].keys(), lineterminator="\n")
         out.writeheader()
         out.writerows(rows)
