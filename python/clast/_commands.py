@@ -43,6 +43,27 @@ class Decomposition:
         return html_table({k: v for k, v in vars(self).items() if not isinstance(v, np.ndarray)})
 
 
+def _cloud(positions: Any, name: str, **columns: Any) -> tuple[Any, list[Any]]:
+    """The struct, and what it borrows from."""
+    x = numbers(name, positions, [1, 2, 3])
+    cloud = c.clast_cloud()
+    cloud.n, cloud.dimension = x.shape
+    cloud.x = ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double))
+    held = [x]
+    for column, value in columns.items():
+        if value is not None:
+            held.append(_column(column, value, x))
+            setattr(cloud, column, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
+    return cloud, held
+
+
+def _column(name: str, value: Any, x: Floats) -> Floats:
+    array = numbers(name, value, [x.shape[1]] if name == "velocity" else None)
+    if len(array) != len(x):
+        raise refuse(f"{name}: {len(array)} rows where there are {len(x)} positions")
+    return array
+
+
 def decompose(positions: Any, *, domain: str, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
               **keys: Any) -> Decomposition:
     """Splits a cloud of positions (n, 1 to 3) [m] into cells of uniform concentration and counts events.
@@ -50,21 +71,54 @@ def decompose(positions: Any, *, domain: str, radius: Any = None, mass: Any = No
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
     ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
     """
-    x = numbers("positions", positions, [1, 2, 3])
-    cloud = c.clast_cloud()
-    cloud.n, cloud.dimension = x.shape
-    held = [x]
-    for name, value in (("radius", radius), ("mass", mass), ("weight", weight), ("velocity", velocity)):
-        if value is not None:
-            held.append(numbers(name, value, [x.shape[1]] if name == "velocity" else None))
-            if len(held[-1]) != len(x):
-                raise refuse(f"{name}: {len(held[-1])} rows where there are {len(x)} positions")
-            setattr(cloud, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
-    cloud.x = ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double))
+    cloud, _held = _cloud(positions, "positions", radius=radius, mass=mass, weight=weight, velocity=velocity)
     result = c.clast_decomposition()
     with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": domain, **keys}) as config:
         check(call("clast_decompose")(ctypes.byref(cloud), ctypes.byref(config.struct), ctypes.byref(result)))
     return _decomposition(Owner(result, "clast_decomposition_free"))
+
+
+@dataclass(frozen=True)
+class Agglomeration:
+    """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, spectrum.csv)."""
+
+    history: NDArray[Any]
+    particles: NDArray[Any]
+    spectrum: NDArray[Any]
+    n_rebuilt: int
+    n_cell: int
+
+    def _repr_html_(self) -> str:
+        last = self.history[-1]
+        return html_table({name: float(last[name]) for name in ("time_s", "n_particle", "M1", "M2", "events") if name in last.dtype.names})
+
+
+def agglomerate(*snapshots: Any, domain: str, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
+                monomers: Any = None, speed_rms: Any = None, temperature: Any = None, shear: Any = None, dissipation: Any = None,
+                **keys: Any) -> Agglomeration:
+    """Evolves positions (n, 1 to 3) [m], one array a snapshot: cells by decomposition, collisions in them by a kernel.
+
+    The columns are those of the first snapshot; keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    duration="10s", n_step=100, seed=1).
+    """
+    if not snapshots:
+        raise refuse("snapshots: none is given")
+    made = [_cloud(x, f"snapshot {k + 1}", **(dict(radius=radius, mass=mass, weight=weight, velocity=velocity) if k == 0 else {}))
+            for k, x in enumerate(snapshots)]
+    clouds = (c.clast_cloud * len(made))(*(cloud for cloud, _ in made))
+    given, held = c.clast_agglomerate_input(), []
+    given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
+    for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
+        if value is not None:
+            held.append(_column(name, value, made[0][1][0]))
+            setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
+    tables = ("clast_agglomerate_fields", "clast_decompose_fields")
+    owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
+    with Config(c.clast_agglomerate_config(), tables, {"domain": domain, **keys}) as config:
+        check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
+    r = owner.struct
+    return Agglomeration(table_array(owner, r.history), table_array(owner, r.particles), table_array(owner, r.spectrum), r.n_rebuilt,
+                         r.n_cell)
 
 
 def _decomposition(owner: Owner) -> Decomposition:

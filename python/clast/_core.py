@@ -119,13 +119,16 @@ def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = n
 
 
 class Config:
-    """A configuration of the library's: its table's defaults, then keywords in SI numbers or texts with a unit ("50deg")."""
+    """A configuration of the library's: its tables' defaults, then keywords in SI numbers or texts with a unit ("50deg")."""
 
-    def __init__(self, struct: Any, table: str, keys: dict[str, Any]) -> None:
-        self._fields: Any = ctypes.cast(ctypes.addressof(ctypes.c_char.in_dll(library, table)), ctypes.POINTER(c.clast_field))
+    def __init__(self, struct: Any, tables: str | Sequence[str], keys: dict[str, Any]) -> None:
+        names = [tables] if isinstance(tables, str) else tables
+        self._tables: list[Any] = [ctypes.cast(ctypes.addressof(ctypes.c_char.in_dll(library, name)), ctypes.POINTER(c.clast_field))
+                                   for name in names]
         self.struct = struct
         self._bytes = ctypes.cast(ctypes.byref(struct), ctypes.c_void_p)
-        check(call("clast_fields_default")(self._fields, self._bytes))
+        for table in self._tables:
+            check(call("clast_fields_default")(table, self._bytes))
         try:
             for name, value in keys.items():
                 self._set(name, value)
@@ -134,21 +137,21 @@ class Config:
             raise
 
     def _set(self, name: str, value: Any) -> None:
-        field = call("clast_fields_find")(self._fields, name.encode())
-        if not field:
-            near = call("clast_fields_nearest")(self._fields, name.encode())
+        found = [f for f in (call("clast_fields_find")(table, name.encode()) for table in self._tables) if f]
+        if not found:
+            near = next((n for n in (call("clast_fields_nearest")(table, name.encode()) for table in self._tables) if n), None)
             raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
         items = value if isinstance(value, (list, tuple, np.ndarray)) else [value]
         for k, item in enumerate(items):
             is_text = isinstance(item, (str, os.PathLike))
             text = os.fspath(item) if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
                 repr(item.item() if isinstance(item, np.generic) else item)
-            check(call("clast_field_set" if is_text else "clast_field_set_si")(field, self._bytes, os.fsencode(text), k > 0))
+            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, os.fsencode(text), k > 0))
 
     def close(self) -> None:
-        if self._fields is not None:
-            call("clast_fields_free")(self._fields, self._bytes)
-            self._fields = None
+        for table in self._tables:
+            call("clast_fields_free")(table, self._bytes)
+        self._tables = []
 
     def __enter__(self) -> Config:
         return self
@@ -219,9 +222,9 @@ def text_of(make: Callable[[Any], Any]) -> str:
     return value
 
 
-def table_array(owner: Owner) -> NDArray[Any]:
-    """A table as a structured array (a copy: columns lie apart in the library)."""
-    table = owner.struct
+def table_array(owner: Owner, part: Any = None) -> NDArray[Any]:
+    """A table, or one that is part of what is owned, as a structured array (a copy: columns lie apart in the library)."""
+    table = owner.struct if part is None else part
     columns = [table.column[k] for k in range(table.n_column)]
     n = int(table.n_row)
     texts = {k: [(column.text[i] or b"").decode("utf-8", "replace") for i in range(n)]

@@ -49,6 +49,53 @@ class Numbers(unittest.TestCase):
         self.assertEqual(found.cells["count"].sum(), 500)
         self.assertTrue(np.array_equal(np.bincount(found.cell_of_point), found.cells["count"]))
 
+    def test_agglomerate(self):
+        keys = ["--domain", BOX, "--kernel", "constant", "--constant", 0.01, "--duration", "10s", "--n-step", 4, "--seed", 3]
+        said = command("agglomerate", POINTS, *keys)
+        found = clast.agglomerate(self.x, domain=BOX, kernel="constant", constant=0.01, duration=10.0, n_step=4, seed=3)
+        self.assertEqual(list(found.history["n_particle"]), said["n_particle"])
+        self.assertEqual(list(found.history["M2"]), said["moments"]["M2"])
+        self.assertEqual([found.n_cell], said["n_cell"][-1:])
+        with self.assertRaisesRegex(clast.Error, "no keyword kernal; did you mean kernel"):
+            clast.agglomerate(self.x, domain=BOX, kernal="constant")
+        with self.assertRaisesRegex(clast.Error, "monomers: 3 rows where there are 500"):
+            clast.agglomerate(self.x, domain=BOX, kernel="constant", monomers=np.ones(3))
+
+    def test_grading_and_predict(self):
+        said, found = command("grading", "U1"), clast.Grading("U1")
+        self.assertEqual(found.size(0.5, "mass"), said["drawn_by_mass"]["d50"])
+        self.assertEqual(found.size(0.5), said["drawn_by_number"]["d50"])
+        drawn = command("grading", "U1", "--sample", 20, "-o", pathlib.Path(self.folder.name, "sizes.csv"))
+        self.assertTrue(drawn)
+        self.assertTrue(np.array_equal(found.draw(20), clast.read_table(pathlib.Path(self.folder.name, "sizes.csv"))["diameter_m"]))
+        found.close()
+        with self.assertRaisesRegex(clast.Error, "this grading is closed"):
+            found.size(0.5)
+        for words, given in ((("--flatness", 0.65, "--elongation", 0.7), (0.65, 0.7)),
+                             (("--flatness", "0.65+-0.17", "--elongation", "0.7+-0.1", "--grains", 300), ((0.65, 0.17), (0.7, 0.1)))):
+            said, found = command("predict", *words), clast.predict(*given, grains=300 if "--grains" in words else 0)
+            self.assertEqual([found.model, found.porosity, found.standard_error, found.in_range],
+                             [said[k] for k in ("model", "porosity", "standard_error", "in_range")])
+
+    def test_render_and_report(self):
+        run, page = pathlib.Path(self.folder.name, "run"), pathlib.Path(self.folder.name, "page.html")
+        one, two = (pathlib.Path(self.folder.name, n) for n in ("one.png", "two.png"))
+        clast.aggregate(**AGGREGATE, output=run)
+        picture = clast.render(run, width=96, height=64, colour_bar=False, scale_bar=False)
+        self.assertEqual(picture.rgba.shape, (64, 96, 4))
+        picture.write(one)
+        command("render", run, "--width", 96, "--height", 64, "--no-colour-bar", "--no-scale-bar", "-o", two)
+        self.assertEqual(one.read_bytes(), two.read_bytes())
+        self.assertEqual(picture._repr_png_(), one.read_bytes())
+        pixels = picture.rgba
+        del picture
+        gc.collect()
+        self.assertGreater(pixels[..., 3].max(), 0)
+        clast.report(run, output=page, title="Ash")
+        self.assertIn("<title>Ash", page.read_text())
+        with self.assertRaisesRegex(clast.Error, "none is given"):
+            clast.report(output=page)
+
     def test_aggregate_and_its_folder(self):
         one, two = pathlib.Path(self.folder.name, "one"), pathlib.Path(self.folder.name, "two")
         told = []

@@ -1,0 +1,53 @@
+"""Pictures and pages of runs."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+from ._commands import Assembly, Path
+from ._core import Config, Monitor, Owner, Progress, call, check, refuse, view
+
+
+class Picture:
+    """A picture: `rgba` (height, width, 4) looks into the library's memory; a notebook shows it."""
+
+    def __init__(self, owner: Owner) -> None:
+        image = owner.struct
+        self._owner = owner
+        self.rgba: NDArray[np.uint8] = view(owner, image.rgba, (image.height, image.width, 4), np.uint8)
+        self.pixel_size: float = image.pixel_size  #: in the grains' unit of length
+
+    def write(self, path: Path) -> None:
+        """Writes a PNG file, whole or not at all."""
+        check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), os.fsencode(path)))
+
+    def _repr_png_(self) -> bytes:
+        import tempfile
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(os.path.join(folder, "picture.png"))
+            with open(os.path.join(folder, "picture.png"), "rb") as file:
+                return file.read()
+
+
+def render(run: Path | Assembly, *, progress: Progress = None, **keys: Any) -> Picture:
+    """Draws the grains of a run's folder, a state file or an assembly; keywords are the keys of `clast render` (width=640)."""
+    grains = run if isinstance(run, Assembly) else Assembly.read(run)
+    owner, monitor = Owner(c.clast_image(), "clast_image_free"), Monitor(progress)
+    with Config(c.clast_render_config(), "clast_render_fields", keys) as config:
+        check(monitor.run(lambda m: call("clast_render_assembly")(ctypes.byref(grains._owner.struct), ctypes.byref(config.struct), m,
+                                                                  ctypes.byref(owner.struct))))
+    return Picture(owner)
+
+
+def report(*runs: Path, output: Path, **keys: Any) -> None:
+    """Writes one offline page of run folders; keywords are the keys of `clast report` (title="Ash", rows=50)."""
+    if not runs:
+        raise refuse("runs: none is given")
+    names = (ctypes.c_char_p * len(runs))(*(os.fsencode(run) for run in runs))
+    with Config(c.clast_report_config(), "clast_report_fields", keys) as config:
+        check(call("clast_report_write")(names, len(runs), ctypes.byref(config.struct), os.fsencode(output)))
