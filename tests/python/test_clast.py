@@ -56,8 +56,8 @@ class Numbers(unittest.TestCase):
         self.assertEqual(list(found.history["n_particle"]), said["n_particle"])
         self.assertEqual(list(found.history["M2"]), said["moments"]["M2"])
         self.assertEqual([found.n_cell], said["n_cell"][-1:])
-        with self.assertRaisesRegex(clast.Error, "no keyword kernal; did you mean kernel"):
-            clast.agglomerate(self.x, domain=BOX, kernal="constant")
+        with self.assertRaisesRegex(clast.Error, "no keyword kerne; did you mean kernel"):
+            clast.agglomerate(self.x, domain=BOX, kerne="constant")
         with self.assertRaisesRegex(clast.Error, "monomers: 3 rows where there are 500"):
             clast.agglomerate(self.x, domain=BOX, kernel="constant", monomers=np.ones(3))
 
