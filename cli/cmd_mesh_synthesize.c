@@ -225,8 +225,10 @@ static clast_status run(const cli_common *common, void *config_bytes)
     clast_status status = CLAST_OK;
     CLI_TRY(begin_output(common, config, &folder));
     CLI_TRY(clast_run_folder_end(folder, make(common, config, folder, &table)));
-    CLI_TRY(common->json ? cli_print_json(table_json(common, &table))
-                         : table_words(common, &table));
+    if (table.column != NULL) {
+        CLI_TRY(common->json ? cli_print_json(table_json(common, &table))
+                             : table_words(common, &table));
+    }
 done:
     clast_run_folder_destroy(folder);
     clast_table_free(&table);
