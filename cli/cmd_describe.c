@@ -3,6 +3,7 @@
 #include "json.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -97,6 +98,26 @@ static json_t *values_json(void)
     return all;
 }
 
+/// The default as people type it: of a choice its word.
+static void default_json(json_t *one, const clast_field *f)
+{
+    if (f->type == CLAST_FIELD_BOOL) {
+        cli_json_bool(one, "default", f->value != 0.0);
+    } else if (f->type == CLAST_FIELD_CHOICE) {
+        char word[64];
+        const char *at = f->text;
+        for (int k = 0; k < (int)f->value; ++k) {
+            at += strcspn(at, "|") + 1;
+        }
+        (void)snprintf(word, sizeof word, "%.*s", (int)strcspn(at, "|"), at);
+        cli_json_text(one, "default", word);
+    } else if (f->type == CLAST_FIELD_TEXT || f->type >= CLAST_FIELD_TEXT_LIST) {
+        cli_json_text(one, "default", f->text != NULL ? f->text : "");
+    } else {
+        cli_json_number(one, "default", f->value);
+    }
+}
+
 static json_t *fields_json(const clast_field *fields)
 {
     static const char *const types[] = {"number", "integer", "integer", "integer", "flag",
@@ -104,20 +125,16 @@ static json_t *fields_json(const clast_field *fields)
     json_t *const list = json_array();
     for (const clast_field *f = fields; f != NULL && f->name != NULL; ++f) {
         json_t *const one = json_object();
-        const bool is_text = f->type == CLAST_FIELD_TEXT || f->type >= CLAST_FIELD_TEXT_LIST;
+        const bool has_range = f->type < CLAST_FIELD_BOOL || f->type == CLAST_FIELD_F64_LIST;
         cli_json_text(one, "name", f->name);
         cli_json_text(one, "type", types[f->type]);
         cli_json_count(one, "offset", (int64_t)f->offset);
         cli_json_text(one, "unit", f->unit);
         cli_json_text(one, "doc", f->help);
-        if (is_text) {
-            cli_json_text(one, "default", f->text != NULL ? f->text : "");
-        } else {
-            cli_json_number(one, "default", f->value);
-        }
+        default_json(one, f);
         cli_json_text(one, "choices", f->type == CLAST_FIELD_CHOICE ? f->text : NULL);
-        cli_json_number(one, "low", f->low);
-        cli_json_number(one, "high", f->high);
+        cli_json_number(one, "low", has_range ? f->low : (double)NAN);
+        cli_json_number(one, "high", has_range ? f->high : (double)NAN);
         (void)json_array_append_new(list, one);
     }
     return list;

@@ -7,7 +7,7 @@ import os
 import pathlib
 import signal
 import threading
-from typing import Any, Callable, Iterator, Sequence, Union
+from typing import Any, Callable, Iterator, NamedTuple, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,6 +116,32 @@ def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = n
     if np.dtype(dtype).itemsize < 8 and array.dtype.itemsize >= 4 and (array.max() > 2**31 - 1 or array.min() < -2**31):
         raise refuse(f"{name}: a number beyond 32 bits")
     return np.require(array, np.dtype(dtype), ["C", "A"])
+
+
+class Key(NamedTuple):
+    """A key of a command: what its keyword takes."""
+
+    kind: str
+    default: Any
+    unit: str
+    low: float | None
+    high: float | None
+    choices: str | None  #: "a|b|c"
+    help: str
+
+
+def keys(command: str) -> dict[str, Key]:
+    """The keys of a command ("aggregate", "mesh check"): default, unit, range and meaning of each keyword."""
+    if command not in c.KEYS:
+        raise refuse(f"command: '{command}' is none of {', '.join(c.KEYS)}")
+    return {name: Key(*row) for name, row in c.KEYS[command].items()}
+
+
+def document(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Lists a command's keys in its function's docstring, as `clast COMMAND --help-all` does."""
+    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(function.__name__).items()]
+    function.__doc__ = "\n".join([function.__doc__ or "", "", "Keywords (a number is SI; a text has its unit):", *lines])
+    return function
 
 
 class Config:

@@ -49,6 +49,15 @@ class Numbers(unittest.TestCase):
         self.assertEqual(found.cells["count"].sum(), 500)
         self.assertTrue(np.array_equal(np.bincount(found.cell_of_point), found.cells["count"]))
 
+    def test_keys_are_those_of_the_command(self):
+        said = {row["name"]: row for one in command("describe")["commands"] if one["name"] == "aggregate" for row in one["fields"]}
+        found = clast.keys("aggregate")
+        self.assertEqual({k: v.help for k, v in found.items()}, {k: v["doc"] for k, v in said.items()})
+        self.assertEqual([found["cone"].unit, found["contact"].default, found["contact"].low], ["rad", "exact", None])
+        self.assertIn(found["cone"].help, clast.aggregate.__doc__)
+        with self.assertRaisesRegex(clast.Error, "'agregate' is none of mesh check"):
+            clast.keys("agregate")
+
     def test_agglomerate(self):
         keys = ["--domain", BOX, "--kernel", "constant", "--constant", 0.01, "--duration", "10s", "--n-step", 4, "--seed", 3]
         said = command("agglomerate", POINTS, *keys)
