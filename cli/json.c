@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <unistd.h>
 
 clast_status cli_print_json(json_t *object)
 {
@@ -29,7 +30,7 @@ clast_status cli_write_summary(const json_t *object, const char *folder)
     if (file != NULL) {
         const bool is_written =
             json_dumpf(object, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
-            fputc('\n', file) != EOF;
+            fputc('\n', file) != EOF && fflush(file) == 0 && fsync(fileno(file)) == 0;
         if (fclose(file) == 0 && is_written && rename(part, path) == 0) {
             return CLAST_OK;
         }
