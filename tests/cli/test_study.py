@@ -63,7 +63,7 @@ class Study(Case):
             self.skipTest("SKIPPED LOUDLY: only Linux tells a process that its parent has gone")
         with self.start(self.long_plan(), "-j", "2", "-q") as study:
             runs = self.folder / "out/runs"
-            while len(list(runs.glob("*.part/out/manifest.json"))) < 2:
+            while len(list(runs.glob("*.part/out/manifest.json"))) < 2 and study.poll() is None:
                 time.sleep(0.02)
             study.kill()
             study.communicate()
