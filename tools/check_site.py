@@ -5,7 +5,7 @@ Looked for on each page, at desktop width in light and dark and at 375 px: formu
 fails to load or is fetched from elsewhere, a page wider than the screen, links inside the site that lead nowhere; and what a reader
 with a screen reader or weak eyes needs: language, one h1, headings in order, names of links, buttons, fields and pictures, ids that are
 unique, contrast (4.5, large text 3). Where axe-core is at hand (AXE=FILE, or npm and a registry) its serious and critical findings count
-too. --pictures writes what was seen as PNG. Needs chromium; it is spoken to over a pipe, Python's standard library suffices.
+too. --pictures writes what was seen as PNG. Needs chromium (tools/setup.sh site); it is spoken to over a pipe, Python's standard library suffices.
 """
 import argparse
 import base64
@@ -185,7 +185,7 @@ def main():
     asked.add_argument("site", nargs="?", type=pathlib.Path, default=ROOT / "build/docs/html")
     asked = asked.parse_args()
     if not shutil.which("chromium"):
-        print("site: no chromium here, pages not looked at (tools/setup.sh docs)")
+        print("site: no chromium here, pages not looked at (tools/setup.sh site)")
         return 0
     began, site = time.monotonic(), asked.site.resolve()
     pages = sorted(p for p in site.rglob("*.html") if "_static" not in p.parts and asked.only in str(p.relative_to(site)))
