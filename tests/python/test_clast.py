@@ -55,8 +55,8 @@ class Numbers(unittest.TestCase):
         self.assertEqual({k: v.help for k, v in found.items()}, {k: v["doc"] for k, v in said.items()})
         self.assertEqual([found["cone"].unit, found["contact"].default, found["contact"].low], ["rad", "exact", None])
         self.assertIn(found["cone"].help, clast.aggregate.__doc__)
-        with self.assertRaisesRegex(clast.Error, "'agregate' is none of mesh check"):
-            clast.keys("agregate")
+        with self.assertRaisesRegex(clast.Error, "'growing' is none of mesh check"):
+            clast.keys("growing")
 
     def test_agglomerate(self):
         keys = ["--domain", BOX, "--kernel", "constant", "--constant", 0.01, "--duration", "10s", "--n-step", 4, "--seed", 3]
