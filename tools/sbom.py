@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What a bundled clast holds of others, as SPDX 2.3, with the licence texts: tools/sbom.py MAP FOLDER FILE... [--carried FILE...]
+"""What a bundled clast holds of others, as SPDX 2.3, with the licence texts: tools/sbom.py FOLDER FILE... --map MAP... [--carried FILE...]
 
-MAP is the linker's, which tells what archives it took; packaging/bundle/bundled.txt tells the licence of each and is the list of all that may be
+MAP... are the linker's, which tell what archives it took; packaging/bundle/bundled.txt tells the licence of each and is the list of all that may be
 taken; dpkg tells package, version and licence text. FOLDER gets sbom.spdx.json, LICENSE and licences/. FILE... are the linked files, named
 from the current folder; --carried: shared objects that lie beside them. The same input gives the same bytes.
 """
@@ -38,11 +38,14 @@ def table():
     return {row[0]: (row[1], row[2]) for row in rows}
 
 
-def archives(link_map):
+def archives(maps):
     """The archives of which the linker took members."""
-    text = pathlib.Path(link_map).read_text(errors="replace")
-    taken = text.split("\nDiscarded input sections", 1)[0]
-    return sorted({os.path.normpath(path) for path in re.findall(r"^(/\S+\.a)\(", taken, re.M)})
+    found = set()
+    for link_map in maps:
+        taken = pathlib.Path(link_map).read_text(errors="replace").split("\nDiscarded input sections", 1)[0]
+        here = {os.path.normpath(path) for path in re.findall(r"^(/\S+\.a)\(", taken, re.M)}
+        found |= here or fail(f"{link_map} names no archive")
+    return sorted(found)
 
 
 def licence_of(path, rows):
@@ -70,12 +73,10 @@ def debian_part(path, licence, how):
                 licence, how, pathlib.Path("/usr/share/doc", package, "copyright"))
 
 
-def parts(link_map, carried):
+def parts(maps, carried):
     rows = table()
     compiler_header = [p for p in ("/usr/include/Random123/philox.h",) if os.path.exists(p)]
-    found = [(path, licence_of(path, rows), "STATIC_LINK") for path in archives(link_map)]
-    if not found:
-        fail(f"{link_map} names no archive")
+    found = [(path, licence_of(path, rows), "STATIC_LINK") for path in archives(maps)]
     for path in carried:
         rows_of = [licence for shared, licence in rows.values() if shared == os.path.basename(path)]
         found.append((path, rows_of[0] if rows_of else fail(f"{path} is carried, and is not in packaging/bundle/bundled.txt"), "DYNAMIC_LINK"))
@@ -106,9 +107,9 @@ def write_licences(folder, every):
     for name in sorted({(COMMON / name).resolve().name for name in common if (COMMON / name).is_file()}):
         shutil.copyfile(COMMON / name, texts / f"common-{name}.txt")
     (texts / "README.txt").write_text(
-        "Licence texts of what clast's binary holds of others; clast's own is ../LICENSE. A NAME.txt is Debian's copyright file of the source\n"
-        "package NAME (it covers all of that package, also what is not in this binary); common-*.txt are texts that those refer to. Versions\n"
-        "are in ../sbom.spdx.json, and where each source lies: cairo's, under MPL-1.1, too. Unchanged sources, built by Debian.\n")
+        "Licence texts of what clast's binary holds of others; clast's own is LICENSE. A NAME.txt is Debian's copyright file of the source\n"
+        "package NAME (it covers all of that package, also what is not in this binary); common-*.txt are texts that those refer to.\n"
+        "The list of parts (*.spdx.json) has their versions and where each source lies, cairo's (MPL-1.1) too; Debian built them.\n")
 
 
 def digest(kind, path):
@@ -129,7 +130,7 @@ def document(every, files, version, epoch):
         packages.append({"name": part.name, "SPDXID": part.spdx_id(), "versionInfo": part.version, "downloadLocation": part.place,
                          "supplier": "NOASSERTION" if part.name == "three" else "Organization: Debian", "filesAnalyzed": False,
                          "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "NOASSERTION",
-                         "comment": "text in licences/" + part.name + ".txt" + (f"; from {', '.join(sorted(part.files))}" if part.files else ""),
+                         "comment": f"licence text: {part.name}.txt" + (f"; from {', '.join(sorted(part.files))}" if part.files else ""),
                          "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": part.purl}]})
         links.append({"spdxElementId": "SPDXRef-clast", "relationshipType": part.how, "relatedSpdxElement": part.spdx_id()})
     listed = [{"fileName": f"./{name}", "SPDXID": f"SPDXRef-file-{i}", "copyrightText": "NOASSERTION", "licenseConcluded": "NOASSERTION",
@@ -148,9 +149,9 @@ def document(every, files, version, epoch):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("map")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("files", nargs="+")
+    parser.add_argument("--map", nargs="+", required=True)
     parser.add_argument("--carried", nargs="*", default=[])
     words = parser.parse_args()
     version = re.search(r"^project\(clast VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M).group(1)

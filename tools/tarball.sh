@@ -14,7 +14,7 @@ install -m 755 "$bundle/clast" "$top/bin/clast"
 "$top/bin/clast" completion > "$top/share/bash-completion/completions/clast"
 "$top/bin/clast" completion --shell zsh > "$top/share/zsh/site-functions/_clast"
 cp README.md CHANGELOG.md CITATION.cff "$top/share/doc/clast/"
-(cd "$top" && "$OLDPWD/tools/sbom.py" "$bundle/clast_bundled_cli.map" share/doc/clast bin/clast)
+(cd "$top" && "$OLDPWD/tools/sbom.py" share/doc/clast bin/clast --map "$bundle/clast_bundled_cli.map")
 tar -C "$made/tarball" --sort=name --owner=0 --group=0 --numeric-owner --mode='u=rwX,go=rX' --mtime="@$SOURCE_DATE_EPOCH" -cf - "$name" |
     gzip -9n > "$made/$name.tar.gz"
 rm -rf "$made/tarball"
