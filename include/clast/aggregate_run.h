@@ -24,11 +24,6 @@ CLAST_API clast_status clast_aggregate_load(const clast_aggregate_config *config
                                             clast_aggregate_source *source);
 CLAST_API void clast_aggregate_unload(clast_aggregate_source *source); ///< may be called twice
 
-/// Files that a configuration names: how many, and the i-th with its role ("core", "sizes").
-CLAST_API int32_t clast_aggregate_n_file(const clast_aggregate_config *config);
-CLAST_API const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i,
-                                           const char **role);
-
 /// Results of the repeats, in order. {0} is empty.
 typedef struct clast_aggregate_report {
     int32_t n;

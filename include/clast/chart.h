@@ -96,9 +96,8 @@ typedef enum {
     CLAST_N_AGGREGATE_CHART
 } clast_aggregate_chart;
 
-/// File name without extension ("history", "diameter", ...), and a title for people.
+/// File name without extension ("history", "diameter", ...).
 CLAST_API const char *clast_aggregate_chart_name(clast_aggregate_chart chart);
-CLAST_API const char *clast_aggregate_chart_title(clast_aggregate_chart chart);
 
 /// True when the table has the columns and rows that the chart needs.
 CLAST_API bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const clast_table *table);

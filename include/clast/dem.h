@@ -168,9 +168,6 @@ CLAST_API clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh 
 /// @return CLAST_E_GEOMETRY for a shape without volume, or a mesh that is open or not convex
 CLAST_API clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id);
 
-/// Bounding radius [m] and volume [m3] of a shape at scale 1.
-CLAST_API void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2]);
-
 /// Adds grains; all or none.
 ///
 /// @return CLAST_E_USAGE for an unknown shape or numbers that are not finite; CLAST_E_GEOMETRY for

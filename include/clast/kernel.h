@@ -179,12 +179,6 @@ typedef struct clast_range_report {
 /// @return text; empty where nothing was outside
 CLAST_API const char *clast_range_words(const clast_range_use *use, size_t size, char *text);
 
-/// Whether no more than 0.1 % were outside.
-///
-/// @param of  what was seen, "of the particles at the start"
-/// @return CLAST_E_CONFIG with the share and clast_range_words
-CLAST_API clast_status clast_range_check(const clast_range_use *use, const char *of);
-
 // Whether two particles that meet stick. [docs/theory/agglomeration.md section 8]
 
 typedef enum {

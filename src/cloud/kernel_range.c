@@ -411,9 +411,8 @@ static clast_status hold(const clast_collide_config *config, const clast_range_u
     if (is_beyond && isnan(report->time)) {
         report->time = time;
     }
-    return is_beyond && config->out_of_range == CLAST_OUT_OF_RANGE_ERROR
-               ? clast_range_check(use, of)
-               : CLAST_OK;
+    return is_beyond && config->out_of_range == CLAST_OUT_OF_RANGE_ERROR ? clx_range_check(use, of)
+                                                                         : CLAST_OK;
 }
 
 clast_status clx_range_start(const clast_collide_config *config, clast_range_report *report)
@@ -447,7 +446,7 @@ const char *clast_range_words(const clast_range_use *use, size_t size, char *wor
     return words;
 }
 
-clast_status clast_range_check(const clast_range_use *use, const char *of)
+clast_status clx_range_check(const clast_range_use *use, const char *of)
 {
     CLX_ARGUMENTS(use, of);
     char words[512];

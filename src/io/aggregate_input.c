@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
+#include "io/config_files.h"
 #include "io/shape_word.h"
 #include <clast/fill.h>
 #include <clast/mesh_file.h>
@@ -245,7 +246,7 @@ done:
     return status;
 }
 
-const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
+const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
 {
     if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK || role == NULL) {
         return NULL;
@@ -270,14 +271,14 @@ const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i
     return NULL;
 }
 
-int32_t clast_aggregate_n_file(const clast_aggregate_config *config)
+int32_t clx_aggregate_n_file(const clast_aggregate_config *config)
 {
     if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK) {
         return 0;
     }
     int32_t n = 0;
     const char *role = NULL;
-    while (clast_aggregate_file(config, n, &role) != NULL) {
+    while (clx_aggregate_file(config, n, &role) != NULL) {
         ++n;
     }
     return n;

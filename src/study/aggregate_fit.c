@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "io/config_files.h"
 #include "study/aggregate_fit_chart.h"
 #include <clast/aggregate_run.h>
 #include <clast/run_folder.h>
@@ -114,9 +115,9 @@ static clast_status note_inputs(const clast_aggregate_config *config, clast_run_
     clast_manifest *manifest = clast_run_folder_manifest(run);
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
     clast_manifest_seed(manifest, config->seed);
-    for (int32_t i = 0; i < clast_aggregate_n_file(config); ++i) {
+    for (int32_t i = 0; i < clx_aggregate_n_file(config); ++i) {
         const char *role = NULL;
-        const char *path = clast_aggregate_file(config, i, &role);
+        const char *path = clx_aggregate_file(config, i, &role);
         CLX_TRY(clast_run_folder_input(run, role, path));
     }
 done:

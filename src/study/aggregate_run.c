@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/queue.h"
+#include "io/config_files.h"
 #include "io/h5.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
@@ -208,9 +209,9 @@ static clast_status note_inputs(run *r)
     char ranks[32];
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, c));
     clast_manifest_seed(manifest, c->seed);
-    for (int32_t i = 0; i < clast_aggregate_n_file(c); ++i) {
+    for (int32_t i = 0; i < clx_aggregate_n_file(c); ++i) {
         const char *role = NULL;
-        const char *path = clast_aggregate_file(c, i, &role);
+        const char *path = clx_aggregate_file(c, i, &role);
         CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
     (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
@@ -266,7 +267,7 @@ static clast_status begin(run *r, const char *folder, bool force)
     if (is_first(r) && r->has_folder) {
         CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, force, "aggregate", r->monitor, &r->own));
-        clast_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
+        clx_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
         (void)snprintf(r->folder, sizeof r->folder, "%s", clast_run_folder_path(r->own));
     }
     CLX_TRY(clast_aggregate_load(r->config, &r->source));

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "io/config_files.h"
 #include "io/h5.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
@@ -41,9 +42,9 @@ static clast_status note_inputs(run *r)
     clast_manifest *manifest = clast_run_folder_manifest(r->own);
     CLX_TRY(clast_manifest_config(manifest, clast_pack_fields, r->config));
     clast_manifest_seed(manifest, r->config->seed);
-    for (int32_t i = 0; i < clast_pack_n_file(r->config); ++i) {
+    for (int32_t i = 0; i < clx_pack_n_file(r->config); ++i) {
         const char *role = NULL;
-        const char *path = clast_pack_file(r->config, i, &role);
+        const char *path = clx_pack_file(r->config, i, &role);
         CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
 done:
@@ -209,7 +210,7 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
     if (folder != NULL) {
         CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, config->force, "pack", monitor, &r.own));
-        clast_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
+        clx_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
         r.folder = clast_run_folder_path(r.own);
     }
     CLX_TRY(prepare(&r));

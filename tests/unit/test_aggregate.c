@@ -126,6 +126,9 @@ static clast_status whole_life(void *context)
         status = clast_aggregate_restore(&s->config, &s->input, &saved, &b);
     }
     status = status == CLAST_OK ? clast_aggregate_measure(b, &result) : status;
+    if (status == CLAST_OK) {
+        assert_int_equal(clast_aggregate_n_particle(b), s->config.n_particle);
+    }
     clast_table_free(&history);
     clast_table_free(&members);
     clast_aggregate_destroy(a);
