@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 
 CLAST_BEGIN
 

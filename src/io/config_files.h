@@ -2,7 +2,7 @@
 // The files that a configuration names, for the manifest of its run: how many, and the i-th with
 // its role ("core", "sizes", "curve").
 #include "base/shared.h"
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 #include <clast/pack.h>
 
 CLX_SHARED int32_t clx_aggregate_n_file(const clast_aggregate_config *config);

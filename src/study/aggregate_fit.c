@@ -114,7 +114,7 @@ static clast_status note_inputs(const clast_aggregate_config *config, clast_run_
     clast_status status = CLAST_OK;
     clast_manifest *manifest = clast_run_folder_manifest(run);
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
-    clast_manifest_seed(manifest, config->seed);
+    clast_manifest_seed(manifest, config->params.seed);
     for (int32_t i = 0; i < clx_aggregate_n_file(config); ++i) {
         const char *role = NULL;
         const char *path = clx_aggregate_file(config, i, &role);

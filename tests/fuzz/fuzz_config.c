@@ -1,5 +1,5 @@
 // Fuzz: YAML configurations over the largest field table.
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 #include <clast/field.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -177,7 +177,7 @@ static void write_run(const char *folder)
     char *summary = NULL;
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
     CHECK_OK(clast_config_parse("run.yaml", text, clast_aggregate_fields, &config));
-    CHECK_REL(config.core_size, 40.5e-6, 1e-15);
+    CHECK_REL(config.params.core_size, 40.5e-6, 1e-15);
     CHECK_OK(clast_aggregate_run(&config, folder, NULL, NULL, &report));
     CHECK_OK(clast_aggregate_report_json(&report, false, &summary));
     assert_null(strchr(summary, ';'));
