@@ -2,17 +2,24 @@
 from typing import Any, Callable
 
 from ._beds import Porosity, Spheres, fill, porosity
-from ._commands import Agglomeration, Assembly, Decomposition, Result, Run, agglomerate, aggregate, decompose, open, pack, read_table
+from ._commands import Agglomeration, Assembly, Decomposition, Result, Run, agglomerate, aggregate, decompose, export, open, pack
 from ._core import Error, Key, document, keys
 from ._mesh import Mesh, MeshCheck, Shape, mesh_check, shape
-from ._sizes import Grading, Prediction, predict
+from ._models import Fit, Model, Prediction, fit, predict, predict_beds
+from ._sizes import Grading
+from ._studies import Study, study
+from ._surfaces import SurfaceResult, mesh_convert, mesh_form, mesh_hull, mesh_repair, mesh_simplify, mesh_synthesize
+from ._tables import Table, read_table
 from ._views import Picture, render, report
 from ._bindings import VERSION as __version__
 
-__all__ = ["Agglomeration", "Assembly", "Decomposition", "Error", "Grading", "Key", "Mesh", "MeshCheck", "Picture", "Porosity", "Prediction", "Result",
-           "Run", "Shape", "Spheres", "__version__", "agglomerate", "aggregate", "decompose", "fill", "keys", "mesh_check", "open", "pack", "porosity",
-           "predict", "read_table", "render", "report", "shape"]
+__all__ = ["Agglomeration", "Assembly", "Decomposition", "Error", "Fit", "Grading", "Key", "Mesh", "MeshCheck", "Model", "Picture", "Porosity",
+           "Prediction", "Result", "Run", "Shape", "Spheres", "Study", "SurfaceResult", "Table", "__version__", "agglomerate", "aggregate",
+           "decompose", "export", "fill", "fit", "keys", "mesh_check", "mesh_convert", "mesh_form", "mesh_hull", "mesh_repair",
+           "mesh_simplify", "mesh_synthesize", "open", "pack", "porosity", "predict", "predict_beds", "read_table", "render", "report",
+           "shape", "study"]
 
-_commands: tuple[Callable[..., Any], ...] = (aggregate, agglomerate, decompose, fill, pack, render, report)
+_commands: tuple[Callable[..., Any], ...] = (aggregate, agglomerate, decompose, fill, fit, mesh_repair, mesh_synthesize, pack, render, report,
+                                        study)
 for _command in _commands:
     document(_command)

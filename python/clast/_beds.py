@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._commands import Assembly, Path
-from ._core import Config, Floats, Monitor, Owner, Progress, call, check, refuse, view
-from ._mesh import Mesh, html_table
+from ._commands import Assembly
+from ._core import Config, Floats, Monitor, Owner, Progress, call, check, html_table, refuse, view
+from ._mesh import Mesh
+from ._tables import Path
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 
@@ -4092,3 +4092,6 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'shell': ('choice', 'bash', '-', None, None, 'bash|zsh', 'which shell'),
     },
 }
+
+# Commands that write a run's folder.
+FOLDERS: tuple[str, ...] = ('aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'study')

@@ -11,10 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Monitor, Owner, Progress, call, check, numbers, refuse, table_array, text_of, view
-from ._mesh import html_table
-
-Path = str | os.PathLike[str]
+from ._core import Config, Floats, Monitor, Owner, Progress, call, check, choice, html_table, numbers, refuse, settled, text_of, view
+from ._tables import Path, Table, read_table, table_of
 
 
 @dataclass(frozen=True)
@@ -82,9 +80,9 @@ def decompose(positions: Any, *, domain: str, radius: Any = None, mass: Any = No
 class Agglomeration:
     """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, spectrum.csv)."""
 
-    history: NDArray[Any]
-    particles: NDArray[Any]
-    spectrum: NDArray[Any]
+    history: Table
+    particles: Table
+    spectrum: Table
     n_rebuilt: int
     n_cell: int
 
@@ -117,7 +115,7 @@ def agglomerate(*snapshots: Any, domain: str, radius: Any = None, mass: Any = No
     with Config(c.clast_agglomerate_config(), tables, {"domain": domain, **keys}) as config:
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
-    return Agglomeration(table_array(owner, r.history), table_array(owner, r.particles), table_array(owner, r.spectrum), r.n_rebuilt,
+    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt,
                          r.n_cell)
 
 
@@ -161,18 +159,42 @@ class Result:
 def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
     """Grows virtual aggregates grain by grain: aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um").
 
-    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one.
+    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and aggregate(resume="run") goes on.
+    fit=True finds what packing explains an observed size, density or settling velocity (`verdict`, `words`).
     """
     report = c.clast_aggregate_report()
     monitor = Monitor(progress)
     folder = None if output is None else os.fsencode(output)
+    resumed = _resumed(output, keys)
     try:
         with Config(c.clast_aggregate_config(), "clast_aggregate_fields", keys) as config:
-            check(monitor.run(lambda m: call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
+            if config.struct.fit:
+                return _aggregate_fit(config, output, monitor)
+            check(monitor.run(lambda m: call("clast_aggregate_resume")(os.fsencode(resumed), None, m, ctypes.byref(report)) if resumed else
+                              call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
         values = json.loads(text_of(lambda text: call("clast_aggregate_report_json")(ctypes.byref(report), True, text)))
-        return Result(values, None if output is None else os.fspath(output))
+        return Result(values, resumed if output is None else os.fspath(output))
     finally:
         call("clast_aggregate_report_free")(ctypes.byref(report))
+
+
+def _resumed(output: Path | None, keys: dict[str, Any], free: str = "") -> str | None:
+    """The folder to go on with; every other key is the folder's own."""
+    if not keys.get("resume"):
+        return None
+    others = [name for name, value in keys.items() if name not in ("resume", free) and value is not None]
+    if others or output is not None:
+        raise refuse(f"resume: {os.fspath(keys['resume'])} has every key; leave {(others or ['output'])[0]} out")
+    folder: str = os.fspath(keys["resume"])
+    return folder
+
+
+def _aggregate_fit(config: Config, output: Path | None, monitor: Monitor) -> Result:
+    found = c.clast_aggregate_fit()
+    folder = None if output is None else os.fsencode(output)
+    check(monitor.run(lambda m: call("clast_aggregate_fit_study")(ctypes.byref(config.struct), folder, m, ctypes.byref(found))))
+    values = json.loads(text_of(lambda text: call("clast_aggregate_fit_json")(ctypes.byref(found), text)))
+    return Result(values, None if output is None else os.fspath(output))
 
 
 def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
@@ -180,11 +202,14 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
     result = c.clast_pack_result()
     monitor = Monitor(progress)
     folder = None if output is None else os.fsencode(output)
+    resumed = _resumed(output, keys, "max_steps")
     try:
         with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
-            check(monitor.run(lambda m: call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+            most = config.struct.max_steps
+            check(monitor.run(lambda m: call("clast_pack_resume")(os.fsencode(resumed), most, m, ctypes.byref(result)) if resumed else
+                              call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
-        return Result(values, None if output is None else os.fspath(output))
+        return Result(values, resumed if output is None else os.fspath(output))
     finally:
         call("clast_pack_result_free")(ctypes.byref(result))
 
@@ -224,11 +249,42 @@ class Assembly:
         """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
         check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), os.fsencode(path), None, None))
 
-    def table(self) -> NDArray[Any]:
+    def table(self) -> Table:
         """One row a grain, as `clast export -o grains.csv`."""
         table = c.clast_table()
         check(call("clast_assembly_table")(ctypes.byref(self._owner.struct), ctypes.byref(table)))
-        return table_array(Owner(table, "clast_table_free"))
+        return table_of(Owner(table, "clast_table_free"))
+
+
+def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool = False, colour: str = "grain", table: str = "",
+           unit: str = "") -> dict[str, Any]:
+    """Writes a run's grains as VTU, STL, OBJ, PLY, 3MF, CSV, JSON or LAMMPS dump by the name's end, or one `table` of the run.
+
+    STL, OBJ and PLY name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    """
+    given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit))
+    if table:
+        if isinstance(run, Assembly):
+            raise refuse("table: an assembly has none; give the run's folder")
+        state_table(run, table).write(output)
+        return {"file": os.fspath(output), "table": table}
+    grains = run if isinstance(run, Assembly) else Assembly.read(run)
+    bare = call("clast_export_format_of_path")(os.fsencode(output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
+    chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
+    options = c.clast_export_options(level=given["level"], points=points, colour=choice("colour", colour, "grain|order|size|shape"),
+                                     unit=None if chosen is None else chosen.encode())
+    told = c.clast_export_report()
+    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), os.fsencode(output), ctypes.byref(options), ctypes.byref(told)))
+    return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),
+            "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle}
+
+
+def state_table(run: Path, name: str) -> Table:
+    """A table that the run's state holds ("history")."""
+    found, owner = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"]), Owner(c.clast_table(), "clast_table_free")
+    check(call("clast_run_folder_state")(os.fsencode(run), ctypes.cast(found, ctypes.c_char_p)))
+    check(call("clast_state_read_table")(found.value, name.encode(), ctypes.byref(owner.struct)))
+    return table_of(owner)
 
 
 class Run:
@@ -250,19 +306,12 @@ class Run:
     def grains(self) -> Assembly:
         return Assembly.read(self.folder)
 
-    def table(self, name: str) -> NDArray[Any]:
+    def table(self, name: str) -> Table:
         """A table of the folder by its name ("history", "profile")."""
         return read_table(os.path.join(self.folder, name + ".csv"))
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in self.summary.items() if not isinstance(v, (list, dict))})
-
-
-def read_table(path: Path) -> NDArray[Any]:
-    """Delimited text as a structured array; numbers stay as they are, names tell their unit."""
-    table = c.clast_table()
-    check(call("clast_table_read_csv")(os.fsencode(path), None, ctypes.byref(table), None))
-    return table_array(Owner(table, "clast_table_free"))
 
 
 _open_file = open

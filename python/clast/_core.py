@@ -3,11 +3,12 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import operator
 import os
 import pathlib
 import signal
 import threading
-from typing import Any, Callable, Iterator, NamedTuple, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,9 +138,13 @@ def keys(command: str) -> dict[str, Key]:
     return {name: Key(*row) for name, row in c.KEYS[command].items()}
 
 
+def _command_of(function: str) -> str:
+    return function.replace("mesh_", "mesh ")
+
+
 def document(function: Callable[..., Any]) -> Callable[..., Any]:
     """Lists a command's keys in its function's docstring, as `clast COMMAND --help-all` does."""
-    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(function.__name__).items()]
+    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(_command_of(function.__name__)).items()]
     function.__doc__ = "\n".join([function.__doc__ or "", "", "Keywords (a number is SI; a text has its unit):", *lines])
     return function
 
@@ -248,15 +253,62 @@ def text_of(make: Callable[[Any], Any]) -> str:
     return value
 
 
-def table_array(owner: Owner, part: Any = None) -> NDArray[Any]:
-    """A table, or one that is part of what is owned, as a structured array (a copy: columns lie apart in the library)."""
-    table = owner.struct if part is None else part
-    columns = [table.column[k] for k in range(table.n_column)]
-    n = int(table.n_row)
-    texts = {k: [(column.text[i] or b"").decode("utf-8", "replace") for i in range(n)]
-             for k, column in enumerate(columns) if not column.number}
-    kinds = [(column.name.decode(), f"U{max([1, *map(len, texts[k])])}" if k in texts else "f8") for k, column in enumerate(columns)]
-    out = np.zeros(n, np.dtype(kinds))
-    for k, column in enumerate(columns):
-        out[kinds[k][0]] = texts[k] if k in texts else view(None, column.number, (n,), np.float64)
-    return out
+def html_table(rows: dict[str, Any] | Sequence[Sequence[Any]], head: Sequence[str] = (), foot: str = "") -> str:
+    """Names and values, or rows under a head, as an HTML table; texts are escaped."""
+    from html import escape
+    pairs = [f"<tr><th>{escape(k)}</th>{_cell(v)}</tr>" for k, v in rows.items()] if isinstance(rows, dict) else \
+        ["<tr>" + "".join(map(_cell, row)) + "</tr>" for row in rows]
+    top = "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in head) + "</tr>" if head else ""
+    return f"<table>{top}{''.join(pairs)}</table>{f'<p>{escape(foot)}</p>' if foot else ''}"
+
+
+def _cell(value: Any) -> str:
+    from html import escape
+    return f"<td>{escape(f'{value:.6g}' if isinstance(value, (float, np.floating)) else str(value))}</td>"
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """"; did you mean seed?" where a name is near, else nothing."""
+    from difflib import get_close_matches
+    near = get_close_matches(name, list(names), 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def choice(key: str, value: str, words: str) -> int:
+    """The number of a word among "a|b|c"; any other is refused by name."""
+    known = words.split("|")
+    if value not in known:
+        raise refuse(f"{key}: '{value}' is none of {', '.join(known)}{nearest(str(value), known)}")
+    return known.index(value)
+
+
+def settled(command: str, given: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a command with defaults filled in: SI numbers, words, texts; for commands without a table in the library."""
+    rows = keys(command)
+    for name in given:
+        if name not in rows:
+            raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, rows)}")
+    return {name: _value(name, key, given.get(name)) for name, key in rows.items()}
+
+
+def _value(name: str, key: Key, value: Any) -> Any:
+    if value is None:
+        return int(key.default) if key.kind == "integer" else key.default
+    if key.kind == "choice":
+        choice(name, value, key.choices or "")
+    elif key.kind in ("number", "integer"):
+        if isinstance(value, str):
+            number = ctypes.c_double()
+            check(call("clast_unit_parse_asked")(value.encode(), key.unit.encode(), ctypes.byref(number)))
+            value = number.value
+        try:
+            value = float(value) if key.kind == "number" else operator.index(int(value) if value == int(value) else value)
+        except (TypeError, ValueError, OverflowError):
+            raise refuse(f"{name}: '{value}' is no {key.kind}") from None
+        if not (key.low is None or key.high is None or key.low <= value <= key.high):
+            raise Error("CLAST_E_CONFIG", f"{name}: {value!r} lies outside {key.low:g} to {key.high:g}")
+    elif key.kind == "flag":
+        value = bool(value)
+    elif key.kind == "text":
+        value = os.fspath(value)
+    return value

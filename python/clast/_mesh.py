@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, numbers, refuse, view
+from ._core import Error, Floats, Owner, call, check, html_table, numbers, refuse, view
 
 
 @dataclass(frozen=True)
@@ -65,13 +65,6 @@ class Shape:
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items()})
-
-
-def html_table(values: dict[str, Any]) -> str:
-    from html import escape
-    rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(f'{v:.6g}' if isinstance(v, float) else str(v))}</td></tr>"
-                   for k, v in values.items())
-    return f"<table>{rows}</table>"
 
 
 def locked(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
