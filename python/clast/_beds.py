@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._commands import Assembly
 from ._core import Config, Floats, Monitor, Owner, Progress, call, check, html_table, refuse, view
 from ._mesh import Mesh
+from ._runs import Assembly
 from ._tables import Path
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _bindings as c
 from ._core import Config, Error, Owner, call, check, choice, html_table, keys, refuse, settled
+from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
 Moments = float | str | tuple[float, float]
@@ -197,7 +198,8 @@ class Fit:
         check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), os.fsencode(path)))
 
     def _repr_html_(self) -> str:
-        return html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))}) + self.model._repr_html_()
+        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
+        return numbers + self.model._repr_html_() + file_html(lambda path: self.chart("predicted", path), "svg", "predicted and measured")
 
 
 def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "fitted", **keys: Any) -> Fit:

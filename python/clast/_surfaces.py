@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._commands import Result
 from ._core import Config, Error, call, check, refuse, settled
 from ._mesh import Mesh, MeshCheck
+from ._runs import Result
 from ._tables import Path
 
 Surface = Mesh | Path

@@ -1,8 +1,11 @@
 """Every command of clast is a function of the package, with the numbers that the command prints."""
+import base64
+import html
 import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -239,6 +242,100 @@ class Commands(unittest.TestCase):
         command("export", run, "--table", "history", "-o", self.folder / "history.csv")
         clast.export(run, self.folder / "own.csv", table="history")
         self.assertEqual((self.folder / "history.csv").read_bytes(), (self.folder / "own.csv").read_bytes())
+
+
+class Notebooks(unittest.TestCase):
+    """What _repr_html_ shows: key numbers, a picture as data, the 3-D view in a frame; nothing of a file's becomes markup."""
+
+    EVIL = "</script><img src=x onerror=alert(1)>"
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def frame_of(self, shown):
+        return html.unescape(re.search(r'<iframe [^>]*srcdoc="([^"]*)"', shown)[1])
+
+    def test_a_run(self):
+        evil = self.folder / "<b>run"
+        result = clast.aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um", replicate=20, output=evil)
+        for shown in (result._repr_html_(), clast.open(evil)._repr_html_()):
+            self.assertIn("<th>density</th>", shown)
+            picture = re.search(r'src="data:image/png;base64,([^"]*)"', shown)[1]
+            self.assertEqual(base64.b64decode(picture), (evil / "picture.png").read_bytes())
+            page = self.frame_of(shown)
+            self.assertIn('"n_grain": 21, "n_shown": 21', page)
+            self.assertIn("Content-Security-Policy", page)
+            self.assertIn("&lt;b&gt;run", page)
+            for text in (shown, page):
+                self.assertNotIn("<b>", text)
+        self.assertIn('sandbox="allow-scripts"', shown)
+        grains = result.run.grains
+        self.assertIn("data:image/png;base64,iVBOR", grains._repr_html_())
+        grains.view().write(self.folder / "view.html")
+        self.assertIn("</html>", (self.folder / "view.html").read_text())
+
+    def test_names_and_values_are_escaped(self):
+        table = clast.predict_beds({"flatness": [0.6], "elongation": [0.7]})
+        made = clast.fit({self.EVIL: np.arange(20.0), "porosity": 0.3 + 0.01 * np.arange(20) + 0.001 * np.sin(np.arange(20))},
+                         features="columns", n_term=1, name=self.EVIL, n_permutation=0)
+        for shown in (made._repr_html_(), clast.Result({self.EVIL: self.EVIL}, None)._repr_html_(), clast.View(self.EVIL.encode(), self.EVIL)._repr_html_()):
+            self.assertNotIn("<img src=x", shown)
+            self.assertNotIn("</script>", shown)
+            self.assertIn("&lt;/script&gt;", shown)
+        self.assertIn("data:image/svg+xml;base64,", made._repr_html_())
+        self.assertIn("0.343238", table._repr_html_())
+
+    def test_a_decomposition_shows_its_points(self):
+        x = np.random.default_rng(1).random((200, 2))
+        shown = clast.decompose(x, domain="box:0,0,1,1")._repr_html_()
+        picture = base64.b64decode(re.search(r'base64,([^"]*)"', shown)[1])
+        self.assertIn(b"<svg", picture)
+
+    def test_a_result_whose_folder_is_gone_still_shows(self):
+        self.assertIn("<th>x</th>", clast.Result({"x": 1}, str(self.folder / "gone"))._repr_html_())
+        with self.assertRaisesRegex(clast.Error, "^run: no folder was written"):
+            clast.Result({"x": 1}, None).run
+
+
+class Clouds(unittest.TestCase):
+    def setUp(self):
+        self.path = ROOT / "data/d2sd/points_b3_n500.csv"
+        self.x = np.loadtxt(self.path, delimiter=",", skiprows=1)
+        self.box = "box:0,0,0,1,1,1"
+
+    def test_a_cloud_is_what_its_arrays_are(self):
+        cloud = clast.Cloud(self.x, weight=np.full(500, 2.0), domain=self.box)
+        self.assertIs(cloud.positions, self.x)
+        self.assertEqual(len(cloud), 500)
+        said = clast.decompose(self.x, weight=np.full(500, 2.0), domain=self.box)
+        self.assertEqual(cloud.decompose().pair_integral, said.pair_integral)
+        keys = dict(kernel="constant", constant=0.01, duration=10.0, n_step=4, seed=3)
+        self.assertTrue(np.array_equal(cloud.agglomerate(**keys).history, clast.agglomerate(self.x, weight=cloud.weight, domain=self.box,
+                                                                                            **keys).history, equal_nan=False))
+        self.assertEqual(clast.Cloud(np.repeat(self.x, 2, axis=0)).n_repeated, 500)
+        for use, line in ((lambda: cloud.mass, "this cloud has no mass"), (lambda: cloud.colour, "colour")):
+            with self.assertRaisesRegex(AttributeError, line):
+                use()
+        for use, line in ((lambda: clast.Cloud(self.x).decompose(), "^domain: is missing"), (lambda: clast.Cloud(self.x, mass=[1.0]), "^mass: 1 rows"),
+                          (lambda: clast.decompose(cloud, mass=np.ones(500), domain=self.box), "^mass: the cloud has its own columns")):
+            with self.assertRaisesRegex(clast.Error, line):
+                use()
+
+    def test_a_file_is_read_as_the_command_reads_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "points.csv")
+            path.write_text("px_mm,py_mm,pz_mm,d_um,w\n" + "\n".join(",".join(map(repr, [*row.tolist(), 30.0, 2.0])) for row in self.x))
+            words = ("--columns", "px_mm,py_mm,pz_mm", "--diameter-column", "d_um", "--weight-column", "w", "--domain", "box:0,0,0,1mm,1mm,1mm")
+            said = command("decompose", path, *words)
+            cloud = clast.Cloud.read(path, columns="px_mm,py_mm,pz_mm", diameter_column="d_um", weight_column="w")
+            self.assertLess(cloud.positions.max(), 1e-3)
+            self.assertAlmostEqual(cloud.radius[0], 15e-6, delta=1e-19)
+            found = cloud.decompose(domain="box:0,0,0,1mm,1mm,1mm")
+            self.assertEqual((found.pair_integral, found.n_cell), (said["pair_integral"], said["n_cell"]))
+            with self.assertRaisesRegex(clast.Error, "no column"):
+                clast.Cloud.read(path)
 
 
 class Tables(unittest.TestCase):
