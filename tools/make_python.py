@@ -1,9 +1,13 @@
-"""Writes python/clast/_bindings.py from what `clast describe --json` prints: make_python.py DESCRIPTION.json OUT."""
+"""Writes python/clast/_bindings.py, and _functions.py beside it, from what `clast describe --json` prints.
+
+make_python.py DESCRIPTION.json OUT
+"""
 import json
 import pathlib
 import sys
 
 from headers import Declared
+from python_functions import Functions
 
 SCALARS = {"double": "c_double", "float": "c_float", "bool": "c_bool", "size_t": "c_size_t", "int": "c_int", "char": "c_char",
            "uint8_t": "c_uint8", "unsigned char": "c_uint8", "int32_t": "c_int32", "int64_t": "c_int64", "uint32_t": "c_uint32",
@@ -108,7 +112,9 @@ def short(doc):
 
 def main():
     described = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    pathlib.Path(sys.argv[2]).write_text("\n".join(Bindings(described).lines()) + "\n")
+    out = pathlib.Path(sys.argv[2])
+    out.write_text("\n".join(Bindings(described).lines()) + "\n")
+    out.with_name("_functions.py").write_text(Functions(described).text())
 
 
 main()

@@ -2,13 +2,16 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import importlib
+import inspect
+import math
 import operator
 import os
 import pathlib
 import signal
 import threading
-from typing import Any, Callable, Iterable, Iterator, NamedTuple, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, ParamSpec, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +20,8 @@ from . import _bindings as c
 
 Floats = NDArray[np.float64]
 Progress = Union[bool, None, Callable[[str, int, int], None]]
+Quantity = Union[float, str]  #: SI, or a text with its unit ("50deg")
+Quantities = Union[Quantity, Sequence[Quantity], NDArray[np.float64]]
 
 
 class Error(Exception):
@@ -93,7 +98,7 @@ class Owner:
 def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
     """The library's memory as an array that keeps `owner` alive; nothing is copied."""
     kind = np.dtype(dtype)
-    n_byte = int(np.prod(shape, dtype=np.int64)) * kind.itemsize
+    n_byte = math.prod(map(int, shape)) * kind.itemsize
     address = ctypes.cast(pointer, ctypes.c_void_p).value
     if not n_byte or address is None:
         return np.empty(shape, kind)
@@ -138,15 +143,28 @@ def keys(command: str) -> dict[str, Key]:
     return {name: Key(*row) for name, row in c.KEYS[command].items()}
 
 
-def _command_of(function: str) -> str:
-    return function.replace("mesh_", "mesh ")
+def given(names: dict[str, Any], but: str = "") -> dict[str, Any]:
+    """The keywords that were given: those that are not None."""
+    return {name: value for name, value in names.items() if value is not None and name != but}
 
 
-def document(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Lists a command's keys in its function's docstring, as `clast COMMAND --help-all` does."""
-    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(_command_of(function.__name__)).items()]
-    function.__doc__ = "\n".join([function.__doc__ or "", "", "Keywords (a number is SI; a text has its unit):", *lines])
-    return function
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def spelt(function: Callable[P, R]) -> Callable[P, R]:
+    """Names the nearest keyword where one is misspelt."""
+    parameters = inspect.signature(function).parameters
+    known = frozenset(name for name, one in parameters.items() if one.kind is not one.VAR_POSITIONAL)
+
+    @functools.wraps(function)
+    def checked(*args: P.args, **keywords: P.kwargs) -> R:
+        for name in keywords:
+            if name not in known:
+                raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, known)}")
+        return function(*args, **keywords)
+    checked.__module__ = "clast"
+    return checked
 
 
 class Config:

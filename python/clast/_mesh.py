@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._core import Error, Floats, Owner, call, check, html_table, numbers, refuse, view
+from ._tables import Path
 
 
 @dataclass(frozen=True)
@@ -127,7 +128,7 @@ class Mesh:
         return mesh
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str], weld: bool = True) -> Mesh:
+    def read(cls, path: Path, weld: bool = True) -> Mesh:
         """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
         struct = c.clast_mesh()
         name = os.fsencode(path)
@@ -223,7 +224,7 @@ class Mesh:
         check(call("clast_mesh_hull")(self._struct(), ctypes.byref(struct)))
         return Mesh._own(struct)
 
-    def write(self, path: str | os.PathLike[str]) -> None:
+    def write(self, path: Path) -> None:
         """Writes STL, OBJ, PLY or OFF by the name's end."""
         check(call("clast_mesh_write")(os.fsencode(path), self._struct(), None))
 
@@ -252,11 +253,11 @@ class Mesh:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
 
 
-def mesh_check(path: str | os.PathLike[str]) -> MeshCheck:
+def mesh_check(path: Path) -> MeshCheck:
     """What is this file's surface, and can it be trusted? Welded as the command does."""
     return Mesh.read(path).check()
 
 
-def shape(path: str | os.PathLike[str], *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
+def shape(path: Path, *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
     """Size and form of a file's grain, lengths in the file's own unit."""
     return Mesh.read(path).shape(axes, hull)

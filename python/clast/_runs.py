@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Owner, call, check, choice, html_table, refuse, settled, view
+from ._core import Config, Floats, Owner, Quantity, call, check, choice, html_table, refuse, settled, view
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
@@ -66,6 +66,21 @@ class Assembly:
         struct = c.clast_assembly()
         check(call("clast_state_read_assembly")(found.value, ctypes.byref(struct)))
         return cls(Owner(struct, "clast_assembly_free"))
+
+    @classmethod
+    def read_spheres(cls, path: Path, *, columns: str = "", diameter: Quantity = 0.0) -> Assembly:
+        """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
+        size = ctypes.c_double(diameter if not isinstance(diameter, str) else 0.0)
+        if isinstance(diameter, str):
+            check(call("clast_unit_parse")(diameter.encode(), b"m", ctypes.byref(size)))
+        options, struct = c.clast_packing_options(columns=columns.encode(), diameter=size.value), c.clast_assembly()
+        check(call("clast_packing_read")(os.fsencode(path), ctypes.byref(options), ctypes.byref(struct)))
+        return cls(Owner(struct, "clast_assembly_free"))
+
+    def _copy(self) -> Assembly:
+        struct = c.clast_assembly()
+        check(call("clast_assembly_copy")(ctypes.byref(self._owner.struct), ctypes.byref(struct)))
+        return Assembly(Owner(struct, "clast_assembly_free"))
 
     def __len__(self) -> int:
         return len(self.positions)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import importlib
 import os
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from . import _bindings as c
 from ._core import Owner, call, check, html_table, refuse, view
 
 Path = str | os.PathLike[str]
+Text = Path  #: where a key takes words, or a file
+Texts = Text | Sequence[Text]
 
 
 class Table(NDArray[Any]):
