@@ -5,7 +5,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 
@@ -3399,6 +3399,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_render_assembly': (c_int, [POINTER(clast_assembly), POINTER(clast_render_config), POINTER(clast_monitor), POINTER(clast_image)], 'Draws the assembly into `image` (which must be empty).'),
     'clast_report_write': (c_int, [POINTER(c_char_p), c_int32, POINTER(clast_report_config), c_char_p], 'Writes the page, whole or not at all.'),
     'clast_report_write_run': (c_int, [c_char_p, c_char_p], 'FOLDER/report.html of one run, as a command does at its end.'),
+    'clast_report_write_view': (c_int, [POINTER(clast_assembly), POINTER(clast_report_config), c_char_p], 'A page with nothing but the 3-D view of an assembly, whole or not at all: what a notebook shows in a frame.'),
     'clast_manifest_create': (c_int, [c_char_p, c_int, POINTER(c_char_p), POINTER(c_void_p)], 'Starts a manifest: the clocks run from here.'),
     'clast_manifest_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_manifest_config': (c_int, [c_void_p, POINTER(clast_field), c_void_p], 'Keeps the full resolved configuration, SI, as the field table has it.'),
@@ -4088,3 +4089,6 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'shell': ('choice', 'bash', '-', None, None, 'bash|zsh', 'which shell'),
     },
 }
+
+# Commands that write a run's folder.
+FOLDERS: tuple[str, ...] = ('aggregate', 'pack', 'porosity', 'fit', 'predict', 'decompose', 'agglomerate', 'study')
