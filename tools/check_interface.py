@@ -1,12 +1,18 @@
 #!/usr/bin/env python3
 """Fails when a public function of include/clast is called by no command, example or test (the calls that tests/fuzz/make_calls.py makes count
-for nothing), or stands in its header without a comment.
+for nothing), stands in its header without a comment, or has a name that does not begin with a noun of its place: the header's, that of
+a type it has to do with, or one of NOUNS.
 """
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+NOUNS = {  # what a header is about beside its own noun, and no type is named after
+    "field": "unit", "form": "reform", "grading": "phi", "harmonics": "synthesize", "machine": "memory parallel", "porosity": "fabric stress",
+    "porosity_model": "mixture form_feature", "run_folder": "text sha256", "settling": "slip terminal", "state": "packing pvd",
+    "statistics": "shapiro quantile", "status": "error text version outputs",
+}
 
 
 def strip_comments(text):
@@ -14,7 +20,7 @@ def strip_comments(text):
 
 
 def declarations(path):
-    """(name, line, has a comment) of each: above it, above the lines it stands with, or behind it."""
+    """(name, line, has a comment, types) of each: above it, above the lines it stands with, or behind it."""
     lines = path.read_text().split("\n")
     commented, i = False, 0
     while i < len(lines):
@@ -24,8 +30,9 @@ def declarations(path):
             while ";" not in lines[i].split("//")[0]:
                 i += 1
             text = "\n".join(lines[first:i + 1])
-            name = re.search(r"\b(clast_\w+)\s*[(\[;]", strip_comments(text)).group(1)
-            yield name, first + 1, commented or "///<" in text
+            code = strip_comments(text)
+            name = re.search(r"\b(clast_\w+)\s*[(\[;]", code).group(1)
+            yield name, first + 1, commented or "///<" in text, set(re.findall(r"\bclast_\w+", code)) - {name, "clast_status"}
         i += 1
 
 
@@ -38,14 +45,22 @@ def called():
     return names
 
 
+def has_noun(name, nouns):
+    return any(name == noun or name.startswith((noun + "_", noun + "s_")) or noun.startswith(name + "_") for noun in nouns)
+
+
 def problems():
     names, n_declared = called(), 0
     for path in sorted((ROOT / "include/clast").glob("*.h")):
-        for name, line, has_comment in declarations(path):
+        here = {f"clast_{noun}" for noun in [path.stem, path.stem.split("_")[0], *NOUNS.get(path.stem, "").split()]}
+        here |= set(re.findall(r"\b(clast_\w+);", path.read_text()))  # its types
+        for name, line, has_comment, types in declarations(path):
             n_declared += 1
             where = f"{path.relative_to(ROOT)}:{line}: {name}"
             if not has_comment:
                 yield f"{where} has no comment"
+            if not has_noun(name, here | types):
+                yield f"{where} begins with no noun of {path.name} or of a type it has to do with"
             if name not in names:
                 yield f"{where} is called by no command, example or test"
     print(f"interface: {n_declared} functions and tables")

@@ -148,7 +148,7 @@ typedef enum {
 } clast_permeable_range;
 
 /// What that means, for messages: "the coat is thinner than its mean grain", ...
-CLAST_API const char *clast_permeable_text(clast_permeable_range range);
+CLAST_API const char *clast_permeable_range_text(clast_permeable_range range);
 
 /// An aggregate in numbers, SI. In cluster mode those of the largest cluster.
 typedef struct clast_aggregate_result {

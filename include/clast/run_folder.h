@@ -41,7 +41,7 @@ CLAST_API clast_status clast_manifest_write(const clast_manifest *manifest, cons
                                             const char *path);
 
 /// A configuration as one JSON object of SI values in table order; free it with clast_text_free.
-CLAST_API clast_status clast_config_json(const clast_field *fields, const void *config,
+CLAST_API clast_status clast_fields_json(const clast_field *fields, const void *config,
                                          char **text);
 
 /// Frees a text that the library made; NULL is allowed.

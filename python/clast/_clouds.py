@@ -95,7 +95,7 @@ class Cloud:
         """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
         options = c.clast_points_options(dataset=dataset.encode() or None, frame=frame)
-        check(call("clast_points_read")(os.fsencode(path), ctypes.byref(options), ctypes.byref(table.struct)))
+        check(call("clast_cloud_read")(os.fsencode(path), ctypes.byref(options), ctypes.byref(table.struct)))
         wanted = c.clast_cloud_columns(radius_column=radius_column.encode(), diameter_column=diameter_column.encode(),
                                        mass_column=mass_column.encode(), weight_column=weight_column.encode(),
                                        variable_column=variable_column.encode(), unit=unit.encode())

@@ -16,7 +16,8 @@ static clast_status check_observed(clx_fit *fit)
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
         CLX_CHECK((value[k] > 0.0) == (error[k] > 0.0), CLAST_E_CONFIG,
                   "fit: observed %s %g %s with error %g: give both or neither",
-                  clast_fit_observable_name(k), value[k], clast_fit_observable_unit(k), error[k]);
+                  clast_aggregate_fit_observable_name(k), value[k],
+                  clast_aggregate_fit_observable_unit(k), error[k]);
         fit->observed[k] = value[k] > 0.0 ? value[k] : (double)NAN;
         fit->error[k] = error[k];
         n += value[k] > 0.0;

@@ -49,7 +49,7 @@ done:
     return status;
 }
 
-const char *clast_permeable_text(clast_permeable_range range)
+const char *clast_permeable_range_text(clast_permeable_range range)
 {
     switch (range) {
     case CLAST_PERMEABLE_YES:

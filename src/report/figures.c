@@ -37,7 +37,7 @@ static clast_status put_chart(clx_file *file, const clx_run *run, clast_aggregat
     clx_page_svg(file, (const char *)svg, n, prefix);
     (void)clx_file_print(file, "</figure>\n");
 done:
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
     return status;
 }
 
@@ -129,7 +129,7 @@ clast_status clx_figures_compare(clx_file *file, const clx_run *run, int32_t n_r
     clx_page_svg(file, (const char *)svg, n_byte, "all-");
     (void)clx_file_print(file, "</figure>\n");
 done:
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
     clast_table_free(&all);
     return status;
 }

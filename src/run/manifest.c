@@ -110,7 +110,7 @@ clast_status clast_manifest_config(clast_manifest *manifest, const clast_field *
 {
     CLX_ARGUMENTS(manifest, fields, config);
     char *text = NULL;
-    const clast_status status = clast_config_json(fields, config, &text);
+    const clast_status status = clast_fields_json(fields, config, &text);
     if (status == CLAST_OK) {
         clx_free(manifest->config);
         manifest->config = text;

@@ -43,7 +43,7 @@ static json_t *observed_json(const clast_aggregate_fit *fit)
             set(one, "pull", fit->pull[k]);
             set(one, "least_model", fit->least[k]);
             set(one, "most_model", fit->most[k]);
-            (void)json_object_set_new(object, clast_fit_observable_name(k), one);
+            (void)json_object_set_new(object, clast_aggregate_fit_observable_name(k), one);
         }
     }
     return object;
@@ -94,7 +94,7 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     (void)json_object_set_new(spread, "trials", estimate_json(&fit->trials));
     (void)json_object_set_new(spread, "replicate", estimate_json(&fit->n_replica));
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
-        (void)json_object_set_new(spread, clast_fit_observable_name(k),
+        (void)json_object_set_new(spread, clast_aggregate_fit_observable_name(k),
                                   estimate_json(&fit->model[k]));
     }
     (void)json_object_set_new(spread, "porosity", estimate_json(&fit->porosity));

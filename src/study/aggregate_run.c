@@ -349,7 +349,7 @@ static clast_status read_config(const char *folder, clast_aggregate_config *conf
     CLX_TRY(clx_folder_read_checkpoint(folder, 0, &state));
     CLX_CHECK(state.config != NULL, CLAST_E_FORMAT, "%s: the checkpoint has no configuration",
               folder);
-    CLX_TRY(clast_config_parse(folder, state.config, clast_aggregate_fields, config));
+    CLX_TRY(clast_fields_parse(folder, state.config, clast_aggregate_fields, config));
 done:
     clast_state_free(&state);
     return status;

@@ -184,7 +184,7 @@ static clast_status prepare(run *r)
     clast_status status = CLAST_OK;
     r->begun = clx_clock();
     CLX_TRY(clast_pack_load(r->config, &r->source));
-    CLX_TRY(clast_config_json(clast_pack_fields, r->config, &r->text));
+    CLX_TRY(clast_fields_json(clast_pack_fields, r->config, &r->text));
     CLX_TRY(clast_pack_create(r->config, &r->source.input, &r->pack));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
@@ -253,7 +253,7 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     CLX_TRY(find(folder, &found, &is_end));
     CLX_TRY(clast_fields_default(clast_pack_fields, &config));
     has_config = true;
-    CLX_TRY(clast_config_parse(found.path, found.config, clast_pack_fields, &config));
+    CLX_TRY(clast_fields_parse(found.path, found.config, clast_pack_fields, &config));
     config.max_steps = max_steps > 0 || is_end ? max_steps : config.max_steps;
     CLX_TRY(clx_run_folder_resume(folder, "pack", monitor, &r.own));
     CLX_TRY(prepare(&r));

@@ -116,7 +116,7 @@ static void charts_come_in_three_formats_with_equal_bytes(void **state)
     snprintf(path, sizeof path, "%s/a.svg", support_scratch());
     assert_int_equal(read_file(path, a, sizeof a), n_svg);
     assert_memory_equal(a, svg, n_svg);
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
 }
 
 /* Pixels of a chart that are no grey: its points. */

@@ -20,7 +20,7 @@ static clast_aggregate_config config;
 
 static clast_status parse(const char *text)
 {
-    return clast_config_parse("run.yaml", text, clast_aggregate_fields, &config);
+    return clast_fields_parse("run.yaml", text, clast_aggregate_fields, &config);
 }
 
 static void values_carry_units_and_lists_replace(void **state)
