@@ -27,6 +27,9 @@ class Picture:
         """Writes a PNG file, whole or not at all."""
         check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), encoded("path", path)))
 
+    def __repr__(self) -> str:
+        return f"<clast.Picture of {self.rgba.shape[1]} x {self.rgba.shape[0]} pixels>"
+
     def _repr_png_(self) -> bytes:
         import tempfile
         with tempfile.TemporaryDirectory() as folder:
