@@ -18,10 +18,11 @@ notebook=("${dev[@]}" jupyter-nbconvert python3-ipykernel python3-matplotlib)
 docs=(doxygen python3 python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
       nodejs katex)
 site=("${docs[@]}" chromium)
-dist=(git)
+dist=(git python3)
+bundle=("${sundials[@]}" python3 patchelf)
 bare=(git mmdebstrap debian-archive-keyring)
 test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
-groups="build sundials mpi dev clang afl paper format hooks python notebook docs site dist bare test"
+groups="build sundials mpi dev clang afl paper format hooks python notebook docs site dist bundle bare test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

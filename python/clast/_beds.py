@@ -95,7 +95,7 @@ class Porosity:
 
     def chart(self, path: Path) -> None:
         """Draws the profile into an .svg, .pdf or .png file."""
-        check(call("clast_porosity_chart_write")(ctypes.byref(self._profile.struct), ctypes.byref(self._bulk), self.unit.encode(),
+        check(call("clast_chart_porosity")(ctypes.byref(self._profile.struct), ctypes.byref(self._bulk), self.unit.encode(),
                                                  encoded("path", path)))
 
     def _repr_html_(self) -> str:
@@ -209,10 +209,10 @@ def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: An
     to = {name: ctypes.byref(owner.struct) for name, owner in made.items()}
     pores = Owner(c.clast_pores(), "clast_pores_free")
     if given["local"]:
-        check(call("clast_local_porosity")(placed, held, b.bed.floor, bulk.top, to["local"]))
+        check(call("clast_porosity_local")(placed, held, b.bed.floor, bulk.top, to["local"]))
     if given["rings"]:
         rings = c.clast_radial_options(method=options.method, n_ring=given["rings"])
-        check(call("clast_radial_porosity")(placed, held, z, ctypes.byref(rings), to["radial"]))
+        check(call("clast_porosity_radial")(placed, held, z, ctypes.byref(rings), to["radial"]))
     if given["pores"]:
         wanted = c.clast_pore_options(n_point=given["pores"], n_bin=50)
         call("clast_bed_period")(held, wanted.period)

@@ -95,7 +95,7 @@ class Cloud:
         """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
         options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
-        check(call("clast_points_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
+        check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
         wanted = c.clast_cloud_columns(radius_column=encoded("radius_column", radius_column), diameter_column=encoded("diameter_column", diameter_column),
                                        mass_column=encoded("mass_column", mass_column), weight_column=encoded("weight_column", weight_column),
                                        variable_column=encoded("variable_column", variable_column), unit=encoded("unit", unit))
