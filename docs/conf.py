@@ -41,5 +41,5 @@ html_theme_options = {  # contrast of 4.5 at least, in light and dark
 pygments_style = "default"
 pygments_dark_style = "github-dark"
 html_static_path = ["static"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "reference/verdicts.md"]
 suppress_warnings = ["myst.header"]
