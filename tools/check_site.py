@@ -165,7 +165,9 @@ def broken(page, site, links, ids):
                 yield f"link to no place of the page: {link}"
 
 
-SETTLED = "new Promise(done => setTimeout(() => requestAnimationFrame(done), 200))"  # after the page's own answer to a new width
+SETTLED = """new Promise(done => requestAnimationFrame(() => setTimeout(done, 200)))
+    .then(() => Promise.race([Promise.allSettled(document.getAnimations().map(a => a.finished)), new Promise(done => setTimeout(done, 1000))]))
+    .then(() => 0)"""  # the page's own answer to a new width, and colours that fade into others
 
 
 def look(browser, page, site, axe, ids, pictures):
@@ -176,8 +178,7 @@ def look(browser, page, site, axe, ids, pictures):
         return [f"does not load: {refused}"]
     for name, width, height, dark in (("light", 1280, 900, False), ("dark", 1280, 900, True), ("phone", 375, 812, False)):
         browser.screen(width, height, dark)
-        if name == "phone":
-            browser.value(SETTLED)
+        browser.value(SETTLED)
         faults |= set(told(browser.events))
         seen = browser.value(f"({LOOK})()")
         faults |= {f"{name}: {fault}" for fault in seen["faults"]}

@@ -13,7 +13,7 @@ afl=("${build[@]}" afl++)
 paper=("${dev[@]}")
 format=(git clang-format-14)
 hooks=("${format[@]}" codespell python3)
-docs=(doxygen python3 python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
+docs=("${build[@]}" doxygen python3 python3-numpy python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
       nodejs katex)
 site=("${docs[@]}" chromium)
 dist=(git)
