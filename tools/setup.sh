@@ -18,7 +18,7 @@ docs=("${build[@]}" doxygen python3 python3-numpy python3-sphinx python3-myst-pa
 site=("${docs[@]}" chromium)
 dist=(git)
 bare=(git mmdebstrap debian-archive-keyring)
-test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
+test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
 groups="build sundials mpi dev clang afl paper format hooks docs site dist bare test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group

@@ -30,7 +30,7 @@ say "ranks (mpirun), Python"
 ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
-say "documents"; skip docs || tools/docs.sh
+say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; }
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log
