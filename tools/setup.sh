@@ -16,10 +16,11 @@ hooks=("${format[@]}" codespell python3)
 docs=("${build[@]}" doxygen python3 python3-numpy python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
       nodejs katex)
 site=("${docs[@]}" chromium)
-dist=(git)
+dist=(git python3)
+bundle=("${sundials[@]}" python3 patchelf)
 bare=(git mmdebstrap debian-archive-keyring)
 test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
-groups="build sundials mpi dev clang afl paper format hooks docs site dist bare test"
+groups="build sundials mpi dev clang afl paper format hooks docs site dist bundle bare test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

@@ -2,12 +2,16 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import importlib
+import inspect
+import math
+import operator
 import os
 import pathlib
 import signal
 import threading
-from typing import Any, Callable, Iterator, NamedTuple, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, ParamSpec, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +20,8 @@ from . import _bindings as c
 
 Floats = NDArray[np.float64]
 Progress = Union[bool, None, Callable[[str, int, int], None]]
+Quantity = Union[float, str]  #: SI, or a text with its unit ("50deg")
+Quantities = Union[Quantity, Sequence[Quantity], NDArray[np.float64]]
 
 
 class Error(Exception):
@@ -92,7 +98,7 @@ class Owner:
 def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
     """The library's memory as an array that keeps `owner` alive; nothing is copied."""
     kind = np.dtype(dtype)
-    n_byte = int(np.prod(shape, dtype=np.int64)) * kind.itemsize
+    n_byte = math.prod(map(int, shape)) * kind.itemsize
     address = ctypes.cast(pointer, ctypes.c_void_p).value
     if not n_byte or address is None:
         return np.empty(shape, kind)
@@ -137,11 +143,28 @@ def keys(command: str) -> dict[str, Key]:
     return {name: Key(*row) for name, row in c.KEYS[command].items()}
 
 
-def document(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Lists a command's keys in its function's docstring, as `clast COMMAND --help-all` does."""
-    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(function.__name__).items()]
-    function.__doc__ = "\n".join([function.__doc__ or "", "", "Keywords (a number is SI; a text has its unit):", *lines])
-    return function
+def given(names: dict[str, Any], but: str = "") -> dict[str, Any]:
+    """The keywords that were given: those that are not None."""
+    return {name: value for name, value in names.items() if value is not None and name != but}
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def spelt(function: Callable[P, R]) -> Callable[P, R]:
+    """Names the nearest keyword where one is misspelt."""
+    parameters = inspect.signature(function).parameters
+    known = frozenset(name for name, one in parameters.items() if one.kind is not one.VAR_POSITIONAL)
+
+    @functools.wraps(function)
+    def checked(*args: P.args, **keywords: P.kwargs) -> R:
+        for name in keywords:
+            if name not in known:
+                raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, known)}")
+        return function(*args, **keywords)
+    checked.__module__ = "clast"
+    return checked
 
 
 class Config:
@@ -248,15 +271,62 @@ def text_of(make: Callable[[Any], Any]) -> str:
     return value
 
 
-def table_array(owner: Owner, part: Any = None) -> NDArray[Any]:
-    """A table, or one that is part of what is owned, as a structured array (a copy: columns lie apart in the library)."""
-    table = owner.struct if part is None else part
-    columns = [table.column[k] for k in range(table.n_column)]
-    n = int(table.n_row)
-    texts = {k: [(column.text[i] or b"").decode("utf-8", "replace") for i in range(n)]
-             for k, column in enumerate(columns) if not column.number}
-    kinds = [(column.name.decode(), f"U{max([1, *map(len, texts[k])])}" if k in texts else "f8") for k, column in enumerate(columns)]
-    out = np.zeros(n, np.dtype(kinds))
-    for k, column in enumerate(columns):
-        out[kinds[k][0]] = texts[k] if k in texts else view(None, column.number, (n,), np.float64)
-    return out
+def html_table(rows: dict[str, Any] | Sequence[Sequence[Any]], head: Sequence[str] = (), foot: str = "") -> str:
+    """Names and values, or rows under a head, as an HTML table; texts are escaped."""
+    from html import escape
+    pairs = [f"<tr><th>{escape(k)}</th>{_cell(v)}</tr>" for k, v in rows.items()] if isinstance(rows, dict) else \
+        ["<tr>" + "".join(map(_cell, row)) + "</tr>" for row in rows]
+    top = "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in head) + "</tr>" if head else ""
+    return f"<table>{top}{''.join(pairs)}</table>{f'<p>{escape(foot)}</p>' if foot else ''}"
+
+
+def _cell(value: Any) -> str:
+    from html import escape
+    return f"<td>{escape(f'{value:.6g}' if isinstance(value, (float, np.floating)) else str(value))}</td>"
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """"; did you mean seed?" where a name is near, else nothing."""
+    from difflib import get_close_matches
+    near = get_close_matches(name, list(names), 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def choice(key: str, value: str, words: str) -> int:
+    """The number of a word among "a|b|c"; any other is refused by name."""
+    known = words.split("|")
+    if value not in known:
+        raise refuse(f"{key}: '{value}' is none of {', '.join(known)}{nearest(str(value), known)}")
+    return known.index(value)
+
+
+def settled(command: str, given: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a command with defaults filled in: SI numbers, words, texts; for commands without a table in the library."""
+    rows = keys(command)
+    for name in given:
+        if name not in rows:
+            raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, rows)}")
+    return {name: _value(name, key, given.get(name)) for name, key in rows.items()}
+
+
+def _value(name: str, key: Key, value: Any) -> Any:
+    if value is None:
+        return int(key.default) if key.kind == "integer" else key.default
+    if key.kind == "choice":
+        choice(name, value, key.choices or "")
+    elif key.kind in ("number", "integer"):
+        if isinstance(value, str):
+            number = ctypes.c_double()
+            check(call("clast_unit_parse_asked")(value.encode(), key.unit.encode(), ctypes.byref(number)))
+            value = number.value
+        try:
+            value = float(value) if key.kind == "number" else operator.index(int(value) if value == int(value) else value)
+        except (TypeError, ValueError, OverflowError):
+            raise refuse(f"{name}: '{value}' is no {key.kind}") from None
+        if not (key.low is None or key.high is None or key.low <= value <= key.high):
+            raise Error("CLAST_E_CONFIG", f"{name}: {value!r} lies outside {key.low:g} to {key.high:g}")
+    elif key.kind == "flag":
+        value = bool(value)
+    elif key.kind == "text":
+        value = os.fspath(value)
+    return value

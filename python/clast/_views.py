@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._commands import Assembly, Path
 from ._core import Config, Monitor, Owner, Progress, call, check, refuse, view
+from ._runs import Assembly
+from ._tables import Path
 
 
 class Picture:

@@ -25,8 +25,9 @@ class Bindings(unittest.TestCase):
             described, made = pathlib.Path(folder, "d.json"), pathlib.Path(folder, "made.py")
             described.write_bytes(self.text)
             subprocess.run([sys.executable, ROOT / "tools/make_python.py", described, made], check=True)
-            self.assertTrue(made.read_text() == (ROOT / "python/clast/_bindings.py").read_text(), "python/clast/_bindings.py is old: "
-                            "clast describe --json > d.json; python3 tools/make_python.py d.json python/clast/_bindings.py")
+            for file, name in ((made, "_bindings.py"), (made.with_name("_functions.py"), "_functions.py")):
+                self.assertTrue(file.read_text() == (ROOT / "python/clast" / name).read_text(), f"python/clast/{name} is old: "
+                                "clast describe --json > d.json; python3 tools/make_python.py d.json python/clast/_bindings.py")
 
     def test_sizes_and_offsets_are_those_of_c(self):
         structs = json.loads(self.text)["structs"]
