@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 { # read as a whole before it runs: an edit meanwhile does no harm
 . tools/bare_root.sh
-version=$(sed -n 's/^project(clast VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(cat VERSION)
 made=build/packages
 wanted=${*:-tarball wheel deb deb-dev sdist}
 install() { within "apt-get install -y -qq --no-install-recommends $*" > "$work/log" 2>&1 || fail "apt-get install $* failed"; }

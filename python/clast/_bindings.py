@@ -3279,7 +3279,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_memory_set_limit': (c_int, [c_int64], 'Sets the limit in bytes; 0: none.'),
     'clast_memory_limit': (c_int64, [], 'The limit in bytes; 0: none.'),
     'clast_memory_taken': (c_int64, [], "Bytes that the library's blocks take now."),
-    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means one per core.'),
+    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means OMP_NUM_THREADS where it is set, else one per core that the process may use.'),
     'clast_parallel_threads': (c_int32, [], 'Threads in use.'),
     'clast_comm_one': (POINTER(clast_comm), [], 'The only rank of one.'),
     'clast_comm_agree': (c_int, [POINTER(clast_comm), c_int, c_char_p], 'Makes all ranks agree on how a step ended: OK when it was so for every one, else the status and text of the first rank that failed (one that was merely stopped only if none failed).'),
