@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
+from ._boxes import warn_of_range
 from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
@@ -35,11 +36,20 @@ class Decomposition:
     pair_integral_high: float
     resolved: bool
     points_needed: float
+    ideal_score: float
+    estimator: str  #: "cells", or "pairs" by distance
+    tests: Table  #: the votes: name, statistic, p, reject
+    pairs: Table  #: g(r) in shells of distance, with pairs=True or the estimator "pairs"
     cells: NDArray[Any]  #: low, high, volume, count, weight, events of each cell
     cell_of_point: NDArray[np.int32]  #: -1 for points left out; the library's own memory
 
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
+
+    @property
+    def n_repeated(self) -> int:
+        """Points that lie where another lies."""
+        return self._cloud.n_repeated
 
     def chart(self, name: str, path: Path) -> None:
         """Draws "points", "density", "score" or "events" ("pair_integral" without beta_dt) into an .svg, .pdf or .png file."""
@@ -96,9 +106,9 @@ class Cloud:
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
         options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
         check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
-        wanted = c.clast_cloud_columns(radius_column=encoded("radius_column", radius_column), diameter_column=encoded("diameter_column", diameter_column),
-                                       mass_column=encoded("mass_column", mass_column), weight_column=encoded("weight_column", weight_column),
-                                       variable_column=encoded("variable_column", variable_column), unit=encoded("unit", unit))
+        names = dict(radius_column=radius_column, diameter_column=diameter_column, mass_column=mass_column, weight_column=weight_column,
+                     variable_column=variable_column, unit=unit)
+        wanted = c.clast_cloud_columns(**{name: encoded(name, text) for name, text in names.items()})
         lists = [_text_list(columns), _text_list(velocity_columns)]
         wanted.columns, wanted.velocity_columns = lists
         check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
@@ -197,7 +207,8 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
                 **keys: Any) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
-    The columns are those of the first snapshot; keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
+    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
     duration="10s", n_step=100, seed=1).
     """
     if not snapshots:
@@ -208,7 +219,9 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     given, held = c.clast_agglomerate_input(), []
     given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
     for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
-        if value is not None:
+        if value is not None and name != "monomers" and (isinstance(value, str) or np.ndim(value) == 0):
+            keys[name] = value  # of all particles
+        elif value is not None:
             held.append(_column(name, value, made[0].positions))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
@@ -216,6 +229,7 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
+    warn_of_range(r.range, 3)
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
@@ -230,7 +244,12 @@ def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
                   (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
     none = (nan, nan, nan)
     events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
-    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
+    before = r.before
+    votes = [(v.name.decode(), v.statistic, v.p, float(v.reject)) for v in (before.vote[k] for k in range(before.n_test))]
+    tests = np.array(votes, [("name", "U16"), ("statistic", "f8"), ("p", "f8"), ("reject", "f8")]).view(Table)
+    estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
+    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=before.reject, score=before.score,
+                         ideal_score=before.ideal, tests=tests, estimator=estimator, pairs=table_of(owner, r.pairs.shells),
                          stop=call("clast_decompose_stop_text")(r.stop).decode(), n_cell=n, events=events[0], events_low=events[1],
                          events_high=events[2], pair_integral=pairs[0], pair_integral_low=pairs[1], pair_integral_high=pairs[2],
                          resolved=r.resolved, points_needed=r.points_needed if np.isfinite(r.points_needed) else nan, cells=cells,

@@ -224,8 +224,8 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
-        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name), encoded("source", source),
-                                              ctypes.byref(made.struct)))
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name),
+                                              encoded("source", source), ctypes.byref(made.struct)))
     return _fit(data, made)
 
 

@@ -223,6 +223,78 @@ class Commands(unittest.TestCase):
             with self.assertRaisesRegex(clast.Error, line):
                 call()
 
+    def test_a_box_without_positions(self):
+        words = ("agglomerate", "--box-model", "--concentration", 2, "--constant", 1, "--duration", "1s", "--n-step", 2, "--repeats", 3, "--particles", 2000)
+        said = command(*words, "--seed", 5)
+        found = clast.box_model(concentration=2, constant=1, duration=1.0, n_step=2, repeats=3, particles=2000, seed=5)
+        self.assertEqual(list(found.history["M0"]), said["n_particle"])
+        self.assertEqual(list(found.history["M2_sd"]), said["moments_sd"]["M2"])
+        self.assertEqual((list(found.history["exact_M0"]), found.n_section), (said["exact"]["n_particle"], said["n_section"]))
+        self.assertEqual(found.spectrum.units["n"], "1/m^3")
+        sizes = {"size": [1.0, 2.0], "number": [1.0, 0.5]}
+        path = self.write("sizes.csv", sizes)
+        said = command(*words[:2], "--initial", "table", "--initial-file", path, "--constant", 1, "--n-step", 2)
+        self.assertEqual(list(clast.box_model(sizes=sizes, constant=1, n_step=2).history["M1"]), said["moments"]["M1"])
+        for keys, line in ((dict(solver="sectional", particles=3), "^particles: does nothing with solver 'sectional'"), (dict(initial="table"), "^sizes: and"),
+                           (dict(sizes={"size": [1.0]}), "columns size and number"), (dict(concentratio=1), "did you mean concentration")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.box_model(**keys)
+
+    def test_a_kernel_beyond_its_range_warns(self):
+        x = np.column_stack([[0.1, 0.5], [0.5, 0.5], [0.5, 0.5]])
+        keys = dict(domain="box:0,0,0,1,1,1", kernel="settling", radius=[5e-4, 5e-6], viscosity=1.8e-5, density=1.2, particle_density=2500,
+                    mean_free_path="66nm", efficiency=1, variant="test", n_step=1, duration=10.0, settling_law="stokes")
+        with self.assertRaisesRegex(clast.Error, "Reynolds number of settling by Stokes' law"):
+            clast.agglomerate(x, **keys)
+        with self.assertWarnsRegex(UserWarning, "^kernel settling: Reynolds number .*; beyond lie 50 % of the particles"):
+            clast.agglomerate(x, **keys, out_of_range="extrapolate")
+
+    def test_a_medium_is_one_number_or_one_a_particle(self):
+        x = np.random.default_rng(1).random((50, 3)) * 1e-4
+        keys = dict(domain="box:0,0,0,1e-4,1e-4,1e-4", kernel="brownian", radius=np.full(50, 1e-6), duration="100s", n_step=2)
+        made = [list(clast.agglomerate(x, **keys, temperature=t).history["n_particle"]) for t in (300, "300 K", np.full(50, 300.0))]
+        self.assertEqual(made[0], made[2])
+        self.assertEqual(made[0], made[1])
+        self.assertLess(made[0][-1], 50)
+
+    def test_shapes_of_many_files(self):
+        files = sorted((ROOT / "data/standin63").glob("*.ply"))[:12] + [ROOT / "README.md"]
+        words = ("shape", *files, "--axes", "box", "--unit", "mm", "--statistics", self.folder / "one", "--resamples", 100)
+        said = command(*words, "-o", self.folder / "one.csv", code=3)
+        found = clast.shapes(*files, axes="box", unit="mm")
+        self.assertEqual((len(found), found.unit), (12, said["unit"]))
+        self.assertEqual(list(found.faults), [one["text"] for one in said["faults"]])
+        found.table.write(self.folder / "two.csv")
+        self.assertEqual((self.folder / "one.csv").read_bytes(), (self.folder / "two.csv").read_bytes())
+        statistics, wanted = found.statistics(resamples=100), said["statistics"]
+        self.assertEqual((statistics.n, statistics.zingg), (wanted["n"], wanted["zingg"]))
+        for k, one in enumerate(wanted["columns"]):
+            row = statistics.columns[k]
+            self.assertEqual([row["name"], row["mean"], row["mean_low"], row["deviation_high"], row["q25"], row["shapiro_p"]],
+                             [one["name"], one["mean"]["value"], one["mean"]["low"], one["deviation"]["high"], one["quantiles"]["q25"], one["shapiro_p"]])
+        self.assertEqual(list(statistics.explained), [one["explained"] for one in wanted["pca"]])
+        self.assertEqual(statistics.correlation[0].tolist(), wanted["correlation"]["r"][0])
+        statistics.write(self.folder / "two")
+        self.assertEqual((self.folder / "one/pca.csv").read_bytes(), (self.folder / "two/pca.csv").read_bytes())
+        self.assertIn("data:image/svg", statistics._repr_html_())
+
+    def test_shapes_of_voxels(self):
+        x = np.mgrid[:20, :20, :20]
+        labels = np.zeros((20, 20, 20), ">u2")
+        labels[((x - 9.5) ** 2).sum(axis=0) < 64] = 3
+        path = self.folder / "labels.raw"
+        path.write_bytes(b"head" + labels.tobytes())
+        said = command("shape", path, "--kind", "voxels", "--voxels", "20,20,20", "--voxel-type", "u16", "--big-endian", "--skip", 4, "--voxel-edge", "2")
+        found = clast.shapes(path, kind="voxels", voxels=(20, 20, 20), voxel_type="u16", big_endian=True, skip=4, voxel_edge=2)
+        self.assertEqual([found.table["volume"][0], found.table["L"][0]], [said["grains"][0]["volume"], said["grains"][0]["L"]])
+        for keys, line in ((dict(voxels="20,20"), "^voxels: '20,20' is not 3 numbers"), (dict(voxels=(20, 20, 2.5)), "^voxels: .* are not sizes"),
+                           (dict(voxel_edge=-1), "^voxel_edge: "), (dict(kind="voxel"), "^kind: 'voxel' is none of .*did you mean voxels"),
+                           (dict(unit="miles"), "miles")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.shapes(path, **keys)
+        with self.assertRaisesRegex(clast.Error, "^files: none"):
+            clast.shapes()
+
     def test_grading(self):
         said, found = command("grading", "U3", "--mass", "1kg"), clast.Grading("U3")
         self.assertEqual([list(found.range), found.mean_cube, found.n_expected(1.0)], [[said["low"], said["high"]], said["mean_cube"], said["n_expected"]])
