@@ -2,9 +2,9 @@
 from __future__ import annotations
 
 import ctypes
-import os
-import tempfile
+import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -38,13 +38,34 @@ class Decomposition:
     points_needed: float
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
-    tests: Table  #: the votes: name, statistic, p, reject
-    pairs: Table  #: g(r) in shells of distance, with pairs=True or the estimator "pairs"
-    cells: NDArray[Any]  #: low, high, volume, count, weight, events of each cell
-    cell_of_point: NDArray[np.int32]  #: -1 for points left out; the library's own memory
-
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
+
+    @cached_property
+    def cells(self) -> NDArray[Any]:
+        """low, high, volume, count, weight, events of each cell."""
+        kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
+        cells = np.zeros(self.n_cell, np.dtype(kinds))
+        for name, *kind in kinds:
+            cells[name] = view(self._owner, getattr(self._owner.struct.cells, name), (self.n_cell, *kind[1:]), kind[0])
+        return cells
+
+    @cached_property
+    def cell_of_point(self) -> NDArray[np.int32]:
+        """Each point's cell, -1 for points left out; the library's own memory."""
+        return fixed(self._owner, self._owner.struct.cells.of_point, (self.n + self.n_outside,), np.int32)
+
+    @cached_property
+    def tests(self) -> Table:
+        """The votes: name, statistic, p, reject."""
+        before = self._owner.struct.before
+        votes = [(v.name.decode(), v.statistic, v.p, float(v.reject)) for v in (before.vote[k] for k in range(before.n_test))]
+        return np.array(votes, [("name", "U16"), ("statistic", "f8"), ("p", "f8"), ("reject", "f8")]).view(Table)
+
+    @cached_property
+    def pairs(self) -> Table:
+        """g(r) in shells of distance, with pairs=True or the estimator "pairs"."""
+        return table_of(self._owner, self._owner.struct.pairs.shells)
 
     @property
     def n_repeated(self) -> int:
@@ -235,22 +256,14 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
 
 def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
     r, nan = owner.struct, float("nan")
-    n, is_bound = r.cells.n, not np.isnan(r.events_low)
-    kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
-    cells = np.zeros(n, np.dtype(kinds))
-    for name, *kind in kinds:
-        cells[name] = view(owner, getattr(r.cells, name), (n, *kind[1:]), kind[0])
-    given = tuple(v if np.isfinite(v) else nan for v in
+    is_bound = not math.isnan(r.events_low)
+    given = tuple(v if math.isfinite(v) else nan for v in
                   (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
     none = (nan, nan, nan)
     events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
-    before = r.before
-    votes = [(v.name.decode(), v.statistic, v.p, float(v.reject)) for v in (before.vote[k] for k in range(before.n_test))]
-    tests = np.array(votes, [("name", "U16"), ("statistic", "f8"), ("p", "f8"), ("reject", "f8")]).view(Table)
     estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
-    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=before.reject, score=before.score,
-                         ideal_score=before.ideal, tests=tests, estimator=estimator, pairs=table_of(owner, r.pairs.shells),
-                         stop=call("clast_decompose_stop_text")(r.stop).decode(), n_cell=n, events=events[0], events_low=events[1],
-                         events_high=events[2], pair_integral=pairs[0], pair_integral_low=pairs[1], pair_integral_high=pairs[2],
-                         resolved=r.resolved, points_needed=r.points_needed if np.isfinite(r.points_needed) else nan, cells=cells,
-                         cell_of_point=fixed(owner, r.cells.of_point, (r.n + r.n_outside,), np.int32), _cloud=cloud, _owner=owner)
+    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
+                         ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
+                         n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved,
+                         points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import timeit
 import typing
 import unittest
 
@@ -109,6 +110,11 @@ cells: int = clast.decompose([[0.0, 0.0]], domain="box:0,0,1,1", mesh="tree").n_
             self.assertIn("Success", check(good))
             for bad in ('clast.pack(mas="3kg")', 'clast.pack(law="hooke")', 'clast.pack(seed="one")', 'clast.aggregate(picture="no")'):
                 self.assertIn("error", check("import clast\n" + bad + "\n"), bad)
+
+    def test_a_call_costs_little_beyond_c(self):
+        mesh, grading = clast.Mesh.ellipsoid((1, 1, 1), 0), clast.Grading("U3")  # 20 triangles
+        for call in (lambda: mesh.volume, lambda: grading.size(0.5)):
+            self.assertLess(min(timeit.repeat(call, number=1000, repeat=7)) / 1000, 10e-6)  # s
 
     def test_import_is_quick(self):
         with tempfile.TemporaryDirectory() as folder:
