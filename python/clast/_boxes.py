@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import ctypes
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, html_table, nearest, numbers, refuse
+from ._core import Config, Error, Owner, call, check, html_table, nearest, numbers, refuse, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
@@ -17,15 +16,14 @@ _IDLE = {"monte-carlo": ("tolerance", "breakage_exponent", "fragments", "fragmen
          "sectional": ("particles", "collisions", "leap", "block")}
 
 
-def warn_of_range(report: Any, level: int) -> None:
+def warn_of_range(report: Any) -> None:
     """Warns where particles or collisions lie beyond the range of their kernel, as the command does."""
     used = report.collisions if report.collisions.outside > 0 or not report.start.outside > 0 else report.start
     if used.outside > 0:
         words = ctypes.create_string_buffer(512)
         call("clast_range_use_words")(ctypes.byref(used), len(words), ctypes.cast(words, ctypes.c_char_p))
         shares = [100 * (one.outside / one.n if one.n > 0 else 0.0) for one in (report.start, report.collisions)]
-        warnings.warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the "
-                      "collisions", stacklevel=level + 1)
+        warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the collisions")
 
 
 @dataclass(frozen=True)
@@ -82,7 +80,7 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
         check(call("clast_spectrum_evolve")(ctypes.byref(s), ctypes.byref(a.collide), ctypes.byref(start) if held is not None else None,
                                             ctypes.byref(result.struct)))
     r = result.struct
-    warn_of_range(r.range, 3)
+    warn_of_range(r.range)
     history = table_of(result, r.history)
     return Spectrum(history, table_of(result, r.spectrum), r.spectrum.n_row // max(1, len(np.atleast_1d(history))), r.gel_time, r.is_gelation,
                     r.exact_gel_time, r.mass_error)

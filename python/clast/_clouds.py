@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._boxes import warn_of_range
-from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, whole
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, warn, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -205,6 +205,8 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
     result = c.clast_decomposition()
     with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": _domain(cloud, domain), **keys}) as config:
         check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
+    if result.n_pass > 0 and result.points_per_bin < 10:
+        warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
     return _decomposition(Owner(result, "clast_decomposition_free"), cloud)
 
 
@@ -250,7 +252,7 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
-    warn_of_range(r.range, 3)
+    warn_of_range(r.range)
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 

@@ -8,12 +8,11 @@ import shutil
 import signal
 import subprocess
 import time
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse, warn
 from ._tables import Path, Table, read_table
 
 
@@ -150,6 +149,6 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
     finally:
         call("clast_parallel_set_threads")(before)
     if report.n_failed:
-        warnings.warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
-                      f"{report.first_failed:06d}.part/messages.txt; the same call tries them again", stacklevel=2)
+        warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
+             f"{report.first_failed:06d}.part/messages.txt; the same call tries them again")
     return Study(os.fspath(output), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)

@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -64,6 +65,13 @@ class Commands(unittest.TestCase):
             else:
                 self.assertTrue(callable(getattr(clast, function, None)), f"clast {name} has no function")
                 self.assertIn(function, clast.__all__)
+
+    def test_the_page_of_the_documents_runs(self):
+        code = re.search(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(), re.S)[1]
+        (self.folder / "data").symlink_to(ROOT / "data")
+        done = subprocess.run([sys.executable, "-c", code], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater(len(done.stdout.split()), 8)
 
     def test_fit(self):
         path = self.write("beds.csv", form_beds())
@@ -248,6 +256,25 @@ class Commands(unittest.TestCase):
             clast.agglomerate(x, **keys)
         with self.assertWarnsRegex(UserWarning, "^kernel settling: Reynolds number .*; beyond lie 50 % of the particles"):
             clast.agglomerate(x, **keys, out_of_range="extrapolate")
+
+    def test_what_the_command_warns_of(self):
+        forms = {"flatness": [0.6, 0.7, -1.0, 0.65], "elongation": [0.7, 0.8, 0.7, 0.66]}
+        with self.assertWarnsRegex(UserWarning, "^1 of 4 rows left out: 1 not positive .row 3") as caught:
+            clast.predict(table=forms)
+        self.assertEqual(caught.filename, __file__)
+        with self.assertWarnsRegex(UserWarning, "^1 of 4 rows left out"):
+            self.assertEqual(len(clast.predict_beds(forms)), 3)
+        mesh = clast.Mesh.read(GRAIN)
+        with self.assertWarnsRegex(UserWarning, "^the surface has 3 open edges; their holes were capped"):
+            clast.fill(clast.Mesh(mesh.vertices, mesh.triangles[1:]), spheres=3, allow_open=True)
+        with self.assertWarnsRegex(UserWarning, "^the surface cuts itself at .* pairs"):
+            clast.fill(clast.Mesh(np.concatenate([mesh.vertices, mesh.vertices + 0.1]), np.concatenate([mesh.triangles, mesh.triangles + len(mesh.vertices)])),
+                       spheres=3)
+        with self.assertWarnsRegex(UserWarning, "points a bin .under 10.*compare mesh='tree'"):
+            clast.decompose(np.random.default_rng(1).random((300, 2)) ** 2, domain="box:0,0,1,1", mesh="boxes")
+        with self.assertLogs("clast", "INFO") as caught:
+            clast.aggregate(core="sphere", core_size="270um", coat="sphere", size="100um", replicate=2, printable=True, output=self.folder / "run")
+        self.assertIn("printable", caught.output[0])
 
     def test_a_medium_is_one_number_or_one_a_particle(self):
         x = np.random.default_rng(1).random((50, 3)) * 1e-4
