@@ -1,6 +1,7 @@
 """The functions of python/clast with every keyword in their signatures, from the hand-written ones and the tables of keys."""
 import ast
 import pathlib
+import re
 import textwrap
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1] / "python/clast"
@@ -131,4 +132,5 @@ def told(row):
     if row["type"] == "integer":
         default = int(default)
     facts.append("no default" if default in ("", None) else f"default {default}" if isinstance(default, str) else f"default {default!r}")
-    return f"{row['doc']} ({'; '.join(facts)})".replace('"""', "'''")
+    doc = re.sub(r"(?<!\w)\|(\w+)\|(?!\w)", r"abs(\1)", row["doc"])  # which would be a substitution in the documents
+    return f"{doc} ({'; '.join(facts)})".replace('"""', "'''")
