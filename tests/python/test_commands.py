@@ -167,12 +167,25 @@ class Commands(unittest.TestCase):
         self.assertTrue(told)
         self.assertEqual((self.folder / "one/results.csv").read_bytes(), (self.folder / "two/results.csv").read_bytes())
         self.assertEqual(list(found.results["spheres"]), [5, 5, 9, 9])
+        opened = clast.open(self.folder / "one")
+        self.assertEqual((opened.command, opened.summary), ("study", {"n_run": 4, "n_done": 4, "n_failed": 0}))
+        self.assertEqual(list(opened.table("results")["spheres"]), [5, 5, 9, 9])
+        self.assertIn("n_done", opened._repr_html_())
         again = clast.study(run="fill", argument=MENGER, vary=["spheres=5|9", "strategy=random|largest"], output=self.folder / "two")
         self.assertEqual((again.n_before, again.n_done), (4, 0))
         for keys, line in ((dict(run="fil"), "no command that a study can run; did you mean fill"), (dict(vary="sphere=5"), "did you mean spheres"),
                            (dict(fix="spheres"), "^fix: takes key=value"), (dict(run="mesh hull", seeds=2), "draws nothing at random")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
+
+    def test_an_interrupted_study_goes_on(self):
+        keys = dict(run="pack", fix=["curve=4mm", "mass=40g", "width=30mm", "height=0.1m", "shaking_time=0s", "max_steps=60000"], seeds=3, jobs=1,
+                    output=self.folder / "out")
+        with self.assertRaises(KeyboardInterrupt):
+            clast.study(**keys, progress=lambda phase, done, total: os.kill(os.getpid(), 2) if done >= 1 else None)
+        first = clast.study(**keys)
+        self.assertGreaterEqual(first.n_before, 1)
+        self.assertEqual((first.n_before + first.n_done, first.n_failed), (3, 0))
 
     def test_a_run_that_fails_is_told(self):
         with self.assertWarnsRegex(UserWarning, "1 of 2 runs failed; the first says why in .*000002"):
