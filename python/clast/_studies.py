@@ -7,6 +7,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from typing import Any
@@ -46,9 +47,9 @@ class Study:
 
 
 def _program() -> str:
-    """The command clast of this version: CLAST, beside the package, or on the PATH."""
-    beside = pathlib.Path(__file__).parent / "clast"
-    path = os.environ.get("CLAST") or (str(beside) if beside.is_file() else shutil.which("clast"))
+    """The command clast of this version: CLAST, beside the package or the interpreter (where pip puts it), or on the PATH."""
+    beside = [place / "clast" for place in (pathlib.Path(__file__).parent, pathlib.Path(sys.executable).parent)]
+    path = os.environ.get("CLAST") or next((str(one) for one in beside if one.is_file()), shutil.which("clast"))
     if path is None or shutil.which(path) is None:
         raise ImportError(f"clast.study: its runs are processes of the command clast, which is not {'at ' + path if path else 'on the PATH'}; "
                           "install clast (make install), or set CLAST to the file")

@@ -178,6 +178,18 @@ class Commands(unittest.TestCase):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
 
+    def test_a_study_without_the_command_names_the_cure(self):
+        env = {**os.environ, "CLAST": "", "PATH": "/nowhere"}
+        code = "import clast; clast.study(run='fill', argument='x.stl', vary='spheres=1', output='x')"
+        done = subprocess.run([sys.executable, "-c", code], env=env, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        if not pathlib.Path(sys.executable).with_name("clast").exists():
+            self.assertRegex(done.stderr.splitlines()[-1], "processes of the command clast, which is not on the PATH; install clast")
+        other = self.folder / "clast"
+        other.write_text("#!/bin/sh\necho clast 9.9.9\n")
+        other.chmod(0o755)
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "CLAST": str(other)}, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        self.assertRegex(done.stderr.splitlines()[-1], "is version 9.9.9, this package is for")
+
     def test_an_interrupted_study_goes_on(self):
         keys = dict(run="pack", fix=["curve=4mm", "mass=40g", "width=30mm", "height=0.1m", "shaking_time=0s", "max_steps=60000"], seeds=3, jobs=1,
                     output=self.folder / "out")
