@@ -198,7 +198,7 @@ def look(browser, page, site, axe, ids, pictures):
 
 FOUND = """new Promise(done => {
     const until = Date.now() + 20000, count = () => document.querySelectorAll("#search-results li").length;
-    const look = () => count() || Date.now() > until ? done(count()) : setTimeout(look, 100);
+    const look = () => count() >= 5 || Date.now() > until ? done(count()) : setTimeout(look, 100);
     look();
 })"""
 
