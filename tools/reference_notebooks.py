@@ -10,7 +10,7 @@ TO = ROOT / "docs/reference/notebooks"
 
 def words_of(code):
     """What a chart shows, by the names of its axes."""
-    axes = dict(re.findall(r"(xlabel|ylabel)\(f?\"([^\"]+)\"", re.sub(r"set_(?=[xy]label)", "", code)))
+    axes = dict(re.findall(r"(xlabel|ylabel)(?:\(|=)f?\"([^\"]+)\"", code))
     return f"{axes['ylabel']} over {axes.get('xlabel', 'x')}" if "ylabel" in axes else "what the cell above draws"
 
 
