@@ -20,6 +20,7 @@ int32_t clast_parallel_threads(void)
 
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
+    CLAST_ASSERT(block > 0);
     const int64_t n_block = (n + block - 1) / block;
     if (n_block <= 1 || omp_get_max_threads() == 1 || omp_in_parallel()) {
         for (int64_t b = 0; b < n_block; ++b) {
@@ -49,6 +50,7 @@ int32_t clast_parallel_threads(void)
 
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
+    CLAST_ASSERT(block > 0);
     for (int64_t begin = 0; begin < n; begin += block) {
         kernel(begin, begin + block < n ? begin + block : n, 0, context);
     }
