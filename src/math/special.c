@@ -25,7 +25,7 @@ double clx_normal_sf(double z)
 /// triples the digits: after one below 1e-6 only rounding is left.
 static double upper_quantile(double p)
 {
-    CLAST_ASSERT(p > 0.0 && p <= 0.5);
+    CLAST_ASSERT(!(p > 0.5));
     const double t = sqrt(-2.0 * log(p));
     double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
                        (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
@@ -227,7 +227,7 @@ static double deviance(double x, double m)
 /// P(Bin(n, p) = v) for 0 <= v <= n. [Loader2000]
 static double binomial_mass(double n, double p, double v)
 {
-    CLAST_ASSERT(n > 0.0 && v >= 0.0 && v <= n);
+    CLAST_ASSERT(!(v < 0.0));
     if (v <= 0.0 || v >= n) {
         return v <= 0.0 ? exp(n * log1p(-p)) : exp(n * log(p));
     }
