@@ -133,6 +133,7 @@ static double depth_in_shape(const clx_kit_shape *shape, const double p[3])
 /// A ball about the centre of mass that lies within a part lies within the group.
 static void measure_inner(const clx_kit *kit, clx_kit_group *group)
 {
+    CLAST_ASSERT(group->n_part > 0);
     for (int32_t i = 0; i < group->n_part; ++i) {
         const clx_kit_part *part = &group->part[i];
         const double *q = part->orientation;
@@ -197,6 +198,7 @@ typedef struct {
 
 static clast_status make_group_form(const kit_job *job, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < job->kit->n_group);
     clx_kit_group *group = &job->kit->group[g];
     const int32_t meaning = g == 0 ? job->config->core_meaning : job->config->size_meaning;
     return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
@@ -225,6 +227,7 @@ static clast_status make_all(const clast_aggregate_config *config, clx_kit *kit)
 /// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.
 static const clast_assembly *assembly_of(const clast_aggregate_input *input, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g <= input->n_coat);
     return g == 0 ? input->core : &input->coat[g - 1];
 }
 
@@ -303,6 +306,7 @@ double clx_kit_size(const clx_kit_group *group, int32_t meaning)
 void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
                   const double orientation[4], double scale, clx_kit_part *placed)
 {
+    CLAST_ASSERT(part >= 0 && part < group->n_part && scale > 0.0);
     const clx_kit_part *p = &group->part[part];
     double arm[3];
     q_rotate(arm, orientation, p->position);

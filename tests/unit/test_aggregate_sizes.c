@@ -68,6 +68,32 @@ static void histograms_are_drawn_by_number_or_mass(void **state)
     clast_fields_free(clast_aggregate_fields, &c);
 }
 
+static void sizes_of_a_caller_must_be_above_0(void **state)
+{
+    (void)state;
+    const double bad[][3] = {{0.0, 1e-3, 1.0},         {-1e-3, 1e-3, 1.0},
+                             {2e-3, 1e-3, 1.0},        {1e-3, 1e-3, -1.0},
+                             {1e-3, (double)NAN, 1.0}, {1e-3, (double)INFINITY, 1.0}};
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    double *size = NULL;
+    int32_t n = 0;
+    default_config(&c);
+    CHECK_OK(clast_sizes_alloc(2, &sizes));
+    sizes.low[0] = sizes.high[0] = 1e-3;
+    sizes.count[0] = 1.0;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        sizes.low[1] = bad[k][0];
+        sizes.high[1] = bad[k][1];
+        sizes.count[1] = bad[k][2];
+        CHECK_STATUS(clx_sizes_plan(&c, &sizes, 1, &size, &n), CLAST_E_CONFIG);
+        assert_null(size);
+        assert_non_null(strstr(clast_error_detail(), "sizes: row 2"));
+    }
+    clast_sizes_free(&sizes);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
 /// Mean of f(size) over many draws of a law.
 static void check_law(int32_t law, double mean_of_log, double deviation_of_log)
 {
@@ -256,6 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
+        cmocka_unit_test(sizes_of_a_caller_must_be_above_0),
         cmocka_unit_test(laws_have_their_moments),
         cmocka_unit_test(classes_and_weights_choose_shapes),
         cmocka_unit_test(form_of_groups_is_exact),
