@@ -211,7 +211,7 @@ static void recall(const clx_pair *pair, const clx_warm_start *warm_start, clx_g
 
 static void remember(const clx_simplex *simplex, clx_warm_start *warm_start)
 {
-    CLAST_ASSERT(simplex->n >= 1 && simplex->n <= 4);
+    CLAST_ASSERT(simplex->n >= 0 && simplex->n <= 4);
     *warm_start = (clx_warm_start){.n = (uint16_t)simplex->n};
     for (int i = 0; i < simplex->n; ++i) {
         warm_start->vert[0][i] = (uint16_t)simplex->p[i].vert[0];
