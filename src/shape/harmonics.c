@@ -78,6 +78,7 @@ static void evaluator_free(evaluator *e)
 
 static clast_status evaluator_create(const clast_harmonics *series, int32_t degree, evaluator *e)
 {
+    CLAST_ASSERT(degree <= CLAST_HARMONICS_MAX_DEGREE);
     clast_status status = CLAST_OK;
     const int32_t used = degree < 0 || degree > series->degree ? series->degree : degree;
     const int64_t n_term = clx_nm(used + 1, 0);
@@ -186,6 +187,7 @@ typedef struct {
 
 static void add_direction(star_sums *sums, const double n[3], double r, double area, double weight)
 {
+    CLAST_ASSERT(r > 0.0 && v3_is_unit(n, 1e-9));
     const double r3 = weight * r * r * r;
     sums->volume += r3 / 3.0;
     sums->area += weight * area;

@@ -134,6 +134,7 @@ done:
 static void flood(const clast_volume *volume, float threshold, int32_t label, int32_t first,
                   clast_voxels *voxels, int32_t *stack)
 {
+    CLAST_ASSERT(first >= 0 && label > 0);
     const int32_t *n = volume->n;
     const int64_t stride[3] = {1, n[0], (int64_t)n[0] * n[1]};
     int64_t n_stack = 0;
