@@ -27,6 +27,7 @@ void clx_camera_axes(const clast_render_config *config, double right[3], double 
 /// Extent of the scene along a unit vector.
 static void extent(const clx_scene *scene, const double axis[3], double *low, double *high)
 {
+    CLAST_ASSERT(v3_is_unit(axis, 1e-9));
     const double opposite[3] = {-axis[0], -axis[1], -axis[2]};
     *low = -clx_scene_support(scene, opposite);
     *high = clx_scene_support(scene, axis);
@@ -80,6 +81,7 @@ static void fit_perspective(const clx_scene *scene, double zoom, const clx_frame
 clx_camera clx_camera_fit(const clx_scene *scene, const clast_render_config *config,
                           const clx_frame *frame)
 {
+    CLAST_ASSERT(frame->left < frame->right && frame->top < frame->bottom);
     clx_camera camera = {.is_perspective = config->projection == CLAST_RENDER_PERSPECTIVE,
                          .centre_x = 0.5 * (frame->left + frame->right),
                          .centre_y = 0.5 * (frame->top + frame->bottom),

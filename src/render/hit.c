@@ -40,6 +40,7 @@ static double accept(leg *l, double t, int32_t item, const double bary[3])
 static double sphere_crossing(const double origin[3], const double direction[3], double radius,
                               double t_low, double t_high)
 {
+    CLAST_ASSERT(radius > 0.0);
     const double d2 = v3_norm2(direction);
     const double middle = -v3_dot(origin, direction) / d2;
     double foot[3];
@@ -113,6 +114,7 @@ static double visit_ellipsoid(leg *l, double t_high)
 
 static double visit_grain(journey *j, int32_t g, double t_high)
 {
+    CLAST_ASSERT(g >= 0);
     const clx_scene_grain *grain = &j->scene->grain[g];
     leg l = {.journey = j, .shape = &j->scene->shape[grain->shape], .grain = g};
     double from[3];
@@ -185,6 +187,7 @@ bool clx_scene_blocked(const clx_scene *scene, const double origin[3], const dou
 static void triangle_normals(const clx_scene_shape *shape, const clx_scene_hit *hit, double at[3],
                              double face[3], double normal[3])
 {
+    CLAST_ASSERT(hit->item >= 0);
     double(*corner)[3] = shape->bvh->corner[hit->item];
     double u[3];
     double v[3];
