@@ -133,7 +133,6 @@ static double depth_in_shape(const clx_kit_shape *shape, const double p[3])
 /// A ball about the centre of mass that lies within a part lies within the group.
 static void measure_inner(const clx_kit *kit, clx_kit_group *group)
 {
-    CLAST_ASSERT(group->n_part > 0);
     for (int32_t i = 0; i < group->n_part; ++i) {
         const clx_kit_part *part = &group->part[i];
         const double *q = part->orientation;

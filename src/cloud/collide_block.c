@@ -126,7 +126,6 @@ double clx_block_self_rate(const clx_block *b, const clx_kind *kind)
 
 int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
 {
-    CLAST_ASSERT(i != j);
     const double before = b->n_real;
     clast_collider pair[2];
     int n_live = 1;

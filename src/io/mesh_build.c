@@ -7,7 +7,6 @@
 
 clast_status clx_build_reserve(clx_mesh_build *b, int64_t n_vert, int64_t n_tri)
 {
-    CLAST_ASSERT(n_vert >= 0 && n_tri >= 0);
     clast_status status = CLAST_OK;
     CLX_CHECK(n_vert <= INT32_MAX && n_tri <= INT32_MAX, CLAST_E_LIMIT,
               "%lld vertices and %lld faces are beyond the 2^31 of one mesh", (long long)n_vert,

@@ -51,7 +51,6 @@ done:
 /// n numbers after the current line, or past them when value is NULL. Their bytes must be there.
 static clast_status values(vtk *v, int64_t n, clx_vtk_number type, double *value)
 {
-    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     if (v->is_binary) {
         const int64_t size = clx_vtk_number_size(type);

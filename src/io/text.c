@@ -172,7 +172,6 @@ clast_status clx_text_number(clx_text *t, const char *what, double *value)
 clast_status clx_text_integer(clx_text *t, const char *what, int64_t low, int64_t high,
                               int64_t *value)
 {
-    CLAST_ASSERT(low <= high);
     clx_word word;
     char shown[CLX_WORD_SHOWN];
     if (!clx_text_word(t, &word)) {

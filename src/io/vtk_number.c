@@ -80,7 +80,6 @@ static double to_double(uint64_t word, clx_vtk_number type)
 
 void clx_vtk_numbers(const void *from, int64_t n, clx_vtk_number type, bool big, double *value)
 {
-    CLAST_ASSERT(n >= 0);
     const uint8_t *b = from;
     const int size = clx_vtk_number_size(type);
     for (int64_t i = 0; i < n; ++i) {

@@ -21,7 +21,6 @@ const char *clast_fit_chart_name(clast_fit_chart chart)
 
 static void bounds(const double *x, int64_t n, double span[2])
 {
-    CLAST_ASSERT(n > 0);
     for (int64_t i = 0; i < n; ++i) {
         span[0] = fmin(span[0], x[i]);
         span[1] = fmax(span[1], x[i]);

@@ -48,7 +48,7 @@ static void linear(double low, double high, bool widen, int wanted, clx_ticks *t
 
 static void add_tick(clx_ticks *t, double value)
 {
-    CLAST_ASSERT(t->n >= 0 && t->n < CLX_MAX_TICK);
+    CLAST_ASSERT(t->n >= 0 && t->n <= CLX_MAX_TICK);
     if (t->n == CLX_MAX_TICK) {
         return;
     }

@@ -81,7 +81,6 @@ static void fit_perspective(const clx_scene *scene, double zoom, const clx_frame
 clx_camera clx_camera_fit(const clx_scene *scene, const clast_render_config *config,
                           const clx_frame *frame)
 {
-    CLAST_ASSERT(frame->left < frame->right && frame->top < frame->bottom);
     clx_camera camera = {.is_perspective = config->projection == CLAST_RENDER_PERSPECTIVE,
                          .centre_x = 0.5 * (frame->left + frame->right),
                          .centre_y = 0.5 * (frame->top + frame->bottom),

@@ -40,7 +40,6 @@ static double accept(leg *l, double t, int32_t item, const double bary[3])
 static double sphere_crossing(const double origin[3], const double direction[3], double radius,
                               double t_low, double t_high)
 {
-    CLAST_ASSERT(radius > 0.0);
     const double d2 = v3_norm2(direction);
     const double middle = -v3_dot(origin, direction) / d2;
     double foot[3];

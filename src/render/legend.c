@@ -41,7 +41,6 @@ static double linear_light(double s)
 
 static void set_albedo(clx_scene *scene, int32_t g, const double rgb[3])
 {
-    CLAST_ASSERT(g >= 0 && g < scene->n_grain);
     for (int k = 0; scene != NULL && k < 3; ++k) {
         scene->grain[g].albedo[k] = linear_light(rgb[k]);
     }
