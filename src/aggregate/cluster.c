@@ -188,7 +188,7 @@ done:
 static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluster,
                              clx_kit_group *group)
 {
-    CLAST_ASSERT(cluster->n > 0 && cluster->mass > 0.0);
+    CLAST_ASSERT(cluster->n > 0 && cluster->mass >= 0.0);
     const clast_assembly *all = &a->assembly;
     *group = (clx_kit_group){.n_part = cluster->n};
     const clast_status status = clx_alloc(&group->part, cluster->n, sizeof *group->part);

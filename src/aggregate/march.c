@@ -204,7 +204,7 @@ static bool intersects(const span_list *list, double s)
 /// Inward while free, then outward while intersecting; the k-th step is k times the constant.
 static double march_along(const clx_march *march, double length, const span_list *list, bool *lost)
 {
-    CLAST_ASSERT(length > 0.0);
+    CLAST_ASSERT(length >= 0.0);
     const int32_t limit = march->config->march_steps;
     double s = march->start * length;
     int32_t k = 0;

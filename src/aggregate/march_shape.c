@@ -147,7 +147,7 @@ double clx_march_length(const clx_march *march, double size, int32_t class_shape
 
 double clx_march_scale(const clx_march *march, double length, int32_t shape)
 {
-    CLAST_ASSERT(length > 0.0 && shape >= 0 && shape + 1 < march->n_shape);
+    CLAST_ASSERT(length >= 0.0 && shape >= 0 && shape + 1 < march->n_shape);
     return length / march->shape[1 + shape].length;
 }
 

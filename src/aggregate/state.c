@@ -54,7 +54,7 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
 
 double clx_aggregate_gyration(const clast_aggregate *a)
 {
-    CLAST_ASSERT(a->mass > 0.0);
+    CLAST_ASSERT(a->mass >= 0.0);
     double centre[3];
     v3_scale(centre, 1.0 / a->mass, a->moment);
     return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));

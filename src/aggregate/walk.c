@@ -51,7 +51,7 @@ static void begin(walk *w)
 /// exterior, cos theta by its inverse distribution.
 static bool come_back(walk *w)
 {
-    CLAST_ASSERT(w->outer > 0.0);
+    CLAST_ASSERT(w->outer >= 0.0);
     double out[3];
     double side[2][3];
     v3_sub(out, w->x, w->search->centre);

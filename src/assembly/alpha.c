@@ -129,7 +129,7 @@ done:
 /// Fineness of a round grain's surface: edges of an icosphere are 1.1 r / 2^level.
 static int level_of(const clast_assembly *a, int32_t i, double spacing)
 {
-    CLAST_ASSERT(spacing > 0.0);
+    CLAST_ASSERT(spacing >= 0.0);
     const double r = a->scale[i] * a->shape[a->shape_id[i]].semi_axes[0];
     int level = 1;
     while (level < MAX_LEVEL && 1.1 * r > spacing * (double)(1 << level)) {
@@ -244,7 +244,7 @@ static bool passes(const cloud *c, const clx_delaunay *d, int32_t i, int k, int3
 /// Marks the tetrahedra that the ball reaches.
 static clast_status roll(const cloud *c, const clx_delaunay *d, double length, bool *reached)
 {
-    CLAST_ASSERT(length > 0.0);
+    CLAST_ASSERT(length >= 0.0);
     clast_status status = CLAST_OK;
     int32_t *stack = NULL;
     int32_t n = 0;

@@ -32,7 +32,7 @@ static bool in_tree(const clx_touch_tree *tree, const double p[3])
 
 bool clx_body_holds(const clx_touch_body *body, const double x[3])
 {
-    CLAST_ASSERT(body->radius > 0.0);
+    CLAST_ASSERT(body->radius >= 0.0);
     double p[3];
     double q = 0.0;
     if (v3_distance2(x, body->position) > body->radius * body->radius) {

@@ -72,7 +72,7 @@ static clast_status add_ellipse(shadow *s, const double centre[3], double half[3
 
 static clast_status add_ball(shadow *s, const double centre[3], double radius)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     double half[3][3] = {{radius, 0.0, 0.0}, {0.0, radius, 0.0}, {0.0, 0.0, radius}};
     return add_ellipse(s, centre, half);
 }

@@ -21,7 +21,7 @@ typedef struct profile {
 
 static void add_ball(profile *p, double r, double d, double density)
 {
-    CLAST_ASSERT(r > 0.0 && d >= 0.0 && p->n_bin > 0);
+    CLAST_ASSERT(r >= 0.0 && d >= 0.0 && p->n_bin > 0);
     double inner = 0.0;
     for (int32_t k = 0; k < p->n_bin; ++k) {
         const double outer = clx_ball_within(r, d, (k + 1) * p->step);

@@ -187,7 +187,6 @@ static clast_status own_moments(const joined *j, const clast_part *part, double 
 /// Mass of the union from its moments.
 static void finish(const double v[10], clast_mass *mass)
 {
-    CLAST_ASSERT(v[0] > 0.0);
     double c[3][3];
     mass->volume = v[0];
     v3_scale(mass->centroid, 1.0 / v[0], &v[1]);

@@ -51,7 +51,7 @@ static void wrap_free(wrap *w)
 static clast_status wrap_alloc(const clast_assembly *assembly, double length, int32_t n_cell,
                                wrap *w)
 {
-    CLAST_ASSERT(length > 0.0 && n_cell > 0);
+    CLAST_ASSERT(length >= 0.0 && n_cell > 0);
     clast_status status = CLAST_OK;
     double low[3];
     double high[3];

@@ -10,7 +10,7 @@
 
 clx_convex clx_convex_sphere(double radius)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     return (clx_convex){
         .kind = CLX_CONVEX_SPHERE, .round = radius, .bounding_radius = radius, .inner = radius};
 }
@@ -257,7 +257,6 @@ static void push_off(const clx_gjk_pair *seen, double n[3])
 static bool search(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                    clx_simplex *simplex, clx_contact *contact)
 {
-    CLAST_ASSERT(pair->a->bounding_radius > 0.0 || pair->b->bounding_radius > 0.0);
     clx_gjk_pair seen;
     const double unit = greater_of(pair->a->bounding_radius, pair->b->bounding_radius);
     double v[3], n[3], on_a[3];

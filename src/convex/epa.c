@@ -307,7 +307,7 @@ static bool is_known(const polytope *h, const clx_mink *p)
 
 double clx_epa(clx_gjk_pair *pair, clx_simplex *simplex, double normal[3], double *depth)
 {
-    CLAST_ASSERT(pair->size > 0.0);
+    CLAST_ASSERT(pair->size >= 0.0);
     polytope h;
     const double tolerance = pair->size * (pair->is_smooth ? TOLERANCE_SMOOTH : TOLERANCE_FLAT);
     double upper = INFINITY; // the least support met

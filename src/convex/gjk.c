@@ -261,7 +261,7 @@ static bool holds(const clx_simplex *s, const clx_mink *p)
 clx_gjk_answer clx_gjk(clx_gjk_pair *pair, double max_gap, clx_simplex *simplex, double v[3],
                        double *gap)
 {
-    CLAST_ASSERT(simplex->n >= 0 && simplex->n <= 4 && pair->size > 0.0);
+    CLAST_ASSERT(simplex->n >= 0 && simplex->n <= 4 && pair->size >= 0.0);
     const double tolerance = pair->size * (pair->is_smooth ? TOLERANCE_SMOOTH : TOLERANCE_FLAT);
     const double touching2 = TOUCHING * TOUCHING * pair->size * pair->size;
     clx_simplex trial = *simplex;

@@ -211,7 +211,7 @@ static double hull_reach(const clx_placed *body, const double c[2], double u[2],
 void clx_cylinder_contact(const clx_placed *body, const double axis[2], double radius,
                           clx_contact *contact)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     const double c[2] = {body->position[0] - axis[0], body->position[1] - axis[1]};
     double u[2], tip[3];
     const double reach = body->shape->kind == CLX_CONVEX_HULL ? hull_reach(body, c, u, tip)

@@ -121,7 +121,7 @@ static double resistance(const clast_dem *dem, const clx_grain *g)
 
 double clx_fluid_rotation_factor(const clast_dem *dem, const clx_grain *g, double dt)
 {
-    CLAST_ASSERT(dt > 0.0 && g->mass > 0.0 && g->radius > 0.0);
+    CLAST_ASSERT(dt >= 0.0 && g->mass >= 0.0 && g->radius >= 0.0);
     return 1.0 / (1.0 + dt * resistance(dem, g) * 2.5 / (g->mass * g->radius * g->radius));
 }
 

@@ -30,7 +30,7 @@ static uint32_t hash(const clx_dem_grid *grid, int32_t level, const int32_t at[3
 
 static int32_t level_of(double radius, double smallest)
 {
-    CLAST_ASSERT(radius >= smallest && smallest > 0.0);
+    CLAST_ASSERT(radius >= smallest && smallest >= 0.0);
     return (int32_t)fmin(floor(log2(radius / smallest * (1.0 + 1e-12))), CLX_MAX_LEVEL - 1);
 }
 

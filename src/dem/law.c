@@ -99,7 +99,7 @@ static double jkr_energy(const clx_law *law, double overlap, double radius)
 /// Half swing of a mass on Hertz's spring, linearised at an overlap of 1 % of R*.
 static double hertz_time(const clx_law *law, double mass, double radius)
 {
-    CLAST_ASSERT(mass > 0.0 && radius > 0.0);
+    CLAST_ASSERT(mass >= 0.0 && radius >= 0.0);
     const double slope = 2.0 * law->young * sqrt(radius * 0.01 * radius);
     return CLAST_PI * sqrt(mass / slope);
 }
@@ -111,7 +111,7 @@ double clx_law_time(const clx_law *law, double mass, double radius)
 
 double clx_law_speed(const clx_law *law, double mass, double radius, double bounding)
 {
-    CLAST_ASSERT(mass > 0.0 && bounding > 0.0);
+    CLAST_ASSERT(mass >= 0.0 && bounding >= 0.0);
     const double d = 0.5 * bounding;
     return law->kind == CLAST_DEM_LINEAR
                ? d * sqrt(law->stiffness)

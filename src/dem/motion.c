@@ -56,7 +56,7 @@ static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double 
 static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], double factor,
                        double dt)
 {
-    CLAST_ASSERT(g->mass > 0.0 && g->radius > 0.0);
+    CLAST_ASSERT(g->mass >= 0.0 && g->radius >= 0.0);
     v3_axpy(g->omega, g->omega, 2.5 * dt / (g->mass * g->radius * g->radius), torque);
     v3_scale(g->omega, factor, g->omega);
     turn_by(g->omega, dt, m->orientation);
@@ -156,7 +156,7 @@ static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
 /// Moves one grain's centre; the speed that its surface had at most.
 static double shift(const clx_moving *c, int64_t i, const double f[3])
 {
-    CLAST_ASSERT(c->dem->grain[i].mass > 0.0);
+    CLAST_ASSERT(c->dem->grain[i].mass >= 0.0);
     clast_dem *dem = c->dem;
     clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];

@@ -57,7 +57,7 @@ static const double LOOK_AHEAD = 50.0;
 
 static void set_anchor(clast_dem *dem, int32_t i)
 {
-    CLAST_ASSERT(v3_is_finite(clx_item_position(dem, i)) && clx_item_radius(dem, i) > 0.0);
+    CLAST_ASSERT(v3_is_finite(clx_item_position(dem, i)) && clx_item_radius(dem, i) >= 0.0);
     clx_anchor *at = &dem->list.anchor[i];
     const int32_t g = clx_item_grain(dem, i);
     const double radius = clx_item_radius(dem, i);

@@ -154,7 +154,7 @@ static double triangle_angle(double corner[3][3], const double point[3])
 /// Expansion of a subtree's solid angle over 4 pi; r is from the point to the centre.
 static double far_angle(const clx_bvh_moment *m, const double r[3], double distance)
 {
-    CLAST_ASSERT(distance > 0.0);
+    CLAST_ASSERT(distance >= 0.0);
     double turned[3];
     const double d3 = distance * distance * distance;
     for (int i = 0; i < 3; ++i) {

@@ -100,7 +100,7 @@ static int least_turn(const calipers *c)
 /// Keeps the rectangle with a side along d, turned back by k quarters, if it is the least so far.
 static void take(calipers *c, int k, const double d[2], double area)
 {
-    CLAST_ASSERT(area >= 0.0);
+    CLAST_ASSERT(k >= 0 && k < 4);
     const double length2 = d[0] * d[0] + d[1] * d[1];
     if (length2 > c->tolerance2 && area * c->best_length2 < c->best * length2) {
         c->best = area;

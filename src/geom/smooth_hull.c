@@ -353,7 +353,7 @@ done:
 
 clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *body)
 {
-    CLAST_ASSERT(body->radius > 0.0);
+    CLAST_ASSERT(body->radius >= 0.0);
     clast_status status = CLAST_OK;
     const int32_t b = hull->n_body;
     bool shows = true;

@@ -51,7 +51,7 @@ static double share_below(double t)
 
 static void add_ellipsoid(const slices *s, double volume, double z, double half_height)
 {
-    CLAST_ASSERT(half_height > 0.0 && volume >= 0.0);
+    CLAST_ASSERT(half_height >= 0.0 && volume >= 0.0);
     const int32_t begin = slice_of(s, z - half_height);
     if (begin >= s->n) {
         return;

@@ -24,7 +24,7 @@ void clx_ball_set_free(clx_ball_set *set)
 
 clast_status clx_ball_set_add(clx_ball_set *set, const double centre[3], double radius)
 {
-    CLAST_ASSERT(radius > 0.0 && v3_is_finite(centre) && set->scale > 0.0);
+    CLAST_ASSERT(set->n >= 0 && set->scale >= 0.0);
     clast_status status = CLAST_OK;
     const int64_t at = set->n / LANES;
     const int slot = set->n % LANES;

@@ -17,7 +17,7 @@ enum { SURFACE_POINTS = 4096 };
 
 void clx_fill_sums_add(clx_fill_sums *sums, const double centre[3], double radius)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     const double volume = 4.0 / 3.0 * CLAST_PI * radius * radius * radius;
     double d[3];
     v3_sub(d, centre, sums->origin);

@@ -93,7 +93,7 @@ static void add_surface(const clx_fill *fill, clx_fill_witnesses *w, const clx_f
 static void add_ball(clx_fill_witnesses *w, const clx_fill_region *c, const double centre[3],
                      double radius)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     double away[3];
     v3_sub(away, c->centre, centre);
     add_plane(&w->planes, c, away, radius);

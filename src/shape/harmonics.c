@@ -78,7 +78,6 @@ static void evaluator_free(evaluator *e)
 
 static clast_status evaluator_create(const clast_harmonics *series, int32_t degree, evaluator *e)
 {
-    CLAST_ASSERT(degree <= CLAST_HARMONICS_MAX_DEGREE);
     clast_status status = CLAST_OK;
     const int32_t used = degree < 0 || degree > series->degree ? series->degree : degree;
     const int64_t n_term = clx_nm(used + 1, 0);

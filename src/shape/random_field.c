@@ -13,7 +13,6 @@
 clast_status clx_random_field_make(int32_t low, int32_t high, double decay, uint64_t seed,
                                    uint64_t index, clx_random_field *field)
 {
-    CLAST_ASSERT(low >= 0 && low <= high && high <= CLX_FIELD_DEGREES);
     clast_status status = CLAST_OK;
     clx_random_field made = {.low = low, .high = high};
     double variance = 0.0;

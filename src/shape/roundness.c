@@ -38,7 +38,7 @@ typedef struct {
 /// than the tolerance. `last` may be N_POINT, the first point again.
 static void mark_between(search *s, int32_t first, int32_t last, int32_t stack[2 * N_POINT])
 {
-    CLAST_ASSERT(first >= 0 && first <= last && last <= N_POINT);
+    CLAST_ASSERT(first >= 0 && first <= last && last < 2 * N_POINT);
     int32_t n = 0;
     stack[n++] = first;
     stack[n++] = last;

@@ -15,7 +15,7 @@ static clx_touch_body at_origin(clx_touch_body body)
 
 clx_touch_body clx_touch_body_sphere(double radius)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     return at_origin(
         (clx_touch_body){.kind = CLX_TOUCH_SPHERE, .semi_axes = {radius, radius, radius}});
 }

@@ -90,7 +90,7 @@ static void keep_triangles(double a[3][3], double b[3][3], nearest *best)
 static void keep_ball(const double c[3], double radius, const double y[3], bool ball_first,
                       nearest *best)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     double out[3], x[3];
     v3_sub(out, y, c);
     const double d = v3_norm(out);

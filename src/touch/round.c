@@ -200,7 +200,7 @@ static void contact_of(const search *s, double point[3], double normal[3])
 /// What depends on the round body alone.
 static void set_round(search *s, const clx_touch_body *round, const clx_touch_path *path)
 {
-    CLAST_ASSERT(round->tree == NULL && round->radius > 0.0);
+    CLAST_ASSERT(round->tree == NULL && round->radius >= 0.0);
     s->is_sphere = round->kind == CLX_TOUCH_SPHERE;
     s->radius = round->radius;
     path_sym_to_local(s->matrix, path, round->matrix);

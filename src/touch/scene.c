@@ -78,7 +78,7 @@ const clx_touch_body *clx_touch_scene_body(const clx_touch_scene *scene, int32_t
 static void box_of(const clx_touch_scene *scene, const clx_touch_body *body, double low[3],
                    double high[3])
 {
-    CLAST_ASSERT(body->radius > 0.0);
+    CLAST_ASSERT(body->radius >= 0.0);
     for (int k = 0; k < 3; ++k) {
         const double x = body->position[k] - scene->origin[k];
         const double pad =

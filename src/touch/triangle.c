@@ -290,7 +290,7 @@ static void pass_edge(double a[3][3], int i, const double c[3], const double w[3
 bool clx_ball_triangle_pass(double a[3][3], const double c[3], const double w[3], double radius,
                             clx_pass *pass)
 {
-    CLAST_ASSERT(radius > 0.0);
+    CLAST_ASSERT(radius >= 0.0);
     *pass = (clx_pass){.first = INFINITY, .last = -INFINITY};
     pass_face(a, c, w, radius, pass);
     for (int i = 0; i < 3; ++i) {
