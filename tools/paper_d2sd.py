@@ -51,10 +51,13 @@ def frame(rng, n, _=2):
     return out
 
 
+def program(name):
+    return pathlib.Path(CLAST) if name == "clast" else pathlib.Path(CLAST).parent / "bench" / name
+
+
 def bench(name, *arguments):
     """Rows of a benchmark's CSV as dictionaries."""
-    program = pathlib.Path(CLAST).parent / "bench" / name
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=True)
+    done = subprocess.run([program(name), *map(str, arguments)], capture_output=True, text=True, check=True)
     return list(csv.DictReader(done.stdout.splitlines()))
 
 
@@ -383,10 +386,24 @@ PARTS = {"frame": table_frame, "uniform": table_uniform, "quarter": table_quarte
          "change": table_change}
 
 
-def digest(*words):
-    folder = pathlib.Path(CLAST).parent
-    made = hashlib.sha256(repr(words).encode())
-    for path in (pathlib.Path(CLAST), folder / "bench/bench_events", folder / "bench/bench_resolution", folder / "bench/bench_tests", pathlib.Path(__file__)):
+PROGRAMS = {"matrix": "bench_resolution", "flat": "bench_events", "clouds": "bench_events", "size": "bench_tests", "power": "bench_tests",
+            "change": "bench_tests"}  # the other parts: clast
+
+
+def check_programs(parts):
+    """Ends with one line where a part is unknown or its program is not built."""
+    unknown = [name for name in parts if name not in PARTS]
+    if unknown:
+        sys.exit(f"paper_d2sd.py: no part {unknown[0]!r}; parts are {', '.join(PARTS)}")
+    missing = sorted({PROGRAMS.get(name, "clast") for name in parts if not program(PROGRAMS.get(name, "clast")).exists()})
+    if missing:
+        targets = " ".join(name.replace("clast", "clast_cli") for name in missing)
+        sys.exit(f"paper_d2sd.py: {program(missing[0])} is not there; build it: tools/build.sh release {targets}")
+
+
+def digest(name, argument):
+    made = hashlib.sha256(repr((name, argument)).encode())
+    for path in (program(PROGRAMS.get(name, "clast")), pathlib.Path(__file__)):
         made.update(path.read_bytes())
     return made.hexdigest()
 
@@ -417,14 +434,16 @@ def main():
     parser.add_argument("-o", "--output", default="docs/validation/d2sd.md")
     args = parser.parse_args()
     argument = {"size": args.samples, "change": args.samples, "power": args.power, "clouds": args.clouds, "flat": args.clouds, "matrix": args.clouds}
+    parts = args.parts.split(",") if args.parts else list(PARTS)
+    check_programs(parts)
     if args.parts:
-        for name in args.parts.split(","):
+        for name in parts:
             print("\n".join(part_lines(name, argument.get(name))))
         return
     lines = ["# D2SD: paper and reference beside ours", "",
              "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Reference: the prototype",
              "whose numbers the specification lists. Paper: Martinez Rodriguez et al. 2021.", ""]
-    for name in PARTS:
+    for name in parts:
         lines += part_lines(name, argument.get(name))
     pathlib.Path(args.output).write_text("\n".join(lines))
 

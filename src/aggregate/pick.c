@@ -66,9 +66,9 @@ void clx_pick_pair(const clast_aggregate *a, int32_t pair[2])
 {
     clx_rng rng = clx_rng_at(a->seed, CLX_STREAM_CLUSTER, (uint64_t)a->n_placed);
     CLAST_ASSERT(a->clusters.n >= 2);
-    if (a->config->pick == CLAST_PICK_MASS) {
+    if (a->params->pick == CLAST_PICK_MASS) {
         by_mass(&a->clusters, &rng, pair);
-    } else if (a->config->pick == CLAST_PICK_BROWNIAN) {
+    } else if (a->params->pick == CLAST_PICK_BROWNIAN) {
         brownian(&a->clusters, &rng, pair);
     } else {
         two_of(&rng, a->clusters.n, pair);

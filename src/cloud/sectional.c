@@ -219,7 +219,7 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     for (int32_t i = 0; i < s->n; ++i) {
         s->as[i] = clx_collider_of_size(collide, s->x[i]);
         if (falls || (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0) {
-            s->as[i].settling_speed = clast_settling_speed(&collide->medium, &s->as[i]);
+            s->as[i].settling_speed = clast_kernel_settling_speed(&collide->medium, &s->as[i]);
         }
     }
     s->ranges = clx_ranges_of(collide) | (falls ? clx_ranges_of_settling(collide) : 0);
