@@ -304,6 +304,7 @@ static void judge(double begun, double worked, double ended)
 
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
+    CLAST_ASSERT(block > 0);
     const int32_t n_thread = clast_parallel_threads();
     if (n <= block || n_thread == 1 || atomic_flag_test_and_set(&team.taken)) {
         work_alone(n, block, kernel, context); // the team is another caller's, or this is inside it
