@@ -2170,6 +2170,7 @@ clast_workspace_policy._fields_ = [
     ('cells', c_int32),
     ('cells_every', c_int32),
     ('cells_level', c_double),
+    ('pairs_every', c_int32),
 ]
 clast_workspace_calls._fields_ = [
     ('n_call', c_int64),
@@ -2179,6 +2180,7 @@ clast_workspace_calls._fields_ = [
     ('since_cut', c_int64),
     ('moved', c_double),
     ('p_change', c_double),
+    ('n_pairs', c_int64),
 ]
 clast_workspace_step._fields_ = [
     ('dt', c_double),
@@ -2632,8 +2634,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
     'clast_volume_options': (56, {'n': (0, 12), 'type': (12, 4), 'is_big_endian': (16, 1), 'skip': (24, 8), 'edge': (32, 24)}),
     'clast_points': (56, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'stride': (24, 8), 'axis_stride': (32, 8), 'weight': (40, 8), 'weight_stride': (48, 8)}),
-    'clast_workspace_policy': (32, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8)}),
-    'clast_workspace_calls': (56, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8)}),
+    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4)}),
+    'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
     'clast_spectrum': (192, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'is_gelation': (72, 1), 'exact_gel_time': (80, 8), 'mass_error': (88, 8), 'n_evaluation': (96, 8), 'range': (104, 88)}),
