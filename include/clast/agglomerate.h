@@ -217,8 +217,9 @@ typedef struct clast_agglomerate_input {
 typedef struct clast_agglomeration {
     /// One row a time: time_s, n_particle, n_particle_sd, M1, M2, M3 (means over repeats of the
     /// sums of i^k, weighted), M2_sd and M3_sd, n_1 .. n_8 (aggregates of k monomers; with several
-    /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt; n_parcel with weights;
-    /// fixed_n_particle and
+    /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt, gel_fraction (share of the
+    /// monomers in parcels that hold more than n^(-1/3) of them each, of n at the start), gelled
+    /// (share of the runs where that was 1e-3 by then); n_parcel with weights; fixed_n_particle and
     /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
     clast_table history;
     /// One row a particle, last state of the first repeat: coordinates, monomers, radius_m,
@@ -230,6 +231,9 @@ typedef struct clast_agglomeration {
     int32_t n_rebuilt; ///< decompositions after the first, first repeat
     int32_t n_cell;    ///< last, first repeat
     bool has_exact, has_fixed;
+    bool is_gelation; ///< in some run, of a kernel that gels
+    int32_t n_gelled; ///< runs where a parcel came to hold more than n^(-1/3) of the monomers
+    double gel_time;  ///< first of the history's times then [s], mean of those runs; NaN: in none
     clast_range_report range; ///< of the cells' runs, not of the fixed mesh
 } clast_agglomeration;
 

@@ -1,6 +1,7 @@
 """CLI: agglomerate --box-model evolves a size spectrum without positions; clouds have spectra too."""
 import csv
 import math
+import random
 import re
 import unittest
 
@@ -153,6 +154,22 @@ class CloudSpectra(Case):
         self.assertGreaterEqual(sum(row["n"] * row["size_high"] for row in last), 50 - 1e-9)
         self.assertGreater(r.json["moments_sd"]["M2"][-1], 0)
         self.assertEqual(sorted(p.name for p in run.glob("*.svg")), CHARTS)
+
+    def test_gelation_of_a_cloud_is_named(self):
+        points = self.folder / "points.csv"
+        rng = random.Random(3)
+        points.write_text("x,y,z\n" + "".join(f"{rng.random()},{rng.random()},{rng.random()}\n" for _ in range(1500)))
+        words = ("agglomerate", points, "--domain", "box:0,0,0,1,1,1", "--duration", "1.5", "--n-step", "30", "--repeats", "12")
+        gel = clast(*words, "--kernel", "product", "--product", str(1 / 1500), "-o", self.folder / "gel", "--json").json
+        self.assertEqual((gel["n_cell"][-1], gel["is_gelation"], gel["n_gelled"]), (1, True, 12))
+        self.assertAlmostEqual(gel["gel_time"], 1.0, delta=1500 ** (-1 / 3) + 0.05)  # the width of the critical window, and a step
+        self.assertAlmostEqual(gel["gel_fraction"][-1], 0.583, delta=0.02)  # g = 1 - exp(-g T) [Flory]
+        with open(self.folder / "gel/history.csv", encoding="utf-8") as file:
+            history = [{"gelled": float(row["gelled"])} for row in csv.DictReader(file)]
+        self.assertEqual((history[0]["gelled"], history[-1]["gelled"]), (0, 1))
+        self.assertRegex(clast(*words, "--kernel", "product", "--product", str(1 / 1500)).out, r"gelation by (0\.9|1\.)\d* s \(12 of 12 runs\)")
+        even = clast(*words, "--constant", str(1 / 1500), "--json").json
+        self.assertEqual((even["gel_time"], even["is_gelation"], even["n_gelled"]), (None, False, 0))
 
 
 if __name__ == "__main__":
