@@ -85,6 +85,25 @@ clast_collider clx_collider_of_size(const clast_collide_config *c, double x)
     return seen;
 }
 
+static double kernel_at(const clast_collide_config *collide, double x, double y)
+{
+    clast_collider pair[2] = {clx_collider_of_size(collide, x), clx_collider_of_size(collide, y)};
+    for (int k = 0; k < 2 && (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0;
+         ++k) {
+        pair[k].settling_speed = clast_settling_speed(&collide->medium, &pair[k]);
+    }
+    const double value = clast_kernel_value(collide->kernel, &collide->medium, &pair[0], &pair[1]);
+    return collide->sticking.law == CLAST_STICKING_CONSTANT
+               ? value
+               : value * clx_sticking_of(collide, &collide->medium, &pair[0], &pair[1]);
+}
+
+bool clx_kernel_gels(const clast_collide_config *collide, double x)
+{
+    static const double DEGREE_ABOVE_1 = 2.02;
+    return kernel_at(collide, x, 0.5 * x) > DEGREE_ABOVE_1 * kernel_at(collide, 0.5 * x, 0.25 * x);
+}
+
 static void fill_pairs(const clast_collide_config *collide, clx_sectional *s)
 {
     const int64_t n = s->n;
@@ -279,6 +298,10 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
     }
     slope[n + CLX_GEL] = 0.0;
     slope[n + CLX_SETTLED] = 0.0;
+    slope[n + CLX_ADDED] = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        slope[n + CLX_ADDED] += s->source[i];
+    }
     for (int32_t j = 0; j < s->n; ++j) {
         const double at_j = y[j] * s->monomers / s->x[j];
         slope[n + CLX_SETTLED] += s->sink[j] * y[j];
