@@ -6,7 +6,9 @@
 //     bench_loop error [n] [steps] [seed] [policy]
 //                                   what each policy costs and errs, on four drifting clouds:
 //                                   events against those of the plain twin at the same step
-//     bench_loop run N STEPS POLICY [MODE]   one policy alone, for a profiler
+//     bench_loop run N STEPS POLICY [CLOUD] [auto]
+//                                   one policy alone, for a profiler; auto: by pairs where cells do
+//                                   not resolve the cloud
 #include "drifting.h"
 
 #include <clast/machine.h>
@@ -31,6 +33,9 @@ static const struct {
     {"never_cut_changed", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05}, NULL},
     {"moved_cut_changed", {CLAST_TESTS_MOVED, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05}, NULL}};
 enum { N_POLICY = sizeof policies / sizeof policies[0], MOST_STEPS = 4000 };
+
+/// By cells alone, or by pairs where these do not resolve the cloud: a cut is then dearer.
+static clast_estimator estimator = CLAST_ESTIMATOR_CELLS;
 
 typedef struct {
     clast_workspace *workspace;
@@ -58,7 +63,7 @@ static clast_status begin(int policy, const drifting *cloud, loop *l)
     clast_status status = clast_workspace_create(&l->workspace);
     if (status == CLAST_OK) {
         status = clast_fields_default(clast_decompose_fields, &l->config);
-        l->config.estimator = CLAST_ESTIMATOR_CELLS; // pairs at each cut cost 100 ms
+        l->config.estimator = estimator;
     }
     if (status == CLAST_OK && policies[policy].tests != NULL) {
         status = clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &l->config,
@@ -248,6 +253,28 @@ static int64_t number(int argc, char **argv, int at, int64_t otherwise)
     return argc > at ? (int64_t)strtod(argv[at], NULL) : otherwise;
 }
 
+/// Median and mean of the steps of one policy.
+static clast_status run(int argc, char **argv)
+{
+    static double ms[MOST_STEPS];
+    clast_status status = CLAST_OK;
+    const int n_step = (int)number(argc, argv, 3, 1);
+    const drifting_kind kind = (drifting_kind)number(argc, argv, 5, DRIFTING_MOVING);
+    estimator = argc > 6 && strcmp(argv[6], "auto") == 0 ? CLAST_ESTIMATOR_AUTO : estimator;
+    for (int p = 0; p < N_POLICY && n_step > 0 && n_step <= MOST_STEPS; ++p) {
+        if (strcmp(policies[p].name, argv[4]) == 0) {
+            status = time_steps(p, kind, number(argc, argv, 2, 20000), n_step, ms);
+            double mean = 0.0;
+            for (int k = 0; k < n_step; ++k) {
+                mean += ms[k] / n_step;
+            }
+            (void)printf("%.4g ms median, %.4g mean, %.4g most\n", ms[n_step / 2], mean,
+                         ms[n_step - 1]);
+        }
+    }
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     clast_status status = CLAST_OK;
@@ -260,14 +287,7 @@ int main(int argc, char **argv)
                             (int)number(argc, argv, 3, 200), (uint64_t)number(argc, argv, 4, 1));
         }
     } else if (argc > 4 && strcmp(argv[1], "run") == 0) {
-        static double ms[MOST_STEPS];
-        const int n_step = (int)number(argc, argv, 3, 1);
-        for (int p = 0; p < N_POLICY; ++p) {
-            if (strcmp(policies[p].name, argv[4]) == 0 && n_step > 0 && n_step <= MOST_STEPS) {
-                status = time_steps(p, DRIFTING_MOVING, number(argc, argv, 2, 20000), n_step, ms);
-                (void)printf("%.4g ms\n", ms[n_step / 2]);
-            }
-        }
+        status = run(argc, argv);
     } else {
         status = times();
     }

@@ -13,7 +13,7 @@
 
 static clast_status read_start(const cli_box *box, clast_table *table, clast_spectrum_start *start)
 {
-    CLI_GUARD(clast_points_read(box->initial_file, NULL, table));
+    CLI_GUARD(clast_cloud_read(box->initial_file, NULL, table));
     *start = (clast_spectrum_start){table->n_row, clast_table_numbers(table, "size"),
                                     clast_table_numbers(table, "number")};
     if (start->size == NULL || start->number == NULL) {

@@ -1,20 +1,24 @@
 """Sphinx configuration: Markdown pages, and the C headers through Doxygen and Breathe. Works offline."""
+import os
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "docs/extensions"))
+sys.path[:0] = [str(ROOT / "docs/extensions"), str(ROOT / "python")]
+os.environ.setdefault("CLAST_LIBRARY", str(ROOT / "build/release/libclast_view.so"))  # what `import clast` loads for its docstrings
 project = "clast"
 author = "the clast maintainers"
 copyright = "2026, the clast maintainers"  # noqa: A001 (Sphinx's name)
 release = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
-extensions = ["myst_parser", "breathe", "sphinx_inline_tabs", "sphinx_copybutton", "formulas", "mended_theme"]
+extensions = ["myst_parser", "breathe", "sphinx_inline_tabs", "sphinx_copybutton", "sphinx.ext.autodoc", "formulas", "mended_theme", "python_keys"]
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence"]
 myst_heading_anchors = 3
 html_math_renderer = "katex"  # set when the site is built: docs/extensions/formulas.py
 breathe_projects = {"clast": str(ROOT / "build/docs/xml")}
 breathe_default_project = "clast"
+autodoc_typehints = "signature"
+autodoc_member_order = "groupwise"
 breathe_domain_by_extension = {"h": "c"}
 html_theme = "furo"
 html_title = f"clast {release}"
@@ -41,5 +45,5 @@ html_theme_options = {  # contrast of 4.5 at least, in light and dark
 pygments_style = "default"
 pygments_dark_style = "github-dark"
 html_static_path = ["static"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "reference/verdicts.md"]
 suppress_warnings = ["myst.header"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Do the packages in build/packages work on a bare Debian 12 machine, as what they are for: tools/check_packages.sh [tarball] [wheel]
+# Do the packages in build/packages work on a bare Debian 12 machine, as what they are for: tools/check_packages.sh [tarball] [wheel] [deb] [deb-dev] [sdist]
 # Each is installed in a minimal root, does a real run whose numbers are those of this build, and is removed with nothing left.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 . tools/bare_root.sh
 version=$(sed -n 's/^project(clast VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 made=build/packages
-wanted=${*:-tarball wheel}
+wanted=${*:-tarball wheel deb deb-dev sdist}
 install() { within "apt-get install -y -qq --no-install-recommends $*" > "$work/log" 2>&1 || fail "apt-get install $* failed"; }
 laid() { # the files of the root but apt's and the loader's own notes, and ours
     find "$root" -xdev \( -path "$root/var/lib/apt" -o -path "$root/var/cache" -o -path "$root/var/log" -o -path "$root/var/lib/dpkg" \
@@ -16,6 +16,7 @@ laid() { # the files of the root but apt's and the loader's own notes, and ours
 same_as_before() { # WHAT: the root holds the files that it held
     laid | diff "$work/before" - > "$work/log" || fail "$1 leaves files behind, or took some away"
 }
+clear_home() { find "$root/tmp" -mindepth 1 -delete; } # runs, and caches that fontconfig and pip keep for a user
 mkdir -p "$root/given/build"
 cp -r data examples "$root/given"
 within "apt-get update -qq" > "$work/log" 2>&1 || fail "apt-get update"
@@ -42,7 +43,7 @@ for package in $wanted; do
         compare tarball /tmp/run
         user "cd /given && /opt/$name/bin/clast pack examples/u1.yaml --set mass=0.02kg -o /tmp/bed --quiet && /opt/$name/bin/clast render /tmp/bed -o /tmp/bed.png --quiet" \
             > "$work/log" 2>&1 || fail "tarball: pack or render failed"
-        rm -rf "$root/opt/$name" "$root"/tmp/*
+        rm -rf "$root/opt/$name"; clear_home
         same_as_before tarball
         say "the tarball runs without any package, numbers and charts are this build's"
         ;;
@@ -52,18 +53,62 @@ for package in $wanted; do
         wheel=$(cd "$made" && ls clast-"$version"-py3-none-manylinux_*.whl)
         cp "$made/$wheel" "$root/given/build"
         cp tools/check_wheel.py "$root/given"
-        user "mkdir /tmp/home; export HOME=/tmp/home; pip install --quiet --no-index --user --break-system-packages /given/build/$wheel" > "$work/log" 2>&1 ||
+        user "mkdir /tmp/home; export HOME=/tmp/home PIP_BREAK_SYSTEM_PACKAGES=1; pip install --quiet --no-index --user /given/build/$wheel" > "$work/log" 2>&1 ||
             fail "wheel: pip install failed"
         user "export HOME=/tmp/home PYTHONDONTWRITEBYTECODE=1; cd /tmp && python3 -W error /given/check_wheel.py /given" > "$work/log" 2>&1 || fail "wheel: python3 failed"
         compare wheel /tmp/python_run
         user "PATH=/tmp/home/.local/bin:\$PATH; $job" > "$work/log" 2>&1 || fail "wheel: its command failed"
         compare "wheel's command" /tmp/run
-        user "export HOME=/tmp/home; pip uninstall --quiet --yes --break-system-packages clast" > "$work/log" 2>&1 || fail "wheel: pip uninstall failed"
+        user "export HOME=/tmp/home PIP_BREAK_SYSTEM_PACKAGES=1; pip uninstall --quiet --yes clast" > "$work/log" 2>&1 || fail "wheel: pip uninstall failed"
         left=$(find "$root/tmp/home" -name '*clast*')
         [ -z "$left" ] || fail "wheel: pip leaves $left"
-        rm -rf "$root"/tmp/*
+        clear_home
         same_as_before wheel
         say "$wheel works with python3 and numpy alone"
+        ;;
+    sdist)
+        install gcc libc6-dev cmake ninja-build pkg-config libqhull-dev librandom123-dev liblapacke-dev liblapack-dev libblas-dev libhdf5-dev libyaml-dev \
+            libjansson-dev libcairo2-dev libpng-dev zlib1g-dev fonts-dejavu-core python3 python3-pip python3-numpy
+        laid > "$work/before"
+        tools/dist.sh > "$work/log"
+        cp "build/clast-$version.tar.gz" tools/check_wheel.py "$root/given"
+        user "mkdir /tmp/home; export HOME=/tmp/home PIP_BREAK_SYSTEM_PACKAGES=1; pip install --quiet --no-index --user /given/clast-$version.tar.gz" > "$work/log" 2>&1 ||
+            fail "sdist: pip install failed"
+        user "export HOME=/tmp/home PYTHONDONTWRITEBYTECODE=1; cd /tmp && python3 -W error /given/check_wheel.py /given" > "$work/log" 2>&1 || fail "sdist: python3 failed"
+        compare sdist /tmp/python_run
+        user "PATH=/tmp/home/.local/bin:\$PATH; $job" > "$work/log" 2>&1 || fail "sdist: its command failed"
+        compare "sdist's command" /tmp/run
+        clear_home
+        same_as_before sdist
+        say "pip builds and installs the source release"
+        ;;
+    deb | deb-dev)
+        names="clast libclast0 libclast-view0 python3-clast"
+        [ "$package" = deb ] || names="$names libclast-dev"
+        [ "$package" = deb ] || install gcc libc6-dev pkg-config
+        laid > "$work/before"
+        within "dpkg -l" > "$work/packages"
+        files=
+        for name in $names; do
+            cp "$made/${name}_"*.deb "$root/given/build"
+            files="$files $(cd "$made" && ls "./${name}_"*.deb)"
+        done
+        cp tools/check_wheel.py "$root/given"
+        within "cd /given/build && apt-get install -y -qq --no-install-recommends $files" > "$work/log" 2>&1 || fail "$package: apt-get install failed"
+        user "$job" > "$work/log" 2>&1 || fail "$package: the run failed"
+        compare "$package" /tmp/run
+        user "export PYTHONDONTWRITEBYTECODE=1; cd /tmp && python3 -W error /given/check_wheel.py /given" > "$work/log" 2>&1 || fail "$package: python3 failed"
+        compare "$package's Python" /tmp/python_run
+        if [ "$package" = deb-dev ]; then
+            user "cd /given && cc -std=c17 examples/measure_grain.c -o /tmp/a.out \$(pkg-config --cflags --libs clast) -lm && /tmp/a.out" \
+                > "$work/log" 2>&1 || fail "deb-dev: a C program failed"
+            ! user "ldd /tmp/a.out" | grep cairo || fail "deb-dev: the core loads cairo"
+        fi
+        clear_home
+        within "apt-get purge -y -qq --autoremove -o APT::AutoRemove::SuggestsImportant=0 -o APT::AutoRemove::RecommendsImportant=0 $names" > "$work/log" 2>&1 || fail "$package: apt-get purge failed"
+        within "dpkg -l" | diff "$work/packages" - > "$work/log" || fail "$package: other packages stay or went"
+        same_as_before "$package"
+        say "$names work, and go without a trace"
         ;;
     esac
 done

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every page of the built site as a reader sees it, in headless Chromium: tools/check_site.py [-j N] [--only WORD] [--pictures FOLDER] [FOLDER]
+"""Every page of the built site as a reader sees it, in headless Chromium: tools/check_site.py [-j N] [--sample] [--only WORD] [--pictures FOLDER] [FOLDER]
 
 Looked for on each page, at desktop width in light and dark and at 375 px: formulas left as TeX, messages on the console, anything that
 fails to load or is fetched from elsewhere, a page wider than the screen, links inside the site that lead nowhere; and what a reader
@@ -28,6 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 AXE = "axe-core@4.14.1"
 AXE_RUN = """axe.run(document, {resultTypes: ["violations"]ONLY}).then(r => r.violations
     .filter(v => ["serious", "critical"].includes(v.impact)).map(v => `${v.id}: ${v.nodes.length} of ${v.nodes[0].html.slice(0, 160)}`))"""
+MADE_ALIKE = ("reference/c", "reference/commands")
 LOOK = (ROOT / "tools/check_site.js").read_text()
 
 
@@ -138,10 +139,11 @@ def axe_source():
     kept = ROOT / "build/docs/axe.min.js"
     if not kept.exists():
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run(["npm", "pack", "--silent", AXE], cwd=folder, capture_output=True, text=True, timeout=60, check=False)
-            packed = list(pathlib.Path(folder).glob("*.tgz"))
-            if done.returncode or not packed:
+            try:
+                subprocess.run(["npm", "pack", "--silent", AXE], cwd=folder, capture_output=True, timeout=60, check=True)
+            except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
                 return None
+            packed = list(pathlib.Path(folder).glob("*.tgz"))
             with tarfile.open(packed[0]) as pack:
                 kept.write_bytes(pack.extractfile("package/axe.min.js").read())
     return kept.read_text()
@@ -165,7 +167,9 @@ def broken(page, site, links, ids):
                 yield f"link to no place of the page: {link}"
 
 
-SETTLED = "new Promise(done => setTimeout(() => requestAnimationFrame(done), 200))"  # after the page's own answer to a new width
+SETTLED = """new Promise(done => requestAnimationFrame(() => setTimeout(done, 200)))
+    .then(() => Promise.race([Promise.allSettled(document.getAnimations().map(a => a.finished)), new Promise(done => setTimeout(done, 1000))]))
+    .then(() => 0)"""  # the page's own answer to a new width, and colours that fade into others
 
 
 def look(browser, page, site, axe, ids, pictures):
@@ -176,8 +180,7 @@ def look(browser, page, site, axe, ids, pictures):
         return [f"does not load: {refused}"]
     for name, width, height, dark in (("light", 1280, 900, False), ("dark", 1280, 900, True), ("phone", 375, 812, False)):
         browser.screen(width, height, dark)
-        if name == "phone":
-            browser.value(SETTLED)
+        browser.value(SETTLED)
         faults |= set(told(browser.events))
         seen = browser.value(f"({LOOK})()")
         faults |= {f"{name}: {fault}" for fault in seen["faults"]}
@@ -193,10 +196,19 @@ def look(browser, page, site, axe, ids, pictures):
     return sorted(faults)
 
 
+def sample(pages, site):
+    """All pages but those of a template, of which the largest three stand for the others."""
+    for folder in MADE_ALIKE:
+        alike = sorted((p for p in pages if p.parent == site / folder), key=lambda p: p.stat().st_size)
+        pages = [p for p in pages if p not in alike[:-3]]
+    return pages
+
+
 def main():
     asked = argparse.ArgumentParser()
     asked.add_argument("--pictures", type=pathlib.Path)
     asked.add_argument("--only", default="", help="pages with this in their path")
+    asked.add_argument("--sample", action="store_true", help="of the pages that one template makes, the largest three only")
     asked.add_argument("-j", "--jobs", type=int, default=min(os.cpu_count() or 1, 4), help="browsers at a time")
     asked.add_argument("site", nargs="?", type=pathlib.Path, default=ROOT / "build/docs/html")
     asked = asked.parse_args()
@@ -205,6 +217,8 @@ def main():
         return 0
     began, site = time.monotonic(), asked.site.resolve()
     pages = sorted(p for p in site.rglob("*.html") if "_static" not in p.parts and asked.only in str(p.relative_to(site)))
+    n_page = len(pages)
+    pages = sample(pages, site) if asked.sample else pages
     if not pages:
         sys.exit(f"site: {site} has no pages; run tools/docs.sh")
     if asked.pictures:
@@ -230,7 +244,7 @@ def main():
         browser.close()
     size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file()) / 1e6
     with_axe = AXE if axe else "own rules only, no axe-core here"
-    print(f"site: {len(pages)} pages, {size:.1f} MB, read in {time.monotonic() - began:.0f} s ({with_axe}), {n_fault} faults")
+    print(f"site: {len(pages)} of {n_page} pages, {size:.1f} MB, read in {time.monotonic() - began:.0f} s ({with_axe}), {n_fault} faults")
     return 1 if n_fault else 0
 
 

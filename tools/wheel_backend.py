@@ -99,6 +99,14 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     return pack(pathlib.Path(wheel_directory), f"linux_{os.uname().machine}", files)
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """PEP 517: without it pip builds the whole to read the name."""
+    folder = pathlib.Path(metadata_directory, INFO)
+    folder.mkdir()
+    (folder / "METADATA").write_text(metadata())
+    return INFO
+
+
 def build_sdist(sdist_directory, config_settings=None):
     """PEP 517: the source release, which has PKG-INFO."""
     run("tools/dist.sh")

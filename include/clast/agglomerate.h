@@ -251,7 +251,7 @@ CLAST_API void clast_agglomeration_free(clast_agglomeration *result);
 ///
 /// Independent samples of one density give p below a level with that frequency; points that only
 /// moved a little, more rarely.
-CLAST_API clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n,
-                                         int32_t d, double *p);
+CLAST_API clast_status clast_agglomeration_change_test(const double *u_old, const double *u_new,
+                                                       int64_t n, int32_t d, double *p);
 
 CLAST_END

@@ -15,8 +15,8 @@ from ._tables import Table, read_table
 from ._views import Picture
 from ._bindings import VERSION as __version__
 
-__all__ = ["Agglomeration", "Assembly", "Cloud", "Decomposition", "Error", "Fit", "Grading", "Key", "Mesh", "MeshCheck", "Model", "Picture", "Porosity",
-           "Prediction", "Result", "Run", "Shape", "Spheres", "Study", "SurfaceResult", "Table", "View", "__version__", "agglomerate", "aggregate",
+__all__ = ["Agglomeration", "Assembly", "Cloud", "Decomposition", "Error", "Fit", "Grading", "Key", "Mesh", "MeshCheck", "Model", "Picture",
+           "Porosity", "Prediction", "Result", "Run", "Shape", "Spheres", "Study", "SurfaceResult", "Table", "View", "__version__", "agglomerate", "aggregate",
            "decompose", "export", "fill", "fit", "keys", "mesh_check", "mesh_convert", "mesh_form", "mesh_hull", "mesh_repair",
            "mesh_simplify", "mesh_synthesize", "open", "pack", "porosity", "predict", "predict_beds", "read_table", "render", "report",
            "shape", "study"]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, html_table, refuse, settled, view
+from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_table, refuse, settled, view
 from ._html import file_html
 from ._mesh import Mesh
 from ._runs import Assembly
@@ -42,7 +42,7 @@ class Spheres:
 
     def write(self, path: Path, name: str = "clump") -> None:
         """Writes the spheres as `clast fill -o` does, by the name's end."""
-        check(call("clast_spheres_write")(os.fsencode(path), name.encode(), ctypes.byref(self._owner.struct), None))
+        check(call("clast_spheres_write")(encoded("path", path), encoded("name", name), ctypes.byref(self._owner.struct), None))
 
     def _repr_html_(self) -> str:
         return html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
@@ -95,8 +95,8 @@ class Porosity:
 
     def chart(self, path: Path) -> None:
         """Draws the profile into an .svg, .pdf or .png file."""
-        check(call("clast_porosity_chart_write")(ctypes.byref(self._profile.struct), ctypes.byref(self._bulk), self.unit.encode(),
-                                                 os.fsencode(path)))
+        check(call("clast_chart_porosity")(ctypes.byref(self._profile.struct), ctypes.byref(self._bulk), self.unit.encode(),
+                                                 encoded("path", path)))
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float)) and v == v})
@@ -114,7 +114,7 @@ class _Bed:
             self.grains = run._copy()
         else:
             state = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
-            check(call("clast_run_folder_state")(os.fsencode(run), ctypes.cast(state, ctypes.c_char_p)))
+            check(call("clast_run_folder_state")(encoded("run", run), ctypes.cast(state, ctypes.c_char_p)))
             if state.value.endswith(b".h5"):
                 if columns or diameter:
                     raise refuse(f"columns, diameter: {os.fspath(run)} is a run, which knows its grains")
@@ -125,7 +125,7 @@ class _Bed:
                 self.grains = Assembly.read_spheres(run, columns=columns, diameter=diameter)
         if bed:
             self.surface = Owner(c.clast_mesh(), "clast_mesh_free")
-            check(call("clast_bed_load")(bed.encode(), ctypes.byref(self.bed), ctypes.byref(self.surface.struct)))
+            check(call("clast_bed_load")(encoded("bed", bed), ctypes.byref(self.bed), ctypes.byref(self.surface.struct)))
         elif not has_bed:
             name = "the assembly" if isinstance(run, Assembly) else os.fspath(run)
             raise refuse(f"bed: {name} does not say what holds the grains; give bed, such as 'cylinder:52mm'")
@@ -135,7 +135,7 @@ class _Bed:
         length = ctypes.c_double(value if not isinstance(value, str) else 0.0)
         if isinstance(value, str):
             is_metre = self.grains.unit == "m"
-            check(call("clast_unit_parse_asked" if is_metre else "clast_unit_parse")(value.encode(), b"m" if is_metre else b"-",
+            check(call("clast_unit_parse_asked" if is_metre else "clast_unit_parse")(encoded("value", value), b"m" if is_metre else b"-",
                                                                                      ctypes.byref(length)))
         if not low <= length.value <= 1e9:
             raise Error("CLAST_E_CONFIG", f"{name}: {value} is outside [{low:g}, 1e9]")
@@ -209,10 +209,10 @@ def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: An
     to = {name: ctypes.byref(owner.struct) for name, owner in made.items()}
     pores = Owner(c.clast_pores(), "clast_pores_free")
     if given["local"]:
-        check(call("clast_local_porosity")(placed, held, b.bed.floor, bulk.top, to["local"]))
+        check(call("clast_porosity_local")(placed, held, b.bed.floor, bulk.top, to["local"]))
     if given["rings"]:
         rings = c.clast_radial_options(method=options.method, n_ring=given["rings"])
-        check(call("clast_radial_porosity")(placed, held, z, ctypes.byref(rings), to["radial"]))
+        check(call("clast_porosity_radial")(placed, held, z, ctypes.byref(rings), to["radial"]))
     if given["pores"]:
         wanted = c.clast_pore_options(n_point=given["pores"], n_bin=50)
         call("clast_bed_period")(held, wanted.period)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Owner, call, check, choice, html_table, numbers, refuse, view
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -49,7 +49,7 @@ class Decomposition:
         if not call("clast_decompose_chart_fits")(number, ctypes.byref(self._owner.struct)):
             raise refuse(f"name: nothing to draw for {name} ({self.stop})")
         check(call("clast_decompose_chart_write")(number, ctypes.byref(self._cloud._struct()), ctypes.byref(self._owner.struct),
-                                                  os.fsencode(path)))
+                                                  encoded("path", path)))
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (bool, int, float, str))})
@@ -94,11 +94,11 @@ class Cloud:
              frame: int = 0, domain: str | None = None) -> Cloud:
         """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
-        options = c.clast_points_options(dataset=dataset.encode() or None, frame=frame)
-        check(call("clast_points_read")(os.fsencode(path), ctypes.byref(options), ctypes.byref(table.struct)))
-        wanted = c.clast_cloud_columns(radius_column=radius_column.encode(), diameter_column=diameter_column.encode(),
-                                       mass_column=mass_column.encode(), weight_column=weight_column.encode(),
-                                       variable_column=variable_column.encode(), unit=unit.encode())
+        options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
+        check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
+        wanted = c.clast_cloud_columns(radius_column=encoded("radius_column", radius_column), diameter_column=encoded("diameter_column", diameter_column),
+                                       mass_column=encoded("mass_column", mass_column), weight_column=encoded("weight_column", weight_column),
+                                       variable_column=encoded("variable_column", variable_column), unit=encoded("unit", unit))
         lists = [_text_list(columns), _text_list(velocity_columns)]
         wanted.columns, wanted.velocity_columns = lists
         check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
@@ -145,7 +145,7 @@ class Cloud:
 
 
 def _text_list(value: Any) -> Any:
-    items = [text.encode() for text in ([value] if isinstance(value, str) else value) if text]
+    items = [encoded("text", text) for text in ([value] if isinstance(value, str) else value) if text]
     return c.clast_text_list(n=len(items), item=(ctypes.c_char_p * max(1, len(items)))(*items))
 
 
@@ -234,4 +234,4 @@ def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
                          stop=call("clast_decompose_stop_text")(r.stop).decode(), n_cell=n, events=events[0], events_low=events[1],
                          events_high=events[2], pair_integral=pairs[0], pair_integral_low=pairs[1], pair_integral_high=pairs[2],
                          resolved=r.resolved, points_needed=r.points_needed if np.isfinite(r.points_needed) else nan, cells=cells,
-                         cell_of_point=view(owner, r.cells.of_point, (r.n + r.n_outside,), np.int32), _cloud=cloud, _owner=owner)
+                         cell_of_point=fixed(owner, r.cells.of_point, (r.n + r.n_outside,), np.int32), _cloud=cloud, _owner=owner)

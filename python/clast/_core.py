@@ -56,6 +56,8 @@ def _load() -> ctypes.CDLL:
 
 
 library = _load()
+# A process that was forked has none of the threads that OpenMP still counts: it works alone. Numbers do not depend on it.
+os.register_at_fork(after_in_child=lambda: library.clast_parallel_set_threads(1))
 _STATUS = {value: name for name, value in c.VALUES.items()
            if name == "CLAST_OK" or name.startswith("CLAST_E_")}
 _ready: dict[str, Any] = {}
@@ -81,6 +83,17 @@ def refuse(line: str) -> Error:
     return Error("CLAST_E_ARGUMENT", line)
 
 
+def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
+    """A text or path as C reads it, which ends at its first NUL."""
+    try:
+        made = os.fsencode(text)
+    except UnicodeEncodeError:
+        raise refuse(f"{name}: {text!r} is no text that can be written as UTF-8") from None
+    if b"\0" in made:
+        raise refuse(f"{name}: {text!r} has a NUL in it")
+    return made
+
+
 class Owner:
     """A struct of the library's and the function that frees it, when nothing looks into it any more."""
 
@@ -89,10 +102,20 @@ class Owner:
         self._free = call(free)
         self._byref = ctypes.byref
 
+    def __reduce__(self) -> Any:
+        raise TypeError("what the library owns can be neither copied nor pickled")
+
     def __del__(self) -> None:
         free = getattr(self, "_free", None)
         if free is not None:
             free(self._byref(self.struct))
+
+
+def pinned(struct: Any, owner: Any) -> Any:
+    """The struct as an argument; its memory lives as long as the call, whoever closes its object in another thread meanwhile."""
+    pointer: Any = ctypes.pointer(struct)
+    pointer.owner = owner
+    return pointer
 
 
 def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
@@ -107,8 +130,16 @@ def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[
     return np.frombuffer(memory, kind).reshape(shape)
 
 
+def fixed(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
+    """The same that nobody can write through: numbers that C trusts, as it uses them as indices."""
+    seen = view(owner, pointer, shape, dtype)
+    return np.frombuffer(memoryview(seen.data).toreadonly(), seen.dtype).reshape(seen.shape) if seen.size else seen
+
+
 def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = np.float64) -> NDArray[Any]:
     """`value` as the library reads it: as it is where it fits, else converted once; refused by `name` where it is no numbers."""
+    if isinstance(value, np.ma.MaskedArray) and np.any(np.asarray(value.mask)):
+        raise refuse(f"{name}: an array with masked items; fill or drop them")
     array = np.asarray(value)
     if array.dtype.kind not in "fiu" or (np.dtype(dtype).kind == "i" and array.dtype.kind == "f"):
         raise refuse(f"{name}: an array of {array.dtype} where numbers ({np.dtype(dtype).name}) are wanted")
@@ -180,7 +211,8 @@ class Config:
             check(call("clast_fields_default")(table, self._bytes))
         try:
             for name, value in keys.items():
-                self._set(name, value)
+                if value is not None:
+                    self._set(name, value)
         except BaseException:
             self.close()
             raise
@@ -190,12 +222,17 @@ class Config:
         if not found:
             near = next((n for n in (call("clast_fields_nearest")(table, name.encode()) for table in self._tables) if n), None)
             raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
-        items = value if isinstance(value, (list, tuple, np.ndarray)) else [value]
+        takes_list = found[0].contents.type in (c.VALUES["CLAST_FIELD_TEXT_LIST"], c.VALUES["CLAST_FIELD_F64_LIST"])
+        items = list(value) if isinstance(value, (list, tuple, np.ndarray)) else [value]
+        if len(items) != 1 and not takes_list:
+            raise refuse(f"{name}: takes one value, not {len(items)}")
+        if not items:
+            call("clast_field_clear")(found[0], self._bytes)
         for k, item in enumerate(items):
             is_text = isinstance(item, (str, os.PathLike))
-            text = os.fspath(item) if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
+            text = item if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
                 repr(item.item() if isinstance(item, np.generic) else item)
-            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, os.fsencode(text), k > 0))
+            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, encoded(name, text), k > 0))
 
     def close(self) -> None:
         for table in self._tables:
@@ -292,6 +329,17 @@ def nearest(name: str, names: Iterable[str]) -> str:
     return f"; did you mean {near[0]}?" if near else ""
 
 
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """An integer that fits: ctypes would drop the bits that do not."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise refuse(f"{name}: {value!r} is no integer") from None
+    if not low <= number <= high:
+        raise refuse(f"{name}: {number} lies outside {low} to {high}")
+    return number
+
+
 def choice(key: str, value: str, words: str) -> int:
     """The number of a word among "a|b|c"; any other is refused by name."""
     known = words.split("|")
@@ -317,7 +365,7 @@ def _value(name: str, key: Key, value: Any) -> Any:
     elif key.kind in ("number", "integer"):
         if isinstance(value, str):
             number = ctypes.c_double()
-            check(call("clast_unit_parse_asked")(value.encode(), key.unit.encode(), ctypes.byref(number)))
+            check(call("clast_unit_parse_asked")(encoded(name, value), key.unit.encode(), ctypes.byref(number)))
             value = number.value
         try:
             value = float(value) if key.kind == "number" else operator.index(int(value) if value == int(value) else value)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, html_table, numbers, refuse, view
+from ._core import Error, Floats, Owner, call, check, encoded, fixed, html_table, numbers, pinned, refuse, view, whole
 from ._tables import Path
 
 
@@ -97,19 +97,13 @@ def _halved(points: Floats, quads: NDArray[Any]) -> NDArray[Any]:
     return np.concatenate([first, second])
 
 
-def locked(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    """A view that cannot be written through: vertex numbers are checked once, and C trusts them."""
-    seen = triangles.view()
-    seen.flags.writeable = False
-    return seen
-
-
 class Mesh:
-    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or the arrays given."""
+    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or, of vertices, the array given."""
 
     def __init__(self, vertices: Any, triangles: Any) -> None:
-        """From arrays, which are borrowed where they are float64 and int32 in C order, else converted once."""
-        vert, tri = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
+        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
         if tri.size and (tri.min() < 0 or tri.max() >= len(vert)):
             raise refuse(f"triangles: vertex numbers from {tri.min()} to {tri.max()} where there are {len(vert)} vertices, from 0")
         self._mesh: Any = c.clast_mesh()
@@ -117,21 +111,21 @@ class Mesh:
         self._mesh.vert = ctypes.cast(vert.ctypes.data, ctypes.POINTER(ctypes.c_double))
         self._mesh.tri = ctypes.cast(tri.ctypes.data, ctypes.POINTER(ctypes.c_int32))
         self._owner: Any = (vert, tri)
-        self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, locked(tri))
+        self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, tri)
 
     @classmethod
     def _own(cls, struct: Any) -> Mesh:
         mesh = cls.__new__(cls)
         owner = Owner(struct, "clast_mesh_free")
         mesh._mesh, mesh._owner = struct, owner
-        mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), locked(view(owner, struct.tri, (struct.n_tri, 3), np.int32)))
+        mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), fixed(owner, struct.tri, (struct.n_tri, 3), np.int32))
         return mesh
 
     @classmethod
     def read(cls, path: Path, weld: bool = True) -> Mesh:
         """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
         struct = c.clast_mesh()
-        name = os.fsencode(path)
+        name = encoded("path", path)
         check(call("clast_mesh_read_welded" if weld else "clast_mesh_read")(name, ctypes.byref(struct), None))
         return cls._own(struct)
 
@@ -187,7 +181,7 @@ class Mesh:
     def ellipsoid(cls, semi_axes: tuple[float, float, float], level: int = 4) -> Mesh:
         """An ellipsoid of 20 * 4^level triangles."""
         struct = c.clast_mesh()
-        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), level, ctypes.byref(struct)))
+        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), whole("level", level, 0, 9), ctypes.byref(struct)))
         return cls._own(struct)
 
     def close(self) -> None:
@@ -195,9 +189,13 @@ class Mesh:
         self._mesh = self._owner = None
 
     def _struct(self) -> Any:
-        if self._mesh is None:
+        mesh, owner = self._mesh, self._owner
+        if mesh is None or owner is None:
             raise Error("CLAST_E_USAGE", "this mesh is closed")
-        return ctypes.byref(self._mesh)
+        return pinned(mesh, owner)
+
+    def __reduce__(self) -> Any:
+        return Mesh, (np.array(self.vertices), np.array(self.triangles))
 
     @property
     def vertices(self) -> Floats:
@@ -226,7 +224,7 @@ class Mesh:
 
     def write(self, path: Path) -> None:
         """Writes STL, OBJ, PLY or OFF by the name's end."""
-        check(call("clast_mesh_write")(os.fsencode(path), self._struct(), None))
+        check(call("clast_mesh_write")(encoded("path", path), self._struct(), None))
 
     def check(self) -> MeshCheck:
         """What is this surface, and can it be trusted?"""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, choice, html_table, keys, refuse, settled
+from ._core import Config, Error, Owner, call, check, choice, encoded, html_table, keys, refuse, settled
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
@@ -22,9 +22,9 @@ class Model:
 
     def __init__(self, name: Path) -> None:
         struct = c.clast_porosity_model()
-        number = call("clast_porosity_model_find")(os.fsencode(name))
+        number = call("clast_porosity_model_find")(encoded("name", name))
         check(call("clast_porosity_model_published")(number, ctypes.byref(struct)) if number >= 0 else
-              call("clast_porosity_model_read")(os.fsencode(name), ctypes.byref(struct)))
+              call("clast_porosity_model_read")(encoded("name", name), ctypes.byref(struct)))
         self._keep(Owner(struct, "clast_porosity_model_free"), struct)
 
     @classmethod
@@ -46,7 +46,7 @@ class Model:
     def write(self, path: Path) -> None:
         """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
         note = (ctypes.c_char_p * 2)(b"clast", c.VERSION.encode())
-        check(call("clast_porosity_model_write")(ctypes.byref(self._model), note, 1, os.fsencode(path)))
+        check(call("clast_porosity_model_write")(ctypes.byref(self._model), note, 1, encoded("path", path)))
 
     def _repr_html_(self) -> str:
         return html_table([(self.name, ""), ("intercept", self.intercept), *self.coefficients.items()], ("term", "coefficient"), self.source)
@@ -94,7 +94,7 @@ def _choose(model: Model | Path, grading: str, has_spread: bool) -> Model:
         return Model(model)
     is_mixture = word == "mixture" or (word == "auto" and has_spread)
     name = f"{'form_mixture' if is_mixture else 'single_form'}_{grading}"
-    if call("clast_porosity_model_find")(name.encode()) < 0:
+    if call("clast_porosity_model_find")(encoded("name", name)) < 0:
         raise refuse(f"grading: no form-mixture model was published for {grading}; take model='single', or U1 or U7")
     return Model(name)
 
@@ -123,7 +123,7 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     owner, rows = Owner(c.clast_form_set(), "clast_form_set_free"), given_table("table", table)
     if _choose(model, grading, False).kind == "columns":
         raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
-    check(call("clast_form_set_of")(ctypes.byref(rows.struct), columns.encode(), ctypes.byref(owner.struct)))
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
     chosen = _choose(model, grading, owner.struct.n > 1)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     given = settled("predict", dict(resamples=resamples, seed=seed))
@@ -161,7 +161,7 @@ def predict_beds(table: Any, *, model: Model | Path = "auto", grading: str = "U1
         check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
         return table_of(beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
-    check(call("clast_form_set_of")(ctypes.byref(rows.struct), columns.encode(), ctypes.byref(owner.struct)))
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
     return table_of(beds)
 
@@ -195,7 +195,7 @@ class Fit:
         """Draws "feature", "predicted", "residuals" or "leverage" into an .svg, .pdf or .png file."""
         names = "|".join(call("clast_fit_chart_name")(k).decode() for k in range(c.VALUES["CLAST_N_FIT_CHART"]))
         number = choice("name", name, names)
-        check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), os.fsencode(path)))
+        check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), encoded("path", path)))
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
@@ -224,7 +224,7 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
-        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), name.encode(), source.encode(),
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name), encoded("source", source),
                                               ctypes.byref(made.struct)))
     return _fit(data, made)
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Owner, Quantity, call, check, choice, html_table, refuse, settled, view
+from ._core import Config, Floats, Owner, Quantity, call, check, choice, encoded, fixed, html_table, refuse, settled, view
 from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
@@ -56,13 +56,13 @@ class Assembly:
         self.orientations: Floats = view(owner, a.orientation, (n, 4), np.float64)  #: quaternions w, x, y, z
         self.scales: Floats = view(owner, a.scale, (n,), np.float64)
         self.densities: Floats = view(owner, a.density, (n,), np.float64)
-        self.shape_ids: NDArray[np.int32] = view(owner, a.shape_id, (n,), np.int32)
+        self.shape_ids: NDArray[np.int32] = fixed(owner, a.shape_id, (n,), np.int32)
 
     @classmethod
     def read(cls, path: Path) -> Assembly:
         """The grains of a state file or a run's folder."""
         found = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
-        check(call("clast_run_folder_state")(os.fsencode(path), ctypes.cast(found, ctypes.c_char_p)))
+        check(call("clast_run_folder_state")(encoded("path", path), ctypes.cast(found, ctypes.c_char_p)))
         struct = c.clast_assembly()
         check(call("clast_state_read_assembly")(found.value, ctypes.byref(struct)))
         return cls(Owner(struct, "clast_assembly_free"))
@@ -72,9 +72,9 @@ class Assembly:
         """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
         size = ctypes.c_double(diameter if not isinstance(diameter, str) else 0.0)
         if isinstance(diameter, str):
-            check(call("clast_unit_parse")(diameter.encode(), b"m", ctypes.byref(size)))
-        options, struct = c.clast_packing_options(columns=columns.encode(), diameter=size.value), c.clast_assembly()
-        check(call("clast_packing_read")(os.fsencode(path), ctypes.byref(options), ctypes.byref(struct)))
+            check(call("clast_unit_parse")(encoded("diameter", diameter), b"m", ctypes.byref(size)))
+        options, struct = c.clast_packing_options(columns=encoded("columns", columns), diameter=size.value), c.clast_assembly()
+        check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct)))
         return cls(Owner(struct, "clast_assembly_free"))
 
     def _copy(self) -> Assembly:
@@ -92,14 +92,14 @@ class Assembly:
 
     def write(self, path: Path) -> None:
         """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
-        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), os.fsencode(path), None, None))
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), None, None))
 
     def view(self, triangles: int = 100_000, title: str = "clast") -> View:
         """The interactive 3-D view, grains simplified to so many triangles together."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "view.html")
             with Config(c.clast_report_config(), "clast_report_fields", {"title": title, "triangles": triangles}) as config:
-                check(call("clast_report_write_view")(ctypes.byref(self._owner.struct), ctypes.byref(config.struct), os.fsencode(path)))
+                check(call("clast_report_write_view")(ctypes.byref(self._owner.struct), ctypes.byref(config.struct), encoded("path", path)))
             with _open_file(path, "rb") as file:
                 return View(file.read(), title)
 
@@ -131,12 +131,12 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
         state_table(run, table).write(output)
         return {"file": os.fspath(output), "table": table}
     grains = run if isinstance(run, Assembly) else Assembly.read(run)
-    bare = call("clast_export_format_of_path")(os.fsencode(output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
+    bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
     chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
     options = c.clast_export_options(level=given["level"], points=points, colour=choice("colour", colour, "grain|order|size|shape"),
-                                     unit=None if chosen is None else chosen.encode())
+                                     unit=None if chosen is None else encoded("chosen", chosen))
     told = c.clast_export_report()
-    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), os.fsencode(output), ctypes.byref(options), ctypes.byref(told)))
+    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
     return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),
             "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle}
 
@@ -144,8 +144,8 @@ def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool =
 def state_table(run: Path, name: str) -> Table:
     """A table that the run's state holds ("history")."""
     found, owner = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"]), Owner(c.clast_table(), "clast_table_free")
-    check(call("clast_run_folder_state")(os.fsencode(run), ctypes.cast(found, ctypes.c_char_p)))
-    check(call("clast_state_read_table")(found.value, name.encode(), ctypes.byref(owner.struct)))
+    check(call("clast_run_folder_state")(encoded("run", run), ctypes.cast(found, ctypes.c_char_p)))
+    check(call("clast_state_read_table")(found.value, encoded("name", name), ctypes.byref(owner.struct)))
     return table_of(owner)
 
 
@@ -153,7 +153,7 @@ class Run:
     """A run's folder: its summary, manifest, tables and grains."""
 
     def __init__(self, folder: Path) -> None:
-        check(call("clast_run_folder_check")(os.fsencode(folder)))
+        check(call("clast_run_folder_check")(encoded("folder", folder)))
         self.folder = os.fspath(folder)
         self.manifest: dict[str, Any] = self._json("manifest.json")
         self.summary: dict[str, Any] = self._json("summary.json")

@@ -7,8 +7,19 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, html_table, refuse, view
+from ._core import Error, Floats, Owner, call, check, encoded, html_table, refuse, view, whole
 from ._tables import Table
+
+
+class _Handle:
+    """What the library made, destroyed when nothing uses it any more, in whatever thread."""
+
+    def __init__(self, pointer: ctypes.c_void_p) -> None:
+        self._as_parameter_ = pointer
+        self._destroy = call("clast_grading_destroy")
+
+    def __del__(self) -> None:
+        self._destroy(self._as_parameter_)
 
 
 class Grading:
@@ -25,22 +36,18 @@ class Grading:
             if kinds[-1] is None:
                 raise refuse(f"{name}: '{value}' is none of {', '.join(n[len(prefix):].lower() for n in c.VALUES if n.startswith(prefix))}")
         curve, handle = Owner(c.clast_curve(), "clast_curve_free"), ctypes.c_void_p()
-        check(call("clast_grading_load")(text.encode(), kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
-        self._handle, self._curve = handle, curve
+        check(call("clast_grading_load")(encoded("text", text), kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
+        self._handle, self._curve = _Handle(handle), curve
 
     def close(self) -> None:
-        if self._handle is not None:
-            call("clast_grading_destroy")(self._handle)
-            self._handle = None
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) is not None:
-            self.close()
+        """Lets go of the memory."""
+        self._handle = None
 
     def _open(self) -> Any:
-        if self._handle is None:
+        handle = self._handle
+        if handle is None:
             raise Error("CLAST_E_USAGE", "this grading is closed")
-        return self._handle
+        return handle
 
     def size(self, share: float, by: str = "number") -> float:
         """The size that this share of the grains (by="number") or of their volume (by="mass") does not exceed [m]."""
@@ -50,7 +57,7 @@ class Grading:
 
     def draw(self, n: int, seed: int = 1) -> Floats:
         """Sizes of grains 0 .. n - 1 [m]: a function of the seed and the grain's number alone."""
-        draw, handle = call("clast_grading_draw"), self._open()
+        draw, handle, n, seed = call("clast_grading_draw"), self._open(), whole("n", n, 0, 2**40), whole("seed", seed, 0, 2**64 - 1)
         return np.fromiter((draw(handle, seed, k) for k in range(n)), np.float64, n)
 
     @property

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, nearest, refuse
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse
 from ._tables import Path, Table, read_table
 
 
@@ -141,7 +141,7 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
     call("clast_parallel_set_threads")(jobs)
     try:
         with Config(c.clast_study_config(), "clast_study_fields", {"run": run, **keys}) as config:
-            status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), os.fsencode(output),
+            status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), encoded("output", output),
                                                                    ctypes.byref(workers.struct), None, m, ctypes.byref(report)))
         if workers.failed is not None:
             raise workers.failed

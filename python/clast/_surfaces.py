@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, call, check, refuse, settled
+from ._core import Config, Error, call, check, encoded, refuse, settled, whole
 from ._mesh import Mesh, MeshCheck
 from ._runs import Result
 from ._tables import Path
@@ -121,8 +121,7 @@ def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
 
 def mesh_synthesize(index: int = 0, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
     """A grain of a wanted form, size and roughness that nobody scanned: the one of this index and seed (`--count` makes 0, 1, 2 ...)."""
-    if index < 0:
-        raise refuse(f"index: {index} is below 0")
+    index = whole("index", index, 0, 2**64 - 1)
     struct, report = c.clast_mesh(), c.clast_synthesize_report()
     with Config(c.clast_synthesize_config(), "clast_synthesize_fields", keys) as config:
         check(call("clast_synthesize_grain")(ctypes.byref(config.struct), index, ctypes.byref(struct), ctypes.byref(report)))
@@ -132,7 +131,7 @@ def mesh_synthesize(index: int = 0, *, output: Path | None = None, **keys: Any) 
 def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: str = "", scale: float = 1.0, name: str = "") -> SurfaceResult:
     """Writes a surface as STL, OBJ, PLY, OFF or 3MF by the name's end, in another unit if wanted; 3MF needs `unit`."""
     wanted = settled("mesh convert", dict(unit=unit, out_unit=out_unit, scale=scale, name=name))
-    of_path = call("clast_mesh_format_of_path")(os.fsencode(output))
+    of_path = call("clast_mesh_format_of_path")(encoded("output", output))
     if of_path == c.VALUES["CLAST_MESH_ANY"]:
         raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
     if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):
@@ -143,12 +142,12 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     mesh = _read(surface, weld=False)
     if factor != 1.0:
         mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
-    options = c.clast_mesh_write_options(unit=out_unit.encode() or None, name=name.encode() or None)
-    check(call("clast_mesh_write")(os.fsencode(output), mesh._struct(), ctypes.byref(options)))
+    options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", name) or None)
+    check(call("clast_mesh_write")(encoded("output", output), mesh._struct(), ctypes.byref(options)))
     return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "factor": factor})
 
 
 def _metres(unit: str) -> float:
     factor = ctypes.c_double()
-    check(call("clast_unit_factor")(unit.encode(), b"m", ctypes.byref(factor)))
+    check(call("clast_unit_factor")(encoded("unit", unit), b"m", ctypes.byref(factor)))
     return factor.value

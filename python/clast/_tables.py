@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Owner, call, check, html_table, refuse, view
+from ._core import Owner, call, check, encoded, html_table, refuse, view
 
 Path = str | os.PathLike[str]
 Text = Path  #: where a key takes words, or a file
@@ -48,7 +48,7 @@ class Table(NDArray[Any]):
         """Writes CSV, or JSON by the name's end, as the commands do."""
         function = "clast_table_write_json" if os.fspath(path).endswith(".json") else "clast_table_write_csv"
         owner = given_table("table", self)
-        check(call(function)(ctypes.byref(owner.struct), os.fsencode(path)))
+        check(call(function)(ctypes.byref(owner.struct), encoded("path", path)))
 
     def _repr_html_(self) -> str:
         shown = self[:10] if self.ndim else self.reshape(1)
@@ -79,7 +79,7 @@ def read_table(path: Path) -> Table:
 
 def _read(path: Path) -> Owner:
     table = c.clast_table()
-    check(call("clast_table_read_csv")(os.fsencode(path), None, ctypes.byref(table), None))
+    check(call("clast_table_read_csv")(encoded("path", path), None, ctypes.byref(table), None))
     return Owner(table, "clast_table_free")
 
 
@@ -94,15 +94,15 @@ def given_table(name: str, value: Any) -> Owner:
         raise refuse(f"{name}: {'no column' if not lengths else 'columns of ' + ' and '.join(map(str, sorted(lengths))) + ' rows'}")
     n = lengths.pop()
     units = getattr(value, "units", {})
-    check(call("clast_table_init")(ctypes.byref(owner.struct), name.encode(), n))
+    check(call("clast_table_init")(ctypes.byref(owner.struct), encoded("name", name), n))
     for k, (column, values) in enumerate(columns.items()):
         if values.dtype.kind in "fiub":
-            check(call("clast_table_add_number")(ctypes.byref(owner.struct), column.encode(), units.get(column, "-").encode(), None))
+            check(call("clast_table_add_number")(ctypes.byref(owner.struct), encoded("column", column), units.get(column, "-").encode(), None))
             view(owner, owner.struct.column[k].number, (n,), np.float64)[...] = values
         else:
-            check(call("clast_table_add_text")(ctypes.byref(owner.struct), column.encode()))
+            check(call("clast_table_add_text")(ctypes.byref(owner.struct), encoded("column", column)))
             for i, text in enumerate(values):
-                check(call("clast_table_set_text")(ctypes.byref(owner.struct), k, i, str(text).encode()))
+                check(call("clast_table_set_text")(ctypes.byref(owner.struct), k, i, encoded(column, str(text))))
     return owner
 
 

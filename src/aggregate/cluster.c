@@ -210,7 +210,7 @@ static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_la
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
-    const int32_t tries = clx_search_tries(a->config);
+    const int32_t tries = clx_search_tries(a->params);
     CLX_TRY(clx_walk_or_search(search, tries, landing));
     CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "merger %d: all of %d %s miss the larger cluster; raise max_tries", a->n_placed + 1,
@@ -318,7 +318,7 @@ static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
 static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                            const clx_kit_group *group, clx_search *search)
 {
-    const clast_aggregate_config *c = a->config;
+    const clast_aggregate_params *c = a->params;
     *search = (clx_search){.kit = &a->kit,
                            .group = group,
                            .scale = 1.0,
@@ -431,7 +431,7 @@ done:
 
 static clast_status plan(clast_aggregate *a)
 {
-    const int32_t n_final = a->config->n_final;
+    const int32_t n_final = a->params->n_final;
     if (n_final >= a->n_particle) {
         return clx_fail(CLAST_E_CONFIG, "n_final: %d clusters cannot be left of %d particles",
                         n_final, a->n_particle);

@@ -55,7 +55,7 @@ static clast_status grow_one(const job *j, int32_t repeat, double value[CLX_FIT_
 {
     clast_status status = CLAST_OK;
     clast_aggregate *aggregate = NULL;
-    CLX_TRY(clast_aggregate_create(&j->config, j->fit->input, repeat, &aggregate));
+    CLX_TRY(clast_aggregate_create(&j->config.params, j->fit->input, repeat, &aggregate));
     while (!clast_aggregate_is_done(aggregate)) {
         CLX_TRY(clast_aggregate_grow(aggregate, 1 << 20, NULL));
     }
@@ -145,11 +145,11 @@ static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
             return CLAST_OK;
         }
     }
-    j.config.cone = packing->cone;
-    j.config.rays = packing->rays;
-    j.config.orientations = packing->orientations;
-    j.config.replicate = replicate;
-    j.config.envelope_every = 1000000000;
+    j.config.params.cone = packing->cone;
+    j.config.params.rays = packing->rays;
+    j.config.params.orientations = packing->orientations;
+    j.config.params.replicate = replicate;
+    j.config.params.envelope_every = 1000000000;
     CLX_TRY(clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
     CLX_TRY(run_job(&j));
     summarise(&j, &made);

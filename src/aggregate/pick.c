@@ -63,9 +63,9 @@ static void brownian(const clx_clusters *all, clx_rng *rng, int32_t pair[2])
 void clx_pick_pair(const clast_aggregate *a, int32_t pair[2])
 {
     clx_rng rng = clx_rng_at(a->seed, CLX_STREAM_CLUSTER, (uint64_t)a->n_placed);
-    if (a->config->pick == CLAST_PICK_MASS) {
+    if (a->params->pick == CLAST_PICK_MASS) {
         by_mass(&a->clusters, &rng, pair);
-    } else if (a->config->pick == CLAST_PICK_BROWNIAN) {
+    } else if (a->params->pick == CLAST_PICK_BROWNIAN) {
         brownian(&a->clusters, &rng, pair);
     } else {
         two_of(&rng, a->clusters.n, pair);

@@ -16,7 +16,7 @@ static double draw_in_bin(const clast_sizes *sizes, int64_t bin, clx_rng *rng)
     return low == high ? low : low * pow(high / low, clx_rng_uniform(rng));
 }
 
-static clast_status count_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status count_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                                int64_t *total)
 {
     clast_status status = CLAST_OK;
@@ -39,7 +39,7 @@ done:
     return status;
 }
 
-static clast_status take_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status take_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                               uint64_t seed, double **size, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-static clast_status count_draws(const clast_aggregate_config *c, int64_t *n)
+static clast_status count_draws(const clast_aggregate_params *c, int64_t *n)
 {
     *n = (int64_t)c->n_particle * c->replicate;
     return *n <= SIZE_LIMIT ? CLAST_OK
@@ -67,7 +67,7 @@ static clast_status count_draws(const clast_aggregate_config *c, int64_t *n)
 }
 
 /// Running sums of the bins' numbers of particles.
-static clast_status cumulate(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status cumulate(const clast_aggregate_params *c, const clast_sizes *sizes,
                              double **sum)
 {
     clast_status status = CLAST_OK;
@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-static clast_status draw_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status draw_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                               uint64_t seed, double **size, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -107,7 +107,7 @@ done:
     return status;
 }
 
-static double draw_law(const clast_aggregate_config *c, clx_rng *rng)
+static double draw_law(const clast_aggregate_params *c, clx_rng *rng)
 {
     switch (c->size_law) {
     case CLAST_SIZE_UNIFORM:
@@ -125,7 +125,7 @@ static double draw_law(const clast_aggregate_config *c, clx_rng *rng)
 
 enum { LAW_DRAWS = 10000 };
 
-static clast_status draw_laws(const clast_aggregate_config *c, uint64_t seed, double **size,
+static clast_status draw_laws(const clast_aggregate_params *c, uint64_t seed, double **size,
                               int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -167,7 +167,7 @@ static void shuffle(double *size, int64_t n, uint64_t seed)
     }
 }
 
-static void put_in_order(const clast_aggregate_config *c, uint64_t seed, double *size, int64_t n)
+static void put_in_order(const clast_aggregate_params *c, uint64_t seed, double *size, int64_t n)
 {
     if (n == 0) {
         return;
@@ -179,7 +179,7 @@ static void put_in_order(const clast_aggregate_config *c, uint64_t seed, double 
     }
 }
 
-static clast_status list_sizes(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status list_sizes(const clast_aggregate_params *c, const clast_sizes *sizes,
                                uint64_t seed, double **size, int64_t *n)
 {
     if (sizes == NULL || sizes->n == 0) {
@@ -188,7 +188,7 @@ static clast_status list_sizes(const clast_aggregate_config *c, const clast_size
     return c->size_draw ? draw_list(c, sizes, seed, size, n) : take_list(c, sizes, seed, size, n);
 }
 
-clast_status clx_sizes_plan(const clast_aggregate_config *c, const clast_sizes *sizes,
+clast_status clx_sizes_plan(const clast_aggregate_params *c, const clast_sizes *sizes,
                             uint64_t seed, double **size, int32_t *n)
 {
     clast_status status = CLAST_OK;
@@ -234,8 +234,8 @@ static int32_t by_weight(const clast_f64_list *weight, int32_t n_coat, double u)
     return last;
 }
 
-int32_t clx_sizes_shape(const clast_aggregate_config *c, uint64_t seed, int64_t particle,
-                        double size)
+int32_t clx_sizes_shape(const clast_aggregate_params *c, int32_t n_coat, uint64_t seed,
+                        int64_t particle, double size)
 {
     if (c->class_limit.n > 0) {
         int32_t k = 0;
@@ -245,5 +245,5 @@ int32_t clx_sizes_shape(const clast_aggregate_config *c, uint64_t seed, int64_t 
         return k;
     }
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_AGGREGATE_SHAPE, (uint64_t)particle);
-    return by_weight(&c->coat_weight, c->coat.n, clx_rng_uniform(&rng));
+    return by_weight(&c->coat_weight, n_coat, clx_rng_uniform(&rng));
 }

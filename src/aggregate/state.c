@@ -22,12 +22,12 @@ void clx_aggregate_free(clast_aggregate *a)
 
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle)
 {
-    return clx_sizes_shape(a->config, a->seed, particle, a->size[particle]);
+    return clx_sizes_shape(a->params, a->input->n_coat, a->seed, particle, a->size[particle]);
 }
 
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape)
 {
-    return a->size[particle] / clx_kit_size(&a->kit.group[1 + shape], a->config->size_meaning);
+    return a->size[particle] / clx_kit_size(&a->kit.group[1 + shape], a->params->size_meaning);
 }
 
 clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)
@@ -42,10 +42,10 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
 {
     return (clx_aim){.seed = a->seed,
                      .particle = a->n_placed,
-                     .n_ray = a->config->rays,
+                     .n_ray = a->params->rays,
                      .random_axis = a->random_axis,
                      .axis = {a->axis[0], a->axis[1], a->axis[2]},
-                     .cone = a->config->cone};
+                     .cone = a->params->cone};
 }
 
 double clx_aggregate_gyration(const clast_aggregate *a)

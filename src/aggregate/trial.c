@@ -299,10 +299,10 @@ static void run_trials(int64_t begin, int64_t end, int32_t worker, void *context
     }
 }
 
-int32_t clx_search_tries(const clast_aggregate_config *config)
+int32_t clx_search_tries(const clast_aggregate_params *params)
 {
-    return config->approach == CLAST_APPROACH_CENTRAL ? config->max_tries
-                                                      : LINES_A_TRY * config->max_tries;
+    return params->approach == CLAST_APPROACH_CENTRAL ? params->max_tries
+                                                      : LINES_A_TRY * params->max_tries;
 }
 
 const char *clx_search_paths(const clx_search *search)

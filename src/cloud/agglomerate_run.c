@@ -302,7 +302,7 @@ static clast_status has_changed(const clx_evolution *r, bool *changed)
             ++n;
         }
     }
-    CLX_TRY(clast_change_test(u, u + p->n * d, n, d, &chance));
+    CLX_TRY(clast_agglomeration_change_test(u, u + p->n * d, n, d, &chance));
     *changed = chance < r->config->change_level;
 done:
     clx_free(u);

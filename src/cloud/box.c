@@ -101,7 +101,7 @@ static double sink_of(const clx_box *s, int64_t m)
         return 0.0;
     }
     const clast_collider seen = clx_collider_of_size(&s->collide, (double)m * s->unit);
-    return fabs(clast_settling_speed(&s->collide.medium, &seen)) / s->config->settling_depth;
+    return fabs(clast_kernel_settling_speed(&s->collide.medium, &seen)) / s->config->settling_depth;
 }
 
 /// The smallest size does not break.

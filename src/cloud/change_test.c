@@ -49,8 +49,8 @@ done:
     return status;
 }
 
-clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n, int32_t d,
-                               double *p)
+clast_status clast_agglomeration_change_test(const double *u_old, const double *u_new, int64_t n,
+                                             int32_t d, double *p)
 {
     CLX_ARGUMENTS(u_old, u_new, p);
     clast_status status = CLAST_OK;

@@ -31,7 +31,7 @@ static clx_kind kind_of(const clx_block *b, int64_t i)
 static void let_settle(const clx_block *b, clx_kind *kind)
 {
     if ((b->needs & CLAST_NEEDS_SETTLING) != 0) {
-        kind->as.settling_speed = clast_settling_speed(b->medium, &kind->as);
+        kind->as.settling_speed = clast_kernel_settling_speed(b->medium, &kind->as);
     }
     if (b->flows) {
         kind->change = clx_box_rate(b->box, (int64_t)kind->as.monomers);

@@ -2,6 +2,7 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
+#include "cloud/boundary_score.h"
 #include "cloud/cells.h"
 #include "cloud/contract.h"
 #include "cloud/cut_cells.h"
@@ -504,7 +505,7 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
     clast_status status = CLAST_OK;
     clast_uniformity_config vote;
     double side[3];
-    clast_domain_sides(sample->domain, side);
+    clx_domain_sides(sample->domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
     CLX_TRY(clast_uniformity_test(sample->u, sample->n_test, sample->domain->dimension, side, &vote,
                                   found));

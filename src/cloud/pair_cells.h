@@ -1,9 +1,12 @@
 #pragma once
 // Points sorted into the occupied cells of a regular grid, and sums over their neighbours.
 #include "base/status.h"
+#include "cloud/pair_lanes.h"
 
 #include <clast/domain.h>
 #include <clast/pairs.h>
+
+enum { CLX_PAIR_RANGE = 2 }; ///< cells to either side that hold neighbours
 
 /// Points by cell, cells in the order of their keys; along axis 0 neighbours are contiguous.
 typedef struct clx_pair_cells {
@@ -11,8 +14,8 @@ typedef struct clx_pair_cells {
     int64_t n, n_cell;
     double side, low[3]; ///< of the cells; low corner of the points
     int64_t dim[3];      ///< cells an axis with two empty ones at either end
-    double *x[3];        ///< [n] coordinates in this order
-    double *safe;        ///< [n] distance to the border
+    double *x[3];        ///< [n + CLX_PAIR_PAD] coordinates in this order
+    double *safe2;       ///< [n + CLX_PAIR_PAD] distance to the border, squared
     int64_t *key;        ///< [n_cell]
     int64_t *begin;      ///< [n_cell + 1]
 } clx_pair_cells;

@@ -90,7 +90,7 @@ static double kernel_at(const clast_collide_config *collide, double x, double y)
     clast_collider pair[2] = {clx_collider_of_size(collide, x), clx_collider_of_size(collide, y)};
     for (int k = 0; k < 2 && (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0;
          ++k) {
-        pair[k].settling_speed = clast_settling_speed(&collide->medium, &pair[k]);
+        pair[k].settling_speed = clast_kernel_settling_speed(&collide->medium, &pair[k]);
     }
     const double value = clast_kernel_value(collide->kernel, &collide->medium, &pair[0], &pair[1]);
     return collide->sticking.law == CLAST_STICKING_CONSTANT
@@ -236,7 +236,7 @@ clast_status clx_sectional_rates(const clast_spectrum_config *config,
     for (int32_t i = 0; i < s->n; ++i) {
         s->as[i] = clx_collider_of_size(collide, s->x[i]);
         if (falls || (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0) {
-            s->as[i].settling_speed = clast_settling_speed(&collide->medium, &s->as[i]);
+            s->as[i].settling_speed = clast_kernel_settling_speed(&collide->medium, &s->as[i]);
         }
     }
     s->ranges = clx_ranges_of(collide) | (falls ? clx_ranges_of_settling(collide) : 0);

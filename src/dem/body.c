@@ -160,7 +160,7 @@ done:
     return status;
 }
 
-void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
+void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2])
 {
     if (dem == NULL || measures == NULL) {
         return;

@@ -88,7 +88,7 @@ done:
     return status;
 }
 
-clast_status clast_config_json(const clast_field *fields, const void *config, char **text)
+clast_status clast_fields_json(const clast_field *fields, const void *config, char **text)
 {
     CLX_ARGUMENTS(fields, config, text);
     clast_status status = CLAST_OK;

@@ -2,6 +2,7 @@
 // the list of sizes.
 #include "math/rng.h"
 #include "pack/pack.h"
+#include "shape/curve.h"
 #include <math.h>
 
 /// The configured one, or that of the shape's own parts.
@@ -50,7 +51,7 @@ double clx_pack_density(const clast_pack *p, int64_t index, int32_t shape, doubl
     case CLAST_PACK_DENSITY_CLASS:
         return of_class(p, size);
     case CLAST_PACK_DENSITY_LIST:
-        return clast_grading_draw_density(p->input.grading, p->config.seed, (uint64_t)index);
+        return clx_grading_draw_density(p->input.grading, p->config.seed, (uint64_t)index);
     default:
         return of_shape(p, shape);
     }
@@ -62,7 +63,7 @@ void clx_pack_densities(const clast_pack *p, double *low, double *high)
     const bool by_shape = p->config.density_of == CLAST_PACK_DENSITY_SHAPE;
     const int32_t n = by_shape ? p->input.n_shape : d->n;
     if (p->config.density_of == CLAST_PACK_DENSITY_LIST) {
-        clast_grading_densities(p->input.grading, low, high);
+        clx_grading_densities(p->input.grading, low, high);
         return;
     }
     *low = INFINITY;

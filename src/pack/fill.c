@@ -1,5 +1,6 @@
 // Where grains begin: fill after fill, clear of each other, none shrunk or left out.
 #include "base/alloc.h"
+#include "dem/body.h"
 #include "math/vec3.h"
 #include "pack/pack.h"
 #include <math.h>
@@ -272,7 +273,7 @@ static clast_status keep_old(const clast_pack *p, filling *f)
         clast_dem_grain g;
         double measures[2];
         clast_dem_read_grain(p->dem, i, &g);
-        clast_dem_shape_measures(p->dem, g.shape, measures);
+        clx_dem_shape_measures(p->dem, g.shape, measures);
         if (g.position[2] + g.scale * measures[0] > f->low) {
             CLX_TRY(keep(p, f, &g, g.scale * measures[0]));
         }
@@ -292,7 +293,7 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
     clast_dem_grain g;
     double measures[2];
     CLX_TRY(clx_pack_draw(p, number, &g));
-    clast_dem_shape_measures(p->dem, g.shape, measures);
+    clx_dem_shape_measures(p->dem, g.shape, measures);
     const double radius = g.scale * measures[0];
     const double mass = g.density * measures[1] * g.scale * g.scale * g.scale;
     if (number->index == p->n_drawn) {

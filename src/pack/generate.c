@@ -1,5 +1,6 @@
 // What grains are: a function of seed and number alone.
 #include "base/alloc.h"
+#include "dem/body.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "pack/pack.h"
@@ -192,7 +193,7 @@ clast_status clx_pack_check_draws(clast_pack *p)
         clx_pack_number number = {i, -1};
         double measures[2];
         CLX_TRY(clx_pack_draw(p, &number, &g));
-        clast_dem_shape_measures(p->dem, g.shape, measures);
+        clx_dem_shape_measures(p->dem, g.shape, measures);
         const double reach = g.scale * measures[0];
         CLX_CHECK(reach <= limit, CLAST_E_GEOMETRY,
                   "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "

@@ -340,7 +340,7 @@ done:
     return status;
 }
 
-clast_status clast_local_porosity(const clast_assembly *assembly, const clast_bed *bed,
+clast_status clast_porosity_local(const clast_assembly *assembly, const clast_bed *bed,
                                   double z_low, double z_high, clast_table *table)
 {
     CLX_ARGUMENTS(assembly, bed, table);

@@ -297,9 +297,9 @@ void clx_mesh_slabs(const clast_mesh *mesh, int32_t n, const double *edge, doubl
     add_mesh(&s, mesh, unturned, 1.0, 0.0, 1.0);
 }
 
-clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
-                               clast_porosity_method method, int32_t n, const double *edge,
-                               double *solid)
+clast_status clast_porosity_grain_slabs(const clast_assembly *assembly, int32_t i,
+                                        clast_porosity_method method, int32_t n, const double *edge,
+                                        double *solid)
 {
     CLX_ARGUMENTS(assembly, edge, solid);
     CLX_WHOLE(arrays, assembly);

@@ -441,7 +441,7 @@ static double pieces_size(const clast_grading *g, bool by_mass, double share)
     return piece_size(x, by_mass ? piece_volume_place(x, part) : piece_place(x, part));
 }
 
-double clast_grading_draw_density(const clast_grading *grading, uint64_t seed, uint64_t index)
+double clx_grading_draw_density(const clast_grading *grading, uint64_t seed, uint64_t index)
 {
     if (grading == NULL) {
         return (double)NAN;
@@ -452,7 +452,7 @@ double clast_grading_draw_density(const clast_grading *grading, uint64_t seed, u
                : 0.0;
 }
 
-void clast_grading_densities(const clast_grading *grading, double *low, double *high)
+void clx_grading_densities(const clast_grading *grading, double *low, double *high)
 {
     if (grading == NULL || low == NULL || high == NULL) {
         return;

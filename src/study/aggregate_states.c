@@ -28,10 +28,10 @@ static clast_status gather(const clast_aggregate_config *config, const clast_agg
 {
     clast_status status = CLAST_OK;
     clast_state made = {.table = table};
-    CLX_TRY(clast_config_json(clast_aggregate_fields, config, &made.config));
+    CLX_TRY(clast_fields_json(clast_aggregate_fields, config, &made.config));
     CLX_TRY(clast_aggregate_history(aggregate, &table[0]));
     made.n_table = 1;
-    if (config->mode == CLAST_AGGREGATE_CLUSTER) {
+    if (config->params.mode == CLAST_AGGREGATE_CLUSTER) {
         CLX_TRY(clast_aggregate_members(aggregate, &table[1]));
         made.n_table = 2;
     }

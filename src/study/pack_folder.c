@@ -48,7 +48,7 @@ static clast_status write_profile(const char *folder, const clast_pack *pack,
     CLX_TRY(write_table(folder, "profile.csv", &profile));
     if (isfinite(r->porosity)) {
         CLX_TRY(clx_pack_path(path, folder, "profile.svg"));
-        CLX_TRY(clast_porosity_chart_write(&profile, &bulk, "m", path));
+        CLX_TRY(clast_chart_porosity(&profile, &bulk, "m", path));
     }
 done:
     clast_table_free(&profile);
@@ -103,7 +103,7 @@ static clast_status write_achieved(const char *folder, const clast_pack *pack)
     if (status == CLAST_OK) {
         CLX_TRY(write_table(folder, "achieved.csv", &achieved));
         CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
-        CLX_TRY(clast_grading_chart_write(&achieved, path));
+        CLX_TRY(clast_chart_grading(&achieved, path));
     }
 done:
     clast_table_free(&achieved);

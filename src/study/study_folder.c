@@ -118,7 +118,7 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
     if (config->config[0] != '\0') {
         CLX_TRY(clast_sha256_file(config->config, hex, &n_byte));
     }
-    CLX_TRY(clast_config_json(clast_study_fields, &same, &json));
+    CLX_TRY(clast_fields_json(clast_study_fields, &same, &json));
     const int64_t n = (int64_t)strlen(json) + 100;
     CLX_TRY(clx_alloc(&text, n, 1));
     (void)snprintf(text, (size_t)n, "{\"study\": %s,\n\"config_sha256\": \"%s\"}\n", json, hex);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = 600 };
+enum { N = 600 }; // more than are put side by side around a cell
 
 static double uniform_at(uint64_t seed, uint64_t i, int skip)
 {
@@ -77,13 +77,14 @@ static clast_domain ball_mesh(double r, int level)
 }
 
 /* The counts are those of the plain loop over all pairs, in 1, 2 and 3 dimensions, for radii far
- * below and far above the spacing. */
+ * below and far above the spacing, for few shells and many. */
 static void counts_are_those_of_brute_force(void **state)
 {
     (void)state;
     static const char *const boxes[] = {"box:-1,3", "box:0,0,2,0.5", "box:0,0,0,1,1,1",
                                         "box:0,0,0,5,0.01,1"};
     static const double radii[] = {0.02, 0.3, 1.4};
+    static const int32_t shells[] = {48, 1, 7, 8, 9};
     for (size_t b = 0; b < sizeof boxes / sizeof boxes[0]; ++b) {
         const clast_domain domain = domain_of(boxes[b]);
         clast_cloud cloud = uniform(&domain, N, b + 1);
@@ -91,8 +92,11 @@ static void counts_are_those_of_brute_force(void **state)
         for (int j = 1; j < domain.dimension; ++j) {
             cloud.x[j] = cloud.x[domain.dimension + j];
         }
-        for (size_t k = 0; k < sizeof radii / sizeof radii[0]; ++k) {
-            clast_pairs pairs = count(&domain, &cloud, radii[k]);
+        for (size_t k = 0; k < 5 * sizeof radii / sizeof radii[0]; ++k) {
+            clast_pairs_config config = config_of(radii[k / 5]);
+            config.n_shell = shells[k % 5];
+            clast_pairs pairs = {0};
+            CHECK_OK(clast_pairs_count(&domain, &cloud, &config, &pairs));
             int64_t expected[CLAST_MAX_SHELL] = {0};
             const double *seen = clast_table_numbers(&pairs.shells, "pairs");
             brute_pairs(&cloud, pairs.n_shell, clast_table_numbers(&pairs.shells, "r_high_m"),

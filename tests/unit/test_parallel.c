@@ -58,7 +58,7 @@ static clast_status porosities_of(void *context)
     clast_table table = {0};
     const clast_porosity_options options = clast_porosity_options_default();
     CLX_TRY(clast_bed_parse("box:0,0,20,10", &bed));
-    CLX_TRY(clast_local_porosity(context, &bed, 0.0, 2.0, &table));
+    CLX_TRY(clast_porosity_local(context, &bed, 0.0, 2.0, &table));
     clast_table_free(&table);
     CLX_TRY(clast_porosity_profile(context, &bed, &options, &table));
 done:

@@ -355,7 +355,7 @@ static clast_status draw_sizes(void *context)
     size_t n = 0;
     const clast_status status =
         clast_aggregate_chart_svg(CLAST_AGGREGATE_CHART_POROSITY, context, NULL, &bytes, &n);
-    clast_bytes_free(bytes);
+    clast_chart_bytes_free(bytes);
     return status;
 }
 
