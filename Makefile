@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist bare install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing golden docs format hooks dist tarball wheel deb packages bare install clean
 all: dev
 
 # The group of tools/setup.sh that a target's tools are in.
@@ -75,6 +75,17 @@ hooks:
 dist:
 	@tools/setup.sh dist
 	@tools/dist.sh
+tarball:
+	@tools/setup.sh bundle
+	@tools/tarball.sh
+wheel:
+	@tools/setup.sh bundle
+	@tools/wheel.sh
+deb:
+	@tools/setup.sh deb
+	@tools/deb.sh
+packages: tarball wheel deb
+	@tools/check_packages.sh
 bare:
 	@tools/check_bare.sh
 clean:

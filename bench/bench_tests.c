@@ -84,7 +84,7 @@ static clast_status alarms(int32_t d, int64_t n, bool is_steep, int n_sample)
         double p = 1.0;
         draw_cloud(300000 + 2 * (uint64_t)k, is_steep, n, d, u);
         draw_cloud(300001 + 2 * (uint64_t)k, is_steep, n, d, u + n * d);
-        status = clast_change_test(u, u + n * d, n, d, &p);
+        status = clast_agglomeration_change_test(u, u + n * d, n, d, &p);
         hit[0] += p < 0.05 ? 1 : 0;
         hit[1] += p < 0.01 ? 1 : 0;
         hit[2] += p < 0.001 ? 1 : 0;

@@ -124,7 +124,7 @@ int main(int argc, char **argv)
 {
     clast_dem *bed = NULL;
     clast_parallel_set_threads(1);
-    CHECK_OK(clast_scene_p1(&(clast_scene_bed){4000, 152, WIDTH, 0.0}, &bed));
+    CHECK_OK(clast_dem_scene_p1(&(clast_scene_bed){4000, 152, WIDTH, 0.0}, &bed));
     CHECK_OK(clast_dem_step(bed, SETTLE));
     printf("scene,value,unit,reference,ratio\n");
     if (argc > 2) {

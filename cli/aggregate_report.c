@@ -79,7 +79,7 @@ static void print_permeable(const clast_aggregate_report *report)
     for (int32_t i = 0; i < report->n; ++i) {
         if (report->result[i].permeable != CLAST_PERMEABLE_YES) {
             (void)printf("%-28s %12s (%s)\n", l.name, "-",
-                         clast_permeable_text(report->result[i].permeable));
+                         clast_permeable_range_text(report->result[i].permeable));
             return;
         }
     }

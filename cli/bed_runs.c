@@ -249,7 +249,7 @@ static clast_status write_band(const cli_bed_runs *runs, const clast_table *prof
     clast_status status = CLAST_OK;
     CLI_TRY(clast_porosity_mean_profile(runs->n, profile, &band));
     CLI_TRY(clast_run_folder_file(run, svg, path));
-    CLI_TRY(clast_porosity_band_chart_write(&band, runs->unit, path));
+    CLI_TRY(clast_chart_porosity_band(&band, runs->unit, path));
     if (strcmp(runs->unit, "m") != 0) {
         cli_table_without_unit(&band);
     }

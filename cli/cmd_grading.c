@@ -276,7 +276,7 @@ static clast_status run(const cli_common *common, void *config_bytes)
               "'%s' is no sieve curve to compare with", a.text);
     if (config->chart[0] != '\0') {
         CLI_TRY(a.classes.n_row > 0
-                    ? clast_grading_chart_write(&a.classes, config->chart)
+                    ? clast_chart_grading(&a.classes, config->chart)
                     : cli_fail(CLAST_E_USAGE, "chart: '%s' is no sieve curve", a.text));
     }
     if (common->output != NULL) {

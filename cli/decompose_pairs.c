@@ -169,5 +169,5 @@ clast_status cli_decompose_pairs_write(const cli_decompose_job *j, const char *f
     (void)snprintf(path, sizeof path, "%s/pairs.csv", folder);
     CLI_GUARD(clast_table_write_csv_note(&r->pairs.shells, note, path));
     (void)snprintf(path, sizeof path, "%s/pairs.%s", folder, j->chart_end);
-    return clast_pairs_chart_write(&r->pairs, path);
+    return clast_chart_pairs(&r->pairs, path);
 }

@@ -217,7 +217,7 @@ static clast_status read_configs(cli_parser *p, int argc, char **argv)
         } else if (options && is_option(argv[i])) {
             i += uses_next(p, argv[i]) ? 1 : 0;
         } else if (cli_is_config(argv[i])) {
-            CLI_GUARD(clast_config_read(argv[i], p->configs.fields, p->config));
+            CLI_GUARD(clast_fields_read(argv[i], p->configs.fields, p->config));
         }
     }
     return CLAST_OK;

@@ -49,7 +49,7 @@ int cli_point_fields(clast_field *fields, int n, size_t offset)
 clast_status cli_points_read(const char *path, const cli_points *points, clast_table *table)
 {
     const clast_points_options options = {points->dataset, points->frame};
-    CLI_GUARD(clast_points_read(path, &options, table));
+    CLI_GUARD(clast_cloud_read(path, &options, table));
     if (table->n_row == 0) {
         clast_table_free(table);
         return cli_fail(CLAST_E_FORMAT, "%s holds no points", path);

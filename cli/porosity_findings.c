@@ -141,18 +141,18 @@ clast_status cli_porosity_files(const clast_run_folder *run, const clast_assembl
 {
     char path[CLAST_RUN_PATH];
     CLI_GUARD(clast_run_folder_file(run, "profile.svg", path));
-    CLI_GUARD(clast_porosity_chart_write(&f->profile, &f->bulk, assembly->unit, path));
+    CLI_GUARD(clast_chart_porosity(&f->profile, &f->bulk, assembly->unit, path));
     if (f->radial.n_column > 0) {
         CLI_GUARD(clast_run_folder_file(run, "radial.svg", path));
-        CLI_GUARD(clast_radial_chart_write(&f->radial, assembly->unit, path));
+        CLI_GUARD(clast_chart_radial(&f->radial, assembly->unit, path));
     }
     if (f->stress_profile.n_column > 0) {
         CLI_GUARD(clast_run_folder_file(run, "stress.svg", path));
-        CLI_GUARD(clast_stress_chart_write(&f->stress_profile, assembly->unit, path));
+        CLI_GUARD(clast_chart_stress(&f->stress_profile, assembly->unit, path));
     }
     if (f->pores.sizes.n_column > 0) {
         CLI_GUARD(clast_run_folder_file(run, "pores.svg", path));
-        CLI_GUARD(clast_pore_chart_write(&f->pores.sizes, assembly->unit, path));
+        CLI_GUARD(clast_chart_pores(&f->pores.sizes, assembly->unit, path));
     }
     return write_tables(run, assembly, f);
 }

@@ -68,12 +68,12 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
     }
     CLI_GUARD(measure_contacts(s, wanted->gap, f));
     if (wanted->local) {
-        CLI_GUARD(clast_local_porosity(assembly, bed, bed->floor, f->bulk.top, &f->local));
+        CLI_GUARD(clast_porosity_local(assembly, bed, bed->floor, f->bulk.top, &f->local));
     }
     const double z[2] = {f->bulk.z_low, f->bulk.z_high};
     if (wanted->rings > 0) {
         const clast_radial_options rings = {options->method, wanted->rings, 0};
-        CLI_GUARD(clast_radial_porosity(assembly, bed, z, &rings, &f->radial));
+        CLI_GUARD(clast_porosity_radial(assembly, bed, z, &rings, &f->radial));
     }
     if (wanted->pores > 0) {
         clast_pore_options pores = {.n_point = wanted->pores, .n_bin = PORE_BINS};

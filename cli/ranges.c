@@ -25,7 +25,7 @@ void cli_range_json(json_t *out, const clast_range_report *r)
     char words[512];
     const clast_kernel_range *row = clast_kernel_range_row(use->row);
     json_t *o = json_object();
-    cli_json_text(o, "words", clast_range_words(use, sizeof words, words));
+    cli_json_text(o, "words", clast_range_use_words(use, sizeof words, words));
     cli_json_text(o, "owner", row->owner);
     cli_json_text(o, "quantity", row->quantity);
     cli_json_number(o, "value", use->value);
@@ -53,7 +53,7 @@ void cli_range_warn(const cli_common *common, const clast_range_report *r)
         stderr,
         "clast agglomerate: warning: %s; beyond lie %.3g %% of the particles at the start "
         "and %.3g %% of the collisions%s\n",
-        clast_range_words(use, sizeof words, words), 100.0 * share_of(&r->start),
+        clast_range_use_words(use, sizeof words, words), 100.0 * share_of(&r->start),
         100.0 * share_of(&r->collisions), when);
 }
 

@@ -54,7 +54,7 @@ static clast_status grow(const clast_aggregate_config *config, const clast_aggre
     clast_aggregate *a = NULL;
     clast_aggregate_result result;
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_aggregate_create(config, input, 0, &a));
+    CLI_TRY(clast_aggregate_create(&config->params, input, 0, &a));
     CLI_TRY(clast_aggregate_grow(a, INT32_MAX, NULL));
     CLI_TRY(clast_aggregate_measure(a, &result));
 done:
@@ -129,7 +129,7 @@ static clast_status grow_half(const clast_aggregate_config *config,
     clast_aggregate *a = NULL;
     const int32_t half = n / 2;
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_aggregate_create(config, input, 0, &a));
+    CLI_TRY(clast_aggregate_create(&config->params, input, 0, &a));
     CLI_TRY(clast_aggregate_grow(a, n - half, NULL));
     const double begun = cli_clock_cpu();
     CLI_TRY(clast_aggregate_grow(a, half, NULL));

@@ -35,7 +35,7 @@ static clast_status run_p1(cli_lap *b, clast_scene_bed bed, int64_t n_settle, in
 {
     clast_dem *dem = NULL;
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_scene_p1(&bed, &dem));
+    CLI_TRY(clast_dem_scene_p1(&bed, &dem));
     CLI_TRY(clast_dem_step(dem, n_settle));
     CLI_TRY(time_steps(b, dem, n_step));
 done:
@@ -74,9 +74,9 @@ clast_status cli_scene_e1(cli_lap *b)
     clast_dem *p1 = NULL;
     clast_dem *dem = NULL;
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_scene_p1(&bed, &p1));
+    CLI_TRY(clast_dem_scene_p1(&bed, &p1));
     CLI_TRY(clast_dem_step(p1, 155000));
-    CLI_TRY(clast_scene_e1(&bed, p1, &dem));
+    CLI_TRY(clast_dem_scene_e1(&bed, p1, &dem));
     CLI_TRY(clast_dem_step(dem, 200));
     CLI_TRY(time_steps(b, dem, 400));
 done:
@@ -89,7 +89,7 @@ clast_status cli_scene_s1(cli_lap *b)
 {
     clast_dem *dem = NULL;
     clast_status status = CLAST_OK;
-    CLI_TRY(clast_scene_s1(&dem));
+    CLI_TRY(clast_dem_scene_s1(&dem));
     CLI_TRY(clast_dem_step(dem, 40000));
     CLI_TRY(time_steps(b, dem, 2000));
 done:

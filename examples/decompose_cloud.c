@@ -11,7 +11,7 @@ static clast_status read(const char *path, clast_cloud *cloud)
     static char *axes[] = {"x", "y", "z"};
     const clast_cloud_columns columns = {.columns = {3, axes}};
     clast_table table = {0};
-    clast_status status = clast_points_read(path, NULL, &table);
+    clast_status status = clast_cloud_read(path, NULL, &table);
     status = status == CLAST_OK ? clast_cloud_from_table(&table, &columns, cloud) : status;
     clast_table_free(&table);
     return status;

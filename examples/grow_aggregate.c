@@ -30,7 +30,7 @@ static clast_status grow(const clast_aggregate_config *config, const clast_aggre
                          int32_t i, clast_aggregate_result *result)
 {
     clast_aggregate *aggregate = NULL;
-    clast_status status = clast_aggregate_create(config, &source->input, i, &aggregate);
+    clast_status status = clast_aggregate_create(&config->params, &source->input, i, &aggregate);
     while (status == CLAST_OK && !clast_aggregate_is_done(aggregate)) {
         status = clast_aggregate_grow(aggregate, 10, NULL); // particles
     }

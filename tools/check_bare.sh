@@ -4,37 +4,9 @@
 # Needs root, mount and chroot, and a package mirror; where one is missing it says so and skips. DEMO_SECONDS: limit (default 180).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-skip() { echo "SKIPPED: the bare machine was not tried: $1"; exit 0; }
-fail() { echo "bare: $1" >&2; [ ! -s "$work/log" ] || tail -30 "$work/log" >&2; exit 1; }
-if [ "${1:-}" != inside ]; then
-    [ -e .git ] || skip "this is no git clone"
-    [ "$(id -u)" -eq 0 ] || skip "root is needed for mmdebstrap, mount and chroot"
-    unshare --mount mount -t tmpfs tmpfs /mnt 2>/dev/null || skip "mount is not allowed here"
-    chroot --userspec=65534:65534 / true 2>/dev/null || skip "chroot to another user is not allowed here"
-    exec unshare --mount tools/check_bare.sh inside # what is mounted below is seen by nobody else and ends with it
-fi
 { # read as a whole before it runs: an edit meanwhile does no harm
-sources=$(ls /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2>/dev/null | head -1 || true)
-mirror=$(grep -ohE 'https?://[^ ]+/debian/?( |$)' ${sources:+"$sources"} /dev/null | head -1 | sed 's,/* *$,,')
-work=$(mktemp -d "${TMPDIR:-/tmp}/clast-bare.XXXXXX")
-root=$work/root
-cleanup() {
-    for at in dev/pts proc; do ! mountpoint -q "$root/$at" || umount -l "$root/$at"; done
-    rm -rf --one-file-system "$work"
-}
-trap cleanup EXIT
-/usr/lib/apt/apt-helper download-file "${mirror:=http://deb.debian.org/debian}/dists/bookworm/InRelease" "$work/InRelease" \
-    >/dev/null 2>&1 || skip "$mirror does not answer"
-tools/setup.sh bare
-began=$SECONDS
-say() { printf 'bare: %s (%d s)\n' "$1" "$((SECONDS - began))"; }
-
-mmdebstrap --quiet --variant=minbase bookworm "$root" ${sources:+"$sources"} > "$work/log" 2>&1 || fail "no minimal root could be made"
-mount -t proc proc "$root/proc" || fail "proc"
-mount -t devpts devpts "$root/dev/pts" 2>/dev/null || true
-within() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive ${http_proxy:+http_proxy="$http_proxy"} bash -c "$1"; }
-user() { chroot --userspec=65534:65534 "$root" env -i HOME=/tmp PATH=/usr/bin:/bin bash -c "$1"; }
-say "a minimal Debian 12 root is made"
+[ -e .git ] || { echo "SKIPPED: the bare machine was not tried: this is no git clone"; exit 0; }
+. tools/bare_root.sh
 
 # What a newcomer brings: a clone and make.
 install_began=$SECONDS

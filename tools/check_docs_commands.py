@@ -1,10 +1,15 @@
 #!/usr/bin/env python3
-"""Runs every shell block of the documents, in order, in a clean folder for each document: tools/check_docs_commands.py CLAST [FILE...]
+"""Runs every shell and Python block of the documents, in order, in a clean folder for each document, as many documents at a time as
+there are cores: tools/check_docs_commands.py CLAST [FILE...]
 
 CLAST is the built command, `clast` in the blocks. The folder holds copies of data/ and examples/, so paths are those of a clone's
 root. A command must end with 0, or with the code that its comment states ("# exit code 1: ..."). A block that cannot run here says
-why in its first line (```sh needs=WORD), WORD one of NEEDS; output is shown in ```text blocks, which are not run.
+why in its first line (```sh needs=WORD), WORD one of NEEDS; output is shown in ```text blocks, which are not run. Each line of a
+```text output block must be in what the block before it has printed ("..." stands for anything). The Python blocks of a document are
+one program, which runs where libclast_view.so and NumPy are: beside CLAST, by PYTHON (/usr/bin/python3).
 """
+import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -19,12 +24,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NEEDS = {"cluster": "more than one machine or its queue", "install": "installs packages or builds: run by CI itself",
          "long": "more than a minute"}
 FENCE = re.compile(r"^( *)(`{3,}|~{3,})[ ]*([^`]*)$")
+PYTHON = os.environ.get("PYTHON", "/usr/bin/python3")
 SHELLS = ("sh", "bash", "shell", "console")
 
 
 def documents():
+    """All of them but the gallery, whose blocks run when the site is built (tools/make_gallery.py)."""
     listed = subprocess.run([ROOT / "tools/list_files.sh", "*.md"], capture_output=True, text=True, check=True).stdout
-    return [name for name in listed.split("\0") if name and name != "CHANGELOG.md" and not name.startswith("web/")]
+    return [name for name in listed.split("\0") if name and name not in ("CHANGELOG.md", "docs/gallery.md") and not name.startswith("web/")]
 
 
 def blocks(text):
@@ -42,7 +49,8 @@ def blocks(text):
 
 
 def is_whole(command):
-    return not command.endswith("\\\n") and subprocess.run(["bash", "-nc", command], capture_output=True, check=False).returncode == 0
+    read = subprocess.run(["bash", "-nc", command], capture_output=True, check=False)
+    return not command.endswith("\\\n") and read.returncode == 0 and b"here-document" not in read.stderr
 
 
 def commands(start, lines):
@@ -73,33 +81,87 @@ def script(name, found):
 
 def run_document(name, environment):
     """(blocks run, blocks marked, faults)"""
-    n_run, n_marked, faults = 0, 0, []
+    n_run, n_marked, faults, printed, python = 0, 0, [], "", None
     with tempfile.TemporaryDirectory() as folder:
         for part in ("data", "examples"):
             shutil.copytree(ROOT / part, pathlib.Path(folder, part))
         for start, words, lines in blocks((ROOT / name).read_text()):
+            where = f"{name}:{start}"
             if not words:
-                faults.append(f"{name}:{start}: a block without a language (```sh is run, ```text is not)")
-            if not words or words[0] not in SHELLS:
+                faults.append(f"{where}: a block without a language (```sh is run, ```text is not)")
+                continue
+            if words == ["text", "output"]:
+                faults += [f"{where}: not printed by the block before: {line}" for line in lines if not is_printed(line, printed)]
+            if words[0] not in (*SHELLS, "python"):
                 continue
             marks = [word.removeprefix("needs=") for word in words[1:]]
             unknown = [mark for mark in marks if mark not in NEEDS]
             if unknown:
-                faults.append(f"{name}:{start}: unknown mark {unknown[0]}, known are needs={'|'.join(NEEDS)}")
-            elif marks:
+                faults.append(f"{where}: unknown mark {unknown[0]}, known are needs={'|'.join(NEEDS)}")
+            elif marks or words[0] == "python" and "CLAST_LIBRARY" not in environment:
                 n_marked += 1
+            elif words[0] == "python":
+                n_run += 1
+                python = python or Python(folder, environment)
+                printed, wrong = python.run("\n".join(lines))
+                faults += [f"{where}: {fault}" for fault in wrong]
             else:
                 n_run += 1
-                faults += run_block(script(name, commands(start, lines)), folder, environment)
+                printed, wrong = run_block(["bash", "-uc", script(name, commands(start, lines))], folder, environment)
+                faults += wrong
+        if python:
+            python.close()
     return n_run, n_marked, faults
 
 
-def run_block(text, folder, environment):
+class Python:
+    """An interpreter that goes on from block to block."""
+
+    LOOP = """
+import contextlib, io, json, sys, traceback
+names = {}
+for line in sys.stdin:
+    printed, fault = io.StringIO(), ""
     try:
-        done = subprocess.run(["bash", "-uc", text], cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=600)
+        with contextlib.redirect_stdout(printed):
+            exec(json.loads(line), names)
+    except BaseException:
+        fault = traceback.format_exc()
+    print(json.dumps([printed.getvalue(), fault]), flush=True)
+"""
+
+    def __init__(self, folder, environment):
+        self.process = subprocess.Popen([PYTHON, "-c", self.LOOP], cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def run(self, text):
+        """(printed, faults)"""
+        self.process.stdin.write(json.dumps(text) + "\n")
+        self.process.stdin.flush()
+        answer = self.process.stdout.readline()
+        if not answer:
+            return "", [f"Python ended: {text}"]
+        printed, fault = json.loads(answer)
+        return printed, [fault.rstrip()] if fault else []
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait(timeout=60)
+
+
+def is_printed(line, printed):
+    """Whether the parts of a line between "..." stand in this order in a line that was printed, spaces apart."""
+    squeezed = [" ".join(part.split()) for part in line.split("...")]
+    pattern = ".*".join(re.escape(part) for part in squeezed)
+    return any(re.search(pattern, " ".join(told.split())) for told in printed.splitlines())
+
+
+def run_block(program, folder, environment):
+    """(stdout, faults)"""
+    try:
+        done = subprocess.run(program, cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=600)
     except subprocess.TimeoutExpired:
-        return [f"a block took more than 600 s:\n{text}"]
-    return [done.stderr[-2000:].rstrip()] if done.returncode else []
+        return "", [f"a block took more than 600 s:\n{program[-1]}"]
+    return done.stdout, [done.stderr[-2000:].rstrip()] if done.returncode else []
 
 
 def main():
@@ -108,13 +170,16 @@ def main():
     began, n_run, n_marked, faults = time.monotonic(), 0, 0, []
     with tempfile.TemporaryDirectory() as found_first:
         os.symlink(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(found_first, "clast"))
-        environment = {**os.environ, "PATH": f"{found_first}:{os.environ['PATH']}"}
-        for name in sys.argv[2:] or documents():
-            ran, marked, wrong = run_document(name, environment)
-            n_run, n_marked, faults = n_run + ran, n_marked + marked, faults + wrong
+        environment = {**os.environ, "PATH": f"{found_first}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "python")}
+        library = pathlib.Path(sys.argv[1]).resolve().parent / "libclast_view.so"
+        if library.exists() and subprocess.run([PYTHON, "-c", "import numpy"], capture_output=True, check=False).returncode == 0:
+            environment["CLAST_LIBRARY"] = str(library)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for ran, marked, wrong in pool.map(lambda name: run_document(name, environment), sys.argv[2:] or documents()):
+                n_run, n_marked, faults = n_run + ran, n_marked + marked, faults + wrong
     for fault in faults:
         print(fault)
-    print(f"documents: {n_run} shell blocks run, {n_marked} marked as not for here, {len(faults)} faults, {time.monotonic() - began:.0f} s")
+    print(f"documents: {n_run} blocks run, {n_marked} marked as not for here, {len(faults)} faults, {time.monotonic() - began:.0f} s")
     return 1 if faults else 0
 
 

@@ -42,7 +42,7 @@ int main(void)
         return 1;
     }
     printf("%zu\n", n_byte);
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
     return 0;
 }
 C

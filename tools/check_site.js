@@ -2,14 +2,15 @@
     // What tools/check_site.py asks of each page: faults (one line each) and the links it holds.
     const faults = [], say = text => faults.push(text.replace(/\s+/g, " ").slice(0, 220));
     const shown = e => e.checkVisibility ? e.checkVisibility({visibilityProperty: true}) : e.offsetParent !== null;
-    const name = e => (e.getAttribute("aria-label") || e.getAttribute("title") || e.textContent || e.querySelector?.("img[alt]")?.alt || "").trim();
+    const name = e => [e.getAttribute("aria-label"), e.getAttribute("title"), e.textContent, e.querySelector?.("img[alt]")?.alt]
+        .some(words => words?.trim());
     const html = e => e.outerHTML.slice(0, 120);
 
-    // Formulas: no TeX in what is read.
+    // Formulas: no TeX in what is read (\xNN is how a byte is shown).
     const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     for (let node = walk.nextNode(); node; node = walk.nextNode()) {
         if (node.parentElement.closest("pre, code, script, style, annotation")) continue;
-        const raw = node.nodeValue.match(/\\[a-zA-Z]{2,}|\$[^$\n]{1,80}\$|\\[()[\]]|\$\$|\b[A-Za-z]_\{|\^\{/);
+        const raw = node.nodeValue.match(/\\(?!xNN|x[0-9A-Fa-f]{2}\b)[a-zA-Z]{2,}|\$[^$\n]{1,80}\$|\\[()[\]]|\$\$|\b[A-Za-z]_\{|\^\{/);
         if (raw) say(`TeX left in text: ${raw[0]} in "${node.nodeValue.slice(0, 80)}"`);
     }
     for (const e of document.querySelectorAll(".katex-error, .problematic, .system-message")) say(`not set: ${e.textContent}`);

@@ -2,7 +2,7 @@
 import pathlib
 import re
 
-HEAP = {"clast_text_free", "clast_bytes_free", "clast_voxels_labels_free"}  # free what they are given
+HEAP = {"clast_text_free", "clast_chart_bytes_free", "clast_voxels_labels_free"}  # free what they are given
 
 
 def split(text, at=","):

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 if [ -e .git ]; then
     git ls-files -z -- "$@"
 else
-    find * .clang-* .ci .git* -type f ! -path 'build/*' ! -path 'demo/*' ! -path '*/__pycache__/*' ! -path 'docs/api/*' ! -path 'web/node_modules/*' -print0 2>/dev/null | sort -z |
+    find * .clang-* .ci .git* -type f ! -path 'build/*' ! -path 'demo/*' ! -path '*/__pycache__/*' ! -path 'docs/reference/*' ! -path 'web/node_modules/*' -print0 2>/dev/null | sort -z |
         while IFS= read -r -d '' file; do
             [ $# -gt 0 ] || { printf '%s\0' "$file"; continue; }
             for pattern in "$@"; do

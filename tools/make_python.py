@@ -1,9 +1,13 @@
-"""Writes python/clast/_bindings.py from what `clast describe --json` prints: make_python.py DESCRIPTION.json OUT."""
+"""Writes python/clast/_bindings.py, and _functions.py beside it, from what `clast describe --json` prints.
+
+make_python.py DESCRIPTION.json OUT
+"""
 import json
 import pathlib
 import sys
 
 from headers import Declared
+from python_functions import Functions
 
 SCALARS = {"double": "c_double", "float": "c_float", "bool": "c_bool", "size_t": "c_size_t", "int": "c_int", "char": "c_char",
            "uint8_t": "c_uint8", "unsigned char": "c_uint8", "int32_t": "c_int32", "int64_t": "c_int64", "uint32_t": "c_uint32",
@@ -15,7 +19,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "TABLES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 '''
@@ -96,7 +100,11 @@ class Bindings:
                 row = (k["type"], k["default"], k["unit"], k["low"], k["high"], k["choices"], k["doc"])
                 yield f"        {k['name']!r}: {row!r},"
             yield "    },"
-        yield "}"
+        yield "}\n\n# Keys of the library's own tables.\nTABLES: dict[str, tuple[str, ...]] = {"
+        for name, fields in self.d["configurations"].items():
+            yield f"    {name!r}: {tuple(k['name'] for k in fields)!r},"
+        yield "}\n\n# Commands that write a run's folder."
+        yield f"FOLDERS: tuple[str, ...] = {tuple(c['name'] for c in self.d['commands'] if c['writes_folder'])!r}"
 
 
 def short(doc):
@@ -107,7 +115,9 @@ def short(doc):
 
 def main():
     described = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    pathlib.Path(sys.argv[2]).write_text("\n".join(Bindings(described).lines()) + "\n")
+    out = pathlib.Path(sys.argv[2])
+    out.write_text("\n".join(Bindings(described).lines()) + "\n")
+    out.with_name("_functions.py").write_text(Functions(described).text())
 
 
 main()

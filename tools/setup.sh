@@ -13,13 +13,17 @@ afl=("${build[@]}" afl++)
 paper=("${dev[@]}")
 format=(git clang-format-14)
 hooks=("${format[@]}" codespell python3)
-docs=(doxygen python3 python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
+python=("${dev[@]}" mypy python3-meshio python3-pandas)
+notebook=("${dev[@]}" jupyter-nbconvert python3-ipykernel python3-matplotlib)
+docs=("${build[@]}" doxygen python3 python3-numpy python3-sphinx python3-myst-parser python3-breathe furo python3-sphinx-inline-tabs python3-sphinx-copybutton
       nodejs katex)
 site=("${docs[@]}" chromium)
-dist=(git)
+dist=(git python3)
+bundle=("${sundials[@]}" python3 patchelf)
+deb=("${sundials[@]}" git python3 debhelper dh-python lintian)
 bare=(git mmdebstrap debian-archive-keyring)
-test=("${mpi[@]}" "${sundials[@]}" "${clang[@]}" "${hooks[@]}" "${docs[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
-groups="build sundials mpi dev clang afl paper format hooks docs site dist bare test"
+test=("${mpi[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
+groups="build sundials mpi dev clang afl paper format hooks python notebook docs site dist bundle deb bare test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac
 declare -n wanted=$group
 if ! command -v dpkg-query >/dev/null; then

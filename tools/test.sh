@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols, short
-# fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy fuzz docs") shorten it by hand.
+# What `make test` and CI run: set-up, format, spelling, layers, headers, tidy, all tests under sanitizers, exported symbols,
+# packages, short fuzzing, documents. FUZZ_SECONDS (default 60) and SKIP ("tidy packages fuzz docs") shorten it by hand.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 began=$SECONDS
@@ -13,6 +13,7 @@ tools/check_format.sh
 say "spelling"
 tools/list_files.sh '*.c' '*.h' '*.md' '*.py' '*.sh' | xargs -0 codespell --ignore-words=tools/spelling.txt
 say "layers, sizes, changelog"; python3 tools/check_layers.py; tools/check_size.sh; python3 tools/check_changelog.py; python3 tools/check_interface.py
+python3 tools/check_recipes.py
 say "pages of the theory"; python3 tools/check_pages.py; python3 tools/pooled.py
 say "headers in C and C++"; tools/check_headers.sh
 say "build and tests under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -29,8 +30,12 @@ say "commands of the documents"; python3 tools/check_docs_commands.py build/rele
 say "ranks (mpirun), Python"
 ctest --test-dir build/release -L 'mpi|python' --output-on-failure --no-tests=error | tee -a build/ctest.log | grep -v '^ *Start '
 say "bundle of the 3-D view"; tools/check_web.sh
+say "packages"
+if skip packages; then :; elif [ "$(uname -m)" != x86_64 ]; then echo "SKIPPED: packages are made on x86-64"; else
+    tools/tarball.sh; tools/wheel.sh; tools/deb.sh; tools/check_packages.sh tarball wheel deb
+fi
 say "fuzzing"; skip fuzz || tools/fuzz.sh "${FUZZ_SECONDS:-60}"
-say "documents"; skip docs || tools/docs.sh
+say "documents"; skip docs || { tools/docs.sh; python3 tools/check_site.py --sample; }
 say "done"
 awk '/tests passed, .* tests failed out of/ {passed += $NF - $4; failed += $4}
      END {print passed " passed, " failed + 0 " failed"}' build/ctest.log

@@ -54,7 +54,7 @@ def visit_inline(translator, node):
     from docutils import nodes
     tex = node.astext()
     if r"\tag" in tex:  # a numbered formula inside a paragraph of a list
-        translator.body.append(f'<span class="formula inside" tabindex="0" role="math">{formula(translator, node, tex, True)}</span>')
+        translator.body.append(f'<span class="formula inside" role="math">{formula(translator, node, tex, True)}</span>')
     else:
         translator.body.append(formula(translator, node, tex, False))
     raise nodes.SkipNode
@@ -63,7 +63,7 @@ def visit_inline(translator, node):
 def visit_block(translator, node):
     from docutils import nodes
     identity = f' id="{node["ids"][0]}"' if node.get("ids") else ""
-    translator.body.append(f'<div class="formula" tabindex="0" role="math"{identity}>{formula(translator, node, node.astext(), True)}</div>\n')
+    translator.body.append(f'<div class="formula" role="math"{identity}>{formula(translator, node, node.astext(), True)}</div>\n')
     raise nodes.SkipNode
 
 

@@ -3,6 +3,8 @@
 - furo.js is a module that imports another (a browser refuses that from file:): the two become one script.
 - furo.css imports /javascript/normalize.css/normalize.css: it is copied beside it.
 - captions of the side bar have the role of a heading and no level.
+- the page of the search has no heading of its own.
+- Breathe gives the titles of a header's parts the same few ids, to which nothing leads.
 """
 import pathlib
 import re
@@ -25,6 +27,8 @@ def mend(app, error):
     for page in pathlib.Path(app.outdir).rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         mended = text.replace('class="caption" role="heading">', 'class="caption" role="heading" aria-level="2">')
+        mended = mended.replace('<div id="search-results"></div>', '<h1>Search</h1>\n<div id="search-results"></div>')
+        mended = re.sub(r' id="breathe-section-title-[a-z-]+"', "", mended)
         if mended != text:
             page.write_text(mended, encoding="utf-8")
 

@@ -62,28 +62,18 @@ typedef enum {
 
 typedef enum { CLAST_PICK_RANDOM, CLAST_PICK_MASS, CLAST_PICK_BROWNIAN } clast_cluster_pick;
 
-/// All of one run. Texts and lists are owned; start from clast_fields_default.
+/// What an aggregate is grown by. Texts and lists are owned; start from
+/// clast_aggregate_params_default.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding) grouped as the options are
-typedef struct clast_aggregate_config {
+typedef struct clast_aggregate_params {
     int32_t mode;
-    char *core;                   ///< file, "sphere", "ellipsoid:a,b,c" (full axes) or state.h5
-    double core_size;             ///< by core_meaning; 0: as the file says
-    int32_t core_meaning;         ///< clast_size_meaning of core_size
-    double core_density;          ///< kg/m3
-    clast_text_list coat;         ///< as core
-    clast_f64_list coat_weight;   ///< chance of each coat shape; empty: equal
-    clast_f64_list class_limit;   ///< sizes up to limit k take coat shape k; empty: by weight
-    clast_f64_list coat_density;  ///< one for all, or one each
-    char *core_spheres;           ///< sphere composite of the core (CSV), "" to fill it
-    clast_text_list coat_spheres; ///< the same for each coat shape
-    int32_t fill_spheres;         ///< spheres of a composite made here
-    int32_t fill;                 ///< clast_fill_strategy
-    char *unit;                   ///< of the coordinates in surface files
-    bool accept_faults;           ///< take surfaces that are open or cross themselves
+    double core_size;            ///< by core_meaning; 0: as the shape is
+    int32_t core_meaning;        ///< clast_size_meaning of core_size
+    double core_density;         ///< kg/m3
+    clast_f64_list coat_weight;  ///< chance of each coat shape; empty: equal
+    clast_f64_list class_limit;  ///< sizes up to limit k take coat shape k; empty: by weight
+    clast_f64_list coat_density; ///< one for all, or one each
 
-    char *sizes; ///< CSV file of sizes or of a histogram
-    char *size_column;
-    char *size_unit;
     clast_f64_list size; ///< sizes given here
     int32_t size_law;
     double size_mean, size_deviation, size_shape, size_low, size_high;
@@ -122,33 +112,14 @@ typedef struct clast_aggregate_config {
     double stop_size;     ///< D_agg; 0: never
     double stop_porosity; ///< 0: never
 
-    bool fit; ///< find packing and N_A that explain what was observed (aggregate_fit.h)
-    double observed_size, observed_size_error; ///< D_agg [m]; 0: not observed
-    double observed_density, observed_density_error;
-    double observed_velocity, observed_velocity_error; ///< terminal, in air
-    clast_text_list fit_packing; ///< "cone:rays:orientations", loose to tight; empty: built in
-    int32_t fit_repeats, fit_replicate_max;
-
     int32_t pick;    ///< cluster mode: which two clusters meet
     int32_t n_final; ///< cluster mode: clusters left at the end
-
-    int32_t repeats;
-    double confidence;
     uint64_t seed;
-    int32_t checkpoint_every;
-    bool picture, printable;
-    double neck, spacing; ///< of the printable surface
-    bool force;           ///< replace an earlier run in the output folder
-    char *resume;
-} clast_aggregate_config;
+} clast_aggregate_params;
 
-/// The table behind YAML keys, options, defaults, ranges and manifest.
-extern CLAST_API const clast_field clast_aggregate_fields[];
-
-/// Combinations of options that a single field's range cannot see.
-///
-/// @return CLAST_E_CONFIG with the option, its value and what to do
-CLAST_API clast_status clast_aggregate_config_check(const clast_aggregate_config *config);
+/// Those that `clast aggregate` starts from (clast describe lists them).
+CLAST_API clast_status clast_aggregate_params_default(clast_aggregate_params *params);
+CLAST_API void clast_aggregate_params_free(clast_aggregate_params *params); ///< may be called twice
 
 /// What an aggregation starts from; everything is borrowed for the life of the run.
 typedef struct clast_aggregate_input {
@@ -177,7 +148,7 @@ typedef enum {
 } clast_permeable_range;
 
 /// What that means, for messages: "the coat is thinner than its mean grain", ...
-CLAST_API const char *clast_permeable_text(clast_permeable_range range);
+CLAST_API const char *clast_permeable_range_text(clast_permeable_range range);
 
 /// An aggregate in numbers, SI. In cluster mode those of the largest cluster.
 typedef struct clast_aggregate_result {
@@ -214,12 +185,12 @@ typedef struct clast_aggregate_result {
 /// A growing aggregate. Opaque; one thread at a time (it uses several inside).
 typedef struct clast_aggregate clast_aggregate;
 
-/// The core alone, ready to grow. config and input are borrowed for the life of the handle.
+/// The core alone, ready to grow. params and input are borrowed for the life of the handle.
 ///
 /// @param repeat  0, 1, ... : which of the independent aggregates of this seed
 /// @return CLAST_E_CONFIG for options that cannot be met (a core below 1e-6 of a particle, a mass
 ///         that all particles together do not have), CLAST_E_GEOMETRY for unusable shapes
-CLAST_API clast_status clast_aggregate_create(const clast_aggregate_config *config,
+CLAST_API clast_status clast_aggregate_create(const clast_aggregate_params *params,
                                               const clast_aggregate_input *input, int32_t repeat,
                                               clast_aggregate **aggregate);
 CLAST_API void clast_aggregate_destroy(clast_aggregate *aggregate); ///< NULL is allowed
@@ -263,8 +234,8 @@ typedef struct clast_aggregate_saved {
 
 /// Goes on from there: the same particles follow, to the last bit.
 ///
-/// @return CLAST_E_FORMAT when it does not belong to this configuration
-CLAST_API clast_status clast_aggregate_restore(const clast_aggregate_config *config,
+/// @return CLAST_E_FORMAT when it does not belong to these parameters
+CLAST_API clast_status clast_aggregate_restore(const clast_aggregate_params *params,
                                                const clast_aggregate_input *input,
                                                const clast_aggregate_saved *saved,
                                                clast_aggregate **aggregate);
@@ -292,7 +263,7 @@ CLAST_API clast_status clast_aggregate_band(const clast_table *history, double c
 ///
 /// @param sizes  NULL when a law draws them    @param table  empty
 /// @return CLAST_E_USAGE when `history` has no particle of a law, or no columns n and size_m
-CLAST_API clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
+CLAST_API clast_status clast_aggregate_achieved(const clast_aggregate_params *params,
                                                 const clast_sizes *sizes,
                                                 const clast_table *history, clast_table *table);
 

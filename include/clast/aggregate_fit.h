@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 
 CLAST_BEGIN
 
@@ -7,8 +7,8 @@ CLAST_BEGIN
 enum { CLAST_FIT_SIZE, CLAST_FIT_DENSITY, CLAST_FIT_VELOCITY, CLAST_FIT_N_OBSERVABLE };
 
 /// "size", "density", "settling_velocity" and their SI units.
-CLAST_API const char *clast_fit_observable_name(int32_t observable);
-CLAST_API const char *clast_fit_observable_unit(int32_t observable);
+CLAST_API const char *clast_aggregate_fit_observable_name(int32_t observable);
+CLAST_API const char *clast_aggregate_fit_observable_unit(int32_t observable);
 
 /// Whether the best choice explains the observation.
 typedef enum clast_fit_verdict {

@@ -10,6 +10,48 @@
 
 CLAST_BEGIN
 
+/// All of a run: how the aggregates grow, and the files that it reads and writes. Texts and lists
+/// are owned; start from clast_fields_default.
+typedef struct clast_aggregate_config {
+    clast_aggregate_params params;
+
+    char *core;                   ///< file, "sphere", "ellipsoid:a,b,c" (full axes) or state.h5
+    clast_text_list coat;         ///< as core
+    char *core_spheres;           ///< sphere composite of the core (CSV), "" to fill it
+    clast_text_list coat_spheres; ///< the same for each coat shape
+    int32_t fill_spheres;         ///< spheres of a composite made here
+    int32_t fill;                 ///< clast_fill_strategy
+    char *unit;                   ///< of the coordinates in surface files
+    bool accept_faults;           ///< take surfaces that are open or cross themselves
+
+    char *sizes; ///< CSV file of sizes or of a histogram
+    char *size_column;
+    char *size_unit;
+
+    bool fit; ///< find packing and N_A that explain what was observed (aggregate_fit.h)
+    double observed_size, observed_size_error; ///< D_agg [m]; 0: not observed
+    double observed_density, observed_density_error;
+    double observed_velocity, observed_velocity_error; ///< terminal, in air
+    clast_text_list fit_packing; ///< "cone:rays:orientations", loose to tight; empty: built in
+    int32_t fit_repeats, fit_replicate_max;
+
+    int32_t repeats;
+    double confidence;
+    int32_t checkpoint_every;
+    bool picture, printable;
+    double neck, spacing; ///< of the printable surface
+    bool force;           ///< replace an earlier run in the output folder
+    char *resume;
+} clast_aggregate_config;
+
+/// The table behind YAML keys, options, defaults, ranges and manifest.
+extern CLAST_API const clast_field clast_aggregate_fields[];
+
+/// Combinations of options that a single field's range cannot see.
+///
+/// @return CLAST_E_CONFIG with the option, its value and what to do
+CLAST_API clast_status clast_aggregate_config_check(const clast_aggregate_config *config);
+
 /// Everything that a configuration names, loaded. Owns what `input` points to.
 typedef struct clast_aggregate_source {
     clast_assembly core;
@@ -23,11 +65,6 @@ typedef struct clast_aggregate_source {
 CLAST_API clast_status clast_aggregate_load(const clast_aggregate_config *config,
                                             clast_aggregate_source *source);
 CLAST_API void clast_aggregate_unload(clast_aggregate_source *source); ///< may be called twice
-
-/// Files that a configuration names: how many, and the i-th with its role ("core", "sizes").
-CLAST_API int32_t clast_aggregate_n_file(const clast_aggregate_config *config);
-CLAST_API const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i,
-                                           const char **role);
 
 /// Results of the repeats, in order. {0} is empty.
 typedef struct clast_aggregate_report {

@@ -79,9 +79,9 @@ typedef struct clast_chart {
 /// unwritable
 CLAST_API clast_status clast_chart_write(const clast_chart *chart, const char *path);
 
-/// The same in memory as SVG text, for a page; the caller frees *bytes with clast_bytes_free.
+/// The same in memory as SVG text, for a page; the caller frees *bytes with clast_chart_bytes_free.
 CLAST_API clast_status clast_chart_svg(const clast_chart *chart, unsigned char **bytes, size_t *n);
-CLAST_API void clast_bytes_free(unsigned char *bytes);
+CLAST_API void clast_chart_bytes_free(unsigned char *bytes);
 
 // Charts of an aggregation from its tables, as files or as SVG in memory.
 
@@ -96,9 +96,8 @@ typedef enum {
     CLAST_N_AGGREGATE_CHART
 } clast_aggregate_chart;
 
-/// File name without extension ("history", "diameter", ...), and a title for people.
+/// File name without extension ("history", "diameter", ...).
 CLAST_API const char *clast_aggregate_chart_name(clast_aggregate_chart chart);
-CLAST_API const char *clast_aggregate_chart_title(clast_aggregate_chart chart);
 
 /// True when the table has the columns and rows that the chart needs.
 CLAST_API bool clast_aggregate_chart_fits(clast_aggregate_chart chart, const clast_table *table);
@@ -116,7 +115,7 @@ CLAST_API clast_status clast_aggregate_chart_write(clast_aggregate_chart chart,
                                                    const clast_table *table,
                                                    const clast_table *wanted, const char *path);
 
-/// The same as SVG text; free *bytes with clast_bytes_free.
+/// The same as SVG text; free *bytes with clast_chart_bytes_free.
 CLAST_API clast_status clast_aggregate_chart_svg(clast_aggregate_chart chart,
                                                  const clast_table *table,
                                                  const clast_table *wanted, unsigned char **bytes,
@@ -156,38 +155,38 @@ CLAST_API clast_status clast_decompose_chart_write(clast_decompose_chart chart,
 /// .svg, .pdf or .png.
 ///
 /// @param classes  of clast_grading_compare
-CLAST_API clast_status clast_grading_chart_write(const clast_table *classes, const char *path);
+CLAST_API clast_status clast_chart_grading(const clast_table *classes, const char *path);
 
 /// Draws g over r (logarithmic) with its 95 % band and the line of a uniform cloud, as .svg, .pdf
 /// or .png. Shells without an expected pair are left out.
 ///
 /// @return CLAST_E_USAGE without any shell to draw
-CLAST_API clast_status clast_pairs_chart_write(const clast_pairs *pairs, const char *path);
+CLAST_API clast_status clast_chart_pairs(const clast_pairs *pairs, const char *path);
 
 /// Draws porosity over height with the evaluated interval and the bulk value, as Fig. 7 of the
 /// paper, into a .svg, .pdf or .png.
 ///
 /// @param unit  of the heights, for the axis: "m" is drawn in mm
-CLAST_API clast_status clast_porosity_chart_write(const clast_table *profile,
-                                                  const clast_porosity_bulk *bulk, const char *unit,
-                                                  const char *path);
+CLAST_API clast_status clast_chart_porosity(const clast_table *profile,
+                                            const clast_porosity_bulk *bulk, const char *unit,
+                                            const char *path);
 
 /// Draws porosity over the distance from a cylinder's axis, with error bars.
-CLAST_API clast_status clast_radial_chart_write(const clast_table *radial, const char *unit,
-                                                const char *path);
+CLAST_API clast_status clast_chart_radial(const clast_table *radial, const char *unit,
+                                          const char *path);
 
 /// Draws the share of pore space nearer than delta to a grain.
-CLAST_API clast_status clast_pore_chart_write(const clast_table *pores, const char *unit,
-                                              const char *path);
+CLAST_API clast_status clast_chart_pores(const clast_table *pores, const char *unit,
+                                         const char *path);
 
 /// Mean profile over height or radius of several runs with its interval, of
 /// clast_porosity_mean_profile.
-CLAST_API clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
-                                                       const char *path);
+CLAST_API clast_status clast_chart_porosity_band(const clast_table *band, const char *unit,
+                                                 const char *path);
 
 /// Normal stresses over height, of clast_stress_profile.
-CLAST_API clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
-                                                const char *path);
+CLAST_API clast_status clast_chart_stress(const clast_table *profile, const char *unit,
+                                          const char *path);
 
 // Charts of a set of grains in the style of Rettinger et al. 2022, Fig. 2 and 3, and of a fitted
 // model in that of their Fig. 8 and 9. The path's extension (.svg, .pdf, .png) is the format.

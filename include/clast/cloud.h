@@ -71,11 +71,11 @@ typedef struct clast_points_options {
 /// @param options  NULL: {0}    @param table  empty; written only on success
 /// @return CLAST_E_FORMAT with the place; CLAST_E_IO; CLAST_E_LIMIT beyond 16 GiB
 /// @note memory is bounded by a small multiple of the file's size, whatever the file declares
-CLAST_API clast_status clast_points_read(const char *path, const clast_points_options *options,
-                                         clast_table *table);
+CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_options *options,
+                                        clast_table *table);
 
 /// The same from memory, HDF5 excepted; `name` stands for the path.
-CLAST_API clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
-                                          const clast_points_options *options, clast_table *table);
+CLAST_API clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
+                                         const clast_points_options *options, clast_table *table);
 
 CLAST_END

@@ -263,8 +263,8 @@ CLAST_API clast_status clast_cells_write_vtu(const char *path, const clast_decom
 
 /// Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass,
 /// weight and velocity where the cloud has them; -1 and 0 for points left out.
-CLAST_API clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
-                                              const clast_decomposition *result,
-                                              const clast_domain *domain);
+CLAST_API clast_status clast_decomposition_write_points(const char *path, const clast_cloud *cloud,
+                                                        const clast_decomposition *result,
+                                                        const clast_domain *domain);
 
 CLAST_END

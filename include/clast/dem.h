@@ -168,9 +168,6 @@ CLAST_API clast_status clast_dem_add_container(clast_dem *dem, const clast_mesh 
 /// @return CLAST_E_GEOMETRY for a shape without volume, or a mesh that is open or not convex
 CLAST_API clast_status clast_dem_add_shape(clast_dem *dem, const clast_shape *shape, int32_t *id);
 
-/// Bounding radius [m] and volume [m3] of a shape at scale 1.
-CLAST_API void clast_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2]);
-
 /// Adds grains; all or none.
 ///
 /// @return CLAST_E_USAGE for an unknown shape or numbers that are not finite; CLAST_E_GEOMETRY for
@@ -229,15 +226,15 @@ typedef struct clast_scene_bed {
 } clast_scene_bed;
 
 /// Case P1 into *dem, which the caller destroys.
-CLAST_API clast_status clast_scene_p1(const clast_scene_bed *bed, clast_dem **dem);
+CLAST_API clast_status clast_dem_scene_p1(const clast_scene_bed *bed, clast_dem **dem);
 
 /// Case E1: the grains of a P1 as they are now, replaced by their mass-equivalent ellipsoids (axes
 /// times 0.985). The new simulation is not shaken.
-CLAST_API clast_status clast_scene_e1(const clast_scene_bed *bed, const clast_dem *p1,
-                                      clast_dem **dem);
+CLAST_API clast_status clast_dem_scene_e1(const clast_scene_bed *bed, const clast_dem *p1,
+                                          clast_dem **dem);
 
 /// Case S1: 10,830 spheres of 6.7 mm on a simple-cubic lattice of 6.9 mm with random velocities,
 /// box of 0.134 m periodic in x and y; to be settled for 0.2 s.
-CLAST_API clast_status clast_scene_s1(clast_dem **dem);
+CLAST_API clast_status clast_dem_scene_s1(clast_dem **dem);
 
 CLAST_END

@@ -79,10 +79,6 @@ CLAST_API void clast_domain_free(clast_domain *domain); ///< only a mesh holds m
 /// Volume [m^d].
 CLAST_API double clast_domain_volume(const clast_domain *domain);
 
-/// Side lengths of the box that the unit cube stands for in boundary scores: a box's own, 1 for
-/// mapped domains.
-CLAST_API void clast_domain_sides(const clast_domain *domain, double side[3]);
-
 /// True when the point [dimension] is in the closed domain; u [dimension] is then its image in the
 /// unit cube.
 CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, double *u);

@@ -73,7 +73,7 @@ CLAST_API const char *clast_fields_nearest(const clast_field *fields, const char
 CLAST_API clast_status clast_field_set(const clast_field *field, void *config, const char *text,
                                        bool append);
 
-/// The same of what clast_field_format and clast_config_json write: every bare number is SI.
+/// The same of what clast_field_format and clast_fields_json write: every bare number is SI.
 CLAST_API clast_status clast_field_set_si(const clast_field *field, void *config, const char *text,
                                           bool append);
 
@@ -106,11 +106,11 @@ CLAST_API clast_status clast_unit_factor(const char *unit, const char *si_unit, 
 /// @return CLAST_E_CONFIG for an unknown key (with file, line and the nearest known key), a value
 /// out of range, a
 ///         duplicate key or nested mapping; CLAST_E_IO if unreadable; files over 16 MiB are refused
-CLAST_API clast_status clast_config_read(const char *path, const clast_field *fields, void *config);
+CLAST_API clast_status clast_fields_read(const char *path, const clast_field *fields, void *config);
 
-/// The same from a text, YAML or JSON (what clast_config_json writes: every bare number is SI);
+/// The same from a text, YAML or JSON (what clast_fields_json writes: every bare number is SI);
 /// `name` stands for the path.
-CLAST_API clast_status clast_config_parse(const char *name, const char *text,
+CLAST_API clast_status clast_fields_parse(const char *name, const char *text,
                                           const clast_field *fields, void *config);
 
 CLAST_END

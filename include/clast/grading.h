@@ -123,14 +123,6 @@ CLAST_API clast_status clast_grading_lognormal(double mean, double deviation, do
 /// Size of grain `index` [m]: a function of (seed, index) alone.
 CLAST_API double clast_grading_draw(const clast_grading *grading, uint64_t seed, uint64_t index);
 
-/// Density of grain `index` [kg/m3]: of the row of the list that its size is drawn from; 0 where
-/// the list has none, or there is no list.
-CLAST_API double clast_grading_draw_density(const clast_grading *grading, uint64_t seed,
-                                            uint64_t index);
-
-/// Least and greatest density of a list's rows [kg/m3]; 0 and 0 without.
-CLAST_API void clast_grading_densities(const clast_grading *grading, double *low, double *high);
-
 /// Smallest and largest size that can be drawn; the largest is INFINITY for an uncut log-normal.
 CLAST_API void clast_grading_range(const clast_grading *grading, double *low, double *high);
 

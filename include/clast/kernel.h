@@ -13,7 +13,7 @@ typedef struct clast_collider {
     double mass;           ///< [kg]
     double velocity[3];    ///< [m/s]
     double speed_rms;      ///< turbulent velocity of one component [m/s]; 0: from the medium's
-    double settling_speed; ///< as clast_settling_speed gives it, to save calls; 0: not known
+    double settling_speed; ///< as clast_kernel_settling_speed gives it, to save calls; 0: not known
 } clast_collider;
 
 typedef enum {
@@ -33,7 +33,7 @@ typedef struct clast_medium {
     double shear_constant;   ///< of shear_turbulent; 0: sqrt(8 pi / 15) = 1.2944
     double speed_rms;        ///< of the fluid, one component [m/s]
     double gravity;          ///< g [m/s^2]
-    double efficiency;       ///< E of settling [-]; 0: by clast_collision_efficiency's law
+    double efficiency;       ///< E of settling [-]; 0: by clast_kernel_collision_efficiency's law
     double constant;         ///< K [m^d/s]
     double additive;         ///< b [m^d/s]
     double product;          ///< c [m^d/s]
@@ -118,7 +118,7 @@ CLAST_API double clast_kernel_value(uint32_t mask, const clast_medium *medium,
 /// correction of a medium with a mean free path. Buoyancy is that of the solid, m /
 /// particle_density; of the sphere where that is 0.                [docs/theory/agglomeration.md
 /// section 1]
-CLAST_API double clast_settling_speed(const clast_medium *medium, const clast_collider *a);
+CLAST_API double clast_kernel_settling_speed(const clast_medium *medium, const clast_collider *a);
 
 /// Share E of the particles in the swept cylinder pi (a1 + a2)^2 that a settling pair meets: the
 /// medium's constant, or where that is 0
@@ -130,8 +130,9 @@ CLAST_API double clast_settling_speed(const clast_medium *medium, const clast_co
 /// with the ratio of radii p <= 1, St = tau_small |w1 - w2| / a_large, Re = 2 a_large |w1 - w2| /
 /// nu. The smaller one is a point with inertia in the flow about the larger: p <= 0.5.
 /// [Langmuir1948; Friedlander1977]
-CLAST_API double clast_collision_efficiency(const clast_medium *medium, const clast_collider *a,
-                                            const clast_collider *b);
+CLAST_API double clast_kernel_collision_efficiency(const clast_medium *medium,
+                                                   const clast_collider *a,
+                                                   const clast_collider *b);
 
 /// Speed [m/s] at which a pair meets by the kernels of a mask: the sum over them of kernel over
 /// pi (a1 + a2)^2, without collision efficiency and clustering (the mean relative speed of straight
@@ -177,13 +178,7 @@ typedef struct clast_range_report {
 /// One line: the owner, the quantity, the farthest value, its range and the source.
 ///
 /// @return text; empty where nothing was outside
-CLAST_API const char *clast_range_words(const clast_range_use *use, size_t size, char *text);
-
-/// Whether no more than 0.1 % were outside.
-///
-/// @param of  what was seen, "of the particles at the start"
-/// @return CLAST_E_CONFIG with the share and clast_range_words
-CLAST_API clast_status clast_range_check(const clast_range_use *use, const char *of);
+CLAST_API const char *clast_range_use_words(const clast_range_use *use, size_t size, char *text);
 
 // Whether two particles that meet stick. [docs/theory/agglomeration.md section 8]
 

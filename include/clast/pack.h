@@ -204,11 +204,6 @@ typedef struct clast_pack_source {
 CLAST_API clast_status clast_pack_load(const clast_pack_config *config, clast_pack_source *source);
 CLAST_API void clast_pack_unload(clast_pack_source *source); ///< may be called twice
 
-/// Files that a configuration names: how many, and the i-th with its role ("shapes", "curve").
-CLAST_API int32_t clast_pack_n_file(const clast_pack_config *config);
-CLAST_API const char *clast_pack_file(const clast_pack_config *config, int32_t i,
-                                      const char **role);
-
 /// Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv,
 /// summary.json, manifest.json, charts and frames into it, and checkpoints on the way.
 ///

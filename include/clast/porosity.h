@@ -98,9 +98,9 @@ CLAST_API clast_porosity_options clast_porosity_options_default(void);
 /// @param edge   [n + 1] rising; the first may be -INFINITY, the last INFINITY [m]
 /// @param solid  [n] m3
 /// @return CLAST_E_MEMORY for clumps only; all others allocate nothing
-CLAST_API clast_status clast_grain_slabs(const clast_assembly *assembly, int32_t i,
-                                         clast_porosity_method method, int32_t n,
-                                         const double *edge, double *solid);
+CLAST_API clast_status clast_porosity_grain_slabs(const clast_assembly *assembly, int32_t i,
+                                                  clast_porosity_method method, int32_t n,
+                                                  const double *edge, double *solid);
 
 /// Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the
 /// last grain. What lies below the floor counts in the first slice. A bed that is periodic in all
@@ -201,7 +201,7 @@ CLAST_API clast_status clast_bed_load(const char *text, clast_bed *bed, clast_me
 /// @param table  must be empty; written only on success
 /// @return CLAST_E_USAGE when no grain lies inside
 /// @note O(n) for even beds; the same bytes for any thread count
-CLAST_API clast_status clast_local_porosity(const clast_assembly *assembly, const clast_bed *bed,
+CLAST_API clast_status clast_porosity_local(const clast_assembly *assembly, const clast_bed *bed,
                                             double z_low, double z_high, clast_table *table);
 
 typedef struct clast_radial_options {
@@ -219,7 +219,7 @@ typedef struct clast_radial_options {
 /// @param z      [2] lower and upper height [m]
 /// @param table  must be empty; written only on success
 /// @return CLAST_E_USAGE for a bed that is no cylinder, without grains, or rings outside 1 .. 1e6
-CLAST_API clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_bed *bed,
+CLAST_API clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_bed *bed,
                                              const double z[2], const clast_radial_options *options,
                                              clast_table *table);
 
@@ -265,10 +265,10 @@ CLAST_API clast_mean clast_mean_of(int32_t n, const double *value);
 
 /// Mean porosity profile of n beds: z_low_m, z_high_m, porosity, deviation, low, high (95 % of the
 /// mean by Student's t; deviation 0 and no width for one bed), n. A lower bed is empty above its
-/// top. Rings of clast_radial_porosity likewise, then with r_low_m, r_high_m.
+/// top. Rings of clast_porosity_radial likewise, then with r_low_m, r_high_m.
 ///
 /// @param profile  [n] of clast_porosity_profile, with the same floor and layer, or of
-///                 clast_radial_porosity, with the same rings
+///                 clast_porosity_radial, with the same rings
 /// @return CLAST_E_USAGE when slices differ
 CLAST_API clast_status clast_porosity_mean_profile(int32_t n, const clast_table *profile,
                                                    clast_table *band);

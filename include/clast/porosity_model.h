@@ -122,22 +122,6 @@ typedef struct clast_prediction {
     int32_t outside[16]; ///< ranges (numbers into model->range) that are left, first 16
 } clast_prediction;
 
-/// Values of a model's terms and ranges from inputs, by feature name.
-///
-/// @param value  [n_term] of the terms; range_value [n_range] of the ranged features
-/// @return CLAST_E_FORMAT names the feature that the inputs do not hold
-CLAST_API clast_status clast_porosity_model_values(const clast_porosity_model *model,
-                                                   const clast_form_inputs *inputs, double *value,
-                                                   double *range_value);
-
-/// Porosity for given values of terms and ranged features. Outside its ranges, or where the values
-/// together lie farther out than those of any bed that it was fitted to (by their leverage
-/// [Cook1977]), the model still answers, with in_range false; a porosity outside (0, 1) is
-/// CLAST_E_LIMIT.
-CLAST_API clast_status clast_porosity_model_apply(const clast_porosity_model *model,
-                                                  const double *value, const double *range_value,
-                                                  clast_prediction *prediction);
-
 /// Porosity of a bed of these grains; with `bootstrap` the sampling error is the deviation of the
 /// porosity over resamples of the grains.
 CLAST_API clast_status clast_porosity_predict_set(const clast_porosity_model *model,

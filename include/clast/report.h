@@ -1,4 +1,5 @@
 #pragma once
+#include <clast/assembly.h>
 #include <clast/field.h>
 
 CLAST_BEGIN
@@ -35,5 +36,13 @@ CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run
 /// @param place  NULL for a run that has ended; for the caller's own that is about to, the folder
 ///               that it will lie in, which the page names
 CLAST_API clast_status clast_report_write_run(const char *folder, const char *place);
+
+/// A page with nothing but the 3-D view of an assembly, whole or not at all: what a notebook shows
+/// in a frame.
+///
+/// @param config  title and triangles; NULL: the defaults
+/// @return CLAST_E_GEOMETRY for no grains, CLAST_E_DISK
+CLAST_API clast_status clast_report_write_view(const clast_assembly *assembly,
+                                               const clast_report_config *config, const char *path);
 
 CLAST_END

@@ -34,12 +34,6 @@ CLAST_API clast_status clast_manifest_input(clast_manifest *manifest, const char
 CLAST_API clast_status clast_manifest_note(clast_manifest *manifest, const char *key,
                                            const char *text);
 
-/// Keeps the name of a file or folder that the run wrote.
-CLAST_API clast_status clast_manifest_output(clast_manifest *manifest, const char *name);
-
-/// Keeps how much of the run is done, 0 to 1; written while it is not done.
-CLAST_API void clast_manifest_progress(clast_manifest *manifest, double share);
-
 /// Writes the manifest, whole or not at all; may be called at the start and again at the end.
 ///
 /// @param outcome  "running", "done", "stopped", "failed"; wall and CPU time are those until now
@@ -47,7 +41,7 @@ CLAST_API clast_status clast_manifest_write(const clast_manifest *manifest, cons
                                             const char *path);
 
 /// A configuration as one JSON object of SI values in table order; free it with clast_text_free.
-CLAST_API clast_status clast_config_json(const clast_field *fields, const void *config,
+CLAST_API clast_status clast_fields_json(const clast_field *fields, const void *config,
                                          char **text);
 
 /// Frees a text that the library made; NULL is allowed.

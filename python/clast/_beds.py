@@ -3,15 +3,17 @@ from __future__ import annotations
 
 import ctypes
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from . import _bindings as c
-from ._commands import Assembly, Path
-from ._core import Config, Floats, Monitor, Owner, Progress, call, check, refuse, view
-from ._mesh import Mesh, html_table
+from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_table, refuse, settled, view, warn
+from ._html import file_html
+from ._mesh import Mesh
+from ._runs import Assembly
+from ._tables import Path, Table, table_of
 
 
 @dataclass(frozen=True)
@@ -28,53 +30,201 @@ class Spheres:
     centroid_error: float
     inertia_error: float
     max_protrusion: float
+    _owner: Owner = field(repr=False)
+    _mesh: Mesh = field(repr=False)
+
+    @property
+    def history(self) -> Table:
+        """How the errors fall with the number of spheres."""
+        table = Owner(c.clast_table(), "clast_table_free")
+        check(call("clast_fill_history")(self._mesh._struct(), ctypes.byref(self._owner.struct), ctypes.byref(table.struct)))
+        return table_of(table)
+
+    def write(self, path: Path, name: str = "clump") -> None:
+        """Writes the spheres as `clast fill -o` does, by the name's end."""
+        check(call("clast_spheres_write")(encoded("path", path), encoded("name", name), ctypes.byref(self._owner.struct), None))
 
     def _repr_html_(self) -> str:
-        return html_table({k: v for k, v in vars(self).items() if not isinstance(v, np.ndarray)})
+        return html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
 
 
-def fill(mesh: Mesh, *, progress: Progress = None, **keys: Any) -> Spheres:
-    """Fills a closed surface with spheres; keywords are the keys of `clast fill`."""
+_TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume_error", "centroid_error", "inertia_error", "max_protrusion")
+
+
+def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Spheres:
+    """Fills a closed surface, or that of a file, with spheres."""
+    surface = mesh if isinstance(mesh, Mesh) else Mesh.read(mesh)
     spheres, report, monitor = c.clast_spheres(), c.clast_fill_report(), Monitor(progress)
     with Config(c.clast_fill_config(), "clast_fill_fields", keys) as config:
-        check(monitor.run(lambda m: call("clast_fill")(mesh._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
+        check(monitor.run(lambda m: call("clast_fill")(surface._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
                                                        ctypes.byref(report))))
-    owner = Owner(spheres, "clast_spheres_free")
-    told = {name: getattr(report, name) for name in Spheres.__dataclass_fields__ if name not in ("centres", "radii")}
-    return Spheres(view(owner, spheres.centre, (spheres.n, 3), np.float64), view(owner, spheres.radius, (spheres.n,), np.float64), **told)
+    owner, found = Owner(spheres, "clast_spheres_free"), surface.check()
+    if found.n_intersection > 0:
+        warn(f"the surface cuts itself at {found.n_intersection} pairs of triangles; its volume counts overlaps twice, so shares of it come "
+             "out low (mesh_check)")
+    if report.open_share > 1e-6:
+        warn(f"the surface has {found.n_open_edge} open edges; their holes were capped, which leaves {report.open_share:.2g} of the volume "
+             "uncertain")
+    return Spheres(view(owner, spheres.centre, (spheres.n, 3), np.float64), view(owner, spheres.radius, (spheres.n,), np.float64),
+                   **{name: getattr(report, name) for name in _TOLD}, _owner=owner, _mesh=surface)
 
 
 @dataclass(frozen=True)
 class Porosity:
-    """Bulk porosity of a bed between two heights [m]."""
+    """Bulk porosity of a bed between two heights, and what else was asked for; lengths in the run's unit, NaN: not measured."""
 
     porosity: float
     z_low: float
     z_high: float
     solid_volume: float
     top: float
+    unit: str
+    n_grain: int
+    grain_size: float
+    wall_ratio: float  #: least width of the bed by the grains' size
+    core: float  #: porosity away from the side walls
+    core_error: float
+    wall_share: float
+    coordination: float
+    n_overlap: int  #: -1: not searched for, the run tells its contacts
+    max_overlap: float
+    profile: Table
+    fabric: Table
+    coordinations: Table
+    local: Table
+    radial: Table
+    pores: Table
+    stress: Table
+    stress_profile: Table
+    _profile: Owner = field(repr=False)
+    _bulk: Any = field(repr=False)
+
+    def chart(self, path: Path) -> None:
+        """Draws the profile into an .svg, .pdf or .png file."""
+        check(call("clast_chart_porosity")(ctypes.byref(self._profile.struct), ctypes.byref(self._bulk), self.unit.encode(),
+                                                 encoded("path", path)))
 
     def _repr_html_(self) -> str:
-        return html_table(vars(self))
+        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float)) and v == v})
+        return numbers + file_html(self.chart, "svg", "porosity over height")
 
 
-def porosity(run: Path, *, method: str = "exact", layer: float = 1e-3, cut: float = 0.5, trim: float = 0.0,
-             at_slice: bool = False) -> Porosity:
-    """Bulk porosity of a packing's folder: method "exact" or "spheres"; heights of slices and trim in metres."""
-    if method not in ("exact", "spheres"):
-        raise refuse(f"method: '{method}' is none of exact, spheres")
-    grains = Assembly.read(run)
-    if grains.unit != "m":
-        raise refuse(f"run: lengths of {os.fspath(run)} are in {grains.unit} units, metres are wanted; clast porosity takes both")
-    path = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
-    check(call("clast_run_folder_state")(os.fsencode(run), ctypes.cast(path, ctypes.c_char_p)))
-    bed, surface, bulk = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free"), c.clast_porosity_bulk()
-    check(call("clast_bed_read")(path.value, ctypes.byref(bed), ctypes.byref(surface.struct)))
+class _Bed:
+    """The grains and what holds them."""
+
+    def __init__(self, run: Path | Assembly, bed: str, columns: str, diameter: Quantity) -> None:
+        self.bed, self.surface = c.clast_bed(), Owner(c.clast_mesh(), "clast_mesh_free")
+        self.contacts = Owner(c.clast_table(), "clast_table_free")
+        has_bed = False
+        if isinstance(run, Assembly):
+            self.grains = run._copy()
+        else:
+            state = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
+            check(call("clast_run_folder_state")(encoded("run", run), ctypes.cast(state, ctypes.c_char_p)))
+            if state.value.endswith(b".h5"):
+                if columns or diameter:
+                    raise refuse(f"columns, diameter: {os.fspath(run)} is a run, which knows its grains")
+                self.grains = Assembly.read(run)
+                has_bed = call("clast_bed_read")(state.value, ctypes.byref(self.bed), ctypes.byref(self.surface.struct)) == 0
+                call("clast_state_read_table")(state.value, b"contacts", ctypes.byref(self.contacts.struct))  # other programs have none
+            else:
+                self.grains = Assembly.read_spheres(run, columns=columns, diameter=diameter)
+        if bed:
+            self.surface = Owner(c.clast_mesh(), "clast_mesh_free")
+            check(call("clast_bed_load")(encoded("bed", bed), ctypes.byref(self.bed), ctypes.byref(self.surface.struct)))
+        elif not has_bed:
+            name = "the assembly" if isinstance(run, Assembly) else os.fspath(run)
+            raise refuse(f"bed: {name} does not say what holds the grains; give bed, such as 'cylinder:52mm'")
+
+    def length(self, name: str, value: Quantity, low: float = 0.0) -> float:
+        """A number in the run's unit, or a text with its unit for a run in metres."""
+        length = ctypes.c_double(value if not isinstance(value, str) else 0.0)
+        if isinstance(value, str):
+            is_metre = self.grains.unit == "m"
+            check(call("clast_unit_parse_asked" if is_metre else "clast_unit_parse")(encoded("value", value), b"m" if is_metre else b"-",
+                                                                                     ctypes.byref(length)))
+        if not low <= length.value <= 1e9:
+            raise Error("CLAST_E_CONFIG", f"{name}: {value} is outside [{low:g}, 1e9]")
+        return length.value
+
+
+def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, method: str = "exact", layer: Quantity = 0.0, cut: float = 0.5,
+             trim: Quantity = 0.0, at_slice: bool = False, core: float = 0.0, gap: Quantity = 0.0, local: bool = False, rings: int = 0,
+             pores: int = 0, columns: str = "", diameter: Quantity = 0.0) -> Porosity:
+    """Profile and bulk porosity of a run's folder, a state file, spheres of another program, or an assembly.
+
+    `bed` is what holds the grains ("cylinder:52mm"); a run of `clast pack` knows its own.
+    """
+    given = settled("porosity", dict(method=method, cut=cut, at_slice=at_slice, core=core, local=local, rings=rings, pores=pores))
+    b = _Bed(run, bed, columns, diameter)
+    placed, held = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed)
+    bottom = b.length("floor", floor, -1e9)
+    if bed and b.bed.kind in (c.VALUES["CLAST_BED_MESH"], c.VALUES["CLAST_BED_PERIODIC_3D"]):
+        if bottom:
+            raise refuse(f"floor: bed {bed} has a bottom of its own")
+    elif bed:
+        b.bed.floor = bottom
     options = call("clast_porosity_options_default")()
-    options.method, options.layer, options.cut, options.trim, options.at_slice = int(method == "spheres"), layer, cut, trim, at_slice
-    profile = Owner(c.clast_table(), "clast_table_free")
-    placed = ctypes.byref(grains._owner.struct)
-    check(call("clast_porosity_profile")(placed, ctypes.byref(bed), ctypes.byref(options), ctypes.byref(profile.struct)))
-    check(call("clast_porosity_measure")(placed, ctypes.byref(bed), ctypes.byref(options), ctypes.byref(profile.struct),
-                                         ctypes.byref(bulk)))
-    return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top)
+    options.method, options.cut, options.trim, options.at_slice = int(method == "spheres"), given["cut"], b.length("trim", trim), at_slice
+    slice_height = b.length("layer", layer)
+    if slice_height > 0:
+        options.layer = slice_height
+    elif b.grains.unit != "m" and len(b.grains):
+        options.layer = 0.2 * np.cbrt(0.75 / np.pi * b.grains.volume / len(b.grains))
+    call("clast_bed_wrap")(held, placed)
+    profile, bulk, away = Owner(c.clast_table(), "clast_table_free"), c.clast_porosity_bulk(), c.clast_porosity_core(*[float("nan")] * 4)
+    check(call("clast_porosity_profile")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct)))
+    check(call("clast_porosity_measure")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct), ctypes.byref(bulk)))
+    if bulk.porosity < -1e-2:
+        raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
+                    f"{bulk.z_high:g}: it is smaller than what holds them, or in another unit")
+    walls = call("clast_bed_side_walls")(held, placed)
+    if given["core"] > 0:
+        check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(options), ctypes.byref(bulk), given["core"], ctypes.byref(away)))
+    touching = _contacts(b, b.length("gap", gap))
+    tables: dict[str, Any] = _more(b, given, options, profile, bulk)
+    return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top, b.grains.unit, len(b.grains), walls.size, walls.ratio,
+                    away.porosity, away.error, away.share, **{**touching, **tables}, profile=table_of(profile), _profile=profile, _bulk=bulk)
+
+
+def _contacts(b: _Bed, gap: float) -> dict[str, Any]:
+    """Contacts, directions and overlaps; those of a run of clast pack overlap by what their forces need, and are not searched for."""
+    placed, found = ctypes.byref(b.grains._owner.struct), c.clast_overlaps(-1, float("nan"), float("nan"))
+    period = c.clast_period(low=(b.bed.low[0], b.bed.low[1], b.bed.floor))
+    where = ctypes.byref(period) if call("clast_bed_period")(ctypes.byref(b.bed), period.length) else None
+    knows = b.contacts.struct.n_column > 0
+    if not knows:
+        check(call("clast_assembly_overlaps")(placed, where, ctypes.byref(found)))
+    if gap > 0:
+        check(call("clast_assembly_find_contacts_periodic")(placed, gap, where))
+    counts, fabric = Owner(c.clast_table(), "clast_table_free"), Owner(c.clast_table(), "clast_table_free")
+    a, mean = b.grains._owner.struct, float("nan")
+    if a.contact:
+        mean = 2.0 * a.n_contact / a.n_grain
+        check(call("clast_assembly_coordination")(placed, ctypes.byref(counts.struct)))
+    check(call("clast_fabric")(placed, ctypes.byref(b.contacts.struct) if knows else None, period.length if where else None,
+                               ctypes.byref(fabric.struct)))
+    return {"coordination": mean, "n_overlap": found.n, "max_overlap": found.depth, "coordinations": table_of(counts),
+            "fabric": table_of(fabric)}
+
+
+def _more(b: _Bed, given: dict[str, Any], options: Any, profile: Owner, bulk: Any) -> dict[str, Any]:
+    """What is measured when it is asked for, and the stresses of a run that knows its forces."""
+    placed, held, z = ctypes.byref(b.grains._owner.struct), ctypes.byref(b.bed), (ctypes.c_double * 2)(bulk.z_low, bulk.z_high)
+    made = {name: Owner(c.clast_table(), "clast_table_free") for name in ("local", "radial", "stress", "stress_profile")}
+    to = {name: ctypes.byref(owner.struct) for name, owner in made.items()}
+    pores = Owner(c.clast_pores(), "clast_pores_free")
+    if given["local"]:
+        check(call("clast_porosity_local")(placed, held, b.bed.floor, bulk.top, to["local"]))
+    if given["rings"]:
+        rings = c.clast_radial_options(method=options.method, n_ring=given["rings"])
+        check(call("clast_porosity_radial")(placed, held, z, ctypes.byref(rings), to["radial"]))
+    if given["pores"]:
+        wanted = c.clast_pore_options(n_point=given["pores"], n_bin=50)
+        call("clast_bed_period")(held, wanted.period)
+        check(call("clast_pores_measure")(placed, held, z, ctypes.byref(wanted), ctypes.byref(pores.struct)))
+    if b.contacts.struct.n_row:
+        forces = ctypes.byref(b.contacts.struct)
+        check(call("clast_stress")(forces, held, z, to["stress"]))
+        check(call("clast_stress_profile")(forces, held, ctypes.byref(profile.struct), to["stress_profile"]))
+    return {**{name: table_of(owner) for name, owner in made.items()}, "pores": table_of(pores, pores.struct.sizes)}

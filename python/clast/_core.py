@@ -2,12 +2,18 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import importlib
+import inspect
+import math
+import operator
 import os
 import pathlib
 import signal
+import sys
 import threading
-from typing import Any, Callable, Iterator, NamedTuple, Sequence, Union
+import warnings
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, ParamSpec, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +22,8 @@ from . import _bindings as c
 
 Floats = NDArray[np.float64]
 Progress = Union[bool, None, Callable[[str, int, int], None]]
+Quantity = Union[float, str]  #: SI, or a text with its unit ("50deg")
+Quantities = Union[Quantity, Sequence[Quantity], NDArray[np.float64]]
 
 
 class Error(Exception):
@@ -75,6 +83,17 @@ def refuse(line: str) -> Error:
     return Error("CLAST_E_ARGUMENT", line)
 
 
+def encoded(name: str, text: str | os.PathLike[str]) -> bytes:
+    """A text or path as C reads it, which ends at its first NUL."""
+    try:
+        made = os.fsencode(text)
+    except UnicodeEncodeError:
+        raise refuse(f"{name}: {text!r} is no text that can be written as UTF-8") from None
+    if b"\0" in made:
+        raise refuse(f"{name}: {text!r} has a NUL in it")
+    return made
+
+
 class Owner:
     """A struct of the library's and the function that frees it, when nothing looks into it any more."""
 
@@ -83,16 +102,26 @@ class Owner:
         self._free = call(free)
         self._byref = ctypes.byref
 
+    def __reduce__(self) -> Any:
+        raise TypeError("what the library owns can be neither copied nor pickled")
+
     def __del__(self) -> None:
         free = getattr(self, "_free", None)
         if free is not None:
             free(self._byref(self.struct))
 
 
+def pinned(struct: Any, owner: Any) -> Any:
+    """The struct as an argument; its memory lives as long as the call, whoever closes its object in another thread meanwhile."""
+    pointer: Any = ctypes.pointer(struct)
+    pointer.owner = owner
+    return pointer
+
+
 def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
     """The library's memory as an array that keeps `owner` alive; nothing is copied."""
     kind = np.dtype(dtype)
-    n_byte = int(np.prod(shape, dtype=np.int64)) * kind.itemsize
+    n_byte = math.prod(map(int, shape)) * kind.itemsize
     address = ctypes.cast(pointer, ctypes.c_void_p).value
     if not n_byte or address is None:
         return np.empty(shape, kind)
@@ -101,8 +130,16 @@ def view(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[
     return np.frombuffer(memory, kind).reshape(shape)
 
 
+def fixed(owner: Any, pointer: Any, shape: Sequence[int], dtype: Any) -> NDArray[Any]:
+    """The same that nobody can write through: numbers that C trusts, as it uses them as indices."""
+    seen = view(owner, pointer, shape, dtype)
+    return np.frombuffer(memoryview(seen.data).toreadonly(), seen.dtype).reshape(seen.shape) if seen.size else seen
+
+
 def numbers(name: str, value: Any, columns: Sequence[int] | None, dtype: Any = np.float64) -> NDArray[Any]:
     """`value` as the library reads it: as it is where it fits, else converted once; refused by `name` where it is no numbers."""
+    if isinstance(value, np.ma.MaskedArray) and np.any(np.asarray(value.mask)):
+        raise refuse(f"{name}: an array with masked items; fill or drop them")
     array = np.asarray(value)
     if array.dtype.kind not in "fiu" or (np.dtype(dtype).kind == "i" and array.dtype.kind == "f"):
         raise refuse(f"{name}: an array of {array.dtype} where numbers ({np.dtype(dtype).name}) are wanted")
@@ -137,11 +174,39 @@ def keys(command: str) -> dict[str, Key]:
     return {name: Key(*row) for name, row in c.KEYS[command].items()}
 
 
-def document(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Lists a command's keys in its function's docstring, as `clast COMMAND --help-all` does."""
-    lines = [f"    {name}: {key.help} ({key.choices or key.unit}; default {key.default!r})" for name, key in keys(function.__name__).items()]
-    function.__doc__ = "\n".join([function.__doc__ or "", "", "Keywords (a number is SI; a text has its unit):", *lines])
-    return function
+def warn(line: str) -> None:
+    """What the command says on its error stream; shown where people called the package."""
+    frame, level = sys._getframe(1), 2
+    while frame is not None and frame.f_code.co_filename.startswith(_HOME):
+        frame, level = frame.f_back, level + 1  # type: ignore[assignment]
+    warnings.warn(line, stacklevel=level)
+
+
+_HOME = os.path.dirname(__file__) + os.sep
+
+
+def given(names: dict[str, Any], but: str = "") -> dict[str, Any]:
+    """The keywords that were given: those that are not None."""
+    return {name: value for name, value in names.items() if value is not None and name != but}
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def spelt(function: Callable[P, R]) -> Callable[P, R]:
+    """Names the nearest keyword where one is misspelt."""
+    parameters = inspect.signature(function).parameters
+    known = frozenset(name for name, one in parameters.items() if one.kind is not one.VAR_POSITIONAL)
+
+    @functools.wraps(function)
+    def checked(*args: P.args, **keywords: P.kwargs) -> R:
+        for name in keywords:
+            if name not in known:
+                raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, known)}")
+        return function(*args, **keywords)
+    checked.__module__ = "clast"
+    return checked
 
 
 class Config:
@@ -157,7 +222,8 @@ class Config:
             check(call("clast_fields_default")(table, self._bytes))
         try:
             for name, value in keys.items():
-                self._set(name, value)
+                if value is not None:
+                    self._set(name, value)
         except BaseException:
             self.close()
             raise
@@ -167,12 +233,17 @@ class Config:
         if not found:
             near = next((n for n in (call("clast_fields_nearest")(table, name.encode()) for table in self._tables) if n), None)
             raise Error("CLAST_E_CONFIG", f"no keyword {name}" + (f"; did you mean {near.decode()}?" if near else ""))
-        items = value if isinstance(value, (list, tuple, np.ndarray)) else [value]
+        takes_list = found[0].contents.type in (c.VALUES["CLAST_FIELD_TEXT_LIST"], c.VALUES["CLAST_FIELD_F64_LIST"])
+        items = list(value) if isinstance(value, (list, tuple, np.ndarray)) else [value]
+        if len(items) != 1 and not takes_list:
+            raise refuse(f"{name}: takes one value, not {len(items)}")
+        if not items:
+            call("clast_field_clear")(found[0], self._bytes)
         for k, item in enumerate(items):
             is_text = isinstance(item, (str, os.PathLike))
-            text = os.fspath(item) if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
+            text = item if is_text else ("true" if item else "false") if isinstance(item, (bool, np.bool_)) else \
                 repr(item.item() if isinstance(item, np.generic) else item)
-            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, os.fsencode(text), k > 0))
+            check(call("clast_field_set" if is_text else "clast_field_set_si")(found[0], self._bytes, encoded(name, text), k > 0))
 
     def close(self) -> None:
         for table in self._tables:
@@ -184,6 +255,12 @@ class Config:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _log(_: Any, text: bytes) -> None:
+    """What comes next ("printable.stl: about 48 MB"), to the logger "clast"."""
+    import logging
+    logging.getLogger("clast").info("%s", text.decode("utf-8", "replace"))
 
 
 class Monitor:
@@ -198,6 +275,8 @@ class Monitor:
         self.struct = c.clast_monitor()
         self.struct.report = ctypes.cast(self._report, ctypes.c_void_p)
         self.struct.stop = ctypes.cast(self._stop, ctypes.c_void_p)
+        self._note = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)(_log)
+        self.struct.note = ctypes.cast(self._note, ctypes.c_void_p)
 
     def _tell(self, _: Any, phase: bytes, done: int, total: int) -> None:
         if self._progress is not None and self._failed is None:
@@ -248,15 +327,73 @@ def text_of(make: Callable[[Any], Any]) -> str:
     return value
 
 
-def table_array(owner: Owner, part: Any = None) -> NDArray[Any]:
-    """A table, or one that is part of what is owned, as a structured array (a copy: columns lie apart in the library)."""
-    table = owner.struct if part is None else part
-    columns = [table.column[k] for k in range(table.n_column)]
-    n = int(table.n_row)
-    texts = {k: [(column.text[i] or b"").decode("utf-8", "replace") for i in range(n)]
-             for k, column in enumerate(columns) if not column.number}
-    kinds = [(column.name.decode(), f"U{max([1, *map(len, texts[k])])}" if k in texts else "f8") for k, column in enumerate(columns)]
-    out = np.zeros(n, np.dtype(kinds))
-    for k, column in enumerate(columns):
-        out[kinds[k][0]] = texts[k] if k in texts else view(None, column.number, (n,), np.float64)
-    return out
+def html_table(rows: dict[str, Any] | Sequence[Sequence[Any]], head: Sequence[str] = (), foot: str = "") -> str:
+    """Names and values, or rows under a head, as an HTML table; texts are escaped."""
+    from html import escape
+    pairs = [f"<tr><th>{escape(k)}</th>{_cell(v)}</tr>" for k, v in rows.items()] if isinstance(rows, dict) else \
+        ["<tr>" + "".join(map(_cell, row)) + "</tr>" for row in rows]
+    top = "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in head) + "</tr>" if head else ""
+    return f"<table>{top}{''.join(pairs)}</table>{f'<p>{escape(foot)}</p>' if foot else ''}"
+
+
+def _cell(value: Any) -> str:
+    from html import escape
+    return f"<td>{escape(f'{value:.6g}' if isinstance(value, (float, np.floating)) else str(value))}</td>"
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """"; did you mean seed?" where a name is near, else nothing."""
+    from difflib import get_close_matches
+    near = get_close_matches(name, list(names), 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """An integer that fits: ctypes would drop the bits that do not."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise refuse(f"{name}: {value!r} is no integer") from None
+    if not low <= number <= high:
+        raise refuse(f"{name}: {number} lies outside {low} to {high}")
+    return number
+
+
+def choice(key: str, value: str, words: str) -> int:
+    """The number of a word among "a|b|c"; any other is refused by name."""
+    known = words.split("|")
+    if value not in known:
+        raise refuse(f"{key}: '{value}' is none of {', '.join(known)}{nearest(str(value), known)}")
+    return known.index(value)
+
+
+def settled(command: str, given: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a command with defaults filled in: SI numbers, words, texts; for commands without a table in the library."""
+    rows = keys(command)
+    for name in given:
+        if name not in rows:
+            raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, rows)}")
+    return {name: _value(name, key, given.get(name)) for name, key in rows.items()}
+
+
+def _value(name: str, key: Key, value: Any) -> Any:
+    if value is None:
+        return int(key.default) if key.kind == "integer" else key.default
+    if key.kind == "choice":
+        choice(name, value, key.choices or "")
+    elif key.kind in ("number", "integer"):
+        if isinstance(value, str):
+            number = ctypes.c_double()
+            check(call("clast_unit_parse_asked")(encoded(name, value), key.unit.encode(), ctypes.byref(number)))
+            value = number.value
+        try:
+            value = float(value) if key.kind == "number" else operator.index(int(value) if value == int(value) else value)
+        except (TypeError, ValueError, OverflowError):
+            raise refuse(f"{name}: '{value}' is no {key.kind}") from None
+        if not (key.low is None or key.high is None or key.low <= value <= key.high):
+            raise Error("CLAST_E_CONFIG", f"{name}: {value!r} lies outside {key.low:g} to {key.high:g}")
+    elif key.kind == "flag":
+        value = bool(value)
+    elif key.kind == "text":
+        value = os.fspath(value)
+    return value

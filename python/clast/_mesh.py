@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import ctypes
 import importlib
-import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Error, Floats, Owner, call, check, numbers, refuse, view
+from ._core import Error, Floats, Owner, call, check, encoded, fixed, html_table, numbers, pinned, refuse, view, whole
+from ._tables import Path
 
 
 @dataclass(frozen=True)
@@ -67,26 +67,42 @@ class Shape:
         return html_table({k: v for k, v in vars(self).items()})
 
 
-def html_table(values: dict[str, Any]) -> str:
-    from html import escape
-    rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(f'{v:.6g}' if isinstance(v, float) else str(v))}</td></tr>"
-                   for k, v in values.items())
-    return f"<table>{rows}</table>"
+def _parts(call: str, given: Any, *names: str) -> list[Any]:
+    missing = [name for name in names if not hasattr(given, name)]
+    if missing:
+        raise refuse(f"{call}: a {type(given).__name__} without {' and '.join(missing)}")
+    return [getattr(given, name) for name in names]
 
 
-def locked(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    """A view that cannot be written through: vertex numbers are checked once, and C trusts them."""
-    seen = triangles.view()
-    seen.flags.writeable = False
-    return seen
+def _module(call: str, name: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise refuse(f"{call}: {name} is not installed (pip install {name})") from None
+
+
+def _space(points: Any) -> NDArray[Any]:
+    """Points of a plane get z = 0."""
+    array = np.asarray(points)
+    return np.pad(array, ((0, 0), (0, 1))) if array.ndim == 2 and array.shape[1] == 2 else array
+
+
+def _halved(points: Floats, quads: NDArray[Any]) -> NDArray[Any]:
+    """Two triangles of each quadrangle, by the diagonal that leaves both on one side of it: a concave one has only that."""
+    a, b, c, d = (_space(points)[quads[:, k]] for k in range(4))
+    is_good = (np.cross(b - a, c - a) * np.cross(c - a, d - a)).sum(axis=1) > 0
+    first = np.where(is_good[:, None], quads[:, [0, 1, 2]], quads[:, [0, 1, 3]])
+    second = np.where(is_good[:, None], quads[:, [0, 2, 3]], quads[:, [1, 2, 3]])
+    return np.concatenate([first, second])
 
 
 class Mesh:
-    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or the arrays given."""
+    """A triangle surface: `vertices` (n, 3) and `triangles` (m, 3), views of the library's memory or, of vertices, the array given."""
 
     def __init__(self, vertices: Any, triangles: Any) -> None:
-        """From arrays, which are borrowed where they are float64 and int32 in C order, else converted once."""
-        vert, tri = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
+        vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
+        tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
         if tri.size and (tri.min() < 0 or tri.max() >= len(vert)):
             raise refuse(f"triangles: vertex numbers from {tri.min()} to {tri.max()} where there are {len(vert)} vertices, from 0")
         self._mesh: Any = c.clast_mesh()
@@ -94,37 +110,77 @@ class Mesh:
         self._mesh.vert = ctypes.cast(vert.ctypes.data, ctypes.POINTER(ctypes.c_double))
         self._mesh.tri = ctypes.cast(tri.ctypes.data, ctypes.POINTER(ctypes.c_int32))
         self._owner: Any = (vert, tri)
-        self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, locked(tri))
+        self._arrays: tuple[Floats, NDArray[np.int32]] = (vert, tri)
 
     @classmethod
     def _own(cls, struct: Any) -> Mesh:
         mesh = cls.__new__(cls)
         owner = Owner(struct, "clast_mesh_free")
         mesh._mesh, mesh._owner = struct, owner
-        mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), locked(view(owner, struct.tri, (struct.n_tri, 3), np.int32)))
+        mesh._arrays = (view(owner, struct.vert, (struct.n_vert, 3), np.float64), fixed(owner, struct.tri, (struct.n_tri, 3), np.int32))
         return mesh
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str], weld: bool = True) -> Mesh:
+    def read(cls, path: Path, weld: bool = True) -> Mesh:
         """Reads STL, OBJ, PLY or OFF, as the commands do: open edges that rounding has parted are merged (weld)."""
         struct = c.clast_mesh()
-        name = os.fsencode(path)
+        name = encoded("path", path)
         check(call("clast_mesh_read_welded" if weld else "clast_mesh_read")(name, ctypes.byref(struct), None))
         return cls._own(struct)
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
-        """From anything with `vertices` and `faces` (trimesh)."""
-        return cls(mesh.vertices, mesh.faces)
+        """From anything with `vertices` and `faces` (trimesh.Trimesh)."""
+        vertices, faces = _parts("from_trimesh", mesh, "vertices", "faces")
+        return cls(np.asarray(vertices), np.asarray(faces))
 
     def to_trimesh(self) -> Any:
-        return importlib.import_module("trimesh").Trimesh(self.vertices, self.triangles, process=False)
+        """A trimesh.Trimesh of the same vertices and triangles, in their order."""
+        return _module("to_trimesh", "trimesh").Trimesh(np.array(self.vertices), np.array(self.triangles), process=False)
+
+    @classmethod
+    def from_meshio(cls, mesh: Any) -> Mesh:
+        """From anything with `points` and `cells` (meshio.Mesh): triangles, and quadrangles as two; points and lines are passed over."""
+        points, cells = _parts("from_meshio", mesh, "points", "cells")
+        found = [np.zeros((0, 3), np.int64)]
+        for block in cells:
+            kind, data = (block.type, block.data) if hasattr(block, "data") else block
+            if kind == "triangle":
+                found.append(np.asarray(data))
+            elif kind == "quad":
+                found.append(_halved(np.asarray(points, np.float64), np.asarray(data)))
+            elif kind not in ("vertex", "line"):
+                raise refuse(f"cells: {len(data)} of kind {kind}; a surface has triangles and quadrangles")
+        return cls(_space(points), np.concatenate(found))
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of triangles."""
+        return _module("to_meshio", "meshio").Mesh(np.array(self.vertices), [("triangle", np.array(self.triangles))])
+
+    @classmethod
+    def from_pyvista(cls, data: Any) -> Mesh:
+        """From a pyvista.PolyData, or a grid, whose surface is taken; faces of more corners are cut into triangles by PyVista."""
+        if not hasattr(data, "faces") and hasattr(data, "extract_surface"):
+            data = data.extract_surface()
+        points, faces = _parts("from_pyvista", data, "points", "faces")
+        flat = np.asarray(faces)
+        if (flat.size % 4 or (flat.reshape(-1, 4)[:, 0] != 3).any()) and hasattr(data, "triangulate"):
+            data = data.triangulate()
+            points, flat = data.points, np.asarray(data.faces)
+        if flat.size % 4 or (flat.reshape(-1, 4)[:, 0] != 3).any():
+            raise refuse("faces: not all are triangles; call triangulate() first")
+        return cls(_space(points), flat.reshape(-1, 4)[:, 1:])
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData of triangles."""
+        faces = np.hstack([np.full((len(self.triangles), 1), 3), self.triangles])
+        return _module("to_pyvista", "pyvista").PolyData(np.array(self.vertices), faces.ravel())
 
     @classmethod
     def ellipsoid(cls, semi_axes: tuple[float, float, float], level: int = 4) -> Mesh:
         """An ellipsoid of 20 * 4^level triangles."""
         struct = c.clast_mesh()
-        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), level, ctypes.byref(struct)))
+        check(call("clast_mesh_ellipsoid")((ctypes.c_double * 3)(*semi_axes), whole("level", level, 0, 9), ctypes.byref(struct)))
         return cls._own(struct)
 
     def close(self) -> None:
@@ -132,9 +188,13 @@ class Mesh:
         self._mesh = self._owner = None
 
     def _struct(self) -> Any:
-        if self._mesh is None:
+        mesh, owner = self._mesh, self._owner
+        if mesh is None or owner is None:
             raise Error("CLAST_E_USAGE", "this mesh is closed")
-        return ctypes.byref(self._mesh)
+        return pinned(mesh, owner)
+
+    def __reduce__(self) -> Any:
+        return Mesh, (np.array(self.vertices), np.array(self.triangles))
 
     @property
     def vertices(self) -> Floats:
@@ -161,9 +221,9 @@ class Mesh:
         check(call("clast_mesh_hull")(self._struct(), ctypes.byref(struct)))
         return Mesh._own(struct)
 
-    def write(self, path: str | os.PathLike[str]) -> None:
+    def write(self, path: Path) -> None:
         """Writes STL, OBJ, PLY or OFF by the name's end."""
-        check(call("clast_mesh_write")(os.fsencode(path), self._struct(), None))
+        check(call("clast_mesh_write")(encoded("path", path), self._struct(), None))
 
     def check(self) -> MeshCheck:
         """What is this surface, and can it be trusted?"""
@@ -190,11 +250,11 @@ class Mesh:
         return "<clast.Mesh, closed>" if self._mesh is None else f"<clast.Mesh of {self._mesh.n_vert} vertices, {self._mesh.n_tri} triangles>"
 
 
-def mesh_check(path: str | os.PathLike[str]) -> MeshCheck:
+def mesh_check(path: Path) -> MeshCheck:
     """What is this file's surface, and can it be trusted? Welded as the command does."""
     return Mesh.read(path).check()
 
 
-def shape(path: str | os.PathLike[str], *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
+def shape(path: Path, *, axes: str = "ellipsoid", hull: bool = False) -> Shape:
     """Size and form of a file's grain, lengths in the file's own unit."""
     return Mesh.read(path).shape(axes, hull)

@@ -1,15 +1,25 @@
-"""Sizes of grains, and what their forms say of a bed's porosity."""
+"""Sizes of grains."""
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from . import _bindings as c
-from ._core import Error, Floats, call, check, refuse
-from ._mesh import html_table
+from ._core import Error, Floats, Owner, call, check, encoded, html_table, refuse, view, whole
+from ._tables import Table
+
+
+class _Handle:
+    """What the library made, destroyed when nothing uses it any more, in whatever thread."""
+
+    def __init__(self, pointer: ctypes.c_void_p) -> None:
+        self._as_parameter_ = pointer
+        self._destroy = call("clast_grading_destroy")
+
+    def __del__(self) -> None:
+        self._destroy(self._as_parameter_)
 
 
 class Grading:
@@ -25,27 +35,19 @@ class Grading:
             kinds.append(c.VALUES.get(prefix + value.upper()))
             if kinds[-1] is None:
                 raise refuse(f"{name}: '{value}' is none of {', '.join(n[len(prefix):].lower() for n in c.VALUES if n.startswith(prefix))}")
-        curve = c.clast_curve()
-        handle = ctypes.c_void_p()
-        try:
-            check(call("clast_grading_load")(text.encode(), kinds[0], kinds[1], ctypes.byref(curve), ctypes.byref(handle)))
-        finally:
-            call("clast_curve_free")(ctypes.byref(curve))
-        self._handle = handle
+        curve, handle = Owner(c.clast_curve(), "clast_curve_free"), ctypes.c_void_p()
+        check(call("clast_grading_load")(encoded("text", text), kinds[0], kinds[1], ctypes.byref(curve.struct), ctypes.byref(handle)))
+        self._handle, self._curve = _Handle(handle), curve
 
     def close(self) -> None:
-        if self._handle is not None:
-            call("clast_grading_destroy")(self._handle)
-            self._handle = None
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) is not None:
-            self.close()
+        """Lets go of the memory."""
+        self._handle = None
 
     def _open(self) -> Any:
-        if self._handle is None:
+        handle = self._handle
+        if handle is None:
             raise Error("CLAST_E_USAGE", "this grading is closed")
-        return self._handle
+        return handle
 
     def size(self, share: float, by: str = "number") -> float:
         """The size that this share of the grains (by="number") or of their volume (by="mass") does not exceed [m]."""
@@ -55,48 +57,39 @@ class Grading:
 
     def draw(self, n: int, seed: int = 1) -> Floats:
         """Sizes of grains 0 .. n - 1 [m]: a function of the seed and the grain's number alone."""
-        draw, handle = call("clast_grading_draw"), self._open()
+        draw, handle, n, seed = call("clast_grading_draw"), self._open(), whole("n", n, 0, 2**40), whole("seed", seed, 0, 2**64 - 1)
         return np.fromiter((draw(handle, seed, k) for k in range(n)), np.float64, n)
 
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest size [m]; infinite where the law ends nowhere."""
+        low, high = ctypes.c_double(), ctypes.c_double()
+        call("clast_grading_range")(self._open(), ctypes.byref(low), ctypes.byref(high))
+        return low.value, high.value
 
-@dataclass(frozen=True)
-class Prediction:
-    """Porosity of a bed by a published model; errors are one standard error."""
+    @property
+    def mean_cube(self) -> float:
+        """Mean of the cubed size by number [m3]."""
+        return float(call("clast_grading_mean_cube")(self._open()))
 
-    model: str
-    porosity: float
-    standard_error: float
-    model_error: float
-    coefficient_error: float
-    sampling_error: float
-    in_range: bool
+    def n_expected(self, mass: float, density: float = 2650.0, grain_volume: float = np.pi / 6) -> float:
+        """Grains that a mass [kg] holds on average; grain_volume is that of a grain by the cube of its sieve size."""
+        return mass / (density * grain_volume * self.mean_cube)
+
+    @property
+    def classes(self) -> Table:
+        """Sieve classes: low, high and mean size [m], shares of mass and number; empty for a law of size."""
+        handle, curve = self._open(), self._curve.struct
+        sieve = view(self._curve, curve.sieve, (curve.n_class + 1 if curve.n_class else 0,), np.float64)
+        rows = np.zeros(curve.n_class, [(name, "f8") for name in ("low", "high", "mean", "mass", "number")]).view(Table)
+        if len(rows):
+            share = np.array([call("clast_grading_share")(handle, size) for size in sieve])
+            rows["low"], rows["high"], rows["number"] = sieve[:-1], sieve[1:], np.diff(share)
+            rows["mass"] = view(self._curve, curve.mass, (curve.n_class,), np.float64)
+            rows["mean"] = [call("clast_curve_class_size")(ctypes.byref(curve), k) for k in range(curve.n_class)]
+        rows.units = {"low": "m", "high": "m", "mean": "m"}
+        return rows
 
     def _repr_html_(self) -> str:
-        return html_table(vars(self))
-
-
-def predict(flatness: float | tuple[float, float], elongation: float | tuple[float, float], *, grading: str = "U1",
-            grains: int = 0) -> Prediction:
-    """Porosity from the grains' form: mean S/I and I/L, or (mean, standard deviation) of both, for a size distribution U1, U7 or B50.
-
-    With deviations the model of mixtures is taken, without the one of a single form [Rettinger2022 eqs 17-19, 23, 24].
-    """
-    pairs = [v if isinstance(v, tuple) else (v, None) for v in (flatness, elongation)]
-    if (pairs[0][1] is None) != (pairs[1][1] is None):
-        raise refuse("flatness, elongation: one has a deviation and the other has none")
-    has_spread = pairs[0][1] is not None and (pairs[0][1] > 0 or (pairs[1][1] or 0) > 0)
-    name = f"{'form_mixture' if has_spread else 'single_form'}_{grading}"
-    number = call("clast_porosity_model_find")(name.encode())
-    if number < 0:
-        raise refuse(f"grading: no model {name} was published; there are U1, U7 and, for a single form, B50")
-    model, inputs, found = c.clast_porosity_model(), c.clast_form_inputs(), c.clast_prediction()
-    mean = (ctypes.c_double * 2)(*(m for m, _ in pairs))
-    deviation = None if pairs[0][1] is None else (ctypes.c_double * 2)(*(d or 0.0 for _, d in pairs))
-    check(call("clast_porosity_model_published")(number, ctypes.byref(model)))
-    try:
-        check(call("clast_form_inputs_from_moments")(mean, deviation, grains, ctypes.byref(inputs)))
-        check(call("clast_porosity_predict_moments")(ctypes.byref(model), ctypes.byref(inputs), ctypes.byref(found)))
-    finally:
-        call("clast_porosity_model_free")(ctypes.byref(model))
-    return Prediction(name, found.porosity, found.standard_error, found.model_error, found.coefficient_error, found.sampling_error,
-                      found.in_range)
+        return html_table({f"D{round(100 * share)} by {by} (mm)": 1e3 * self.size(share, by) for by in ("mass", "number")
+                           for share in (0.1, 0.5, 0.9)}) + (self.classes._repr_html_() if self._curve.struct.n_class else "")

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._commands import Assembly, Path
-from ._core import Config, Monitor, Owner, Progress, call, check, refuse, view
+from ._core import Config, Monitor, Owner, Progress, call, check, encoded, refuse, view
+from ._runs import Assembly
+from ._tables import Path
 
 
 class Picture:
@@ -24,7 +25,10 @@ class Picture:
 
     def write(self, path: Path) -> None:
         """Writes a PNG file, whole or not at all."""
-        check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), os.fsencode(path)))
+        check(call("clast_image_write_png")(ctypes.byref(self._owner.struct), encoded("path", path)))
+
+    def __repr__(self) -> str:
+        return f"<clast.Picture of {self.rgba.shape[1]} x {self.rgba.shape[0]} pixels>"
 
     def _repr_png_(self) -> bytes:
         import tempfile
@@ -48,6 +52,6 @@ def report(*runs: Path, output: Path, **keys: Any) -> None:
     """Writes one offline page of run folders; keywords are the keys of `clast report` (title="Ash", rows=50)."""
     if not runs:
         raise refuse("runs: none is given")
-    names = (ctypes.c_char_p * len(runs))(*(os.fsencode(run) for run in runs))
+    names = (ctypes.c_char_p * len(runs))(*(encoded("run", run) for run in runs))
     with Config(c.clast_report_config(), "clast_report_fields", keys) as config:
-        check(call("clast_report_write")(names, len(runs), ctypes.byref(config.struct), os.fsencode(output)))
+        check(call("clast_report_write")(names, len(runs), ctypes.byref(config.struct), encoded("output", output)))

@@ -1,7 +1,9 @@
 // Grain sizes that were wanted beside those that were placed.
 #include <clast/aggregate.h>
 
+#include "aggregate/config.h"
 #include "base/alloc.h"
+#include "base/field.h"
 #include "base/status.h"
 #include "base/whole.h"
 #include "shape/whole.h"
@@ -28,7 +30,7 @@ static int by_size(const void *a, const void *b)
 }
 
 /// Share of the law's particles up to this size, before it is cut at size_low and size_high.
-static double law_share(const clast_aggregate_config *c, double size)
+static double law_share(const clast_aggregate_params *c, double size)
 {
     switch (c->size_law) {
     case CLAST_SIZE_UNIFORM:
@@ -46,7 +48,7 @@ static double law_share(const clast_aggregate_config *c, double size)
 }
 
 /// Classes even in the logarithm over what was placed; the law's share of each.
-static clast_status law_classes(const clast_aggregate_config *c, const double range[2],
+static clast_status law_classes(const clast_aggregate_params *c, const double range[2],
                                 size_class **list, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -66,7 +68,7 @@ done:
 }
 
 /// The distinct sizes or bins of a list.
-static clast_status list_classes(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status list_classes(const clast_aggregate_params *c, const clast_sizes *sizes,
                                  size_class **list, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -100,6 +102,7 @@ done:
 /// all.
 static int64_t class_of(const size_class *list, int64_t n, double size)
 {
+    CLAST_ASSERT(n > 0);
     int64_t nearest = 0;
     double least = HUGE_VAL;
     for (int64_t i = 0; i < n; ++i) {
@@ -146,12 +149,12 @@ done:
     return status;
 }
 
-clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
+clast_status clast_aggregate_achieved(const clast_aggregate_params *params,
                                       const clast_sizes *sizes, const clast_table *history,
                                       clast_table *table)
 {
-    CLX_ARGUMENTS(config, history, table);
-    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_ARGUMENTS(params, history, table);
+    CLX_GUARD(clx_fields_check_part(clast_aggregate_fields, 0, sizeof *params, params));
     CLX_WHOLE(table, history);
     if (sizes != NULL) {
         CLX_WHOLE(sizes, sizes);
@@ -170,12 +173,12 @@ clast_status clast_aggregate_achieved(const clast_aggregate_config *config,
         range[0] = n[i] > 0.0 ? fmin(range[0], size[i]) : range[0];
         range[1] = n[i] > 0.0 ? fmax(range[1], size[i]) : range[1];
     }
-    if (config->size_law != CLAST_SIZE_LIST) {
+    if (params->size_law != CLAST_SIZE_LIST) {
         CLX_CHECK(range[1] > 0.0, CLAST_E_USAGE, "%s has no particle", history->name);
-        CLX_TRY(law_classes(config, range, &list, &n_class));
+        CLX_TRY(law_classes(params, range, &list, &n_class));
     } else {
         CLX_CHECK(sizes != NULL && sizes->n > 0, CLAST_E_USAGE, "the list of sizes is missing");
-        CLX_TRY(list_classes(config, sizes, &list, &n_class));
+        CLX_TRY(list_classes(params, sizes, &list, &n_class));
     }
     for (int64_t i = 0; i < history->n_row; ++i) {
         if (n[i] > 0.0) {

@@ -35,6 +35,7 @@ void clx_clusters_free(clx_clusters *clusters)
 /// cluster has the same bits.
 static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
 {
+    CLAST_ASSERT(cluster->n > 0);
     const clast_assembly *all = &a->assembly;
     double moment[3] = {0.0, 0.0, 0.0};
     double second = 0.0;
@@ -59,6 +60,7 @@ static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
 /// A cluster of n grains from `first` on, with the contacts made since `first_contact`.
 static clast_status add_cluster(clast_aggregate *a, int32_t first, int32_t n, int32_t first_contact)
 {
+    CLAST_ASSERT(first >= 0 && n > 0 && first + n <= a->assembly.n_grain);
     clast_status status = CLAST_OK;
     clx_clusters *all = &a->clusters;
     CLX_TRY(clx_grow(&all->cluster, &all->room, all->n + 1, sizeof *all->cluster));
@@ -186,6 +188,7 @@ done:
 static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluster,
                              clx_kit_group *group)
 {
+    CLAST_ASSERT(cluster->n > 0 && cluster->mass >= 0.0);
     const clast_assembly *all = &a->assembly;
     *group = (clx_kit_group){.n_part = cluster->n};
     const clast_status status = clx_alloc(&group->part, cluster->n, sizeof *group->part);
@@ -210,7 +213,7 @@ static clast_status throw_cluster(clast_aggregate *a, clx_search *search, clx_la
 {
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
-    const int32_t tries = clx_search_tries(a->config);
+    const int32_t tries = clx_search_tries(a->params);
     CLX_TRY(clx_walk_or_search(search, tries, landing));
     CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "merger %d: all of %d %s miss the larger cluster; raise max_tries", a->n_placed + 1,
@@ -258,6 +261,7 @@ done:
 static clast_status join(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
                          const clx_kit_group *group, const clx_landing *landing)
 {
+    CLAST_ASSERT(large != small && large->n > 0 && small->n > 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&large->grain, &large->room, large->n + small->n, sizeof *large->grain));
     CLX_TRY(join_contacts(a, large, small, landing));
@@ -318,7 +322,7 @@ static double reach_of(const clast_aggregate *a, const clx_cluster *cluster)
 static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
                            const clx_kit_group *group, clx_search *search)
 {
-    const clast_aggregate_config *c = a->config;
+    const clast_aggregate_params *c = a->params;
     *search = (clx_search){.kit = &a->kit,
                            .group = group,
                            .scale = 1.0,
@@ -339,6 +343,7 @@ static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
 
 static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *small)
 {
+    CLAST_ASSERT(large != small && large->n >= small->n);
     clast_status status = CLAST_OK;
     clx_kit_group group = {0};
     clx_search search;
@@ -373,6 +378,7 @@ static clast_status step(clast_aggregate *a)
 /// The one with most grains, the first of equals.
 static const clx_cluster *largest_of(const clx_clusters *clusters)
 {
+    CLAST_ASSERT(clusters->n > 0);
     const clx_cluster *best = &clusters->cluster[0];
     for (int32_t i = 1; i < clusters->n; ++i) {
         best = clusters->cluster[i].n > best->n ? &clusters->cluster[i] : best;
@@ -431,7 +437,7 @@ done:
 
 static clast_status plan(clast_aggregate *a)
 {
-    const int32_t n_final = a->config->n_final;
+    const int32_t n_final = a->params->n_final;
     if (n_final >= a->n_particle) {
         return clx_fail(CLAST_E_CONFIG, "n_final: %d clusters cannot be left of %d particles",
                         n_final, a->n_particle);

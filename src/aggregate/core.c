@@ -41,7 +41,7 @@ static clast_status resolve_origin(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
     bool holds = false;
-    a->origin = a->config->origin;
+    a->origin = a->params->origin;
     if (a->origin != CLAST_ORIGIN_AUTO) {
         return CLAST_OK;
     }
@@ -72,8 +72,8 @@ static clast_status core_by_spheres(clast_aggregate *a)
     const clx_march_shape *core = &a->march.shape[0];
     const clx_kit_group *group = &a->kit.group[0];
     double centre[3];
-    const double scale = a->config->core_size > 0.0
-                             ? a->config->core_size * core->ratio / core->length
+    const double scale = a->params->core_size > 0.0
+                             ? a->params->core_size * core->ratio / core->length
                              : group->part[0].scale;
     v3_scale(centre, -scale, core->centroid);
     return clx_aggregate_add_group(a, 0, centre, UNTURNED, scale / group->part[0].scale);
@@ -82,7 +82,7 @@ static clast_status core_by_spheres(clast_aggregate *a)
 static clast_status place_core(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
-    const clast_aggregate_config *c = a->config;
+    const clast_aggregate_params *c = a->params;
     double *row = NULL;
     const double own = clx_kit_size(&a->kit.group[0], c->core_meaning);
     const double scale = c->core_size > 0.0 ? c->core_size / own : 1.0;
@@ -115,19 +115,20 @@ static clast_status check_sizes(const clast_aggregate *a)
                   core_length, i + 1, length);
         mass += group->mass * scale * scale * scale;
     }
-    CLX_CHECK(a->config->stop_mass <= mass, CLAST_E_CONFIG,
+    CLX_CHECK(a->params->stop_mass <= mass, CLAST_E_CONFIG,
               "stop_mass: %g kg is more than core and all %d particles weigh, %g kg; raise "
               "replicate or lower stop_mass",
-              a->config->stop_mass, a->n_particle, mass);
-    CLX_CHECK(a->config->stop_mass == 0.0 || a->config->stop_mass > a->mass, CLAST_E_CONFIG,
+              a->params->stop_mass, a->n_particle, mass);
+    CLX_CHECK(a->params->stop_mass == 0.0 || a->params->stop_mass > a->mass, CLAST_E_CONFIG,
               "stop_mass: the core alone weighs %g kg, not below %g kg", a->mass,
-              a->config->stop_mass);
+              a->params->stop_mass);
 done:
     return status;
 }
 
 clast_status clx_aggregate_begin_core(clast_aggregate *a)
 {
+    CLAST_ASSERT(a->assembly.n_grain == 0 && a->n_placed == 0);
     const clast_status status = place_core(a);
     return status == CLAST_OK ? check_sizes(a) : status;
 }

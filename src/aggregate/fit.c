@@ -55,7 +55,7 @@ static clast_status grow_one(const job *j, int32_t repeat, double value[CLX_FIT_
 {
     clast_status status = CLAST_OK;
     clast_aggregate *aggregate = NULL;
-    CLX_TRY(clast_aggregate_create(&j->config, j->fit->input, repeat, &aggregate));
+    CLX_TRY(clast_aggregate_create(&j->config.params, j->fit->input, repeat, &aggregate));
     while (!clast_aggregate_is_done(aggregate)) {
         CLX_TRY(clast_aggregate_grow(aggregate, 1 << 20, NULL));
     }
@@ -97,6 +97,7 @@ static void summarise(const job *j, clx_fit_node *node)
 
 static clast_status run_job(job *j)
 {
+    CLAST_ASSERT(j->n > 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&j->value, j->n, sizeof *j->value));
     CLX_TRY(clx_parallel_try(j->n, 1, grow_some, j));
@@ -135,6 +136,7 @@ static clast_status report(clx_fit *fit, int32_t level)
 static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
                               const clx_fit_node **node)
 {
+    CLAST_ASSERT(level >= 0 && level < fit->n_level && replicate >= 1);
     clast_status status = CLAST_OK;
     const clx_fit_packing *packing = &fit->packing[level];
     clx_fit_node made = {.level = level, .replicate = replicate};
@@ -145,11 +147,11 @@ static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
             return CLAST_OK;
         }
     }
-    j.config.cone = packing->cone;
-    j.config.rays = packing->rays;
-    j.config.orientations = packing->orientations;
-    j.config.replicate = replicate;
-    j.config.envelope_every = 1000000000;
+    j.config.params.cone = packing->cone;
+    j.config.params.rays = packing->rays;
+    j.config.params.orientations = packing->orientations;
+    j.config.params.replicate = replicate;
+    j.config.params.envelope_every = 1000000000;
     CLX_TRY(clx_grow(&fit->node, &fit->node_room, (int64_t)fit->n_node + 1, sizeof *fit->node));
     CLX_TRY(run_job(&j));
     summarise(&j, &made);
@@ -218,6 +220,7 @@ done:
 
 static clast_status search_level(clx_fit *fit, int32_t level)
 {
+    CLAST_ASSERT(level >= 0 && level < fit->n_level);
     clast_status status = CLAST_OK;
     const clx_fit_node *node = NULL;
     const int32_t limit = fit->config->fit_replicate_max;

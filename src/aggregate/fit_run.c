@@ -16,7 +16,8 @@ static clast_status check_observed(clx_fit *fit)
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
         CLX_CHECK((value[k] > 0.0) == (error[k] > 0.0), CLAST_E_CONFIG,
                   "fit: observed %s %g %s with error %g: give both or neither",
-                  clast_fit_observable_name(k), value[k], clast_fit_observable_unit(k), error[k]);
+                  clast_aggregate_fit_observable_name(k), value[k],
+                  clast_aggregate_fit_observable_unit(k), error[k]);
         fit->observed[k] = value[k] > 0.0 ? value[k] : (double)NAN;
         fit->error[k] = error[k];
         n += value[k] > 0.0;
@@ -33,18 +34,20 @@ static clast_status check_options(const clast_aggregate_config *c)
     clast_status status = CLAST_OK;
     clast_aggregate_config fresh;
     CLX_TRY(clast_fields_default(clast_aggregate_fields, &fresh));
-    CLX_CHECK(c->cone == fresh.cone && c->rays == fresh.rays &&
-                  c->orientations == fresh.orientations,
+    CLX_CHECK(c->params.cone == fresh.params.cone && c->params.rays == fresh.params.rays &&
+                  c->params.orientations == fresh.params.orientations,
               CLAST_E_CONFIG,
               "fit finds cone, rays and orientations: drop them, or give packings by fit_packing");
-    CLX_CHECK(c->replicate == fresh.replicate, CLAST_E_CONFIG,
+    CLX_CHECK(c->params.replicate == fresh.params.replicate, CLAST_E_CONFIG,
               "fit finds replicate: drop it, or bound it by fit_replicate_max");
-    CLX_CHECK(c->mode == CLAST_AGGREGATE_CORE, CLAST_E_CONFIG,
+    CLX_CHECK(c->params.mode == CLAST_AGGREGATE_CORE, CLAST_E_CONFIG,
               "fit grows on a core; mode: cluster has no packing to find");
-    CLX_CHECK(c->size_law == CLAST_SIZE_LIST && c->n_particle == 0, CLAST_E_CONFIG,
+    CLX_CHECK(c->params.size_law == CLAST_SIZE_LIST && c->params.n_particle == 0, CLAST_E_CONFIG,
               "fit takes a whole list of sizes, N_A times: drop size_law and n_particle");
-    CLX_CHECK(!(c->stop_mass > 0.0 || c->stop_size > 0.0 || c->stop_porosity > 0.0), CLAST_E_CONFIG,
-              "fit grows to the end of the list: drop stop_mass, stop_size, stop_porosity");
+    CLX_CHECK(
+        !(c->params.stop_mass > 0.0 || c->params.stop_size > 0.0 || c->params.stop_porosity > 0.0),
+        CLAST_E_CONFIG,
+        "fit grows to the end of the list: drop stop_mass, stop_size, stop_porosity");
 done:
     clast_fields_free(clast_aggregate_fields, &fresh);
     return status;

@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *clast_fit_observable_name(int32_t observable)
+const char *clast_aggregate_fit_observable_name(int32_t observable)
 {
     static const char *const name[] = {"size", "density", "settling_velocity"};
     return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? name[observable] : "unknown";
 }
 
-const char *clast_fit_observable_unit(int32_t observable)
+const char *clast_aggregate_fit_observable_unit(int32_t observable)
 {
     static const char *const unit[] = {"m", "kg/m^3", "m/s"};
     return observable >= 0 && observable < CLAST_FIT_N_OBSERVABLE ? unit[observable] : "-";
@@ -48,12 +48,12 @@ static void say_pulls(clast_aggregate_fit *r)
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
         const bool is_size = k == CLAST_FIT_SIZE;
         const double factor = is_size ? 1e6 : 1.0;
-        const char *unit = is_size ? "um" : clast_fit_observable_unit(k);
+        const char *unit = is_size ? "um" : clast_aggregate_fit_observable_unit(k);
         if (isfinite(r->observed[k])) {
-            (void)clx_number_print(part, sizeof part,
-                                   "%s %.4g %s against %.4g +- %.2g %s (%+.1f errors); ",
-                                   clast_fit_observable_name(k), factor * r->model[k].best, unit,
-                                   factor * r->observed[k], factor * r->error[k], unit, r->pull[k]);
+            (void)clx_number_print(
+                part, sizeof part, "%s %.4g %s against %.4g +- %.2g %s (%+.1f errors); ",
+                clast_aggregate_fit_observable_name(k), factor * r->model[k].best, unit,
+                factor * r->observed[k], factor * r->error[k], unit, r->pull[k]);
             append(r, part);
         }
     }

@@ -27,12 +27,13 @@ void clast_aggregate_destroy(clast_aggregate *a)
     clx_free(a);
 }
 
-static uint64_t seed_of(const clast_aggregate_config *config, int32_t repeat)
+static uint64_t seed_of(const clast_aggregate_params *params, int32_t repeat)
 {
+    CLAST_ASSERT(repeat >= 0);
     if (repeat == 0) {
-        return config->seed;
+        return params->seed;
     }
-    clx_rng rng = clx_rng_at(config->seed, CLX_STREAM_AGGREGATE_REPEAT, (uint64_t)repeat);
+    clx_rng rng = clx_rng_at(params->seed, CLX_STREAM_AGGREGATE_REPEAT, (uint64_t)repeat);
     const uint64_t high = clx_rng_u32(&rng);
     return (high << 32) | clx_rng_u32(&rng);
 }
@@ -70,15 +71,15 @@ done:
 
 static clast_status prepare_contact(clast_aggregate *a)
 {
-    if (a->config->contact == CLAST_CONTACT_MARCH) {
-        return clx_march_make(a->config, &a->kit, a->seed, &a->march);
+    if (a->params->contact == CLAST_CONTACT_MARCH) {
+        return clx_march_make(a->params, &a->kit, a->seed, &a->march);
     }
     if (!a->mode->is_one_body) {
         return CLAST_OK;
     }
     const clast_status status = clx_touch_scene_create(&a->scene);
     if (status == CLAST_OK) {
-        clx_touch_scene_expect(a->scene, a->config->rays);
+        clx_touch_scene_expect(a->scene, a->params->rays);
     }
     return status;
 }
@@ -87,7 +88,7 @@ static clast_status prepare_contact(clast_aggregate *a)
 static clast_status prepare(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
-    const clast_aggregate_config *c = a->config;
+    const clast_aggregate_params *c = a->params;
     CLX_TRY(clx_kit_make(c, a->input, &a->kit));
     CLX_TRY(clx_sizes_plan(c, a->input->sizes, a->seed, &a->size, &a->n_particle));
     CLX_TRY(prepare_contact(a));
@@ -98,38 +99,38 @@ done:
     return status;
 }
 
-clast_status clx_aggregate_begin(const clast_aggregate_config *config,
+clast_status clx_aggregate_begin(const clast_aggregate_params *params,
                                  const clast_aggregate_input *input, int32_t repeat,
                                  clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
-    CLAST_ASSERT(input->n_coat == config->coat.n);
-    a->mode = MODE[config->mode];
-    a->config = config;
+    const clx_aggregate_given given = {
+        .core = input->core != NULL, .n_coat = input->n_coat, .sizes = input->sizes != NULL};
+    CLX_TRY(clx_aggregate_params_check(params, &given));
+    a->mode = MODE[params->mode];
+    a->params = params;
     a->input = input;
     a->repeat = repeat;
-    a->seed = seed_of(config, repeat);
+    a->seed = seed_of(params, repeat);
     a->alone_s = HUGE_VAL;
     (void)snprintf(a->assembly.unit, sizeof a->assembly.unit, "m");
-    CLX_TRY(clast_aggregate_config_check(config));
-    CLX_TRY(clx_aggregate_axis(config, &a->random_axis, a->axis));
+    CLX_TRY(clx_aggregate_axis(params, &a->random_axis, a->axis));
     CLX_TRY(prepare(a));
     CLX_TRY(a->mode->plan(a));
 done:
     return status;
 }
 
-clast_status clast_aggregate_create(const clast_aggregate_config *config,
+clast_status clast_aggregate_create(const clast_aggregate_params *params,
                                     const clast_aggregate_input *input, int32_t repeat,
                                     clast_aggregate **aggregate)
 {
-    CLX_ARGUMENTS(config, input, aggregate);
-    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_ARGUMENTS(params, input, aggregate);
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
     const double begun = clx_clock();
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));
-    CLX_TRY(clx_aggregate_begin(config, input, repeat, a));
+    CLX_TRY(clx_aggregate_begin(params, input, repeat, a));
     CLX_TRY(a->mode->begin(a));
     a->wall_s = clx_clock() - begun;
     *aggregate = a;
@@ -142,13 +143,14 @@ done:
 /// Last row's value in an envelope column, NAN when that row was not measured.
 static double last_value(const clast_aggregate *a, int32_t column)
 {
+    CLAST_ASSERT(column >= 0 && column < a->history.n_column);
     const clx_history *h = &a->history;
     return h->n_row > 0 ? h->value[(h->n_row - 1) * h->n_column + column] : (double)NAN;
 }
 
 clast_aggregate_stop clx_aggregate_stop_now(const clast_aggregate *a)
 {
-    const clast_aggregate_config *c = a->config;
+    const clast_aggregate_params *c = a->params;
     if (c->stop_mass > 0.0 && last_value(a, CLX_HISTORY_MASS) >= c->stop_mass) {
         return CLAST_STOP_MASS;
     }
@@ -169,7 +171,7 @@ static clast_status settle(clast_aggregate *a)
 static clast_status step(clast_aggregate *a)
 {
     clast_status status = a->mode->step(a);
-    if (status == CLAST_OK && (a->config->stop_size > 0.0 || a->config->stop_porosity > 0.0)) {
+    if (status == CLAST_OK && (a->params->stop_size > 0.0 || a->params->stop_porosity > 0.0)) {
         status = settle(a);
     }
     a->stop = status == CLAST_OK ? clx_aggregate_stop_now(a) : CLAST_STOP_NOT;

@@ -191,14 +191,15 @@ done:
 
 /// What takes long is made ready side by side: a tree for each shape, then the form of each group.
 typedef struct {
-    const clast_aggregate_config *config;
+    const clast_aggregate_params *params;
     clx_kit *kit;
 } kit_job;
 
 static clast_status make_group_form(const kit_job *job, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < job->kit->n_group);
     clx_kit_group *group = &job->kit->group[g];
-    const int32_t meaning = g == 0 ? job->config->core_meaning : job->config->size_meaning;
+    const int32_t meaning = g == 0 ? job->params->core_meaning : job->params->size_meaning;
     return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
 }
 
@@ -209,22 +210,23 @@ static clast_status make_some(int64_t begin, int64_t end, int32_t worker, void *
     const int64_t n_shape = job->kit->n_shape;
     (void)worker;
     for (int64_t i = begin; i < end; ++i) {
-        CLX_TRY(i < n_shape ? make_shape(job->config->contact, &job->kit->shape[i])
+        CLX_TRY(i < n_shape ? make_shape(job->params->contact, &job->kit->shape[i])
                             : make_group_form(job, (int32_t)(i - n_shape)));
     }
 done:
     return status;
 }
 
-static clast_status make_all(const clast_aggregate_config *config, clx_kit *kit)
+static clast_status make_all(const clast_aggregate_params *params, clx_kit *kit)
 {
-    kit_job job = {.config = config, .kit = kit};
+    kit_job job = {.params = params, .kit = kit};
     return clx_parallel_try((int64_t)kit->n_shape + kit->n_group, 1, make_some, &job);
 }
 
 /// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.
 static const clast_assembly *assembly_of(const clast_aggregate_input *input, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g <= input->n_coat);
     return g == 0 ? input->core : &input->coat[g - 1];
 }
 
@@ -267,14 +269,14 @@ done:
     return status;
 }
 
-clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggregate_input *input,
+clast_status clx_kit_make(const clast_aggregate_params *params, const clast_aggregate_input *input,
                           clx_kit *kit)
 {
     clast_status status = CLAST_OK;
     clx_kit made = {0};
     CLX_TRY(name_shapes(input, &made));
     CLX_TRY(name_groups(input, &made));
-    CLX_TRY(make_all(config, &made));
+    CLX_TRY(make_all(params, &made));
     for (int32_t g = 0; g < made.n_group; ++g) {
         clx_kit_group *group = &made.group[g];
         measure_inner(&made, group);
@@ -303,6 +305,7 @@ double clx_kit_size(const clx_kit_group *group, int32_t meaning)
 void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
                   const double orientation[4], double scale, clx_kit_part *placed)
 {
+    CLAST_ASSERT(part >= 0 && part < group->n_part && scale > 0.0);
     const clx_kit_part *p = &group->part[part];
     double arm[3];
     q_rotate(arm, orientation, p->position);

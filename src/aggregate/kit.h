@@ -48,7 +48,7 @@ typedef struct clx_kit {
 /// Shapes and groups of this input for this kind of contact.
 ///
 /// @return CLAST_E_GEOMETRY for a shape without the composite that the contact needs
-clast_status clx_kit_make(const clast_aggregate_config *config, const clast_aggregate_input *input,
+clast_status clx_kit_make(const clast_aggregate_params *params, const clast_aggregate_input *input,
                           clx_kit *kit);
 void clx_kit_free(clx_kit *kit);
 

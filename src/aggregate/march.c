@@ -82,9 +82,9 @@ static void nearest_centre(const clx_march *march, double origin[3])
 /// the others is never true), though scaled as the size's own class.
 static void choose_shape(const marching *m, int64_t number, march_ray *ray)
 {
-    const clast_aggregate_config *c = m->march->config;
+    const clast_aggregate_params *c = m->march->params;
     const int64_t item = (int64_t)clx_aim_index(m->aim, number, m->aim->n_ray);
-    const int32_t own = clx_sizes_shape(c, m->aim->seed, item, m->size);
+    const int32_t own = clx_sizes_shape(c, m->march->n_shape - 1, m->aim->seed, item, m->size);
     const bool fault = c->class_limit.n > 0 && c->flavour == CLAST_MARCH_FIGURES;
     ray->shape = fault ? 0 : own;
     ray->length = clx_march_length(m->march, m->size, own);
@@ -111,7 +111,7 @@ static void make_ray(const marching *m, int64_t number, march_ray *ray)
 /// evenly: not uniform over orientations, as in the engines.
 static void draw_rotation(const marching *m, int64_t trial, double rotation[3][3])
 {
-    const int64_t n_trial = (int64_t)m->aim->n_ray * m->march->config->orientations;
+    const int64_t n_trial = (int64_t)m->aim->n_ray * m->march->params->orientations;
     clx_rng rng = clx_rng_at(m->aim->seed, CLX_STREAM_AGGREGATE_ORIENTATION,
                              clx_aim_index(m->aim, trial, n_trial));
     const double phi = m->march->phi_range * clx_rng_uniform(&rng);
@@ -161,6 +161,7 @@ static clast_status add_pair(const march_ray *ray, const double from[3], double 
 static clast_status find_spans(const marching *m, const march_ray *ray, double rotation[3][3],
                                double scale, span_list *list)
 {
+    CLAST_ASSERT(scale > 0.0 && ray->shape + 1 < m->march->n_shape);
     clast_status status = CLAST_OK;
     const clx_march *march = m->march;
     const clx_march_shape *shape = &march->shape[1 + ray->shape];
@@ -203,7 +204,8 @@ static bool intersects(const span_list *list, double s)
 /// Inward while free, then outward while intersecting; the k-th step is k times the constant.
 static double march_along(const clx_march *march, double length, const span_list *list, bool *lost)
 {
-    const int32_t limit = march->config->march_steps;
+    CLAST_ASSERT(length >= 0.0);
+    const int32_t limit = march->params->march_steps;
     double s = march->start * length;
     int32_t k = 0;
     while (!intersects(list, s) && k < limit) {
@@ -221,7 +223,7 @@ static double march_along(const clx_march *march, double length, const span_list
 static clast_status run_trial(const marching *m, int64_t trial, span_list *list,
                               clx_march_landing *landing)
 {
-    const march_ray *ray = &m->ray[trial / m->march->config->orientations];
+    const march_ray *ray = &m->ray[trial / m->march->params->orientations];
     const double scale = clx_march_scale(m->march, ray->length, ray->shape);
     double rotation[3][3];
     draw_rotation(m, trial, rotation);
@@ -287,8 +289,9 @@ static void find_touched(const clx_march *march, clx_march_landing *landing)
 clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double size,
                            clx_march_landing *landing)
 {
+    CLAST_ASSERT(size > 0.0 && march->n_grain > 0);
     clast_status status = CLAST_OK;
-    const clast_aggregate_config *c = march->config;
+    const clast_aggregate_params *c = march->params;
     const int64_t n_trial = (int64_t)c->rays * c->orientations;
     marching m = {.march = march, .aim = aim, .size = size};
     int64_t best = 0;

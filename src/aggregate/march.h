@@ -27,7 +27,7 @@ typedef struct clx_march_sphere {
 } clx_march_sphere;
 
 typedef struct clx_march {
-    const clast_aggregate_config *config; ///< borrowed
+    const clast_aggregate_params *params; ///< borrowed
     double coarse, fine, start;           ///< step constants and start distance, in sizes
     double phi_range;                     ///< of the first Euler angle [rad]
     bool sphere_origin;                   ///< rays start at random spheres, as in the release
@@ -55,7 +55,7 @@ typedef struct clx_march_landing {
 } clx_march_landing;
 
 /// Composites and lengths of all groups of the kit; each must be a single shape.
-clast_status clx_march_make(const clast_aggregate_config *config, const clx_kit *kit, uint64_t seed,
+clast_status clx_march_make(const clast_aggregate_params *params, const clx_kit *kit, uint64_t seed,
                             clx_march *march);
 void clx_march_free(clx_march *march);
 

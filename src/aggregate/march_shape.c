@@ -39,6 +39,7 @@ done:
 /// Moves the spheres to their centroid; their reach from there.
 static void centre_spheres(clx_march_shape *made)
 {
+    CLAST_ASSERT(made->spheres.n > 0);
     clast_spheres *s = &made->spheres;
     double weight = 0.0;
     double sum[3] = {0.0, 0.0, 0.0};
@@ -64,6 +65,7 @@ static const double *soup_vertex(const clast_mesh *mesh, int64_t entry)
 static clast_status sample_length(const clast_mesh *mesh, int32_t wanted, uint64_t seed,
                                   uint64_t number, double *length)
 {
+    CLAST_ASSERT(wanted > 0);
     clast_status status = CLAST_OK;
     const int64_t n = 3 * (int64_t)mesh->n_tri;
     const int64_t k = wanted < n ? wanted : n;
@@ -90,7 +92,7 @@ done:
     return status;
 }
 
-static clast_status make_shape(const clast_aggregate_config *config, const clx_kit *kit,
+static clast_status make_shape(const clast_aggregate_params *params, const clx_kit *kit,
                                int32_t number, uint64_t seed, clx_march_shape *made)
 {
     clast_status status = CLAST_OK;
@@ -102,34 +104,34 @@ static clast_status make_shape(const clast_aggregate_config *config, const clx_k
     CLX_TRY(take_spheres(shape, &made->spheres));
     centre_spheres(made);
     CLX_TRY(clast_shape_surface(shape, SURFACE_LEVEL, &surface));
-    CLX_TRY(sample_length(&surface, config->march_vertices, seed, (uint64_t)number, &made->length));
+    CLX_TRY(sample_length(&surface, params->march_vertices, seed, (uint64_t)number, &made->length));
     made->ratio = group->length /
-                  clx_kit_size(group, number == 0 ? config->core_meaning : config->size_meaning);
+                  clx_kit_size(group, number == 0 ? params->core_meaning : params->size_meaning);
 done:
     clast_mesh_free(&surface);
     return status;
 }
 
-clast_status clx_march_make(const clast_aggregate_config *config, const clx_kit *kit, uint64_t seed,
+clast_status clx_march_make(const clast_aggregate_params *params, const clx_kit *kit, uint64_t seed,
                             clx_march *march)
 {
     clast_status status = CLAST_OK;
-    const bool release = config->flavour == CLAST_MARCH_RELEASE;
-    clx_march made = {.config = config,
+    const bool release = params->flavour == CLAST_MARCH_RELEASE;
+    clx_march made = {.params = params,
                       .coarse = release ? 0.05 : 0.01,
-                      .fine = config->march_fine,
+                      .fine = params->march_fine,
                       .start = release ? 1.1 : 1.0,
                       .phi_range = release ? 2.0 * CLAST_PI : CLAST_PI,
                       .sphere_origin = release};
-    made.coarse = config->march_coarse > 0.0 ? config->march_coarse : made.coarse;
-    made.start = config->start > 0.0 ? config->start : made.start;
-    if (config->origin != CLAST_ORIGIN_AUTO) {
-        made.sphere_origin = config->origin == CLAST_ORIGIN_SPHERE;
+    made.coarse = params->march_coarse > 0.0 ? params->march_coarse : made.coarse;
+    made.start = params->start > 0.0 ? params->start : made.start;
+    if (params->origin != CLAST_ORIGIN_AUTO) {
+        made.sphere_origin = params->origin == CLAST_ORIGIN_SPHERE;
     }
     CLX_TRY(clx_alloc(&made.shape, kit->n_group, sizeof *made.shape));
     for (int32_t i = 0; i < kit->n_group; ++i) {
         made.n_shape = i + 1;
-        CLX_TRY(make_shape(config, kit, i, seed, &made.shape[i]));
+        CLX_TRY(make_shape(params, kit, i, seed, &made.shape[i]));
     }
     *march = made;
     made = (clx_march){0};
@@ -145,12 +147,14 @@ double clx_march_length(const clx_march *march, double size, int32_t class_shape
 
 double clx_march_scale(const clx_march *march, double length, int32_t shape)
 {
+    CLAST_ASSERT(length >= 0.0 && shape >= 0 && shape + 1 < march->n_shape);
     return length / march->shape[1 + shape].length;
 }
 
 clast_status clx_march_add(clx_march *march, int32_t shape, const double centroid[3],
                            const double orientation[4], double scale)
 {
+    CLAST_ASSERT(shape >= 0 && shape < march->n_shape && scale > 0.0);
     clast_status status = CLAST_OK;
     const clx_march_shape *s = &march->shape[shape];
     double m[3][3];

@@ -22,9 +22,9 @@ static clast_envelope_options options_of(const clast_aggregate *a, double tolera
 {
     clast_envelope_options options = clast_envelope_options_default();
     options.tolerance = tolerance;
-    options.n_ray = a->config->envelope_rays;
+    options.n_ray = a->params->envelope_rays;
     options.seed = a->seed;
-    options.length = a->config->envelope_length;
+    options.length = a->params->envelope_length;
     return options;
 }
 
@@ -49,7 +49,7 @@ done:
 clast_status clx_aggregate_measure_begin(clast_aggregate *a)
 {
     clast_status status = CLAST_OK;
-    const clast_text_list *names = &a->config->envelope;
+    const clast_text_list *names = &a->params->envelope;
     const clast_envelope_options options = options_of(a, ROW_TOLERANCE);
     CLX_CHECK(names->n <= CLAST_N_ENVELOPE, CLAST_E_CONFIG, "envelope: %d names, %d envelopes",
               names->n, (int)CLAST_N_ENVELOPE);
@@ -71,6 +71,7 @@ done:
 
 static double equivalent_diameter(double volume)
 {
+    CLAST_ASSERT(!(volume < 0.0));
     return cbrt(6.0 * volume / CLAST_PI);
 }
 
@@ -89,7 +90,7 @@ static void fill_row(const clast_aggregate *a, double mass, double solid,
 /// Rows that are not asked for hold no envelope.
 static bool is_measured(clast_aggregate *a, double *row)
 {
-    const bool wanted = a->n_placed % a->config->envelope_every == 0 || a->n_placed == a->n_step;
+    const bool wanted = a->n_placed % a->params->envelope_every == 0 || a->n_placed == a->n_step;
     for (int32_t c = CLX_HISTORY_FIXED; c < a->history.n_column && !wanted; ++c) {
         row[c] = (double)NAN;
     }
@@ -98,6 +99,7 @@ static bool is_measured(clast_aggregate *a, double *row)
 
 clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row)
 {
+    CLAST_ASSERT(a->history.n_column >= CLX_HISTORY_FIXED);
     clast_status status = CLAST_OK;
     clast_envelope envelope[CLAST_N_ENVELOPE];
     const double begun = clx_clock();
@@ -186,14 +188,14 @@ static clast_status measure_solid(const clast_aggregate *a, const clast_assembly
     clast_union_options options = clast_union_options_default();
     clast_union solid;
     result->solid_union = (double)NAN;
-    if (!a->config->solid_union) {
+    if (!a->params->solid_union) {
         return CLAST_OK;
     }
     options.seed = a->seed;
     options.tolerance = SOLID_TOLERANCE;
     options.n_sample = SOLID_SAMPLES;
     options.find_depth = false; // the rows know how far each particle must step back
-    if (a->config->contact == CLAST_CONTACT_EXACT && a->mode->is_one_body) {
+    if (a->params->contact == CLAST_CONTACT_EXACT && a->mode->is_one_body) {
         CLX_TRY(clx_union_of_scene(grains, a->scene, &options, &solid));
     } else {
         CLX_TRY(clast_assembly_union(grains, &options, &solid));

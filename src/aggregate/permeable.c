@@ -31,6 +31,7 @@ done:
 static clast_status sum_coat(const clast_assembly *grains, int32_t first, double *volume,
                              double *surface)
 {
+    CLAST_ASSERT(first >= 0 && first <= grains->n_grain);
     clast_status status = CLAST_OK;
     *volume = 0.0;
     *surface = 0.0;
@@ -49,7 +50,7 @@ done:
     return status;
 }
 
-const char *clast_permeable_text(clast_permeable_range range)
+const char *clast_permeable_range_text(clast_permeable_range range)
 {
     switch (range) {
     case CLAST_PERMEABLE_YES:
@@ -86,7 +87,7 @@ static clast_status permeable(const clast_aggregate *a, const clast_assembly *gr
         return CLAST_OK;
     }
     r->permeable = CLAST_PERMEABLE_POROSITY;
-    if (clast_permeability((clast_permeability_law)a->config->permeability, size, r->coat_porosity,
+    if (clast_permeability((clast_permeability_law)a->params->permeability, size, r->coat_porosity,
                            &r->permeability) != CLAST_OK) {
         return CLAST_OK;
     }

@@ -18,7 +18,8 @@ enum { PROBE = 256 };
 
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
-    const clast_aggregate_config *c = a->config;
+    CLAST_ASSERT(shape >= 0 && shape + 1 < a->kit.n_group);
+    const clast_aggregate_params *c = a->params;
     *search =
         (clx_search){.kit = &a->kit,
                      .group = &a->kit.group[1 + shape],
@@ -105,7 +106,7 @@ static clast_status throw_particle(clast_aggregate *a, clx_search *search, clx_l
     bring_beside(a, search);
     const double begun = clx_clock();
     const double worked = clx_clock_thread();
-    const int32_t tries = clx_search_tries(a->config);
+    const int32_t tries = clx_search_tries(a->params);
     CLX_TRY(clx_walk_or_search(search, tries, landing));
     CLX_CHECK(landing->found || search->approach == CLAST_APPROACH_CENTRAL, CLAST_E_CONVERGE,
               "particle %d of %d: all of %d %s miss the aggregate; raise max_tries",
@@ -176,7 +177,7 @@ static clast_status place_by_march(clast_aggregate *a)
     row[CLX_HISTORY_SHAPE] = landing.shape;
     row[CLX_HISTORY_SIZE] = size;
     row[CLX_HISTORY_DISTANCE] = landing.distance;
-    row[CLX_HISTORY_RAYS] = a->config->rays;
+    row[CLX_HISTORY_RAYS] = a->params->rays;
     row[CLX_HISTORY_TOUCHED] = landing.touched;
     row[CLX_HISTORY_LOST] = landing.lost ? 1.0 : 0.0;
 done:
@@ -185,7 +186,8 @@ done:
 
 static clast_status place(clast_aggregate *a)
 {
-    return a->config->contact == CLAST_CONTACT_MARCH ? place_by_march(a) : place_by_touch(a);
+    CLAST_ASSERT(a->n_placed < a->n_step);
+    return a->params->contact == CLAST_CONTACT_MARCH ? place_by_march(a) : place_by_touch(a);
 }
 
 static clast_status plan(clast_aggregate *a)

@@ -20,17 +20,16 @@ static clast_status check_shapes(const clast_aggregate *a, const clast_assembly 
                            "the saved grains have other shapes than the configuration names");
 }
 
-clast_status clast_aggregate_restore(const clast_aggregate_config *config,
+clast_status clast_aggregate_restore(const clast_aggregate_params *params,
                                      const clast_aggregate_input *input,
                                      const clast_aggregate_saved *saved,
                                      clast_aggregate **aggregate)
 {
-    CLX_ARGUMENTS(config, input, saved, aggregate);
-    CLX_GUARD(clast_fields_check(clast_aggregate_fields, config));
+    CLX_ARGUMENTS(params, input, saved, aggregate);
     clast_status status = CLAST_OK;
     clast_aggregate *a = NULL;
     CLX_TRY(clx_alloc(&a, 1, sizeof *a));
-    CLX_TRY(clx_aggregate_begin(config, input, saved->repeat, a));
+    CLX_TRY(clx_aggregate_begin(params, input, saved->repeat, a));
     CLX_TRY(check_shapes(a, saved->placed));
     CLX_TRY(clx_history_read(&a->history, saved->history));
     CLX_TRY(a->mode->restore(a, saved));

@@ -11,12 +11,14 @@ enum { SIZE_LIMIT = 100000000 };
 
 static double draw_in_bin(const clast_sizes *sizes, int64_t bin, clx_rng *rng)
 {
+    CLAST_ASSERT(bin >= 0 && bin < sizes->n && sizes->low[bin] > 0.0 &&
+                 sizes->low[bin] <= sizes->high[bin]);
     const double low = sizes->low[bin];
     const double high = sizes->high[bin];
     return low == high ? low : low * pow(high / low, clx_rng_uniform(rng));
 }
 
-static clast_status count_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status count_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                                int64_t *total)
 {
     clast_status status = CLAST_OK;
@@ -39,7 +41,7 @@ done:
     return status;
 }
 
-static clast_status take_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status take_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                               uint64_t seed, double **size, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -58,7 +60,7 @@ done:
     return status;
 }
 
-static clast_status count_draws(const clast_aggregate_config *c, int64_t *n)
+static clast_status count_draws(const clast_aggregate_params *c, int64_t *n)
 {
     *n = (int64_t)c->n_particle * c->replicate;
     return *n <= SIZE_LIMIT ? CLAST_OK
@@ -67,7 +69,7 @@ static clast_status count_draws(const clast_aggregate_config *c, int64_t *n)
 }
 
 /// Running sums of the bins' numbers of particles.
-static clast_status cumulate(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status cumulate(const clast_aggregate_params *c, const clast_sizes *sizes,
                              double **sum)
 {
     clast_status status = CLAST_OK;
@@ -85,7 +87,7 @@ done:
     return status;
 }
 
-static clast_status draw_list(const clast_aggregate_config *c, const clast_sizes *sizes,
+static clast_status draw_list(const clast_aggregate_params *c, const clast_sizes *sizes,
                               uint64_t seed, double **size, int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -107,7 +109,7 @@ done:
     return status;
 }
 
-static double draw_law(const clast_aggregate_config *c, clx_rng *rng)
+static double draw_law(const clast_aggregate_params *c, clx_rng *rng)
 {
     switch (c->size_law) {
     case CLAST_SIZE_UNIFORM:
@@ -125,7 +127,7 @@ static double draw_law(const clast_aggregate_config *c, clx_rng *rng)
 
 enum { LAW_DRAWS = 10000 };
 
-static clast_status draw_laws(const clast_aggregate_config *c, uint64_t seed, double **size,
+static clast_status draw_laws(const clast_aggregate_params *c, uint64_t seed, double **size,
                               int64_t *n)
 {
     clast_status status = CLAST_OK;
@@ -167,7 +169,7 @@ static void shuffle(double *size, int64_t n, uint64_t seed)
     }
 }
 
-static void put_in_order(const clast_aggregate_config *c, uint64_t seed, double *size, int64_t n)
+static void put_in_order(const clast_aggregate_params *c, uint64_t seed, double *size, int64_t n)
 {
     if (n == 0) {
         return;
@@ -179,16 +181,34 @@ static void put_in_order(const clast_aggregate_config *c, uint64_t seed, double 
     }
 }
 
-static clast_status list_sizes(const clast_aggregate_config *c, const clast_sizes *sizes,
+/// A list that a caller has filled himself.
+static clast_status check_rows(const clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < sizes->n; ++i) {
+        const double low = sizes->low[i];
+        const double high = sizes->high[i];
+        CLX_CHECK(low > 0.0 && low <= high && isfinite(high) && sizes->count[i] >= 0.0,
+                  CLAST_E_CONFIG,
+                  "sizes: row %lld has sizes from %g to %g m, %g times; sizes must be above 0 and "
+                  "rise, a count 0 or more",
+                  (long long)i + 1, low, high, sizes->count[i]);
+    }
+done:
+    return status;
+}
+
+static clast_status list_sizes(const clast_aggregate_params *c, const clast_sizes *sizes,
                                uint64_t seed, double **size, int64_t *n)
 {
     if (sizes == NULL || sizes->n == 0) {
         return clx_fail(CLAST_E_CONFIG, "sizes: the list is empty");
     }
+    CLX_GUARD(check_rows(sizes));
     return c->size_draw ? draw_list(c, sizes, seed, size, n) : take_list(c, sizes, seed, size, n);
 }
 
-clast_status clx_sizes_plan(const clast_aggregate_config *c, const clast_sizes *sizes,
+clast_status clx_sizes_plan(const clast_aggregate_params *c, const clast_sizes *sizes,
                             uint64_t seed, double **size, int32_t *n)
 {
     clast_status status = CLAST_OK;
@@ -214,6 +234,7 @@ done:
 
 static int32_t by_weight(const clast_f64_list *weight, int32_t n_coat, double u)
 {
+    CLAST_ASSERT(u >= 0.0 && u < 1.0 && n_coat > 0);
     if (weight->n == 0) {
         const int32_t pick = (int32_t)(u * n_coat);
         return pick < n_coat ? pick : n_coat - 1;
@@ -234,9 +255,10 @@ static int32_t by_weight(const clast_f64_list *weight, int32_t n_coat, double u)
     return last;
 }
 
-int32_t clx_sizes_shape(const clast_aggregate_config *c, uint64_t seed, int64_t particle,
-                        double size)
+int32_t clx_sizes_shape(const clast_aggregate_params *c, int32_t n_coat, uint64_t seed,
+                        int64_t particle, double size)
 {
+    CLAST_ASSERT(particle >= 0 && size > 0.0);
     if (c->class_limit.n > 0) {
         int32_t k = 0;
         while (k < c->class_limit.n && size > c->class_limit.item[k]) {
@@ -245,5 +267,5 @@ int32_t clx_sizes_shape(const clast_aggregate_config *c, uint64_t seed, int64_t 
         return k;
     }
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_AGGREGATE_SHAPE, (uint64_t)particle);
-    return by_weight(&c->coat_weight, c->coat.n, clx_rng_uniform(&rng));
+    return by_weight(&c->coat_weight, n_coat, clx_rng_uniform(&rng));
 }

@@ -8,9 +8,9 @@
 /// List: each row count times, all `replicate` times over. Bins draw log-uniformly within.
 /// @return CLAST_E_CONFIG for counts that are not whole, nothing to place, or a law that is nearly
 /// never within its limits
-clast_status clx_sizes_plan(const clast_aggregate_config *config, const clast_sizes *sizes,
+clast_status clx_sizes_plan(const clast_aggregate_params *params, const clast_sizes *sizes,
                             uint64_t seed, double **size, int32_t *n);
 
 /// Which coat shape particle `particle` of this size has: by class or by weight.
-int32_t clx_sizes_shape(const clast_aggregate_config *config, uint64_t seed, int64_t particle,
-                        double size);
+int32_t clx_sizes_shape(const clast_aggregate_params *params, int32_t n_coat, uint64_t seed,
+                        int64_t particle, double size);

@@ -57,7 +57,7 @@ extern const clx_aggregate_mode clx_aggregate_by_cluster;
 
 struct clast_aggregate {
     const clx_aggregate_mode *mode;
-    const clast_aggregate_config *config; ///< borrowed
+    const clast_aggregate_params *params; ///< borrowed
     const clast_aggregate_input *input;   ///< borrowed
     int32_t repeat;
     uint64_t seed; ///< of this repeat
@@ -148,7 +148,7 @@ clast_status clx_aggregate_restore_core(clast_aggregate *a, const clast_aggregat
 clx_measured clx_aggregate_measured_core(const clast_aggregate *a);
 
 /// grow.c: kit, sizes, scene, columns; no grain yet.
-clast_status clx_aggregate_begin(const clast_aggregate_config *config,
+clast_status clx_aggregate_begin(const clast_aggregate_params *params,
                                  const clast_aggregate_input *input, int32_t repeat,
                                  clast_aggregate *a);
 

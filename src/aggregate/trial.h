@@ -56,7 +56,7 @@ bool clx_search_fly(const clx_search *search, const double origin[3], const doub
                     const clx_touch_path *path, clx_landing *landing);
 
 /// Attempts, a new axis or walk each, before a search is given up.
-int32_t clx_search_tries(const clast_aggregate_config *config);
+int32_t clx_search_tries(const clast_aggregate_params *params);
 
 /// What those are, for messages: axes, lines or walks.
 const char *clx_search_paths(const clx_search *search);

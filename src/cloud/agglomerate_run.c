@@ -125,6 +125,7 @@ done:
 
 static double first_radius(const clx_evolution *r, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < r->population.n);
     const clast_collide_config *c = &r->collide;
     const double n = (double)r->population.monomers[i];
     if (r->input->snapshot[0].radius != NULL) {
@@ -302,7 +303,7 @@ static clast_status has_changed(const clx_evolution *r, bool *changed)
             ++n;
         }
     }
-    CLX_TRY(clast_change_test(u, u + p->n * d, n, d, &chance));
+    CLX_TRY(clast_agglomeration_change_test(u, u + p->n * d, n, d, &chance));
     *changed = chance < r->config->change_level;
 done:
     clx_free(u);

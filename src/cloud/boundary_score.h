@@ -1,5 +1,6 @@
 #pragma once
 // The law of depths in a box and the distance of a sample from it.
+#include <clast/domain.h>
 #include <clast/uniformity.h>
 
 /// H(z) = 1 - prod (1 - c_j z) on [0, 1].
@@ -26,3 +27,7 @@ double clx_depth_ideal(const clx_depth_law *law, double n);
 
 /// Depths of n points in ascending order into a fresh block.
 clast_status clx_boundary_depths(const clx_depth_law *law, const double *u, int64_t n, double **z);
+
+/// Side lengths of the box that the unit cube stands for in boundary scores: a box's own, 1 for
+/// mapped domains.
+void clx_domain_sides(const clast_domain *domain, double side[3]);

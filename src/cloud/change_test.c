@@ -11,6 +11,7 @@ enum { POINTS_A_BLOCK = 10, MOST_AN_AXIS = 64 };
 
 static int64_t block_of(const double *u, int32_t d, int32_t g)
 {
+    CLAST_ASSERT(g >= 1 && d >= 1 && d <= 3);
     int64_t block = 0;
     for (int32_t j = 0; j < d; ++j) {
         const int32_t at = (int32_t)(u[j] * g);
@@ -49,8 +50,8 @@ done:
     return status;
 }
 
-clast_status clast_change_test(const double *u_old, const double *u_new, int64_t n, int32_t d,
-                               double *p)
+clast_status clast_agglomeration_change_test(const double *u_old, const double *u_new, int64_t n,
+                                             int32_t d, double *p)
 {
     CLX_ARGUMENTS(u_old, u_new, p);
     clast_status status = CLAST_OK;

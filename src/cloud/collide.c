@@ -240,7 +240,7 @@ static clast_status tell_ranges(const step_context *s)
     }
     return s->config->out_of_range == CLAST_OUT_OF_RANGE_EXTRAPOLATE
                ? CLAST_OK
-               : clast_range_check(use, "of the collisions");
+               : clx_range_check(use, "of the collisions");
 }
 
 static clast_status run_step(step_context *s, int64_t *total)

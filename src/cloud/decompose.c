@@ -2,6 +2,7 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
+#include "cloud/boundary_score.h"
 #include "cloud/cells.h"
 #include "cloud/contract.h"
 #include "cloud/cut_cells.h"
@@ -149,6 +150,7 @@ void clast_decomposition_free(clast_decomposition *result)
 
 static clast_status alloc_cells(clast_cells *cells, int32_t n)
 {
+    CLAST_ASSERT(n > 0);
     clast_status status = CLAST_OK;
     cells->n = n;
     cells->is_box = true;
@@ -373,6 +375,7 @@ static void to_domain(const clast_domain *domain, clast_cells *cells)
 /// Every second point, from `first` on.
 static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *half)
 {
+    CLAST_ASSERT(first == 0 || first == 1);
     clast_status status = CLAST_OK;
     const int32_t d = cloud->dimension;
     CLX_TRY(clast_cloud_alloc((cloud->n - first + 1) / 2, d, half));
@@ -504,7 +507,7 @@ clast_status clx_decompose_test(const clx_sample *sample, const clast_decompose_
     clast_status status = CLAST_OK;
     clast_uniformity_config vote;
     double side[3];
-    clast_domain_sides(sample->domain, side);
+    clx_domain_sides(sample->domain, side);
     CLX_TRY(clx_passes_vote(config, &vote));
     CLX_TRY(clast_uniformity_test(sample->u, sample->n_test, sample->domain->dimension, side, &vote,
                                   found));

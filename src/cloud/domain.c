@@ -1,6 +1,7 @@
 // Domains and their measure-preserving maps to the unit cube.
 #include <clast/domain.h>
 
+#include "cloud/boundary_score.h"
 #include "cloud/surface.h"
 #include <math.h>
 
@@ -44,7 +45,7 @@ double clast_domain_volume(const clast_domain *d)
     return 4.0 / 3.0 * CLAST_PI * d->radius * d->radius * d->radius;
 }
 
-void clast_domain_sides(const clast_domain *d, double side[3])
+void clx_domain_sides(const clast_domain *d, double side[3])
 {
     if (!is_usable(d) || side == NULL) {
         return;

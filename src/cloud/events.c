@@ -57,6 +57,7 @@ static int32_t halved(const clast_cells *cells, int32_t c)
 /// Which of the cell's 2^d halves holds the point u.
 static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t d)
 {
+    CLAST_ASSERT(c >= 0 && c < cells->n && d >= 1 && d <= 3);
     int half = 0;
     for (int32_t j = 0; j < d; ++j) {
         half |= u[j] >= 0.5 * (cells->low[c][j] + cells->high[c][j]) ? 1 << j : 0;
@@ -100,6 +101,7 @@ done:
 /// Real volume of half h of a cell of a mesh domain.
 static double cut_half(const clast_domain *domain, const clast_cells *cells, int32_t c, int h)
 {
+    CLAST_ASSERT(h >= 0 && h < 8);
     double u[2][3];
     double corner[2][3];
     double volume = 1.0;
@@ -161,6 +163,7 @@ static void add_pairs(count *n, const part *p, int n_part)
 /// Most events of a cell: every particle in one.
 static double cap_of(const count *n, int32_t c)
 {
+    CLAST_ASSERT(c >= 0 && c < n->cells->n);
     return n->config->beta_dt > 0.0 ? 0.5 * n->cells->weight[c] : (double)INFINITY;
 }
 

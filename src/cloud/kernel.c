@@ -85,7 +85,7 @@ static double shear_turbulent(const clast_medium *m, const clast_collider *a,
 static double settling(const clast_medium *m, const clast_collider *a, const clast_collider *b)
 {
     const double r = contact(a, b);
-    return CLAST_PI * r * r * clast_collision_efficiency(m, a, b) *
+    return CLAST_PI * r * r * clast_kernel_collision_efficiency(m, a, b) *
            fabs(clx_settling_speed_of(m, a) - clx_settling_speed_of(m, b));
 }
 

@@ -98,8 +98,8 @@ static double stokes_reynolds(const seen *s)
 {
     clast_medium creeping = *s->m;
     creeping.settling_law = CLAST_SETTLING_STOKES;
-    const double a = s->a->radius * fabs(clast_settling_speed(&creeping, s->a));
-    const double b = s->b->radius * fabs(clast_settling_speed(&creeping, s->b));
+    const double a = s->a->radius * fabs(clast_kernel_settling_speed(&creeping, s->a));
+    const double b = s->b->radius * fabs(clast_kernel_settling_speed(&creeping, s->b));
     return 2.0 * fmax(a, b) * s->m->density / s->m->viscosity;
 }
 
@@ -411,9 +411,8 @@ static clast_status hold(const clast_collide_config *config, const clast_range_u
     if (is_beyond && isnan(report->time)) {
         report->time = time;
     }
-    return is_beyond && config->out_of_range == CLAST_OUT_OF_RANGE_ERROR
-               ? clast_range_check(use, of)
-               : CLAST_OK;
+    return is_beyond && config->out_of_range == CLAST_OUT_OF_RANGE_ERROR ? clx_range_check(use, of)
+                                                                         : CLAST_OK;
 }
 
 clast_status clx_range_start(const clast_collide_config *config, clast_range_report *report)
@@ -429,7 +428,7 @@ clast_status clx_range_up_to(const clast_collide_config *config, double time,
     return hold(config, &report->collisions, of, time, report);
 }
 
-const char *clast_range_words(const clast_range_use *use, size_t size, char *words)
+const char *clast_range_use_words(const clast_range_use *use, size_t size, char *words)
 {
     if (use == NULL || words == NULL || size == 0) {
         return "";
@@ -447,14 +446,14 @@ const char *clast_range_words(const clast_range_use *use, size_t size, char *wor
     return words;
 }
 
-clast_status clast_range_check(const clast_range_use *use, const char *of)
+clast_status clx_range_check(const clast_range_use *use, const char *of)
 {
     CLX_ARGUMENTS(use, of);
     char words[512];
     if (!(use->outside > MOST_OUTSIDE * use->n)) {
         return CLAST_OK;
     }
-    (void)clast_range_words(use, sizeof words, words);
+    (void)clast_range_use_words(use, sizeof words, words);
     return clx_fail(CLAST_E_CONFIG,
                     "%s; %.3g %% %s lie beyond: %s, or take it as it is with "
                     "--out-of-range extrapolate",

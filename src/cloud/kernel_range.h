@@ -30,3 +30,9 @@ clast_impact clx_impact_of(const clast_collide_config *config, const clast_mediu
                            const clast_collider *a, const clast_collider *b);
 double clx_sticking_of(const clast_collide_config *config, const clast_medium *medium,
                        const clast_collider *a, const clast_collider *b);
+
+/// Whether no more than 0.1 % were outside.
+///
+/// @param of  what was seen, "of the particles at the start"
+/// @return CLAST_E_CONFIG with the share and clast_range_use_words
+clast_status clx_range_check(const clast_range_use *use, const char *of);

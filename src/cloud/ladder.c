@@ -96,6 +96,7 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
 /// Adds a cell to its rung r.
 static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
 {
+    CLAST_ASSERT(cell->begin <= cell->end && r >= 0);
     const double n = (double)(cell->end - cell->begin);
     const double volume = cell_volume(w, cell);
     double power[3] = {n, n, n}; // sums of w, w^2, w^4
@@ -179,6 +180,7 @@ static void order_points(const ladder_walk *w, ladder_cell *cell)
 /// Where the cell's part that begins here ends; its points agree in the bits above `shift`.
 static int64_t part_end(const ladder_walk *w, int64_t begin, int64_t end, int shift)
 {
+    CLAST_ASSERT(begin < end && shift >= 0 && shift < 64);
     const clx_keyed *point = w->point;
     const uint64_t part = point[begin].key >> shift;
     int64_t last = begin; // in the part

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "cloud/boundary_score.h"
 #include "cloud/ghosts.h"
 #include "cloud/levels.h"
 #include "cloud/uniformity.h"
@@ -392,7 +393,7 @@ clast_status clx_passes_run(const double *u, int64_t n, const clast_domain *doma
 {
     clast_status status = CLAST_OK;
     work w = {.config = config, .passes = passes, .search = &result->search};
-    clast_domain_sides(domain, w.side);
+    clx_domain_sides(domain, w.side);
     w.law = clx_depth_law_of_box(domain->dimension, w.side);
     CLX_TRY(clx_passes_vote(config, &w.vote));
     CLX_TRY(prepare(&w, u, n, domain->dimension));

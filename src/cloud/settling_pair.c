@@ -11,7 +11,7 @@ double clx_response_time(const clast_medium *m, const clast_collider *a)
            (6.0 * CLAST_PI * m->viscosity * a->radius);
 }
 
-double clast_settling_speed(const clast_medium *m, const clast_collider *a)
+double clast_kernel_settling_speed(const clast_medium *m, const clast_collider *a)
 {
     if (m == NULL || a == NULL) {
         return (double)NAN;
@@ -31,7 +31,7 @@ double clast_settling_speed(const clast_medium *m, const clast_collider *a)
 
 double clx_settling_speed_of(const clast_medium *m, const clast_collider *a)
 {
-    return a->settling_speed != 0.0 ? a->settling_speed : clast_settling_speed(m, a);
+    return a->settling_speed != 0.0 ? a->settling_speed : clast_kernel_settling_speed(m, a);
 }
 
 /// Whether a is the smaller of two (of equal radii the lighter).
@@ -54,8 +54,8 @@ static double between(double creeping, double potential, double reynolds)
     return (creeping + potential * share) / (1.0 + share);
 }
 
-double clast_collision_efficiency(const clast_medium *m, const clast_collider *a,
-                                  const clast_collider *b)
+double clast_kernel_collision_efficiency(const clast_medium *m, const clast_collider *a,
+                                         const clast_collider *b)
 {
     if (m == NULL || a == NULL || b == NULL) {
         return (double)NAN;

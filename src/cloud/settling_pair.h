@@ -3,7 +3,7 @@
 // section 1]
 #include <clast/kernel.h>
 
-/// The settling speed that the collider holds, or clast_settling_speed [m/s].
+/// The settling speed that the collider holds, or clast_kernel_settling_speed [m/s].
 double clx_settling_speed_of(const clast_medium *medium, const clast_collider *a);
 
 /// clast_kernel_value of arguments that have been looked at.

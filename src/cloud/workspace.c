@@ -151,6 +151,7 @@ typedef struct {
 /// at that of a tree's root; 38 at the most, where p ends.
 static double vote_margin(const clast_uniformity *tests, const clast_decompose_config *config)
 {
+    CLAST_ASSERT(tests->n_test >= 0 && tests->n_test <= CLAST_N_TEST);
     double z[CLAST_N_TEST] = {0};
     for (int32_t k = 0; k < tests->n_test; ++k) { // descending
         const double own = -clx_normal_quantile(fmax(tests->vote[k].p, 1e-300));

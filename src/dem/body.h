@@ -3,6 +3,7 @@
 // with.
 #include "base/status.h"
 #include "convex/convex.h"
+#include <clast/dem.h>
 #include <clast/shape.h>
 
 /// A convex part of a rigid grain, at scale 1.
@@ -73,3 +74,6 @@ void clx_rounding_prepare(clx_dem_body *body);
 /// Factor on the lengths of a body that keeps its volume when it then grows by `margin`, both at
 /// scale 1. The margin is less than the ball inside.
 double clx_rounding_factor(const clx_dem_body *body, double margin);
+
+/// Bounding radius [m] and volume [m3] of a shape at scale 1.
+void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures[2]);

@@ -82,7 +82,7 @@ static void place(const clast_scene_bed *bed, int32_t i, const double size[N_FOR
     g->velocity[2] -= bed->fall;
 }
 
-clast_status clast_scene_p1(const clast_scene_bed *bed, clast_dem **dem)
+clast_status clast_dem_scene_p1(const clast_scene_bed *bed, clast_dem **dem)
 {
     CLX_ARGUMENTS(bed, dem);
     clast_status status = CLAST_OK;
@@ -104,7 +104,7 @@ done:
     return status;
 }
 
-clast_status clast_scene_e1(const clast_scene_bed *bed, const clast_dem *p1, clast_dem **dem)
+clast_status clast_dem_scene_e1(const clast_scene_bed *bed, const clast_dem *p1, clast_dem **dem)
 {
     CLX_ARGUMENTS(bed, p1, dem);
     clast_status status = CLAST_OK;
@@ -140,7 +140,7 @@ static clast_dem_grain ball(int32_t i, int32_t side)
     return g;
 }
 
-clast_status clast_scene_s1(clast_dem **dem)
+clast_status clast_dem_scene_s1(clast_dem **dem)
 {
     CLX_ARGUMENTS(dem);
     enum { SIDE = 19, TALL = 30, N = SIDE * SIDE * TALL };

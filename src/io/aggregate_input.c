@@ -4,6 +4,7 @@
 #include "aggregate/config.h"
 #include "base/alloc.h"
 #include "base/path.h"
+#include "io/config_files.h"
 #include "io/shape_word.h"
 #include <clast/fill.h>
 #include <clast/mesh_file.h>
@@ -74,9 +75,9 @@ done:
 /// Whether contacts or an envelope ask for composites.
 static bool needs_spheres(const clast_aggregate_config *config)
 {
-    bool needed = config->contact != CLAST_CONTACT_EXACT;
-    for (int32_t i = 0; i < config->envelope.n; ++i) {
-        needed = needed || strncmp(config->envelope.item[i], "sphere_", 7) == 0;
+    bool needed = config->params.contact != CLAST_CONTACT_EXACT;
+    for (int32_t i = 0; i < config->params.envelope.n; ++i) {
+        needed = needed || strncmp(config->params.envelope.item[i], "sphere_", 7) == 0;
     }
     return needed;
 }
@@ -98,7 +99,7 @@ static clast_status fill_shape(const clast_aggregate_config *config, clast_shape
     fill.spheres = config->fill_spheres;
     fill.strategy = config->fill;
     fill.allow_open = config->accept_faults;
-    fill.seed = config->seed;
+    fill.seed = config->params.seed;
     CLX_TRY(clast_shape_surface(shape, FILL_LEVEL, &surface));
     CLX_TRY(clast_fill(&surface, &fill, NULL, &shape->spheres, NULL));
 done:
@@ -179,10 +180,10 @@ static clast_status load_sizes(const clast_aggregate_config *config, clast_sizes
     if (config->sizes[0] != '\0') {
         return clast_sizes_read(config->sizes, config->size_column, config->size_unit, sizes);
     }
-    CLX_TRY(clast_sizes_alloc(config->size.n, sizes));
-    for (int32_t i = 0; i < config->size.n; ++i) {
-        sizes->low[i] = config->size.item[i];
-        sizes->high[i] = config->size.item[i];
+    CLX_TRY(clast_sizes_alloc(config->params.size.n, sizes));
+    for (int32_t i = 0; i < config->params.size.n; ++i) {
+        sizes->low[i] = config->params.size.item[i];
+        sizes->high[i] = config->params.size.item[i];
         sizes->count[i] = 1.0;
     }
 done:
@@ -207,16 +208,16 @@ static clast_status load_shapes(const clast_aggregate_config *config, clast_aggr
 {
     clast_status status = CLAST_OK;
     if (config->core[0] != '\0') {
-        CLX_TRY(load_named("core", config, config->core, config->core_spheres, config->core_density,
-                           &made->core));
+        CLX_TRY(load_named("core", config, config->core, config->core_spheres,
+                           config->params.core_density, &made->core));
     }
     CLX_TRY(clx_alloc(&made->coat, config->coat.n, sizeof *made->coat));
     made->n_coat = config->coat.n;
     for (int32_t i = 0; i < config->coat.n; ++i) {
-        const int32_t k = config->coat_density.n > 1 ? i : 0;
+        const int32_t k = config->params.coat_density.n > 1 ? i : 0;
         const char *spheres = config->coat_spheres.n > 0 ? config->coat_spheres.item[i] : "";
         CLX_TRY(load_named("coat", config, config->coat.item[i], spheres,
-                           config->coat_density.item[k], &made->coat[i]));
+                           config->params.coat_density.item[k], &made->coat[i]));
     }
 done:
     return status;
@@ -230,7 +231,7 @@ clast_status clast_aggregate_load(const clast_aggregate_config *config,
     clast_aggregate_source made = {0};
     CLX_TRY(clast_aggregate_config_check(config));
     CLX_TRY(load_shapes(config, &made));
-    if (config->size_law == CLAST_SIZE_LIST) {
+    if (config->params.size_law == CLAST_SIZE_LIST) {
         CLX_TRY(load_sizes(config, &made.sizes));
     }
     *source = made;
@@ -239,13 +240,13 @@ clast_status clast_aggregate_load(const clast_aggregate_config *config,
         .core = config->core[0] != '\0' ? &source->core : NULL,
         .n_coat = source->n_coat,
         .coat = source->coat,
-        .sizes = config->size_law == CLAST_SIZE_LIST ? &source->sizes : NULL};
+        .sizes = config->params.size_law == CLAST_SIZE_LIST ? &source->sizes : NULL};
 done:
     clast_aggregate_unload(&made);
     return status;
 }
 
-const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
+const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i, const char **role)
 {
     if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK || role == NULL) {
         return NULL;
@@ -270,14 +271,14 @@ const char *clast_aggregate_file(const clast_aggregate_config *config, int32_t i
     return NULL;
 }
 
-int32_t clast_aggregate_n_file(const clast_aggregate_config *config)
+int32_t clx_aggregate_n_file(const clast_aggregate_config *config)
 {
     if (clast_fields_check(clast_aggregate_fields, config) != CLAST_OK) {
         return 0;
     }
     int32_t n = 0;
     const char *role = NULL;
-    while (clast_aggregate_file(config, n, &role) != NULL) {
+    while (clx_aggregate_file(config, n, &role) != NULL) {
         ++n;
     }
     return n;

@@ -106,6 +106,7 @@ static json_t *means_by_envelope(const clast_aggregate_report *report, reader re
 
 static json_t *intervals(const clast_aggregate_report *report, double *value)
 {
+    CLAST_ASSERT(report->n >= 2);
     json_t *object = json_object();
     json_t *porosity = json_object();
     set(object, "confidence", report->confidence);
@@ -144,7 +145,8 @@ static json_t *one_repeat(const clast_aggregate_result *r)
     (void)json_object_set_new(object, "n_contact", json_integer(r->n_contact));
     (void)json_object_set_new(object, "n_cluster", json_integer(r->n_cluster));
     (void)json_object_set_new(object, "n_lost", json_integer(r->n_lost));
-    (void)json_object_set_new(object, "permeable", json_string(clast_permeable_text(r->permeable)));
+    (void)json_object_set_new(object, "permeable",
+                              json_string(clast_permeable_range_text(r->permeable)));
     (void)json_object_set_new(object, "stopped_by", json_string(stop_name(r->stop)));
     for (int i = 1; i < N_NUMBER; ++i) {
         set(object, numbers[i].name, numbers[i].read(r, 0));

@@ -309,8 +309,9 @@ done:
     return status;
 }
 
-clast_status clast_points_write_vtp(const char *path, const clast_cloud *cloud,
-                                    const clast_decomposition *result, const clast_domain *domain)
+clast_status clast_decomposition_write_points(const char *path, const clast_cloud *cloud,
+                                              const clast_decomposition *result,
+                                              const clast_domain *domain)
 {
     CLX_ARGUMENTS(path, cloud, result);
     CLX_GUARD(clx_cloud_check(cloud));

@@ -166,7 +166,7 @@ done:
     return status;
 }
 
-clast_status clast_config_read(const char *path, const clast_field *fields, void *config)
+clast_status clast_fields_read(const char *path, const clast_field *fields, void *config)
 {
     CLX_ARGUMENTS(path, fields, config);
     clast_status status = CLAST_OK;
@@ -179,7 +179,7 @@ done:
     return status;
 }
 
-clast_status clast_config_parse(const char *name, const char *text, const clast_field *fields,
+clast_status clast_fields_parse(const char *name, const char *text, const clast_field *fields,
                                 void *config)
 {
     CLX_ARGUMENTS(name, text, fields, config);

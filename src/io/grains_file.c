@@ -380,7 +380,7 @@ static clast_status take_delimited(clx_grains_task *task, clast_grains_kind kind
     clast_status status = CLAST_OK;
     clast_table table = {0};
     clast_mesh points = {0};
-    CLX_TRY(clast_points_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
+    CLX_TRY(clast_cloud_parse(task->path, task->bytes, (size_t)task->n_byte, NULL, &table));
     const bool has_points = clast_table_find(&table, "x") >= 0 &&
                             clast_table_find(&table, "y") >= 0 &&
                             clast_table_find(&table, "z") >= 0;

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/path.h"
 #include "io/bed_tables.h"
+#include "io/config_files.h"
 #include "io/shape_word.h"
 #include "math/vec3.h"
 #include <clast/assembly.h>
@@ -341,7 +342,7 @@ static const char *curve_file(const char *text)
                                                                                             : NULL;
 }
 
-int32_t clast_pack_n_file(const clast_pack_config *config)
+int32_t clx_pack_n_file(const clast_pack_config *config)
 {
     if (clast_fields_check(clast_pack_fields, config) != CLAST_OK) {
         return 0;
@@ -354,7 +355,7 @@ int32_t clast_pack_n_file(const clast_pack_config *config)
     return n;
 }
 
-const char *clast_pack_file(const clast_pack_config *config, int32_t i, const char **role)
+const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char **role)
 {
     if (clast_fields_check(clast_pack_fields, config) != CLAST_OK || role == NULL) {
         return NULL;

@@ -60,7 +60,7 @@ static clast_status parse(const char *path, const char *bytes, int64_t n, clast_
     const int64_t begin = clx_path_is(path, "xyz") ? skip_count(bytes, n) : 0;
     return begin > 0 ? clast_table_parse_csv(path, bytes + begin, (size_t)(n - begin), &atoms,
                                              table, NULL)
-                     : clast_points_parse(path, bytes, (size_t)n, NULL, table);
+                     : clast_cloud_parse(path, bytes, (size_t)n, NULL, table);
 }
 
 static clast_status add_spheres(const clast_spheres *spheres, bool in_metres,

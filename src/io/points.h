@@ -1,5 +1,5 @@
 #pragma once
-// One reader for each format of clast_points_read: the whole file to a table.
+// One reader for each format of clast_cloud_read: the whole file to a table.
 #include <clast/cloud.h>
 
 clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);

@@ -35,8 +35,8 @@ static bool is_vtk_xml(const char *bytes, size_t n)
     return false;
 }
 
-clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
-                                const clast_points_options *options, clast_table *table)
+clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
+                               const clast_points_options *options, clast_table *table)
 {
     CLX_ARGUMENTS(name, table);
     CLX_ARRAY(bytes, n);
@@ -59,8 +59,8 @@ clast_status clast_points_parse(const char *name, const void *bytes, size_t n,
     return clast_table_parse_csv(name, bytes, n, NULL, table, NULL);
 }
 
-clast_status clast_points_read(const char *path, const clast_points_options *options,
-                               clast_table *table)
+clast_status clast_cloud_read(const char *path, const clast_points_options *options,
+                              clast_table *table)
 {
     CLX_ARGUMENTS(path, table);
     clast_status status = CLAST_OK;
@@ -72,7 +72,7 @@ clast_status clast_points_read(const char *path, const clast_points_options *opt
         bytes = NULL;
         CLX_TRY(clx_points_h5(path, options != NULL ? options->dataset : NULL, table));
     } else {
-        CLX_TRY(clast_points_parse(path, bytes, (size_t)n, options, table));
+        CLX_TRY(clast_cloud_parse(path, bytes, (size_t)n, options, table));
     }
 done:
     clx_free(bytes);

@@ -2,11 +2,13 @@
 // the list of sizes.
 #include "math/rng.h"
 #include "pack/pack.h"
+#include "shape/curve.h"
 #include <math.h>
 
 /// The configured one, or that of the shape's own parts.
 static double of_shape(const clast_pack *p, int32_t shape)
 {
+    CLAST_ASSERT(shape >= 0 && shape < p->input.n_shape);
     const clast_f64_list *d = &p->config.density;
     const double density = d->item[d->n > 1 ? shape : 0];
     return density > 0.0 ? density : p->input.shape[shape].own.density;
@@ -15,6 +17,7 @@ static double of_shape(const clast_pack *p, int32_t shape)
 /// The second number of the stream that the shape is drawn from.
 static double by_chance(const clast_pack *p, int64_t index)
 {
+    CLAST_ASSERT(index >= 0);
     const clast_f64_list *d = &p->config.density;
     const clast_f64_list *w = &p->config.density_weight;
     clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);
@@ -50,7 +53,7 @@ double clx_pack_density(const clast_pack *p, int64_t index, int32_t shape, doubl
     case CLAST_PACK_DENSITY_CLASS:
         return of_class(p, size);
     case CLAST_PACK_DENSITY_LIST:
-        return clast_grading_draw_density(p->input.grading, p->config.seed, (uint64_t)index);
+        return clx_grading_draw_density(p->input.grading, p->config.seed, (uint64_t)index);
     default:
         return of_shape(p, shape);
     }
@@ -62,7 +65,7 @@ void clx_pack_densities(const clast_pack *p, double *low, double *high)
     const bool by_shape = p->config.density_of == CLAST_PACK_DENSITY_SHAPE;
     const int32_t n = by_shape ? p->input.n_shape : d->n;
     if (p->config.density_of == CLAST_PACK_DENSITY_LIST) {
-        clast_grading_densities(p->input.grading, low, high);
+        clx_grading_densities(p->input.grading, low, high);
         return;
     }
     *low = INFINITY;

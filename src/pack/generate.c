@@ -1,5 +1,6 @@
 // What grains are: a function of seed and number alone.
 #include "base/alloc.h"
+#include "dem/body.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "pack/pack.h"
@@ -10,6 +11,7 @@
 
 double clx_pack_size_of(const clast_shape *shape, int32_t meaning)
 {
+    CLAST_ASSERT(shape->volume > 0.0);
     const double *s = shape->semi_axes;
     return meaning == 0 ? sqrt(2.0 * (s[1] * s[1] + s[2] * s[2]))
                         : cbrt(6.0 * shape->volume / CLAST_PI);
@@ -146,6 +148,7 @@ static void draw_motion(const clast_pack *p, int64_t index, double size, clast_d
 
 clast_status clx_pack_draw(clast_pack *p, clx_pack_number *number, clast_dem_grain *g)
 {
+    CLAST_ASSERT(number->index >= 0);
     clast_status status = CLAST_OK;
     const int64_t index = number->index;
     clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);
@@ -192,7 +195,7 @@ clast_status clx_pack_check_draws(clast_pack *p)
         clx_pack_number number = {i, -1};
         double measures[2];
         CLX_TRY(clx_pack_draw(p, &number, &g));
-        clast_dem_shape_measures(p->dem, g.shape, measures);
+        clx_dem_shape_measures(p->dem, g.shape, measures);
         const double reach = g.scale * measures[0];
         CLX_CHECK(reach <= limit, CLAST_E_GEOMETRY,
                   "grain %lld of this seed reaches %g m across, more than %s of %g m; take a wider "

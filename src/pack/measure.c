@@ -1,5 +1,6 @@
 // What a packing ends as: porosity, time series, sizes achieved.
 #include "base/alloc.h"
+#include "dem/body.h"
 #include "dem/dem.h"
 #include "pack/pack.h"
 #include <math.h>
@@ -83,6 +84,7 @@ const clast_table *clast_pack_series(const clast_pack *pack)
 /// Ratio of neighbouring semi-axes k + 1 and k of grain i.
 static double ratio_of(const clast_assembly *a, int32_t i, int k)
 {
+    CLAST_ASSERT(k >= 0 && k < 2 && i >= 0 && i < a->n_grain);
     const double *s = a->shape[a->shape_id[i]].semi_axes;
     return s[k + 1] / s[k];
 }
@@ -247,7 +249,7 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
         clast_dem_grain g;
         double measures[2];
         clast_dem_read_grain(p->dem, i, &g);
-        clast_dem_shape_measures(p->dem, g.shape, measures);
+        clx_dem_shape_measures(p->dem, g.shape, measures);
         size[i] = g.scale * clx_pack_size_of(&p->dem->body[g.shape].shape, p->config.size_meaning);
         unit = i == 0 ? g.density : unit; // shares of mass: one density is none
         volume[i] = g.scale * g.scale * g.scale * measures[1] * (g.density / unit);

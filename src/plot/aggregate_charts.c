@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/whole.h"
 #include "math/sort.h"
+#include "plot/figure.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,7 +50,7 @@ const char *clast_aggregate_chart_name(clast_aggregate_chart chart)
     return (unsigned)chart < CLAST_N_AGGREGATE_CHART ? kinds[chart].name : "unknown";
 }
 
-const char *clast_aggregate_chart_title(clast_aggregate_chart chart)
+const char *clx_aggregate_chart_title(clast_aggregate_chart chart)
 {
     return (unsigned)chart < CLAST_N_AGGREGATE_CHART ? kinds[chart].title : "unknown";
 }

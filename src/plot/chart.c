@@ -162,7 +162,7 @@ clast_status clast_chart_svg(const clast_chart *chart, unsigned char **bytes, si
     return status;
 }
 
-void clast_bytes_free(unsigned char *bytes)
+void clast_chart_bytes_free(unsigned char *bytes)
 {
     clx_free(bytes);
 }

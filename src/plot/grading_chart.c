@@ -16,7 +16,7 @@ static void sum_passing(const double *share, int64_t n_sieve, double *passing)
     }
 }
 
-clast_status clast_grading_chart_write(const clast_table *classes, const char *path)
+clast_status clast_chart_grading(const clast_table *classes, const char *path)
 {
     CLX_ARGUMENTS(classes, path);
     CLX_WHOLE(table, classes);

@@ -7,7 +7,7 @@
 /// Shells in which a uniform cloud has less than this have no g to speak of.
 static const double least_expected = 0.05;
 
-clast_status clast_pairs_chart_write(const clast_pairs *pairs, const char *path)
+clast_status clast_chart_pairs(const clast_pairs *pairs, const char *path)
 {
     static const double one = 1.0;
     static const char *const mark = "uniform";

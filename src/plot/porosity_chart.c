@@ -50,8 +50,8 @@ static clast_status draw(const char *title, const over *o, const clast_axis *y, 
 
 static const clast_axis porosity_axis = {.label = "porosity (-)", .low = 0.0, .high = 1.0};
 
-clast_status clast_porosity_chart_write(const clast_table *profile, const clast_porosity_bulk *bulk,
-                                        const char *unit, const char *path)
+clast_status clast_chart_porosity(const clast_table *profile, const clast_porosity_bulk *bulk,
+                                  const char *unit, const char *path)
 {
     CLX_ARGUMENTS(profile, bulk, unit, path);
     CLX_WHOLE(table, profile);
@@ -92,8 +92,7 @@ done:
     return status;
 }
 
-clast_status clast_porosity_band_chart_write(const clast_table *band, const char *unit,
-                                             const char *path)
+clast_status clast_chart_porosity_band(const clast_table *band, const char *unit, const char *path)
 {
     CLX_ARGUMENTS(band, unit, path);
     CLX_WHOLE(table, band);
@@ -128,8 +127,7 @@ done:
     return status;
 }
 
-clast_status clast_stress_chart_write(const clast_table *profile, const char *unit,
-                                      const char *path)
+clast_status clast_chart_stress(const clast_table *profile, const char *unit, const char *path)
 {
     CLX_ARGUMENTS(profile, unit, path);
     CLX_WHOLE(table, profile);
@@ -155,7 +153,7 @@ done:
     return status;
 }
 
-clast_status clast_radial_chart_write(const clast_table *radial, const char *unit, const char *path)
+clast_status clast_chart_radial(const clast_table *radial, const char *unit, const char *path)
 {
     CLX_ARGUMENTS(radial, unit, path);
     CLX_WHOLE(table, radial);
@@ -189,7 +187,7 @@ done:
     return status;
 }
 
-clast_status clast_pore_chart_write(const clast_table *pores, const char *unit, const char *path)
+clast_status clast_chart_pores(const clast_table *pores, const char *unit, const char *path)
 {
     CLX_ARGUMENTS(pores, unit, path);
     CLX_WHOLE(table, pores);

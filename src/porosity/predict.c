@@ -6,6 +6,7 @@
 #include "math/bootstrap.h"
 #include "math/sample.h"
 #include "porosity/form_inputs.h"
+#include "porosity/model.h"
 #include "porosity/whole.h"
 #include "shape/whole.h"
 #include <math.h>
@@ -47,9 +48,9 @@ done:
     return status;
 }
 
-clast_status clast_porosity_model_values(const clast_porosity_model *model,
-                                         const clast_form_inputs *inputs, double *value,
-                                         double *range_value)
+clast_status clx_porosity_model_values(const clast_porosity_model *model,
+                                       const clast_form_inputs *inputs, double *value,
+                                       double *range_value)
 {
     CLX_ARGUMENTS(model, inputs, value, range_value);
     CLX_WHOLE(porosity_model, model);
@@ -103,8 +104,8 @@ static double leverage(const clast_porosity_model *m, const double *value)
     return is_known ? sum / (m->deviation * m->deviation) : (double)NAN;
 }
 
-clast_status clast_porosity_model_apply(const clast_porosity_model *model, const double *value,
-                                        const double *range_value, clast_prediction *prediction)
+clast_status clx_porosity_model_apply(const clast_porosity_model *model, const double *value,
+                                      const double *range_value, clast_prediction *prediction)
 {
     CLX_ARGUMENTS(model, value, range_value, prediction);
     CLX_WHOLE(porosity_model, model);
@@ -143,8 +144,8 @@ static clast_status predict(const clast_porosity_model *model, const clast_form_
     clast_status status = CLAST_OK;
     double *value = NULL;
     CLX_TRY(clx_alloc(&value, (int64_t)model->n_term + model->n_range, sizeof *value));
-    CLX_TRY(clast_porosity_model_values(model, inputs, value, value + model->n_term));
-    CLX_TRY(clast_porosity_model_apply(model, value, value + model->n_term, prediction));
+    CLX_TRY(clx_porosity_model_values(model, inputs, value, value + model->n_term));
+    CLX_TRY(clx_porosity_model_apply(model, value, value + model->n_term, prediction));
 done:
     clx_free(value);
     return status;

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/status.h"
 #include "base/whole.h"
+#include "porosity/model.h"
 #include "porosity/whole.h"
 #include <math.h>
 
@@ -62,7 +63,7 @@ clast_status clast_porosity_predict_columns(const clast_porosity_model *model,
         if (!is_finite) {
             continue;
         }
-        status = clast_porosity_model_apply(model, value, value + model->n_term, &p);
+        status = clx_porosity_model_apply(model, value, value + model->n_term, &p);
         if (status != CLAST_OK) {
             clx_fail_prefix("row %lld: ", (long long)i + 1);
             goto done;

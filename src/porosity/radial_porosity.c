@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-clast_status clast_radial_porosity(const clast_assembly *assembly, const clast_bed *bed,
+clast_status clast_porosity_radial(const clast_assembly *assembly, const clast_bed *bed,
                                    const double z[2], const clast_radial_options *options,
                                    clast_table *table)
 {

@@ -1,7 +1,7 @@
 #pragma once
 #include <clast/porosity.h>
 
-/// clast_grain_slabs of an assembly that holds together: for each grain of it in turn.
+/// clast_porosity_grain_slabs of an assembly that holds together: for each grain of it in turn.
 clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
                              clast_porosity_method method, int32_t n, const double *edge,
                              double *solid);

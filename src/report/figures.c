@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/path.h"
+#include "plot/figure.h"
 #include "report/page.h"
 #include <clast/chart.h>
 #include <math.h>
@@ -32,11 +33,11 @@ static clast_status put_chart(clx_file *file, const clx_run *run, clast_aggregat
     (void)snprintf(prefix, sizeof prefix, "r%d-%s-", (int)index + 1,
                    clast_aggregate_chart_name(chart));
     (void)clx_file_print(file, "<figure class=\"chart\"><figcaption>%s</figcaption>",
-                         clast_aggregate_chart_title(chart));
+                         clx_aggregate_chart_title(chart));
     clx_page_svg(file, (const char *)svg, n, prefix);
     (void)clx_file_print(file, "</figure>\n");
 done:
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
     return status;
 }
 
@@ -123,12 +124,12 @@ clast_status clx_figures_compare(clx_file *file, const clx_run *run, int32_t n_r
     (void)clx_file_print(file,
                          "<figure class=\"chart alone\"><figcaption>%s "
                          "<small>first envelope of each run%s</small></figcaption>",
-                         clast_aggregate_chart_title(CLAST_AGGREGATE_CHART_POROSITY),
+                         clx_aggregate_chart_title(CLAST_AGGREGATE_CHART_POROSITY),
                          n_run > MAX_RUN ? ", first 8 runs" : "");
     clx_page_svg(file, (const char *)svg, n_byte, "all-");
     (void)clx_file_print(file, "</figure>\n");
 done:
-    clast_bytes_free(svg);
+    clast_chart_bytes_free(svg);
     clast_table_free(&all);
     return status;
 }

@@ -4,7 +4,7 @@
 #include "report/page.h"
 #include "report/quantity.h"
 #include <clast/agglomerate.h>
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 #include <clast/decompose.h>
 #include <clast/pack.h>
 #include <clast/porosity_fit.h>

@@ -226,6 +226,37 @@ done:
     return status;
 }
 
+static clast_status write_view(const clast_assembly *assembly, const clast_report_config *config,
+                               const char *path)
+{
+    clast_status status = CLAST_OK;
+    clx_file file = {0};
+    CLX_TRY(clx_file_begin(path, &file));
+    clx_page_begin(&file, config->title[0] != '\0' ? config->title : "clast");
+    CLX_TRY(clx_view3d_put(&file, assembly, config->triangles));
+    clx_page_end(&file, true);
+    CLX_TRY(clx_file_commit(&file));
+done:
+    clx_file_abandon(&file);
+    return status;
+}
+
+clast_status clast_report_write_view(const clast_assembly *assembly,
+                                     const clast_report_config *config, const char *path)
+{
+    CLX_ARGUMENTS(assembly, path);
+    clast_status status = CLAST_OK;
+    clast_report_config own = {0};
+    if (config != NULL) {
+        return write_view(assembly, config, path);
+    }
+    CLX_TRY(clast_fields_default(clast_report_fields, &own));
+    CLX_TRY(write_view(assembly, &own, path));
+done:
+    clast_fields_free(clast_report_fields, &own);
+    return status;
+}
+
 clast_status clast_report_write_run(const char *folder, const char *place)
 {
     CLX_ARGUMENTS(folder);

@@ -7,6 +7,7 @@
 #include "base/lock.h"
 #include "io/json.h"
 #include "io/sha256.h"
+#include "run/run.h"
 #include <clast/machine.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -109,7 +110,7 @@ clast_status clast_manifest_config(clast_manifest *manifest, const clast_field *
 {
     CLX_ARGUMENTS(manifest, fields, config);
     char *text = NULL;
-    const clast_status status = clast_config_json(fields, config, &text);
+    const clast_status status = clast_fields_json(fields, config, &text);
     if (status == CLAST_OK) {
         clx_free(manifest->config);
         manifest->config = text;
@@ -192,7 +193,7 @@ done:
     return status;
 }
 
-clast_status clast_manifest_output(clast_manifest *manifest, const char *name)
+clast_status clx_manifest_output(clast_manifest *manifest, const char *name)
 {
     CLX_ARGUMENTS(manifest, name);
     clast_status status = CLAST_OK;
@@ -206,7 +207,7 @@ done:
     return status;
 }
 
-void clast_manifest_progress(clast_manifest *manifest, double share)
+void clx_manifest_progress(clast_manifest *manifest, double share)
 {
     if (manifest == NULL) {
         return;
@@ -319,6 +320,7 @@ static void put_inputs(clx_file *file, const clast_manifest *m)
 
 static void put_texts(clx_file *file, const char *key, int32_t n, char *const *text)
 {
+    CLAST_ASSERT(n >= 0);
     put_key(file, key);
     (void)clx_file_print(file, "[");
     for (int32_t i = 0; i < n; ++i) {

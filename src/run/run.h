@@ -65,3 +65,9 @@ void clx_run_remove_temporaries(const char *folder);
 
 /// A folder with all that is in it, without following links; fine when it is not there.
 CLX_SHARED clast_status clx_run_remove_tree(const char *folder);
+
+/// Keeps the name of a file or folder that the run wrote.
+clast_status clx_manifest_output(clast_manifest *manifest, const char *name);
+
+/// Keeps how much of the run is done, 0 to 1; written while it is not done.
+CLX_SHARED void clx_manifest_progress(clast_manifest *manifest, double share);

@@ -353,7 +353,7 @@ clast_status clx_run_folder_resume(const char *folder, const char *command,
     CLX_TRY(create(folder, command, monitor, &made));
     made->is_resumed = true;
     CLX_TRY(clast_manifest_note(made->manifest, "resumed", "yes"));
-    clast_manifest_progress(made->manifest, isfinite(state.share) ? state.share : 0.0);
+    clx_manifest_progress(made->manifest, isfinite(state.share) ? state.share : 0.0);
     if (state.replaces[0] != '\0' && !state.is_whole) {
         CLX_TRY(resolve(made));
         const int n = (int)(clx_path_name(made->folder) - made->folder);
@@ -375,7 +375,7 @@ done:
 
 clast_status clx_run_folder_progress(clast_run_folder *run, double share)
 {
-    clast_manifest_progress(run->manifest, fmin(fmax(share, 0.0), 0.99));
+    clx_manifest_progress(run->manifest, fmin(fmax(share, 0.0), 0.99));
     return write_manifest(run, "running");
 }
 
@@ -391,7 +391,7 @@ static clast_status note_outputs(clast_run_folder *run)
             ++k;
         }
         if (k == run->others.n || strcmp(run->others.name[k], now.name[i]) != 0) {
-            CLX_TRY(clast_manifest_output(run->manifest, now.name[i]));
+            CLX_TRY(clx_manifest_output(run->manifest, now.name[i]));
         }
     }
 done:

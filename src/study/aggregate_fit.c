@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "io/config_files.h"
 #include "study/aggregate_fit_chart.h"
 #include <clast/aggregate_run.h>
 #include <clast/run_folder.h>
@@ -42,7 +43,7 @@ static json_t *observed_json(const clast_aggregate_fit *fit)
             set(one, "pull", fit->pull[k]);
             set(one, "least_model", fit->least[k]);
             set(one, "most_model", fit->most[k]);
-            (void)json_object_set_new(object, clast_fit_observable_name(k), one);
+            (void)json_object_set_new(object, clast_aggregate_fit_observable_name(k), one);
         }
     }
     return object;
@@ -93,7 +94,7 @@ clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **tex
     (void)json_object_set_new(spread, "trials", estimate_json(&fit->trials));
     (void)json_object_set_new(spread, "replicate", estimate_json(&fit->n_replica));
     for (int k = 0; k < CLAST_FIT_N_OBSERVABLE; ++k) {
-        (void)json_object_set_new(spread, clast_fit_observable_name(k),
+        (void)json_object_set_new(spread, clast_aggregate_fit_observable_name(k),
                                   estimate_json(&fit->model[k]));
     }
     (void)json_object_set_new(spread, "porosity", estimate_json(&fit->porosity));
@@ -113,10 +114,10 @@ static clast_status note_inputs(const clast_aggregate_config *config, clast_run_
     clast_status status = CLAST_OK;
     clast_manifest *manifest = clast_run_folder_manifest(run);
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, config));
-    clast_manifest_seed(manifest, config->seed);
-    for (int32_t i = 0; i < clast_aggregate_n_file(config); ++i) {
+    clast_manifest_seed(manifest, config->params.seed);
+    for (int32_t i = 0; i < clx_aggregate_n_file(config); ++i) {
         const char *role = NULL;
-        const char *path = clast_aggregate_file(config, i, &role);
+        const char *path = clx_aggregate_file(config, i, &role);
         CLX_TRY(clast_run_folder_input(run, role, path));
     }
 done:

@@ -74,14 +74,14 @@ static clast_status write_structure(const char *folder, const clx_folder_results
     clast_status status = CLAST_OK;
     clast_table table = {0};
     clast_structure_options options = clast_structure_options_default();
-    options.envelope.seed = r->config->seed;
-    options.envelope.n_ray = r->config->envelope_rays;
-    options.envelope.length = r->config->envelope_length;
-    options.solid.seed = r->config->seed;
-    options.n_first = r->config->mode == CLAST_AGGREGATE_CLUSTER ? -1 : 0;
-    for (int32_t k = 0; k < r->config->envelope.n; ++k) {
+    options.envelope.seed = r->config->params.seed;
+    options.envelope.n_ray = r->config->params.envelope_rays;
+    options.envelope.length = r->config->params.envelope_length;
+    options.solid.seed = r->config->params.seed;
+    options.n_first = r->config->params.mode == CLAST_AGGREGATE_CLUSTER ? -1 : 0;
+    for (int32_t k = 0; k < r->config->params.envelope.n; ++k) {
         const char *alpha = clast_envelope_name(CLAST_ENVELOPE_ALPHA);
-        options.alpha = options.alpha || strcmp(r->config->envelope.item[k], alpha) == 0;
+        options.alpha = options.alpha || strcmp(r->config->params.envelope.item[k], alpha) == 0;
     }
     CLX_TRY(clast_structure(r->first, &options, &table));
     CLX_TRY(write_table(folder, "structure.csv", &table));
@@ -98,8 +98,8 @@ static clast_status write_sizes(const char *folder, const clx_folder_results *r)
 {
     clast_status status = CLAST_OK;
     clast_table table = {0};
-    if (r->config->mode == CLAST_AGGREGATE_CORE) {
-        CLX_TRY(clast_aggregate_achieved(r->config, r->sizes, r->history, &table));
+    if (r->config->params.mode == CLAST_AGGREGATE_CORE) {
+        CLX_TRY(clast_aggregate_achieved(&r->config->params, r->sizes, r->history, &table));
         CLX_TRY(write_table(folder, "sizes.csv", &table));
     }
 done:

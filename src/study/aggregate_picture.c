@@ -155,7 +155,7 @@ static clast_status write_charts(const char *folder, const clx_folder_results *r
     clast_status status = CLAST_OK;
     clast_table wanted = {0};
     if (r->sizes != NULL) {
-        CLX_TRY(wanted_sizes(r->sizes, r->config->replicate, &wanted));
+        CLX_TRY(wanted_sizes(r->sizes, r->config->params.replicate, &wanted));
     }
     CLX_TRY(clast_aggregate_charts_write(r->history, r->sizes != NULL ? &wanted : NULL, folder));
 done:

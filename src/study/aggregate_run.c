@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/queue.h"
+#include "io/config_files.h"
 #include "io/h5.h"
 #include "run/run.h"
 #include "study/aggregate_folder.h"
@@ -135,7 +136,7 @@ static clast_status restore(run *r, const clast_state *state)
     CLX_TRY(clx_folder_saved(state, &saved));
     CLX_CHECK(saved.repeat == r->repeat, CLAST_E_FORMAT, "%s: the state of repeat %d is one of %d",
               r->folder, r->repeat + 1, saved.repeat + 1);
-    CLX_TRY(clast_aggregate_restore(r->config, &r->source.input, &saved, &r->aggregate));
+    CLX_TRY(clast_aggregate_restore(&r->config->params, &r->source.input, &saved, &r->aggregate));
 done:
     return status;
 }
@@ -156,7 +157,8 @@ static clast_status open_repeat(run *r, bool *is_whole)
         CLX_TRY(clx_folder_read_checkpoint(r->folder, r->repeat, &state));
         CLX_TRY(restore(r, &state));
     } else {
-        CLX_TRY(clast_aggregate_create(r->config, &r->source.input, r->repeat, &r->aggregate));
+        CLX_TRY(
+            clast_aggregate_create(&r->config->params, &r->source.input, r->repeat, &r->aggregate));
     }
 done:
     clast_state_free(&state);
@@ -207,10 +209,10 @@ static clast_status note_inputs(run *r)
     clast_manifest *manifest = clast_run_folder_manifest(r->own);
     char ranks[32];
     CLX_TRY(clast_manifest_config(manifest, clast_aggregate_fields, c));
-    clast_manifest_seed(manifest, c->seed);
-    for (int32_t i = 0; i < clast_aggregate_n_file(c); ++i) {
+    clast_manifest_seed(manifest, c->params.seed);
+    for (int32_t i = 0; i < clx_aggregate_n_file(c); ++i) {
         const char *role = NULL;
-        const char *path = clast_aggregate_file(c, i, &role);
+        const char *path = clx_aggregate_file(c, i, &role);
         CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
     (void)snprintf(ranks, sizeof ranks, "%d", r->comm->n_rank);
@@ -223,7 +225,8 @@ done:
 static clast_status check_stop(const run *r)
 {
     const clast_aggregate_config *c = r->config;
-    const bool asked = c->stop_mass > 0.0 || c->stop_size > 0.0 || c->stop_porosity > 0.0;
+    const bool asked =
+        c->params.stop_mass > 0.0 || c->params.stop_size > 0.0 || c->params.stop_porosity > 0.0;
     for (int32_t i = 0; i < r->report.n && asked; ++i) {
         const clast_aggregate_result *result = &r->report.result[i];
         if (result->stop == CLAST_STOP_LIST) {
@@ -266,14 +269,14 @@ static clast_status begin(run *r, const char *folder, bool force)
     if (is_first(r) && r->has_folder) {
         CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, force, "aggregate", r->monitor, &r->own));
-        clast_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
+        clx_manifest_progress(clast_run_folder_manifest(r->own), 0.0);
         (void)snprintf(r->folder, sizeof r->folder, "%s", clast_run_folder_path(r->own));
     }
     CLX_TRY(clast_aggregate_load(r->config, &r->source));
     if (!is_first(r)) {
         return CLAST_OK;
     }
-    CLX_TRY(clast_aggregate_create(r->config, &r->source.input, 0, &r->aggregate));
+    CLX_TRY(clast_aggregate_create(&r->config->params, &r->source.input, 0, &r->aggregate));
     if (r->has_folder) {
         CLX_TRY(note_inputs(r));
         CLX_TRY(clast_run_folder_open(r->own));
@@ -346,7 +349,7 @@ static clast_status read_config(const char *folder, clast_aggregate_config *conf
     CLX_TRY(clx_folder_read_checkpoint(folder, 0, &state));
     CLX_CHECK(state.config != NULL, CLAST_E_FORMAT, "%s: the checkpoint has no configuration",
               folder);
-    CLX_TRY(clast_config_parse(folder, state.config, clast_aggregate_fields, config));
+    CLX_TRY(clast_fields_parse(folder, state.config, clast_aggregate_fields, config));
 done:
     clast_state_free(&state);
     return status;

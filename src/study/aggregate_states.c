@@ -15,6 +15,7 @@
 
 static clast_status state_path(const char *folder, int32_t repeat, char path[CLX_PATH_LIMIT])
 {
+    CLAST_ASSERT(repeat >= 0);
     char name[32] = "state.h5";
     if (repeat > 0) {
         (void)snprintf(name, sizeof name, "state-%04d.h5", repeat + 1);
@@ -28,10 +29,10 @@ static clast_status gather(const clast_aggregate_config *config, const clast_agg
 {
     clast_status status = CLAST_OK;
     clast_state made = {.table = table};
-    CLX_TRY(clast_config_json(clast_aggregate_fields, config, &made.config));
+    CLX_TRY(clast_fields_json(clast_aggregate_fields, config, &made.config));
     CLX_TRY(clast_aggregate_history(aggregate, &table[0]));
     made.n_table = 1;
-    if (config->mode == CLAST_AGGREGATE_CLUSTER) {
+    if (config->params.mode == CLAST_AGGREGATE_CLUSTER) {
         CLX_TRY(clast_aggregate_members(aggregate, &table[1]));
         made.n_table = 2;
     }
@@ -84,6 +85,7 @@ bool clx_folder_has_state(const char *folder, int32_t repeat)
 /// Where the repeat's checkpoints lie.
 static clast_status checkpoint_folder(const char *folder, int32_t repeat, char path[CLX_PATH_LIMIT])
 {
+    CLAST_ASSERT(repeat >= 0);
     char name[32] = ".";
     (void)snprintf(name, sizeof name, "repeat-%04d", repeat + 1);
     if (repeat > 0) {

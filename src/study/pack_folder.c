@@ -48,7 +48,7 @@ static clast_status write_profile(const char *folder, const clast_pack *pack,
     CLX_TRY(write_table(folder, "profile.csv", &profile));
     if (isfinite(r->porosity)) {
         CLX_TRY(clx_pack_path(path, folder, "profile.svg"));
-        CLX_TRY(clast_porosity_chart_write(&profile, &bulk, "m", path));
+        CLX_TRY(clast_chart_porosity(&profile, &bulk, "m", path));
     }
 done:
     clast_table_free(&profile);
@@ -103,7 +103,7 @@ static clast_status write_achieved(const char *folder, const clast_pack *pack)
     if (status == CLAST_OK) {
         CLX_TRY(write_table(folder, "achieved.csv", &achieved));
         CLX_TRY(clx_pack_path(path, folder, "achieved.svg"));
-        CLX_TRY(clast_grading_chart_write(&achieved, path));
+        CLX_TRY(clast_chart_grading(&achieved, path));
     }
 done:
     clast_table_free(&achieved);
@@ -113,6 +113,7 @@ done:
 /// Where grain i is and how it is turned, in columns `first` on.
 static void put_pose(const clast_assembly *a, int32_t i, clast_table *table, int32_t first)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     for (int k = 0; k < 3; ++k) {
         table->column[first + k].number[i] = a->position[i][k];
     }
@@ -202,6 +203,7 @@ done:
 /// Path of frame `index` within its run.
 static void frame_name(char name[64], int64_t index)
 {
+    CLAST_ASSERT(index >= 0);
     (void)snprintf(name, 64, "frames/frame-%06lld.vtu", (long long)index);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "io/config_files.h"
 #include "io/h5.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
@@ -41,9 +42,9 @@ static clast_status note_inputs(run *r)
     clast_manifest *manifest = clast_run_folder_manifest(r->own);
     CLX_TRY(clast_manifest_config(manifest, clast_pack_fields, r->config));
     clast_manifest_seed(manifest, r->config->seed);
-    for (int32_t i = 0; i < clast_pack_n_file(r->config); ++i) {
+    for (int32_t i = 0; i < clx_pack_n_file(r->config); ++i) {
         const char *role = NULL;
-        const char *path = clast_pack_file(r->config, i, &role);
+        const char *path = clx_pack_file(r->config, i, &role);
         CLX_TRY(clast_run_folder_input(r->own, role, path));
     }
 done:
@@ -82,6 +83,7 @@ done:
 /// Steps of one round: to the next frame, at most about a fifth of a second.
 static int64_t round_steps(const run *r, int64_t aim, int64_t per_frame)
 {
+    CLAST_ASSERT(per_frame >= 0);
     const int64_t step = clast_dem_n_step(clast_pack_dem(r->pack));
     const int64_t left = per_frame > 0 ? per_frame - step % per_frame : aim;
     return left < aim ? left : aim;
@@ -183,7 +185,7 @@ static clast_status prepare(run *r)
     clast_status status = CLAST_OK;
     r->begun = clx_clock();
     CLX_TRY(clast_pack_load(r->config, &r->source));
-    CLX_TRY(clast_config_json(clast_pack_fields, r->config, &r->text));
+    CLX_TRY(clast_fields_json(clast_pack_fields, r->config, &r->text));
     CLX_TRY(clast_pack_create(r->config, &r->source.input, &r->pack));
     if (r->folder != NULL) {
         CLX_TRY(note_inputs(r));
@@ -209,7 +211,7 @@ clast_status clast_pack_run(const clast_pack_config *config, const char *folder,
     if (folder != NULL) {
         CLX_TRY(clx_h5_available());
         CLX_TRY(clast_run_folder_begin(folder, config->force, "pack", monitor, &r.own));
-        clast_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
+        clx_manifest_progress(clast_run_folder_manifest(r.own), 0.0);
         r.folder = clast_run_folder_path(r.own);
     }
     CLX_TRY(prepare(&r));
@@ -252,7 +254,7 @@ clast_status clast_pack_resume(const char *folder, int64_t max_steps, const clas
     CLX_TRY(find(folder, &found, &is_end));
     CLX_TRY(clast_fields_default(clast_pack_fields, &config));
     has_config = true;
-    CLX_TRY(clast_config_parse(found.path, found.config, clast_pack_fields, &config));
+    CLX_TRY(clast_fields_parse(found.path, found.config, clast_pack_fields, &config));
     config.max_steps = max_steps > 0 || is_end ? max_steps : config.max_steps;
     CLX_TRY(clx_run_folder_resume(folder, "pack", monitor, &r.own));
     CLX_TRY(prepare(&r));

@@ -15,6 +15,7 @@ enum { STUDY_LIMIT = 1 << 28 };
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
                                   char path[CLX_STUDY_PATH])
 {
+    CLAST_ASSERT(row >= 0);
     clast_status status = CLAST_OK;
     const int n =
         snprintf(path, CLX_STUDY_PATH, "%s/runs/%06lld%s", folder, (long long)row + 1, suffix);
@@ -118,7 +119,7 @@ clast_status clx_study_keep(const clast_study_config *config, const char *folder
     if (config->config[0] != '\0') {
         CLX_TRY(clast_sha256_file(config->config, hex, &n_byte));
     }
-    CLX_TRY(clast_config_json(clast_study_fields, &same, &json));
+    CLX_TRY(clast_fields_json(clast_study_fields, &same, &json));
     const int64_t n = (int64_t)strlen(json) + 100;
     CLX_TRY(clx_alloc(&text, n, 1));
     (void)snprintf(text, (size_t)n, "{\"study\": %s,\n\"config_sha256\": \"%s\"}\n", json, hex);

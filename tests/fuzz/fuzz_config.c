@@ -1,5 +1,5 @@
 // Fuzz: YAML configurations over the largest field table.
-#include <clast/aggregate.h>
+#include <clast/aggregate_run.h>
 #include <clast/field.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (text != NULL && clast_fields_default(clast_aggregate_fields, &config) == CLAST_OK) {
         memcpy(text, data, size);
         text[size] = '\0';
-        (void)clast_config_parse("fuzz", text, clast_aggregate_fields, &config);
+        (void)clast_fields_parse("fuzz", text, clast_aggregate_fields, &config);
         clast_fields_free(clast_aggregate_fields, &config);
     }
     free(text);

@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {
     clast_table table = {0};
     const clast_points_options last = {.frame = -1};
-    if (clast_points_parse("fuzz", bytes, n, n % 2 == 0 ? NULL : &last, &table) == CLAST_OK) {
+    if (clast_cloud_parse("fuzz", bytes, n, n % 2 == 0 ? NULL : &last, &table) == CLAST_OK) {
         volatile double sum = 0.0; // touches every cell
         for (int32_t c = 0; c < table.n_column; ++c) {
             for (int64_t i = 0; i < table.n_row; ++i) {

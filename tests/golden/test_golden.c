@@ -80,7 +80,7 @@ static void grow(const char *options, outcome *o)
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
     support_aggregate_options(&config, options);
     CHECK_OK(clast_aggregate_load(&config, &source));
-    CHECK_OK(clast_aggregate_create(&config, &source.input, 0, &a));
+    CHECK_OK(clast_aggregate_create(&config.params, &source.input, 0, &a));
     CHECK_OK(clast_aggregate_grow(a, INT32_MAX, NULL));
     CHECK_OK(clast_aggregate_measure(a, &result));
     take_assembly(clast_aggregate_assembly(a), o);

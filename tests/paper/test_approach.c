@@ -41,7 +41,7 @@ static double dimension(const char *options, double low)
         for (int64_t i = 0; i < history.n_row; ++i) {
             if (n[i] >= wanted) { /* as many points to each factor in N */
                 add(&l, log(n[i]), log(radius[i]));
-                wanted = s.config.mode == CLAST_AGGREGATE_CORE ? n[i] * 1.1 : low;
+                wanted = s.config.params.mode == CLAST_AGGREGATE_CORE ? n[i] * 1.1 : low;
             }
         }
         clast_table_free(&history);

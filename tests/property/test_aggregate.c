@@ -92,7 +92,7 @@ static clast_aggregate *run_in_two(support_aggregate *s, int32_t first)
     clast_aggregate *b = NULL;
     clast_table history = {0};
     clast_table members = {0};
-    CHECK_OK(clast_aggregate_create(&s->config, &s->input, 2, &a));
+    CHECK_OK(clast_aggregate_create(&s->config.params, &s->input, 2, &a));
     CHECK_OK(clast_aggregate_grow(a, first, NULL));
     CHECK_OK(clast_aggregate_history(a, &history));
     CHECK_OK(clast_aggregate_members(a, &members));
@@ -100,7 +100,7 @@ static clast_aggregate *run_in_two(support_aggregate *s, int32_t first)
                                          .placed = clast_aggregate_assembly(a),
                                          .history = &history,
                                          .members = &members};
-    CHECK_OK(clast_aggregate_restore(&s->config, &s->input, &saved, &b));
+    CHECK_OK(clast_aggregate_restore(&s->config.params, &s->input, &saved, &b));
     clast_aggregate_destroy(a);
     clast_table_free(&history);
     clast_table_free(&members);

@@ -271,8 +271,8 @@ static void bad_tests_of_uniformity_are_refused(void **state)
         REFUSED_INTO(hz, clast_henze_zirkler_test(u[k], 5, 3, CLAST_SUMS_AUTO, &hz));
         REFUSED_INTO(pearson, clast_pearson_test(u[k], 5, 3, &pearson));
         REFUSED_INTO(score, clast_boundary_score_test(u[k], 5, 3, side, &score));
-        REFUSED_INTO(p, clast_change_test(u[k], points, 5, 3, &p));
-        REFUSED_INTO(p, clast_change_test(points, u[k], 5, 3, &p));
+        REFUSED_INTO(p, clast_agglomeration_change_test(u[k], points, 5, 3, &p));
+        REFUSED_INTO(p, clast_agglomeration_change_test(points, u[k], 5, 3, &p));
     }
     REFUSED_INTO(r, clast_uniformity_test(points, -1, 3, side, &good, &r));
     REFUSED_INTO(r, clast_uniformity_test(points, N, 0, side, &good, &r));
@@ -284,7 +284,7 @@ static void bad_tests_of_uniformity_are_refused(void **state)
     REFUSED_INTO(hz, clast_henze_zirkler_test(points, N, 3, 9, &hz));
     REFUSED_INTO(score, clast_boundary_score_test(points, N, 3, bad_side, &score));
     REFUSED_INTO(score, clast_boundary_score_test(points, N, 3, NULL, &score));
-    REFUSED_INTO(p, clast_change_test(points, points, N, 0, &p));
+    REFUSED_INTO(p, clast_agglomeration_change_test(points, points, N, 0, &p));
     REFUSED_INTO(left_out, clast_uniformity_choose(NULL, &left_out));
     REFUSED_INTO(left_out, clast_uniformity_choose("", &left_out));
     REFUSED(clast_uniformity_choose("star", NULL));

@@ -117,7 +117,7 @@ static uint64_t hull_hash_after(int32_t threads)
     clast_parallel_set_threads(threads);
     clast_dem *dem = NULL;
     clast_dem_measures m;
-    CHECK_OK(clast_scene_p1(&(clast_scene_bed){1600, 27, 0.14, 1.0}, &dem));
+    CHECK_OK(clast_dem_scene_p1(&(clast_scene_bed){1600, 27, 0.14, 1.0}, &dem));
     CHECK_OK(clast_dem_step(dem, 200));
     clast_dem_measure(dem, &m);
     assert_true(m.n_contact + m.n_wall_contact > 0);

@@ -9,7 +9,7 @@
 static clast_dem *bed_after(int32_t verify, int64_t n_step)
 {
     clast_dem *dem = NULL;
-    CHECK_OK(clast_scene_p1(&(clast_scene_bed){100, 27, 0.05, 2.0}, &dem));
+    CHECK_OK(clast_dem_scene_p1(&(clast_scene_bed){100, 27, 0.05, 2.0}, &dem));
     dem->config.verify = verify;
     CHECK_OK(clast_dem_step(dem, n_step));
     return dem;
@@ -60,8 +60,8 @@ static void rows_keep_what_the_list_would(void **state)
     clast_dem *rows = NULL;
     clast_dem *one = NULL;
     const clast_scene_bed bed = {200, 27, 0.05, 2.0};
-    CHECK_OK(clast_scene_p1(&bed, &rows));
-    CHECK_OK(clast_scene_p1(&bed, &one));
+    CHECK_OK(clast_dem_scene_p1(&bed, &rows));
+    CHECK_OK(clast_dem_scene_p1(&bed, &one));
     CHECK_OK(clast_dem_step(rows, STEPS));
     for (int k = 0; k < STEPS; ++k) {
         CHECK_OK(clast_dem_step(one, 1));

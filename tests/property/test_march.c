@@ -99,11 +99,11 @@ static void figures_with_classes_use_the_first_shape_only(void **state)
         clast_sizes sizes = {0};
         CHECK_OK(clast_sizes_alloc(2, &sizes));
         for (int i = 0; i < 2; ++i) {
-            sizes.low[i] = sizes.high[i] = s.config.size.item[i];
+            sizes.low[i] = sizes.high[i] = s.config.params.size.item[i];
             sizes.count[i] = 1.0;
         }
         s.input.sizes = &sizes;
-        CHECK_OK(clast_aggregate_create(&s.config, &s.input, 0, &a));
+        CHECK_OK(clast_aggregate_create(&s.config.params, &s.input, 0, &a));
         CHECK_OK(clast_aggregate_grow(a, 2, NULL));
         const clast_assembly *all = clast_aggregate_assembly(a);
         assert_int_equal(all->shape_id[1], 1);

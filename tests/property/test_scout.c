@@ -54,11 +54,11 @@ static void grow_both_ways(int32_t contact, double start)
     const double none[3] = {0.0, 0.0, 0.0};
     const double unturned[4] = {1.0, 0.0, 0.0, 0.0};
     support_aggregate_make(&s, axes, 2, "size=1");
-    s.config.contact = contact;
+    s.config.params.contact = contact;
     if (contact == CLAST_CONTACT_EXACT) {
         use_scan(&s);
     }
-    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
     CHECK_OK(clx_touch_scene_create(&scene));
     for (int32_t i = 0; i < 40; ++i) {
         clx_landing plain;
@@ -112,7 +112,7 @@ static void the_inner_ball_lies_within(void **state)
     clx_kit kit = {0};
     support_aggregate_make(&s, axes, 2, "size=1");
     use_scan(&s);
-    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
     CHECK_REL(kit.group[1].inner, 0.15, 1e-8);
     const clx_kit_group *scan = &kit.group[2];
     const clast_mesh *mesh = &s.coat[1].shape[0].mesh;

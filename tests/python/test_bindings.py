@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -25,8 +26,9 @@ class Bindings(unittest.TestCase):
             described, made = pathlib.Path(folder, "d.json"), pathlib.Path(folder, "made.py")
             described.write_bytes(self.text)
             subprocess.run([sys.executable, ROOT / "tools/make_python.py", described, made], check=True)
-            self.assertTrue(made.read_text() == (ROOT / "python/clast/_bindings.py").read_text(), "python/clast/_bindings.py is old: "
-                            "clast describe --json > d.json; python3 tools/make_python.py d.json python/clast/_bindings.py")
+            for file, name in ((made, "_bindings.py"), (made.with_name("_functions.py"), "_functions.py")):
+                self.assertTrue(file.read_text() == (ROOT / "python/clast" / name).read_text(), f"python/clast/{name} is old: "
+                                "clast describe --json > d.json; python3 tools/make_python.py d.json python/clast/_bindings.py")
 
     def test_sizes_and_offsets_are_those_of_c(self):
         structs = json.loads(self.text)["structs"]
@@ -37,6 +39,15 @@ class Bindings(unittest.TestCase):
             for field in one["fields"]:
                 member = getattr(made, field["name"])
                 self.assertEqual((member.offset, member.size), (field["offset"], field["size"]), (one["name"], field["name"]))
+
+    def test_every_function_that_the_package_calls_has_a_prototype(self):
+        known, n = {*bindings.PROTOTYPES, *(one for one in json.loads(self.text)["configurations"])}, 0
+        for path in (ROOT / "python/clast").glob("*.py"):
+            if path.name != "_bindings.py":
+                called = set(re.findall(r'"(clast_[a-z0-9_]+)"', path.read_text()))
+                self.assertEqual(called - known, set(), path.name)
+                n += len(called)
+        self.assertGreater(n, 100)
 
     def test_every_function_is_in_the_library(self):
         library = ctypes.CDLL(os.environ["CLAST_LIBRARY"])

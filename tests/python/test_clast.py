@@ -47,6 +47,9 @@ class Numbers(unittest.TestCase):
         for name in ("n", "n_cell", "score", "stop", "reject", "resolved", "pair_integral", "pair_integral_low", "pair_integral_high"):
             self.assertEqual(getattr(found, name), said[name], name)
         self.assertEqual(found.cells["count"].sum(), 500)
+        self.assertEqual([(t["name"], t["statistic"], t["p"], t["reject"]) for t in said["tests"]], [tuple(row) for row in found.tests.tolist()])
+        for name in ("ideal_score", "estimator", "n_repeated"):
+            self.assertEqual(getattr(found, name), said[name], name)
         self.assertTrue(np.array_equal(np.bincount(found.cell_of_point), found.cells["count"]))
 
     def test_keys_are_those_of_the_command(self):
@@ -135,6 +138,13 @@ class Numbers(unittest.TestCase):
         for name in ("n_sphere", "filled_fraction", "sphere_volume", "inertia_error", "max_protrusion"):
             self.assertEqual(getattr(found, name), said[name], name)
         self.assertEqual(found.centres.shape, (said["n_sphere"], 3))
+        history, clump = pathlib.Path(self.folder.name, "history.csv"), pathlib.Path(self.folder.name, "clump.csv")
+        command("fill", GRAIN, "--history", history, "-o", clump)
+        self.assertTrue(np.array_equal(clast.read_table(history), found.history))
+        found.write(pathlib.Path(self.folder.name, "own.csv"), name="grain00")
+        self.assertEqual(clump.read_bytes(), pathlib.Path(self.folder.name, "own.csv").read_bytes())
+        with self.assertRaisesRegex(clast.Error, "no keyword history"):
+            clast.fill(GRAIN, history="x.csv")
 
     def test_porosity(self):
         bed = pathlib.Path(self.folder.name, "bed")
@@ -142,6 +152,35 @@ class Numbers(unittest.TestCase):
         for method in ("exact", "spheres"):
             said, found = command("porosity", bed, "--method", method), clast.porosity(bed, method=method)
             self.assertEqual((found.porosity, found.z_low, found.z_high), (said["bulk"], said["z_low"], said["z_high"]))
+        said = command("porosity", bed, "--core", 1, "--local", "--rings", 3, "--pores", 500, "--layer", "2mm", "--trim", "1mm", "--at-slice")
+        found = clast.porosity(bed, core=1, local=True, rings=3, pores=500, layer="2mm", trim=1e-3, at_slice=True)
+        self.assertEqual([found.porosity, found.core, found.core_error, found.wall_share, found.wall_ratio, found.grain_size, found.coordination],
+                         [said[k] for k in ("bulk", "core", "core_error", "wall_share", "wall_ratio", "grain_size", "coordination")])
+        self.assertEqual(dict(zip(found.fabric["name"], found.fabric["value"])), said["fabric"])
+        self.assertEqual(dict(zip(found.stress["name"], found.stress["value"])), said["stress"])
+        inner = found.local[found.local["border"] == 0]
+        self.assertAlmostEqual(inner["porosity"].mean() if len(inner) else np.nan, said["local_mean"] or np.nan, places=14)
+        self.assertEqual((len(found.radial), len(found.pores) > 0), (3, True))
+        self.assertIn("data:image/svg", found._repr_html_())
+
+    def test_porosity_of_other_beds(self):
+        # Spheres on a cubic lattice whose box repeats in x and y: grains that poke out count whole [1 - pi / 6 = 0.4764].
+        text = "x_mm,y_mm,z_mm,d_mm\n" + "".join(f"{i},{j},{k + 0.5},1\n" for i in range(4) for j in range(4) for k in range(8))
+        path = pathlib.Path(self.folder.name, "spheres.csv")
+        path.write_text(text)
+        bed = "periodic:0mm,0mm,4mm,4mm"
+        said = command("porosity", path, "--bed", bed, "--trim", "2mm", "--layer", "1mm", "--gap", "10um", "--at-slice")
+        found = clast.porosity(path, bed=bed, trim="2mm", layer="1mm", gap="10um", at_slice=True)
+        self.assertEqual([found.porosity, found.coordination, found.n_overlap], [said[k] for k in ("bulk", "coordination", "n_overlap")])
+        self.assertAlmostEqual(found.porosity, 1 - np.pi / 6, places=12)
+        grains = clast.Assembly.read_spheres(path)
+        before = grains.positions.copy()
+        self.assertEqual(clast.porosity(grains, bed=bed, trim="2mm", layer="1mm", at_slice=True).porosity, found.porosity)
+        self.assertTrue(np.array_equal(grains.positions, before))
+        for keys, line in (({}, "^bed: .* does not say what holds the grains"), (dict(bed="cylinder:1mm"), "^bed: grains take"),
+                           (dict(bed=bed, trim="2"), "2"), (dict(bed=bed, trim=-1.0), "^trim: -1.0 is outside")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.porosity(path, **keys)
 
     def test_a_folder_that_is_no_run(self):
         with self.assertRaises(clast.Error):

@@ -89,7 +89,7 @@ void support_aggregate_free(support_aggregate *s)
 clast_aggregate *support_aggregate_run(support_aggregate *s, int32_t repeat)
 {
     clast_aggregate *a = NULL;
-    CHECK_OK(clast_aggregate_create(&s->config, &s->input, repeat, &a));
+    CHECK_OK(clast_aggregate_create(&s->config.params, &s->input, repeat, &a));
     CHECK_OK(clast_aggregate_grow(a, INT32_MAX, NULL));
     assert_true(clast_aggregate_is_done(a));
     return a;

@@ -86,9 +86,10 @@ static void coat_has_a_permeability(void **state)
         support_aggregate_options(&s.config, runs[i].options);
         clast_aggregate *a = support_aggregate_run(&s, 0);
         CHECK_OK(clast_aggregate_measure(a, &r));
-        assert_string_equal(clast_permeable_text(r.permeable), clast_permeable_text(runs[i].range));
+        assert_string_equal(clast_permeable_range_text(r.permeable),
+                            clast_permeable_range_text(runs[i].range));
         assert_true(isnan(r.settling_velocity_permeable) == (r.permeable != CLAST_PERMEABLE_YES));
-        CHECK_REL(r.coat_grain, s.config.size_low, 1e-12);
+        CHECK_REL(r.coat_grain, s.config.params.size_low, 1e-12);
         if (i == 0) {
             const double core = CLAST_PI / 6.0 * 64e-15;
             const double shell = r.envelope[0].volume - core;
@@ -107,6 +108,42 @@ static void coat_has_a_permeability(void **state)
     }
 }
 
+/* A solver that grows aggregates of its own shapes needs no files and no run: parameters alone. */
+static void parameters_alone_are_enough(void **state)
+{
+    (void)state;
+    support_aggregate s;
+    clast_aggregate_params params;
+    clast_aggregate *a[2] = {NULL, NULL};
+    support_aggregate_make(&s, NULL, 1,
+                           "n_particle=5;size_law=uniform;size_low=1;size_high=2;cone=0.5;rays=4");
+    CHECK_OK(clast_aggregate_params_default(&params));
+    params.core_size = 1.0;
+    params.n_particle = 5;
+    params.size_law = CLAST_SIZE_UNIFORM;
+    params.size_low = 1.0;
+    params.size_high = 2.0;
+    params.cone = 0.5;
+    params.rays = 4;
+    CHECK_OK(clast_aggregate_create(&params, &s.input, 0, &a[0]));
+    CHECK_OK(clast_aggregate_create(&s.config.params, &s.input, 0, &a[1]));
+    for (int k = 0; k < 2; ++k) {
+        CHECK_OK(clast_aggregate_grow(a[k], 10, NULL));
+    }
+    const clast_assembly *one = clast_aggregate_assembly(a[0]);
+    const clast_assembly *other = clast_aggregate_assembly(a[1]);
+    assert_int_equal(one->n_grain, 6);
+    assert_int_equal(other->n_grain, 6);
+    assert_memory_equal(one->position, other->position, 6 * sizeof *one->position);
+    clast_aggregate_destroy(a[0]);
+    clast_aggregate_destroy(a[1]);
+    params.size_law = CLAST_SIZE_LIST; /* and no sizes with it */
+    CHECK_STATUS(clast_aggregate_create(&params, &s.input, 0, &a[0]), CLAST_E_CONFIG);
+    clast_aggregate_params_free(&params);
+    clast_aggregate_params_free(&params);
+    support_aggregate_free(&s);
+}
+
 /// Creates, grows, restores and measures; frees all.
 static clast_status whole_life(void *context)
 {
@@ -117,15 +154,18 @@ static clast_status whole_life(void *context)
     clast_table members = {0};
     clast_aggregate_result result;
     clast_aggregate_saved saved = {.history = &history, .members = &members};
-    clast_status status = clast_aggregate_create(&s->config, &s->input, 0, &a);
+    clast_status status = clast_aggregate_create(&s->config.params, &s->input, 0, &a);
     status = status == CLAST_OK ? clast_aggregate_grow(a, 2, NULL) : status;
     status = status == CLAST_OK ? clast_aggregate_history(a, &history) : status;
     status = status == CLAST_OK ? clast_aggregate_members(a, &members) : status;
     if (status == CLAST_OK) {
         saved.placed = clast_aggregate_assembly(a);
-        status = clast_aggregate_restore(&s->config, &s->input, &saved, &b);
+        status = clast_aggregate_restore(&s->config.params, &s->input, &saved, &b);
     }
     status = status == CLAST_OK ? clast_aggregate_measure(b, &result) : status;
+    if (status == CLAST_OK) {
+        assert_int_equal(clast_aggregate_n_particle(b), s->config.params.n_particle);
+    }
     clast_table_free(&history);
     clast_table_free(&members);
     clast_aggregate_destroy(a);
@@ -156,6 +196,7 @@ int main(void)
         cmocka_unit_test(two_spheres_touch_with_the_known_porosity),
         cmocka_unit_test(spheres_never_overlap),
         cmocka_unit_test(coat_has_a_permeability),
+        cmocka_unit_test(parameters_alone_are_enough),
         cmocka_unit_test(refused_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

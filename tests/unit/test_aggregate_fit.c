@@ -42,8 +42,8 @@ static void set_up(scene *s)
     CHECK_OK(clast_field_set(field, &s->config, "1deg:1:1", true));
     CHECK_OK(clast_field_set(field, &s->config, "90deg:4:1", true));
     CHECK_OK(clast_field_set(field, &s->config, "90deg:16:1", true));
-    s->config.core_size = 1e-4;
-    s->config.order = CLAST_ORDER_SHUFFLED;
+    s->config.params.core_size = 1e-4;
+    s->config.params.order = CLAST_ORDER_SHUFFLED;
     s->config.fit_replicate_max = 4;
     s->config.fit_repeats = 3;
 }
@@ -62,11 +62,11 @@ static void observe(scene *s, int32_t rays, int32_t replicate)
     clast_aggregate *aggregate = NULL;
     clast_aggregate_result result;
     clast_aggregate_config config = s->config;
-    config.seed = 77;
-    config.cone = 0.5 * CLAST_PI;
-    config.rays = rays;
-    config.replicate = replicate;
-    CHECK_OK(clast_aggregate_create(&config, &s->input, 0, &aggregate));
+    config.params.seed = 77;
+    config.params.cone = 0.5 * CLAST_PI;
+    config.params.rays = rays;
+    config.params.replicate = replicate;
+    CHECK_OK(clast_aggregate_create(&config.params, &s->input, 0, &aggregate));
     CHECK_OK(clast_aggregate_grow(aggregate, 100000, NULL));
     CHECK_OK(clast_aggregate_measure(aggregate, &result));
     clast_aggregate_destroy(aggregate);
@@ -246,13 +246,13 @@ static void fit_refuses_what_it_cannot_do(void **state)
     CHECK_STATUS(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "size"));
     s.config.observed_size_error = 1e-5;
-    s.config.rays = 7;
+    s.config.params.rays = 7;
     CHECK_STATUS(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "fit_packing"));
-    s.config.rays = 1;
-    s.config.stop_size = 1.0;
+    s.config.params.rays = 1;
+    s.config.params.stop_size = 1.0;
     CHECK_STATUS(clast_aggregate_fit_run(&s.config, &s.input, NULL, &fit, &nodes), CLAST_E_CONFIG);
-    s.config.stop_size = 0.0;
+    s.config.params.stop_size = 0.0;
     CHECK_STATUS(clast_aggregate_fit_run(&s.config, &s.input, &monitor, &fit, &nodes),
                  CLAST_E_STOPPED);
     static const char *const wrong[] = {"1deg:1", "1deg:0:1", "1deg:1:1:1", "x:1:1", "200deg:1:1"};

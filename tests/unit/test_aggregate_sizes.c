@@ -5,6 +5,7 @@
 #include "aggregate/sizes.h"
 #include "base/alloc.h"
 #include <clast/aggregate_run.h>
+#include <string.h>
 
 static void default_config(clast_aggregate_config *config)
 {
@@ -20,16 +21,16 @@ static void lists_are_repeated_and_ordered(void **state)
     int32_t n = 0;
     default_config(&c);
     CHECK_OK(clast_sizes_parse("list", "d_um,count\n30,1\n10,2\n20,1\n", "", "", &sizes));
-    c.replicate = 3;
-    c.order = CLAST_ORDER_DESCENDING;
-    CHECK_OK(clx_sizes_plan(&c, &sizes, 1, &size, &n));
+    c.params.replicate = 3;
+    c.params.order = CLAST_ORDER_DESCENDING;
+    CHECK_OK(clx_sizes_plan(&c.params, &sizes, 1, &size, &n));
     assert_int_equal(n, 12);
     CHECK_REL(size[0], 30e-6, 1e-15);
     CHECK_REL(size[3], 20e-6, 1e-15);
     CHECK_REL(size[11], 10e-6, 1e-15);
     clx_free(size);
-    c.order = CLAST_ORDER_SHUFFLED;
-    CHECK_OK(clx_sizes_plan(&c, &sizes, 1, &size, &n));
+    c.params.order = CLAST_ORDER_SHUFFLED;
+    CHECK_OK(clx_sizes_plan(&c.params, &sizes, 1, &size, &n));
     double sum = 0.0;
     for (int32_t i = 0; i < n; ++i) {
         sum += size[i];
@@ -49,20 +50,46 @@ static void histograms_are_drawn_by_number_or_mass(void **state)
     // one bin at 1 mm and one at 2 mm: equal masses mean 8 of 9 grains are small
     CHECK_OK(
         clast_sizes_parse("bins", "low_mm high_mm weight\n1 1 0.5\n2 2 0.5\n", "", "", &sizes));
-    c.size_draw = true;
-    c.n_particle = 20000;
+    c.params.size_draw = true;
+    c.params.n_particle = 20000;
     for (int by_mass = 0; by_mass < 2; ++by_mass) {
         double *size = NULL;
         int32_t n = 0;
         double small = 0.0;
-        c.size_by_mass = by_mass == 1;
-        CHECK_OK(clx_sizes_plan(&c, &sizes, 7, &size, &n));
+        c.params.size_by_mass = by_mass == 1;
+        CHECK_OK(clx_sizes_plan(&c.params, &sizes, 7, &size, &n));
         for (int32_t i = 0; i < n; ++i) {
             small += size[i] < 1.5e-3 ? 1.0 : 0.0;
         }
         const double share = by_mass == 1 ? 8.0 / 9.0 : 0.5;
         CHECK_ABS(small / n, share, 5.0 * sqrt(share * (1.0 - share) / n));
         clx_free(size);
+    }
+    clast_sizes_free(&sizes);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
+static void sizes_of_a_caller_must_be_above_0(void **state)
+{
+    (void)state;
+    const double bad[][3] = {{0.0, 1e-3, 1.0},         {-1e-3, 1e-3, 1.0},
+                             {2e-3, 1e-3, 1.0},        {1e-3, 1e-3, -1.0},
+                             {1e-3, (double)NAN, 1.0}, {1e-3, (double)INFINITY, 1.0}};
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    double *size = NULL;
+    int32_t n = 0;
+    default_config(&c);
+    CHECK_OK(clast_sizes_alloc(2, &sizes));
+    sizes.low[0] = sizes.high[0] = 1e-3;
+    sizes.count[0] = 1.0;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        sizes.low[1] = bad[k][0];
+        sizes.high[1] = bad[k][1];
+        sizes.count[1] = bad[k][2];
+        CHECK_STATUS(clx_sizes_plan(&c.params, &sizes, 1, &size, &n), CLAST_E_CONFIG);
+        assert_null(size);
+        assert_non_null(strstr(clast_error_detail(), "sizes: row 2"));
     }
     clast_sizes_free(&sizes);
     clast_fields_free(clast_aggregate_fields, &c);
@@ -77,14 +104,14 @@ static void check_law(int32_t law, double mean_of_log, double deviation_of_log)
     double squares = 0.0;
     int32_t n = 0;
     default_config(&c);
-    c.size_law = law;
-    c.size_mean = 2e-3;
-    c.size_deviation = 1e-5;
-    c.size_shape = law == CLAST_SIZE_WEIBULL ? 2.0 : 0.3;
-    c.size_low = law <= CLAST_SIZE_LOGUNIFORM ? 1e-3 : 0.0;
-    c.size_high = law <= CLAST_SIZE_LOGUNIFORM ? 4e-3 : 0.0;
-    c.n_particle = 40000;
-    CHECK_OK(clx_sizes_plan(&c, NULL, 3, &size, &n));
+    c.params.size_law = law;
+    c.params.size_mean = 2e-3;
+    c.params.size_deviation = 1e-5;
+    c.params.size_shape = law == CLAST_SIZE_WEIBULL ? 2.0 : 0.3;
+    c.params.size_low = law <= CLAST_SIZE_LOGUNIFORM ? 1e-3 : 0.0;
+    c.params.size_high = law <= CLAST_SIZE_LOGUNIFORM ? 4e-3 : 0.0;
+    c.params.n_particle = 40000;
+    CHECK_OK(clx_sizes_plan(&c.params, NULL, 3, &size, &n));
     for (int32_t i = 0; i < n; ++i) {
         sum += log(size[i]);
         squares += log(size[i]) * log(size[i]);
@@ -111,14 +138,15 @@ static void classes_and_weights_choose_shapes(void **state)
     (void)state;
     support_aggregate s;
     support_aggregate_make(&s, NULL, 3, "class_limit=1;class_limit=2");
-    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 1.0), 0); // a limit belongs to its class
-    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 1.5), 1);
-    assert_int_equal(clx_sizes_shape(&s.config, 1, 0, 9.0), 2);
+    assert_int_equal(clx_sizes_shape(&s.config.params, s.config.coat.n, 1, 0, 1.0),
+                     0); // a limit belongs to its class
+    assert_int_equal(clx_sizes_shape(&s.config.params, s.config.coat.n, 1, 0, 1.5), 1);
+    assert_int_equal(clx_sizes_shape(&s.config.params, s.config.coat.n, 1, 0, 9.0), 2);
     support_aggregate_free(&s);
     support_aggregate_make(&s, NULL, 3, "coat_weight=1;coat_weight=0;coat_weight=3");
     int32_t count[3] = {0};
     for (int64_t i = 0; i < 4000; ++i) {
-        ++count[clx_sizes_shape(&s.config, 1, i, 1.0)];
+        ++count[clx_sizes_shape(&s.config.params, s.config.coat.n, 1, i, 1.0)];
     }
     assert_int_equal(count[1], 0);
     CHECK_ABS(count[2] / 4000.0, 0.75, 5.0 * sqrt(0.75 * 0.25 / 4000.0));
@@ -135,7 +163,7 @@ static void form_of_groups_is_exact(void **state)
     const double at[3] = {1.0, 2.0, 2.0};
     support_aggregate_make(&s, NULL, 1, "size_meaning=mean_diameter");
     CHECK_OK(clast_assembly_add_grain(&s.core, 0, at, unturned, 2.0, 2500.0));
-    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
     CHECK_OK(clx_form_dimensions(&kit, &kit.group[0], form));
     CHECK_REL(form[0], 3.0 + 0.5 + 1.0, 1e-12); // radii 0.5 and 1, centres 3 apart
     CHECK_REL(form[1], 2.0, 1e-2);              // of points on the spheres
@@ -154,7 +182,7 @@ static void meanings_of_size_agree_for_an_ellipsoid(void **state)
     support_aggregate s;
     clx_kit kit = {0};
     support_aggregate_make(&s, axes, 1, "size_meaning=mean_diameter");
-    CHECK_OK(clx_kit_make(&s.config, &s.input, &kit));
+    CHECK_OK(clx_kit_make(&s.config.params, &s.input, &kit));
     for (int32_t meaning = 0; meaning < 3; ++meaning) {
         CHECK_REL(clx_kit_size(&kit.group[1], meaning), wanted[meaning], 1e-14);
     }
@@ -220,9 +248,9 @@ static void wanted_sizes_stand_beside_placed_ones(void **state)
     clast_table table = {0};
     default_config(&c);
     CHECK_OK(clast_sizes_parse("list", "d_um,count\n30,1\n10,2\n10,3\n20,1\n", "", "", &sizes));
-    c.replicate = 2;
+    c.params.replicate = 2;
     take_history((double[]){10e-6, 30e-6, 10e-6}, 3, &history); /* stopped early */
-    CHECK_OK(clast_aggregate_achieved(&c, &sizes, &history, &table));
+    CHECK_OK(clast_aggregate_achieved(&c.params, &sizes, &history, &table));
     assert_int_equal(table.n_row, 3); /* two rows of 10 um are one class */
     const double wanted[] = {10.0, 2.0, 2.0};
     const double placed[] = {2.0, 0.0, 1.0};
@@ -235,11 +263,11 @@ static void wanted_sizes_stand_beside_placed_ones(void **state)
     CHECK_REL(clast_table_numbers(&table, "wanted_finer")[0], 10.0 / 14.0, 1e-15);
     clast_table_free(&table);
     /* a law: shares of the logarithm of its range, 1/12 to each class */
-    c.size_law = CLAST_SIZE_LOGUNIFORM;
-    c.size_low = 10e-6;
-    c.size_high = 30e-6;
-    c.n_particle = 60;
-    CHECK_OK(clast_aggregate_achieved(&c, NULL, &history, &table));
+    c.params.size_law = CLAST_SIZE_LOGUNIFORM;
+    c.params.size_low = 10e-6;
+    c.params.size_high = 30e-6;
+    c.params.n_particle = 60;
+    CHECK_OK(clast_aggregate_achieved(&c.params, NULL, &history, &table));
     assert_int_equal(table.n_row, 12);
     CHECK_REL(clast_table_numbers(&table, "wanted")[5], 10.0, 1e-9);
     CHECK_REL(clast_table_numbers(&table, "placed")[0], 2.0, 1e-15);
@@ -247,7 +275,7 @@ static void wanted_sizes_stand_beside_placed_ones(void **state)
     clast_table_free(&table);
     clast_table_free(&history);
     clast_sizes_free(&sizes);
-    c.size_law = CLAST_SIZE_LIST;
+    c.params.size_law = CLAST_SIZE_LIST;
     clast_fields_free(clast_aggregate_fields, &c);
 }
 
@@ -256,6 +284,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
+        cmocka_unit_test(sizes_of_a_caller_must_be_above_0),
         cmocka_unit_test(laws_have_their_moments),
         cmocka_unit_test(classes_and_weights_choose_shapes),
         cmocka_unit_test(form_of_groups_is_exact),

@@ -19,7 +19,8 @@ static void fill(double *x, double *y, double *low, double *high)
     }
 }
 
-static clast_status write_history(const char *path)
+/// Draws into a file, or into memory where there is no path.
+static clast_status write_history(const char *path, unsigned char **bytes, size_t *n)
 {
     double x[N], y[N], low[N], high[N];
     fill(x, y, low, high);
@@ -37,7 +38,7 @@ static clast_status write_history(const char *path)
                                .mark_y = mark,
                                .mark_label = mark_label,
                                .n_mark = 1};
-    return clast_chart_write(&chart, path);
+    return path ? clast_chart_write(&chart, path) : clast_chart_svg(&chart, bytes, n);
 }
 
 static clast_status write_heat(const char *path)
@@ -101,13 +102,21 @@ static void charts_come_in_three_formats_with_equal_bytes(void **state)
     for (int i = 0; i < 3; ++i) {
         char path[512];
         snprintf(path, sizeof path, "%s/%s", support_scratch(), names[i]);
-        CHECK_OK(write_history(path));
+        CHECK_OK(write_history(path, NULL, NULL));
         const size_t n = read_file(path, a, sizeof a);
-        CHECK_OK(write_history(path));
+        CHECK_OK(write_history(path, NULL, NULL));
         assert_int_equal(read_file(path, b, sizeof b), n);
         assert_memory_equal(a, b, n);
         assert_memory_equal(a, magic[i], strlen(magic[i]));
     }
+    unsigned char *svg = NULL;
+    size_t n_svg = 0;
+    CHECK_OK(write_history(NULL, &svg, &n_svg));
+    char path[512];
+    snprintf(path, sizeof path, "%s/a.svg", support_scratch());
+    assert_int_equal(read_file(path, a, sizeof a), n_svg);
+    assert_memory_equal(a, svg, n_svg);
+    clast_chart_bytes_free(svg);
 }
 
 /* Pixels of a chart that are no grey: its points. */
@@ -197,8 +206,8 @@ static void empty_axis_and_unknown_format_are_refused(void **state)
     const clast_chart chart = {.x = {.label = "x"}, .series = &series, .n_series = 1};
     CHECK_STATUS(clast_chart_write(&chart, "never.svg"), CLAST_E_USAGE);
     assert_non_null(strstr(clast_error_detail(), "'x' has no finite"));
-    CHECK_STATUS(write_history("never.gif"), CLAST_E_USAGE);
-    CHECK_STATUS(write_history("/nowhere/at/all.svg"), CLAST_E_DISK);
+    CHECK_STATUS(write_history("never.gif", NULL, NULL), CLAST_E_USAGE);
+    CHECK_STATUS(write_history("/nowhere/at/all.svg", NULL, NULL), CLAST_E_DISK);
 }
 
 int main(void)

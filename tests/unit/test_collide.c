@@ -589,16 +589,16 @@ static void change_test_has_its_level(void **state)
         for (int i = 0; i < 4 * N; ++i) {
             u[i] = clx_rng_uniform(&rng);
         }
-        CHECK_OK(clast_change_test(u, u + 2 * N, N, 2, &p));
+        CHECK_OK(clast_agglomeration_change_test(u, u + 2 * N, N, 2, &p));
         n_alarm += p < 0.05 ? 1 : 0;
     }
     CHECK_ABS((double)n_alarm / R, 0.05, 0.028);
     for (int i = 0; i < 2 * N; ++i) {
         u[2 * N + i] = u[i] * u[i];
     }
-    CHECK_OK(clast_change_test(u, u + 2 * N, N, 2, &p));
+    CHECK_OK(clast_agglomeration_change_test(u, u + 2 * N, N, 2, &p));
     assert_true(p < 1e-6);
-    CHECK_OK(clast_change_test(u, u, N, 2, &p));
+    CHECK_OK(clast_agglomeration_change_test(u, u, N, 2, &p));
     CHECK_REL(p, 1.0, 0.0);
 }
 

@@ -20,7 +20,7 @@ static clast_aggregate_config config;
 
 static clast_status parse(const char *text)
 {
-    return clast_config_parse("run.yaml", text, clast_aggregate_fields, &config);
+    return clast_fields_parse("run.yaml", text, clast_aggregate_fields, &config);
 }
 
 static void values_carry_units_and_lists_replace(void **state)
@@ -29,12 +29,12 @@ static void values_carry_units_and_lists_replace(void **state)
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
     CHECK_OK(parse("core: a.stl\ncore-size: 270 um\ncone: 50deg\nrays: 3e1\ncoat: [b.stl, "
                    "c.stl]\nsize: [2 phi, 1mm]\n"));
-    CHECK_REL(config.core_size, 270e-6, 1e-15);
-    CHECK_REL(config.cone, 50.0 * CLAST_PI / 180.0, 1e-15);
-    assert_int_equal(config.rays, 30);
+    CHECK_REL(config.params.core_size, 270e-6, 1e-15);
+    CHECK_REL(config.params.cone, 50.0 * CLAST_PI / 180.0, 1e-15);
+    assert_int_equal(config.params.rays, 30);
     assert_int_equal(config.coat.n, 2);
     assert_string_equal(config.coat.item[1], "c.stl");
-    CHECK_REL(config.size.item[0], 0.25e-3, 1e-15);
+    CHECK_REL(config.params.size.item[0], 0.25e-3, 1e-15);
     clast_fields_free(clast_aggregate_fields, &config);
 }
 

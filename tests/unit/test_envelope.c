@@ -112,6 +112,7 @@ static void spheres_are_asked_for_by_name(void **state)
     CHECK_STATUS(clast_assembly_envelope(&a, CLAST_ENVELOPE_SPHERE_HULL, &options, &e),
                  CLAST_E_USAGE);
     for (int k = 0; k < CLAST_N_ENVELOPE; ++k) {
+        assert_true(strlen(clast_envelope_text((clast_envelope_kind)k)) > 10);
         CHECK_OK(clast_envelope_parse(clast_envelope_name((clast_envelope_kind)k), &kind));
         assert_int_equal(kind, k);
     }

@@ -507,6 +507,25 @@ static void files_say_retained_or_passing(void **state)
     }
 }
 
+static void a_file_reads_as_its_text(void **state)
+{
+    (void)state;
+    static const char text[] = "sieve_mm,retained_g\n4,30\n2,10\n8,0\n";
+    const char *path = support_scratch_file("curve.csv");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    clast_curve read = {0};
+    clast_curve parsed = {0};
+    CHECK_OK(clast_curve_read(path, &read));
+    CHECK_OK(parse(text, &parsed));
+    assert_int_equal(read.n_class, parsed.n_class);
+    assert_memory_equal(read.mass, parsed.mass, 2 * sizeof(double));
+    clast_curve_free(&read);
+    clast_curve_free(&parsed);
+    assert_int_equal(clast_curve_read("no/such.csv", &read), CLAST_E_IO);
+}
+
 static void bad_files_are_refused(void **state)
 {
     (void)state;
@@ -652,6 +671,7 @@ int main(void)
         cmocka_unit_test(bad_laws_are_refused),
         cmocka_unit_test(lists_are_drawn_by_number_or_mass),
         cmocka_unit_test(files_say_retained_or_passing),
+        cmocka_unit_test(a_file_reads_as_its_text),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(one_text_names_any_distribution),
         cmocka_unit_test(lists_are_files_of_counts_or_masses),

@@ -96,6 +96,45 @@ static void every_table_and_chart_is_written(void **state)
     clast_table_free(&t);
 }
 
+static void check_same_files(const char *a, const char *b)
+{
+    char *bytes[2] = {NULL, NULL};
+    int64_t n[2] = {0};
+    CHECK_OK(clx_file_read_all(a, 1 << 22, &bytes[0], &n[0]));
+    CHECK_OK(clx_file_read_all(b, 1 << 22, &bytes[1], &n[1]));
+    assert_int_equal(n[0], n[1]);
+    assert_memory_equal(bytes[0], bytes[1], (size_t)n[0]);
+    clx_free(bytes[0]);
+    clx_free(bytes[1]);
+}
+
+/* A chart by itself has the bytes of that in the folder. */
+static void charts_come_one_by_one(void **state)
+{
+    (void)state;
+    static const char text[] = "FL,EL\n0.5,0.6\n0.7,0.9\n0.4,0.8\n0.9,0.5\n0.6,0.6\n";
+    const char *out = folder("single");
+    char path[600];
+    char whole[600];
+    clast_table t = {0};
+    clast_grain_statistics g = {0};
+    CHECK_OK(clast_table_parse_csv("grains", text, strlen(text), NULL, &t, NULL));
+    CHECK_OK(clast_grain_statistics_of(&t, NULL, &few, &g));
+    CHECK_OK(clast_grain_statistics_write(&g, out, "svg"));
+    (void)snprintf(path, sizeof path, "%s/single.svg", support_scratch());
+    (void)snprintf(whole, sizeof whole, "%s/zingg.svg", out);
+    CHECK_OK(clast_chart_zingg(&g.set, path));
+    check_same_files(path, whole);
+    (void)snprintf(whole, sizeof whole, "%s/pca.svg", out);
+    CHECK_OK(clast_chart_pca(&g.statistics, path));
+    check_same_files(path, whole);
+    (void)snprintf(whole, sizeof whole, "%s/histogram_flatness.svg", out);
+    CHECK_OK(clast_chart_histogram(g.set.flatness, g.set.n, "flatness S/I (-)", path));
+    check_same_files(path, whole);
+    clast_grain_statistics_free(&g);
+    clast_table_free(&t);
+}
+
 /* Sets that charts trip over: one grain, equal grains, spheres (disc-rod index undefined). */
 static void degenerate_sets_are_drawn(void **state)
 {
@@ -178,6 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stand_in_has_its_stated_moments),
         cmocka_unit_test(every_table_and_chart_is_written),
+        cmocka_unit_test(charts_come_one_by_one),
         cmocka_unit_test(degenerate_sets_are_drawn),
         cmocka_unit_test(fitted_models_are_drawn),
         cmocka_unit_test(signs_of_a_correlation_show),

@@ -8,8 +8,8 @@
 static void every_number_has_its_name(void **state)
 {
     (void)state;
-    assert_string_equal(clast_fit_observable_name(CLAST_FIT_DENSITY), "density");
-    assert_string_equal(clast_fit_observable_unit(CLAST_FIT_SIZE), "m");
+    assert_string_equal(clast_aggregate_fit_observable_name(CLAST_FIT_DENSITY), "density");
+    assert_string_equal(clast_aggregate_fit_observable_unit(CLAST_FIT_SIZE), "m");
     assert_string_equal(clast_fit_verdict_name(CLAST_FIT_EDGE), "edge");
     for (int32_t k = 0; k < CLAST_N_AXES; ++k) {
         assert_non_null(clast_axes_source(k));
@@ -83,7 +83,7 @@ static void a_configuration_is_checked_and_told(void **state)
     clast_pack_config config;
     char *text = NULL;
     CHECK_OK(clast_fields_default(clast_pack_fields, &config));
-    CHECK_OK(clast_config_json(clast_pack_fields, &config, &text));
+    CHECK_OK(clast_fields_json(clast_pack_fields, &config, &text));
     assert_int_equal(text[0], '{');
     assert_non_null(strstr(text, "\"shaking_time\""));
     config.checkpoint_time = NAN;

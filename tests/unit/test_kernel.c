@@ -253,16 +253,16 @@ static void settling_speeds_are_true_from_slip_to_newton(void **state)
     clast_medium m = air;
     const clast_collider coarse = sphere(0.5e-3, 2500.0);
     const clast_collider fine = sphere(0.1e-6, 2500.0);
-    CHECK_ABS(clast_settling_speed(&m, &coarse), 6.8, 0.05);
-    CHECK_REL(clast_settling_speed(&m, &fine),
+    CHECK_ABS(clast_kernel_settling_speed(&m, &coarse), 6.8, 0.05);
+    CHECK_REL(clast_kernel_settling_speed(&m, &fine),
               1.8795 * 2.0 / 9.0 * (2500.0 - 1.2) * 9.80665 * 1e-14 / 1.8e-5, 1e-3);
     m.settling_law = CLAST_SETTLING_STOKES;
-    CHECK_ABS(clast_settling_speed(&m, &coarse), 75.7, 0.1);
-    const double known = clast_settling_speed(&m, &coarse);
+    CHECK_ABS(clast_kernel_settling_speed(&m, &coarse), 75.7, 0.1);
+    const double known = clast_kernel_settling_speed(&m, &coarse);
     m.particle_density = 0.0;
-    CHECK_REL(clast_settling_speed(&m, &coarse), known, 1e-12);
+    CHECK_REL(clast_kernel_settling_speed(&m, &coarse), known, 1e-12);
     m.density = 3000.0;
-    assert_true(clast_settling_speed(&m, &coarse) < 0.0);
+    assert_true(clast_kernel_settling_speed(&m, &coarse) < 0.0);
 }
 
 /* The efficiency has its closed limits: a point without inertia is met by interception alone, 1 -
@@ -277,15 +277,16 @@ static void efficiency_tends_to_its_limits(void **state)
     small.mass *= 1e-9; // no inertia
     large.settling_speed = 1e-6;
     small.settling_speed = 1e-30;
-    CHECK_REL(clast_collision_efficiency(&m, &large, &small),
+    CHECK_REL(clast_kernel_collision_efficiency(&m, &large, &small),
               1.0 - 1.5 / 1.1 + 0.5 / (1.1 * 1.1 * 1.1), 1e-5);
     large.settling_speed = 1e6;
-    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 1.0 - 1.0 / (1.1 * 1.1 * 1.1), 1e-3);
+    CHECK_REL(clast_kernel_collision_efficiency(&m, &small, &large), 1.0 - 1.0 / (1.1 * 1.1 * 1.1),
+              1e-3);
     small = sphere(5e-6, 2500.0);
     small.settling_speed = 1e-30;
-    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 1.0, 1e-3);
+    CHECK_REL(clast_kernel_collision_efficiency(&m, &small, &large), 1.0, 1e-3);
     m.efficiency = 0.3;
-    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 0.3, 0.0);
+    CHECK_REL(clast_kernel_collision_efficiency(&m, &small, &large), 0.3, 0.0);
     /* Langmuir's St = 10: 0.634 in creeping flow; p = 0.002, whose interception is 6e-6 */
     m.efficiency = 0.0;
     m.density = 1e-9;
@@ -293,7 +294,7 @@ static void efficiency_tends_to_its_limits(void **state)
     m.mean_free_path = 0.0;
     small.settling_speed = 1e-30;
     large.settling_speed = 10.0 * 50e-6 * 6.0 * CLAST_PI * 1.8e-5 * 0.1e-6 / small.mass;
-    CHECK_REL(clast_collision_efficiency(&m, &small, &large), 0.6344, 1e-3);
+    CHECK_REL(clast_kernel_collision_efficiency(&m, &small, &large), 0.6344, 1e-3);
 }
 
 /* Mean relative speeds: |w1 - w2|; of Brownian motion 8 k T / (3 pi mu d1 d2) [Costa2010]; sums
@@ -305,7 +306,8 @@ static void impact_speeds_are_those_of_straight_paths(void **state)
     m.mean_free_path = 0.0;
     const clast_collider a = sphere(2e-6, 2500.0);
     const clast_collider b = sphere(5e-6, 2500.0);
-    const double fall = fabs(clast_settling_speed(&m, &a) - clast_settling_speed(&m, &b));
+    const double fall =
+        fabs(clast_kernel_settling_speed(&m, &a) - clast_kernel_settling_speed(&m, &b));
     const double drift = 8.0 * 1.380649e-23 * 293.15 / (3.0 * CLAST_PI * 1.8e-5 * 4e-6 * 1e-5);
     CHECK_REL(clast_impact_speed(mask_of("settling"), &m, &a, &b), fall, 1e-14);
     CHECK_REL(clast_impact_speed(mask_of("brownian"), &m, &a, &b), drift, 1e-14);

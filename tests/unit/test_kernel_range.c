@@ -58,7 +58,7 @@ static void holds(clast_collide_config c, const double outside[2], const double 
     CHECK_REL(use.n, 2.0, 0.0);
     CHECK_REL(use.outside, 1.0, 0.0);
     char words[512];
-    assert_non_null(strstr(clast_range_words(&use, sizeof words, words), source));
+    assert_non_null(strstr(clast_range_use_words(&use, sizeof words, words), source));
 }
 
 #define PAIR(...) ((const double[2]){__VA_ARGS__})

@@ -58,7 +58,7 @@ static void close_packing_has_twelve_faces_and_its_porosity(void **state)
             sqrt(2.0) / 4.0);
     }
     CHECK_OK(clast_bed_parse("periodic:0,0,4,4", &bed));
-    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 4.0, &local));
+    CHECK_OK(clast_porosity_local(&a, &bed, 0.0, 4.0, &local));
     const double *porosity = clast_table_numbers(&local, "porosity");
     const double *faces = clast_table_numbers(&local, "n_face");
     const double *border = clast_table_numbers(&local, "border");
@@ -89,7 +89,7 @@ static void unequal_spheres_share_by_the_radical_plane(void **state)
     add(&a, 1.0, 1.0, 1.0, 0.9);
     add(&a, 3.0, 1.0, 1.0, 0.3);
     CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
-    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 2.0, &local));
+    CHECK_OK(clast_porosity_local(&a, &bed, 0.0, 2.0, &local));
     const double plane = 1.0 + (4.0 + 0.81 - 0.09) / 4.0;
     CHECK_REL(clast_table_numbers(&local, "cell_m3")[0], 4.0 * plane, 1e-14);
     CHECK_REL(clast_table_numbers(&local, "cell_m3")[1], 4.0 * (4.0 - plane), 1e-14);
@@ -166,7 +166,7 @@ static void cells_fill_the_bed(void **state)
             }
         }
         CHECK_OK(clast_bed_parse(beds[b], &bed));
-        CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 3.0, &local));
+        CHECK_OK(clast_porosity_local(&a, &bed, 0.0, 3.0, &local));
         for (int64_t i = 0; i < local.n_row; ++i) {
             sum += clast_table_numbers(&local, "cell_m3")[i];
         }
@@ -194,7 +194,7 @@ static void boulder_in_gravel_has_a_cell(void **state)
         add(&a, r * cos(turn * k), r * sin(turn * k), 3.0 + 1.3 * z, 0.1);
     }
     CHECK_OK(clast_bed_parse("box:-3,-3,3,3", &bed));
-    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 6.0, &local));
+    CHECK_OK(clast_porosity_local(&a, &bed, 0.0, 6.0, &local));
     for (int64_t i = 0; i < local.n_row; ++i) {
         sum += clast_table_numbers(&local, "cell_m3")[i];
     }
@@ -218,7 +218,7 @@ static void hidden_grain_has_no_porosity(void **state)
     add(&a, 1.0, 1.0, 1.0, 0.9);
     add(&a, 1.1, 1.0, 1.0, 0.1);
     CHECK_OK(clast_bed_parse("box:0,0,2,2", &bed));
-    CHECK_OK(clast_local_porosity(&a, &bed, 0.0, 2.0, &local));
+    CHECK_OK(clast_porosity_local(&a, &bed, 0.0, 2.0, &local));
     CHECK_REL(clast_table_numbers(&local, "cell_m3")[0], 8.0, 1e-14);
     CHECK_ABS(clast_table_numbers(&local, "cell_m3")[1], 0.0, 0.0);
     assert_true(isnan(clast_table_numbers(&local, "porosity")[1]));
@@ -231,7 +231,7 @@ static clast_status make_local(void *context)
     clast_bed bed;
     clast_table local = {0};
     CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
-    const clast_status status = clast_local_porosity(context, &bed, 0.0, 2.0, &local);
+    const clast_status status = clast_porosity_local(context, &bed, 0.0, 2.0, &local);
     clast_table_free(&local);
     return status;
 }
@@ -246,8 +246,8 @@ static void refused_memory_leaves_nothing(void **state)
     add(&a, 3.0, 1.0, 1.0, 0.3);
     support_refuse_each_allocation(make_local, &a);
     CHECK_OK(clast_bed_parse("box:0,0,4,2", &bed));
-    CHECK_STATUS(clast_local_porosity(&a, &bed, 5.0, 6.0, &local), CLAST_E_USAGE);
-    CHECK_STATUS(clast_local_porosity(&a, &bed, 6.0, 5.0, &local), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_local(&a, &bed, 5.0, 6.0, &local), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_local(&a, &bed, 6.0, 5.0, &local), CLAST_E_USAGE);
     clast_assembly_free(&a);
 }
 

@@ -143,7 +143,7 @@ static void write_bed(const char *folder)
     path_in(folder, "profile.json", path);
     CHECK_OK(clast_table_write_json(&profile, path));
     path_in(folder, "profile.svg", path);
-    CHECK_OK(clast_porosity_chart_write(&profile, &bulk, "m", path));
+    CHECK_OK(clast_chart_porosity(&profile, &bulk, "m", path));
     for (size_t k = 0; k < sizeof ends / sizeof ends[0]; ++k) {
         (void)snprintf(text, sizeof text, "bed.%s", ends[k]);
         path_in(folder, text, path);
@@ -176,8 +176,8 @@ static void write_run(const char *folder)
     clast_aggregate_report report = {0};
     char *summary = NULL;
     CHECK_OK(clast_fields_default(clast_aggregate_fields, &config));
-    CHECK_OK(clast_config_parse("run.yaml", text, clast_aggregate_fields, &config));
-    CHECK_REL(config.core_size, 40.5e-6, 1e-15);
+    CHECK_OK(clast_fields_parse("run.yaml", text, clast_aggregate_fields, &config));
+    CHECK_REL(config.params.core_size, 40.5e-6, 1e-15);
     CHECK_OK(clast_aggregate_run(&config, folder, NULL, NULL, &report));
     CHECK_OK(clast_aggregate_report_json(&report, false, &summary));
     assert_null(strchr(summary, ';'));

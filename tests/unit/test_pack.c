@@ -96,6 +96,29 @@ static void fill_is_clear_and_where_it_belongs(void **state)
     }
 }
 
+/* The bed that a packing hands to porosities: its grains in its domain; sizes that follow no sieve
+ * curve are set beside none. */
+static void check_bed(const clast_pack *pack, const clast_pack_config *config)
+{
+    const clast_dem *dem = clast_pack_dem(pack);
+    const clast_bed where = clast_pack_bed(pack);
+    const clast_porosity_options options = clast_pack_porosity(config);
+    clast_assembly grains = {0};
+    clast_porosity_bulk bulk;
+    clast_table profile = {0};
+    clast_table none = {0};
+    double top = 0.0;
+    CHECK_OK(clast_dem_assembly(dem, &grains));
+    CHECK_OK(clast_porosity_profile(&grains, &where, &options, &profile));
+    CHECK_OK(clast_porosity_measure(&grains, &where, &options, &profile, &bulk));
+    assert_true(bulk.porosity > 0.3 && bulk.porosity < 0.8);
+    assert_true(clast_dem_mean_height(dem, &top) < top && top < 0.1);
+    assert_true(clast_dem_n_step(dem) <= clast_pack_expected_steps(pack));
+    CHECK_STATUS(clast_pack_achieved(pack, &none), CLAST_E_USAGE);
+    clast_table_free(&profile);
+    clast_assembly_free(&grains);
+}
+
 static void phases_follow_one_another(void **state)
 {
     (void)state;
@@ -115,6 +138,7 @@ static void phases_follow_one_another(void **state)
         }
         last = now;
     }
+    check_bed(pack, &b.config);
     clast_pack_result r;
     CHECK_OK(clast_pack_measure(pack, &r));
     assert_true(r.converged && r.phase == CLAST_PACK_DONE && r.n_fill >= 1);

@@ -119,13 +119,13 @@ static void close_packing_in_a_periodic_box_is_exact(void **state)
     assert_int_equal(a.n_grain, 108);
     check_box(&a, FCC, porosity, 1e-13, 6 * 108, 1e-9);
     CHECK_OK(clast_bed_parse(FCC, &bed));
-    CHECK_OK(clast_local_porosity(&a, &bed, bed.floor, bed.ceiling, &local));
+    CHECK_OK(clast_porosity_local(&a, &bed, bed.floor, bed.ceiling, &local));
     for (int64_t i = 0; i < local.n_row; ++i) {
         CHECK_ABS(clast_table_numbers(&local, "porosity")[i], porosity, 1e-12);
         CHECK_ABS(clast_table_numbers(&local, "border")[i], 0.0, 0.0);
     }
     assert_int_equal(local.n_row, 108);
-    CHECK_STATUS(clast_local_porosity(&a, &bed, 1.0, 2.0, &local), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_local(&a, &bed, 1.0, 2.0, &local), CLAST_E_USAGE);
     clast_table_free(&local);
     clast_assembly_free(&a);
 }

@@ -26,7 +26,7 @@ static void legacy_file_gives_points_and_their_data(void **state)
 {
     (void)state;
     clast_table table = {0};
-    CHECK_OK(clast_points_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table));
+    CHECK_OK(clast_cloud_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table));
     assert_int_equal(table.n_row, 2);
     assert_int_equal(table.n_column, 3 + 1 + 3 + 9);
     check_row(&table, "x", 0.5, 3.0);
@@ -67,12 +67,11 @@ static void binary_numbers_of_every_type_are_read(void **state)
                          cases[k].type);
         memcpy(file + n, cases[k].bytes, cases[k].n);
         n += (int)cases[k].n;
-        CHECK_OK(clast_points_parse("b.vtk", file, (size_t)n, NULL, &table));
+        CHECK_OK(clast_cloud_parse("b.vtk", file, (size_t)n, NULL, &table));
         check_row(&table, "x", 'a', 'd');
         check_row(&table, "s", cases[k].low, cases[k].high);
         clast_table_free(&table);
-        CHECK_STATUS(clast_points_parse("b.vtk", file, (size_t)n - 1, NULL, &table),
-                     CLAST_E_FORMAT);
+        CHECK_STATUS(clast_cloud_parse("b.vtk", file, (size_t)n - 1, NULL, &table), CLAST_E_FORMAT);
     }
 }
 
@@ -83,7 +82,7 @@ static void names_that_repeat_are_told_apart(void **state)
                                "float\n1 2 3\nPOINT_DATA 1\nSCALARS x float\nLOOKUP_TABLE "
                                "default\n9\nSCALARS x float\n8\n";
     clast_table table = {0};
-    CHECK_OK(clast_points_parse("c.vtk", file, sizeof file - 1, NULL, &table));
+    CHECK_OK(clast_cloud_parse("c.vtk", file, sizeof file - 1, NULL, &table));
     CHECK_ABS(clast_table_numbers(&table, "x")[0], 1.0, 0.0);
     CHECK_ABS(clast_table_numbers(&table, "x_2")[0], 9.0, 0.0);
     CHECK_ABS(clast_table_numbers(&table, "x_3")[0], 8.0, 0.0);
@@ -122,26 +121,26 @@ static void hdf5_arrays_and_folders_are_columns(void **state)
     const char *path = h5_file();
     clast_table table = {0};
     clast_points_options options = {.dataset = "run/pos"};
-    CHECK_OK(clast_points_read(path, &options, &table));
+    CHECK_OK(clast_cloud_read(path, &options, &table));
     assert_int_equal(table.n_row, 3);
     check_row(&table, "x", 1.0, 3.0);
     check_row(&table, "y", 2.0, 4.0);
     clast_table_free(&table);
     options.dataset = "/run";
-    CHECK_OK(clast_points_read(path, &options, &table));
+    CHECK_OK(clast_cloud_read(path, &options, &table));
     check_row(&table, "number", -1.0, 0.0);
     check_row(&table, "x", 1.0, 3.0);
     clast_table_free(&table);
     options.dataset = "/none";
-    CHECK_STATUS(clast_points_read(path, &options, &table), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_points_read(path, NULL, &table), CLAST_E_FORMAT); // "/" holds a folder only
+    CHECK_STATUS(clast_cloud_read(path, &options, &table), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_cloud_read(path, NULL, &table), CLAST_E_FORMAT); // "/" holds a folder only
     assert_null(table.column);
 }
 
 static clast_status read_once(void *context)
 {
     clast_table table = {0};
-    const clast_status status = clast_points_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table);
+    const clast_status status = clast_cloud_parse("a.vtk", vtk, sizeof vtk - 1, NULL, &table);
     (void)context;
     clast_table_free(&table);
     return status;
@@ -151,7 +150,7 @@ static clast_status read_h5_once(void *context)
 {
     clast_table table = {0};
     const clast_points_options options = {.dataset = "/run"};
-    const clast_status status = clast_points_read(context, &options, &table);
+    const clast_status status = clast_cloud_read(context, &options, &table);
     clast_table_free(&table);
     return status;
 }
@@ -169,14 +168,14 @@ static void surfaces_and_xyz_give_points(void **state)
     const size_t n[2] = {sizeof ply - 1, sizeof xyz - 1};
     for (int k = 0; k < 2; ++k) {
         clast_table table = {0};
-        CHECK_OK(clast_points_parse("a", text[k], n[k], NULL, &table));
+        CHECK_OK(clast_cloud_parse("a", text[k], n[k], NULL, &table));
         assert_int_equal(table.n_row, 2);
         assert_int_equal(table.n_column, k == 0 ? 3 : 5);
         check_row(&table, "x", 0.5, 3.0);
         check_row(&table, "y", 1.0, 4.0);
         check_row(&table, "z", 2.0, -0.5);
         clast_table_free(&table);
-        CHECK_STATUS(clast_points_parse("a", text[k], n[k] - 30, NULL, &table), CLAST_E_FORMAT);
+        CHECK_STATUS(clast_cloud_parse("a", text[k], n[k] - 30, NULL, &table), CLAST_E_FORMAT);
         assert_null(table.column);
     }
 }
@@ -185,7 +184,7 @@ static clast_status read_text_once(void *context)
 {
     const char *text = context;
     clast_table table = {0};
-    const clast_status status = clast_points_parse("a", text, strlen(text), NULL, &table);
+    const clast_status status = clast_cloud_parse("a", text, strlen(text), NULL, &table);
     clast_table_free(&table);
     return status;
 }

@@ -29,7 +29,7 @@ static void box_on_the_axis_is_solid_within(void **state)
     const double z[2] = {0.0, 2.0};
     const double none[2] = {2.0, 0.0};
     const clast_radial_options options = {CLAST_POROSITY_EXACT, 4, 20000};
-    CHECK_OK(clast_radial_porosity(&a, &bed, z, &options, &radial));
+    CHECK_OK(clast_porosity_radial(&a, &bed, z, &options, &radial));
     const double *porosity = clast_table_numbers(&radial, "porosity");
     const double *error = clast_table_numbers(&radial, "porosity_error");
     CHECK_ABS(porosity[0], 0.0, 4.0 * error[0]);
@@ -38,9 +38,9 @@ static void box_on_the_axis_is_solid_within(void **state)
     CHECK_ABS(porosity[2], 1.0 - (4.0 - CLAST_PI) / (CLAST_PI * 1.25), 4.0 * error[2]);
     CHECK_ABS(porosity[3], 1.0, 0.0);
     clast_table_free(&radial);
-    CHECK_STATUS(clast_radial_porosity(&a, &bed, none, &options, &radial), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_radial(&a, &bed, none, &options, &radial), CLAST_E_USAGE);
     CHECK_OK(clast_bed_parse("box:0,0,1,1", &bed));
-    CHECK_STATUS(clast_radial_porosity(&a, &bed, z, &options, &radial), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_radial(&a, &bed, z, &options, &radial), CLAST_E_USAGE);
     clast_assembly_free(&a);
     clast_shape_free(&shape);
     clast_mesh_free(&box);
@@ -197,7 +197,7 @@ static clast_status make_both(void *context)
     const clast_radial_options rings = {CLAST_POROSITY_SPHERES, 3, 10};
     clast_status status = clast_pores_measure(&s->assembly, &s->bed, z, &options, &pores);
     if (status == CLAST_OK) {
-        status = clast_radial_porosity(&s->assembly, &s->bed, z, &rings, &radial);
+        status = clast_porosity_radial(&s->assembly, &s->bed, z, &rings, &radial);
     }
     if (status == CLAST_OK) {
         const clast_porosity_options exact = clast_porosity_options_default();

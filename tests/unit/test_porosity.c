@@ -19,7 +19,7 @@ static double below(const clast_assembly *a, double z)
 {
     const double edge[2] = {-HUGE_VAL, z};
     double solid = 0.0;
-    CHECK_OK(clast_grain_slabs(a, 0, CLAST_POROSITY_EXACT, 1, edge, &solid));
+    CHECK_OK(clast_porosity_grain_slabs(a, 0, CLAST_POROSITY_EXACT, 1, edge, &solid));
     return solid;
 }
 
@@ -60,7 +60,7 @@ static void turned_box_is_halved_and_whole(void **state)
         for (int e = 0; e < 12; ++e) {
             edge[e] = -1.0 + e * 1.1;
         }
-        CHECK_OK(clast_grain_slabs(&a, 0, CLAST_POROSITY_EXACT, 11, edge, solid));
+        CHECK_OK(clast_porosity_grain_slabs(&a, 0, CLAST_POROSITY_EXACT, 11, edge, solid));
         for (int e = 0; e < 11; ++e) {
             assert_true(solid[e] >= -1e-13);
             sum += solid[e];

@@ -52,6 +52,10 @@ static void tangent_spheres_become_one_body(void **state)
         const clast_printable_config config = {.neck = 0.4, .spacing = 0.05};
         make_pair(&pair, as_mesh == 1, 0.0);
         CHECK_OK(clast_assembly_printable(&pair, &config, NULL, &mesh, &report));
+        clast_printable_report plan;
+        CHECK_OK(clast_assembly_printable_plan(&pair, &config, &plan));
+        assert_true(plan.neck == report.neck && plan.spacing == report.spacing);
+        CHECK_REL((double)plan.n_triangle_expected, (double)mesh.n_tri, 0.3);
         assert_int_equal(report.n_part, 1);
         assert_int_equal(report.n_void, 0);
         assert_int_equal(mesh.n_vert - mesh.n_tri / 2, 2);

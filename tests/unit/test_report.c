@@ -284,6 +284,27 @@ static void view_is_simplified_to_its_budget(void **state)
     clast_mesh_free(&fine);
 }
 
+/* A notebook's frame: the view and the policy, no run. */
+static void view_alone_is_a_page(void **state)
+{
+    (void)state;
+    clast_assembly assembly = {0};
+    clast_assembly empty = {0};
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/view.html", support_scratch());
+    make_assembly("</script><b>", &assembly);
+    CHECK_OK(clast_report_write_view(&assembly, NULL, path));
+    char *page = text_of(path);
+    check_has(page, "<title>clast</title>");
+    check_has(page, "Content-Security-Policy");
+    check_has(page, "\"n_grain\": 60, \"n_shown\": 60");
+    check_has(page, "</html>");
+    check_lacks(page, "<b>");
+    free(page);
+    CHECK_STATUS(clast_report_write_view(&empty, NULL, path), CLAST_E_GEOMETRY);
+    clast_assembly_free(&assembly);
+}
+
 static void folder_without_summary_is_refused(void **state)
 {
     (void)state;
@@ -334,7 +355,7 @@ static clast_status draw_sizes(void *context)
     size_t n = 0;
     const clast_status status =
         clast_aggregate_chart_svg(CLAST_AGGREGATE_CHART_POROSITY, context, NULL, &bytes, &n);
-    clast_bytes_free(bytes);
+    clast_chart_bytes_free(bytes);
     return status;
 }
 
@@ -382,6 +403,7 @@ int main(void)
         cmocka_unit_test(escaping_keeps_text_and_replaces_bytes_that_are_none),
         cmocka_unit_test(base64_is_that_of_the_rfc),
         cmocka_unit_test(view_is_simplified_to_its_budget),
+        cmocka_unit_test(view_alone_is_a_page),
         cmocka_unit_test(folder_without_summary_is_refused),
         cmocka_unit_test(charts_are_written_for_the_tables_that_fit),
         cmocka_unit_test(refused_memory_leaves_nothing),

@@ -198,6 +198,8 @@ static void whole_state_comes_back(void **state)
     assert_non_null(s.table[0].column[0].text);
     const clast_table *t = &s.table[1];
     assert_string_equal(t->name, "history");
+    assert_ptr_equal(clast_state_table(&s, "history"), t);
+    assert_null(clast_state_table(&s, "History"));
     assert_string_equal(t->column[0].name, "porosity/odd");
     assert_string_equal(t->column[2].unit, "m");
     assert_true(isnan(t->column[0].number[0]) && t->column[0].number[2] == 1.0 / 3.0);

@@ -154,8 +154,8 @@ static void a_pair_sticks_with_the_share_of_its_law(void **state)
     const clast_impact hit = spheres(50e-6, 20e-6, 2500.0, 0.0);
     const clast_collider a = {1.0, 50e-6, hit.mass[0], {0}, 0.0, 0.0};
     const clast_collider b = {1.0, 20e-6, hit.mass[1], {0}, 0.0, 0.0};
-    const double speed =
-        fabs(clast_settling_speed(&c.medium, &a) - clast_settling_speed(&c.medium, &b));
+    const double speed = fabs(clast_kernel_settling_speed(&c.medium, &a) -
+                              clast_kernel_settling_speed(&c.medium, &b));
     const double st = 8.0 * 2500.0 / (9.0 * 1e-2) * (100e-6 * 40e-6 / 140e-6) * speed;
     const double share = 1.0 / (1.0 + pow(st / 1.3, 0.8));
     assert_true(share > 0.1 && share < 0.9);

@@ -1,0 +1,271 @@
+"""Positions of particles: cells of uniform concentration, events, agglomeration in time."""
+from __future__ import annotations
+
+import ctypes
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+from ._boxes import warn_of_range
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, warn, whole
+from ._html import file_html
+from ._tables import Path, Table, table_of
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """Cells of uniform concentration, and what they say of events; NaN where the command prints null."""
+
+    n: int
+    n_outside: int
+    dimension: int
+    reject: bool
+    score: float
+    stop: str
+    n_cell: int
+    events: float
+    events_low: float
+    events_high: float
+    pair_integral: float
+    pair_integral_low: float
+    pair_integral_high: float
+    resolved: bool
+    points_needed: float
+    ideal_score: float
+    estimator: str  #: "cells", or "pairs" by distance
+    _cloud: Cloud = field(repr=False)
+    _owner: Owner = field(repr=False)
+
+    @cached_property
+    def cells(self) -> NDArray[Any]:
+        """low, high, volume, count, weight, events of each cell."""
+        kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
+        cells = np.zeros(self.n_cell, np.dtype(kinds))
+        for name, *kind in kinds:
+            cells[name] = view(self._owner, getattr(self._owner.struct.cells, name), (self.n_cell, *kind[1:]), kind[0])
+        return cells
+
+    @cached_property
+    def cell_of_point(self) -> NDArray[np.int32]:
+        """Each point's cell, -1 for points left out; the library's own memory."""
+        return fixed(self._owner, self._owner.struct.cells.of_point, (self.n + self.n_outside,), np.int32)
+
+    @cached_property
+    def tests(self) -> Table:
+        """The votes: name, statistic, p, reject."""
+        before = self._owner.struct.before
+        votes = [(v.name.decode(), v.statistic, v.p, float(v.reject)) for v in (before.vote[k] for k in range(before.n_test))]
+        return np.array(votes, [("name", "U16"), ("statistic", "f8"), ("p", "f8"), ("reject", "f8")]).view(Table)
+
+    @cached_property
+    def pairs(self) -> Table:
+        """g(r) in shells of distance, with pairs=True or the estimator "pairs"."""
+        return table_of(self._owner, self._owner.struct.pairs.shells)
+
+    @property
+    def n_repeated(self) -> int:
+        """Points that lie where another lies."""
+        return self._cloud.n_repeated
+
+    def chart(self, name: str, path: Path) -> None:
+        """Draws "points", "density", "score" or "events" ("pair_integral" without beta_dt) into an .svg, .pdf or .png file."""
+        names = [call("clast_decompose_chart_name")(k, ctypes.byref(self._owner.struct)).decode()
+                 for k in range(c.VALUES["CLAST_N_DECOMPOSE_CHART"])]
+        number = choice("name", name, "|".join(names))
+        if not call("clast_decompose_chart_fits")(number, ctypes.byref(self._owner.struct)):
+            raise refuse(f"name: nothing to draw for {name} ({self.stop})")
+        check(call("clast_decompose_chart_write")(number, ctypes.byref(self._cloud._struct()), ctypes.byref(self._owner.struct),
+                                                  encoded("path", path)))
+
+    def _repr_html_(self) -> str:
+        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (bool, int, float, str))})
+        return numbers + file_html(lambda path: self.chart("points", path), "svg", f"{self.n} points in {self.n_cell} cells")
+
+
+_COLUMNS = ("radius", "mass", "weight", "velocity", "variable")
+
+
+class Cloud:
+    """Positions (n, 1 to 3) [m] with what they carry; float64 arrays in C order are read where they lie, others converted once.
+
+    radius [m], mass [kg], weight (real particles that one stands for), variable (temperature or the like): (n,); velocity [m/s]: as
+    positions. `domain` ("box:0,0,0,1,1,1", "sphere:5mm") is that of decompose and agglomerate, unless they name another.
+    """
+
+    def __init__(self, positions: Any, *, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
+                 variable: Any = None, domain: str | None = None) -> None:
+        self._fill("positions", positions, dict(radius=radius, mass=mass, weight=weight, velocity=velocity, variable=variable))
+        self.domain = domain
+
+    def _fill(self, name: str, positions: Any, given: dict[str, Any]) -> None:
+        x = numbers(name, positions, [1, 2, 3])
+        self.positions: Floats = x
+        self._columns: dict[str, Floats] = {key: _column(key, value, x) for key, value in given.items() if value is not None}
+
+    @classmethod
+    def _named(cls, name: str, positions: Any, **given: Any) -> Cloud:
+        if isinstance(positions, Cloud):
+            doubled = [key for key, value in given.items() if value is not None]
+            if doubled:
+                raise refuse(f"{doubled[0]}: the cloud has its own columns; give arrays, or a Cloud with them")
+            return positions
+        cloud = cls.__new__(cls)
+        cloud._fill(name, positions, given)
+        cloud.domain = None
+        return cloud
+
+    @classmethod
+    def read(cls, path: Path, *, columns: Any = "x,y,z", unit: str = "", radius_column: str = "", diameter_column: str = "",
+             mass_column: str = "", velocity_columns: Any = "", weight_column: str = "", variable_column: str = "", dataset: str = "",
+             frame: int = 0, domain: str | None = None) -> Cloud:
+        """The points of a CSV, VTK, LAMMPS dump or HDF5 file, as `clast decompose` takes them; columns without a unit are in `unit`."""
+        table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
+        options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
+        check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
+        names = dict(radius_column=radius_column, diameter_column=diameter_column, mass_column=mass_column, weight_column=weight_column,
+                     variable_column=variable_column, unit=unit)
+        wanted = c.clast_cloud_columns(**{name: encoded(name, text) for name, text in names.items()})
+        lists = [_text_list(columns), _text_list(velocity_columns)]
+        wanted.columns, wanted.velocity_columns = lists
+        check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
+        owner, n, dimension = Owner(struct, "clast_cloud_free"), struct.n, struct.dimension
+        shapes = {key: (n, dimension) if key == "velocity" else (n,) for key in _COLUMNS}
+        given = {key: view(owner, getattr(struct, key), shape, np.float64) for key, shape in shapes.items() if getattr(struct, key)}
+        return cls(view(owner, struct.x, (n, dimension), np.float64), domain=domain, **given)
+
+    def _struct(self) -> Any:
+        struct = c.clast_cloud()
+        struct.n, struct.dimension = self.positions.shape
+        for name, array in (("x", self.positions), *self._columns.items()):
+            setattr(struct, name, ctypes.cast(array.ctypes.data, ctypes.POINTER(ctypes.c_double)))
+        return struct
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __getattr__(self, name: str) -> Floats:
+        """radius, mass, weight, velocity, variable: the arrays that the cloud has."""
+        if name in _COLUMNS and name in self._columns:
+            return self._columns[name]
+        raise AttributeError(f"this cloud has no {name}" if name in _COLUMNS else name)
+
+    @property
+    def n_repeated(self) -> int:
+        """Points that lie where another lies."""
+        n = ctypes.c_int64()
+        check(call("clast_cloud_repeated")(ctypes.byref(self._struct()), ctypes.byref(n)))
+        return n.value
+
+    def decompose(self, **keys: Any) -> Decomposition:
+        """As clast.decompose."""
+        return decompose(self, **keys)
+
+    def agglomerate(self, **keys: Any) -> Agglomeration:
+        """As clast.agglomerate, from this snapshot alone."""
+        return agglomerate(self, **keys)
+
+    def _repr_html_(self) -> str:
+        low, high = self.positions.min(axis=0), self.positions.max(axis=0)
+        return html_table({"points": len(self), "domain": self.domain or "none", "columns": ", ".join(["positions", *self._columns]),
+                           "least (m)": " ".join(f"{x:.6g}" for x in low), "greatest (m)": " ".join(f"{x:.6g}" for x in high)})
+
+
+def _text_list(value: Any) -> Any:
+    items = [encoded("text", text) for text in ([value] if isinstance(value, str) else value) if text]
+    return c.clast_text_list(n=len(items), item=(ctypes.c_char_p * max(1, len(items)))(*items))
+
+
+def _column(name: str, value: Any, x: Floats) -> Floats:
+    array = numbers(name, value, [x.shape[1]] if name == "velocity" else None)
+    if len(array) != len(x):
+        raise refuse(f"{name}: {len(array)} rows where there are {len(x)} positions")
+    return array
+
+
+def _domain(cloud: Cloud, domain: str | None) -> str:
+    chosen = domain if domain is not None else cloud.domain
+    if chosen is None:
+        raise refuse("domain: is missing, as in domain='box:0,0,0,1,1,1'; it is never guessed from the points")
+    return chosen
+
+
+def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
+              variable: Any = None, **keys: Any) -> Decomposition:
+    """Splits a Cloud, or positions (n, 1 to 3) [m], into cells of uniform concentration and counts events.
+
+    float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
+    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
+    """
+    cloud = Cloud._named("positions", positions, radius=radius, mass=mass, weight=weight, velocity=velocity, variable=variable)
+    result = c.clast_decomposition()
+    with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": _domain(cloud, domain), **keys}) as config:
+        check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
+    if result.n_pass > 0 and result.points_per_bin < 10:
+        warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
+    return _decomposition(Owner(result, "clast_decomposition_free"), cloud)
+
+
+@dataclass(frozen=True)
+class Agglomeration:
+    """A cloud that agglomerates in time: tables as the command writes them (history.csv, particles.csv, spectrum.csv)."""
+
+    history: Table
+    particles: Table
+    spectrum: Table
+    n_rebuilt: int
+    n_cell: int
+
+    def _repr_html_(self) -> str:
+        last = self.history[-1]
+        return html_table({name: float(last[name]) for name in ("time_s", "n_particle", "M1", "M2", "events") if name in last.dtype.names})
+
+
+def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
+                monomers: Any = None, speed_rms: Any = None, temperature: Any = None, shear: Any = None, dissipation: Any = None,
+                **keys: Any) -> Agglomeration:
+    """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
+
+    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
+    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    duration="10s", n_step=100, seed=1).
+    """
+    if not snapshots:
+        raise refuse("snapshots: none is given")
+    columns = dict(radius=radius, mass=mass, weight=weight, velocity=velocity)
+    made = [Cloud._named(f"snapshot {k + 1}", x, **(columns if k == 0 else {})) for k, x in enumerate(snapshots)]
+    clouds = (c.clast_cloud * len(made))(*(cloud._struct() for cloud in made))
+    given, held = c.clast_agglomerate_input(), []
+    given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
+    for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
+        if value is not None and name != "monomers" and (isinstance(value, str) or np.ndim(value) == 0):
+            keys[name] = value  # of all particles
+        elif value is not None:
+            held.append(_column(name, value, made[0].positions))
+            setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
+    tables = ("clast_agglomerate_fields", "clast_decompose_fields")
+    owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
+    with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
+        check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
+    r = owner.struct
+    warn_of_range(r.range)
+    return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
+
+
+def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
+    r, nan = owner.struct, float("nan")
+    is_bound = not math.isnan(r.events_low)
+    given = tuple(v if math.isfinite(v) else nan for v in
+                  (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
+    none = (nan, nan, nan)
+    events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
+    estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
+    return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
+                         ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
+                         n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved,
+                         points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

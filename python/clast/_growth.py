@@ -1,0 +1,70 @@
+"""Aggregates and packings: the same numbers as `clast aggregate --json` and `clast pack --json`."""
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from typing import Any
+
+from . import _bindings as c
+from ._core import Config, Monitor, Progress, call, check, encoded, refuse, text_of
+from ._runs import Result
+from ._tables import Path
+
+
+def aggregate(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
+    """Grows virtual aggregates grain by grain: aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um").
+
+    With `output` the run's folder is written, checkpoints on the way; Ctrl-C then ends at one, and aggregate(resume="run") goes on.
+    fit=True finds what packing explains an observed size, density or settling velocity (`verdict`, `words`).
+    """
+    report = c.clast_aggregate_report()
+    monitor = Monitor(progress)
+    folder = None if output is None else encoded("output", output)
+    resumed = _resumed(output, keys)
+    try:
+        with Config(c.clast_aggregate_config(), "clast_aggregate_fields", keys) as config:
+            if config.struct.fit:
+                return _aggregate_fit(config, output, monitor)
+            check(monitor.run(lambda m: call("clast_aggregate_resume")(encoded("resumed", resumed), None, m, ctypes.byref(report)) if resumed else
+                              call("clast_aggregate_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(report))))
+        values = json.loads(text_of(lambda text: call("clast_aggregate_report_json")(ctypes.byref(report), True, text)))
+        return Result(values, resumed if output is None else os.fspath(output))
+    finally:
+        call("clast_aggregate_report_free")(ctypes.byref(report))
+
+
+def _resumed(output: Path | None, keys: dict[str, Any], free: str = "") -> str | None:
+    """The folder to go on with; every other key is the folder's own."""
+    if not keys.get("resume"):
+        return None
+    others = [name for name, value in keys.items() if name not in ("resume", free) and value is not None]
+    if others or output is not None:
+        raise refuse(f"resume: {os.fspath(keys['resume'])} has every key; leave {(others or ['output'])[0]} out")
+    folder: str = os.fspath(keys["resume"])
+    return folder
+
+
+def _aggregate_fit(config: Config, output: Path | None, monitor: Monitor) -> Result:
+    found = c.clast_aggregate_fit()
+    folder = None if output is None else encoded("output", output)
+    check(monitor.run(lambda m: call("clast_aggregate_fit_study")(ctypes.byref(config.struct), folder, m, ctypes.byref(found))))
+    values = json.loads(text_of(lambda text: call("clast_aggregate_fit_json")(ctypes.byref(found), text)))
+    return Result(values, None if output is None else os.fspath(output))
+
+
+def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) -> Result:
+    """Pours, shakes and calms a bed of grains: pack(curve="4mm", mass="2g", width="30mm", height=0.1, shaking_time=0)."""
+    result = c.clast_pack_result()
+    monitor = Monitor(progress)
+    folder = None if output is None else encoded("output", output)
+    resumed = _resumed(output, keys, "max_steps")
+    try:
+        with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
+            most = config.struct.max_steps
+            check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, m, ctypes.byref(result)) if resumed else
+                              call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+        values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
+        return Result(values, resumed if output is None else os.fspath(output))
+    finally:
+        call("clast_pack_result_free")(ctypes.byref(result))

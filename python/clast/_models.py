@@ -1,0 +1,272 @@
+"""Porosity of beds from the forms of their grains: published models, and fits of one's own."""
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from . import _bindings as c
+from ._core import Config, Error, Owner, call, check, choice, encoded, html_table, keys, refuse, settled, warn
+from ._html import file_html
+from ._tables import Path, Table, given_table, read_table, table_of
+
+Moments = float | str | tuple[float, float]
+
+
+class Model:
+    """porosity = intercept + sum of coefficient times feature; from a name ("single_form_U1") or a file of `clast fit`."""
+
+    def __init__(self, name: Path) -> None:
+        struct = c.clast_porosity_model()
+        number = call("clast_porosity_model_find")(encoded("name", name))
+        check(call("clast_porosity_model_published")(number, ctypes.byref(struct)) if number >= 0 else
+              call("clast_porosity_model_read")(encoded("name", name), ctypes.byref(struct)))
+        self._keep(Owner(struct, "clast_porosity_model_free"), struct)
+
+    @classmethod
+    def _of(cls, owner: Owner, struct: Any) -> Model:
+        model = cls.__new__(cls)
+        model._keep(owner, struct)
+        return model
+
+    def _keep(self, owner: Owner, struct: Any) -> None:
+        self._owner, self._model = owner, struct
+        self.name: str = struct.name.decode()
+        self.source: str = struct.source.decode()
+        self.kind: str = call("clast_model_kind_name")(struct.kind).decode()
+        self.intercept: float = struct.intercept
+        self.coefficients: dict[str, float] = {struct.term[k].feature.decode(): struct.term[k].coefficient for k in range(struct.n_term)}
+        self.ranges: dict[str, tuple[float, float]] = {struct.range[k].feature.decode(): (struct.range[k].low, struct.range[k].high)
+                                                       for k in range(struct.n_range)}
+
+    def write(self, path: Path) -> None:
+        """Writes the model as JSON, for predict(model=path) and `clast predict --model`."""
+        note = (ctypes.c_char_p * 2)(b"clast", c.VERSION.encode())
+        check(call("clast_porosity_model_write")(ctypes.byref(self._model), note, 1, encoded("path", path)))
+
+    def _repr_html_(self) -> str:
+        return html_table([(self.name, ""), ("intercept", self.intercept), *self.coefficients.items()], ("term", "coefficient"), self.source)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Porosity of a bed by a linear model; errors are one standard error."""
+
+    model: str
+    porosity: float
+    standard_error: float
+    model_error: float
+    coefficient_error: float
+    sampling_error: float  #: of a limited number of grains; 0: not known
+    in_range: bool
+    out_of_range: tuple[str, ...] = ()  #: features outside the range of the model's data
+    leverage: float = float("nan")
+    kind: str = "single_form"
+    source: str = ""
+    inputs: dict[str, Any] = field(default_factory=dict)
+
+    def _repr_html_(self) -> str:
+        return html_table({k: v for k, v in vars(self).items() if not isinstance(v, (dict, tuple))})
+
+
+def _moments(name: str, value: Moments) -> tuple[float, float | None]:
+    """Mean, and standard deviation where there is one."""
+    if isinstance(value, str):
+        parts = re.split(r"\+-|\+/-|\u00b1", value)
+        try:
+            return float(parts[0]), float(parts[1]) if len(parts) == 2 else None if len(parts) == 1 else float("")
+        except ValueError:
+            raise refuse(f"{name}: '{value}' is no mean, as 0.65, or mean and standard deviation, as 0.65+-0.17") from None
+    return (float(value[0]), float(value[1])) if isinstance(value, (tuple, list)) else (float(value), None)
+
+
+def _choose(model: Model | Path, grading: str, has_spread: bool) -> Model:
+    """The model by "auto", "single" or "mixture" for a published grading, by its published name, or of a file."""
+    if isinstance(model, Model):
+        return model
+    word = os.fspath(model)
+    choice("grading", grading, keys("predict")["grading"].choices or "")
+    if word not in ("auto", "single", "mixture"):
+        return Model(model)
+    is_mixture = word == "mixture" or (word == "auto" and has_spread)
+    name = f"{'form_mixture' if is_mixture else 'single_form'}_{grading}"
+    if call("clast_porosity_model_find")(encoded("name", name)) < 0:
+        raise refuse(f"grading: no form-mixture model was published for {grading}; take model='single', or U1 or U7")
+    return Model(name)
+
+
+def _prediction(model: Model, found: Any, inputs: Any, source: str) -> Prediction:
+    told = {name: getattr(inputs, name) for name in ("n_grain", "flatness_mean", "flatness_deviation", "elongation_mean",
+                                                     "elongation_deviation", "equancy_mean", "equancy_deviation")}
+    outside = tuple(model._model.range[found.outside[k]].feature.decode() for k in range(min(found.n_outside, len(found.outside))))
+    return Prediction(model.name, found.porosity, found.standard_error, found.model_error, found.coefficient_error, found.sampling_error,
+                      found.in_range, outside, found.leverage, model.kind, model.source,
+                      {"from": source, **told, "equancy_by_independence": inputs.is_independent})
+
+
+def predict(flatness: Moments | None = None, elongation: Moments | None = None, *, table: Any = None, model: Model | Path = "auto",
+            grading: str = "U1", grains: int = 0, columns: str = "", resamples: int = 500, seed: int = 1) -> Prediction:
+    """Porosity of a bed from its grains' form [Rettinger2022 eqs 17-19, 23, 24], or by a model of one's own.
+
+    Either mean S/I and I/L, each a number, (mean, standard deviation) or "0.65+-0.17", and the number of `grains` behind them; or a
+    `table` with a row a grain (a file, a structured array, a DataFrame, a dictionary of columns), with flatness and elongation or L, I
+    and S. "auto" takes the model of a mixture where forms vary, else the one of a single form; `grading` names the size distribution.
+    """
+    if (table is None) == (flatness is None and elongation is None):
+        raise refuse("predict: give a table of grains, or flatness and elongation" + ("" if table is None else ", not both"))
+    if table is None:
+        return _predict_moments(flatness, elongation, model, grading, grains)
+    owner, rows = Owner(c.clast_form_set(), "clast_form_set_free"), given_table("table", table)
+    if _choose(model, grading, False).kind == "columns":
+        raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    _complain(owner)
+    chosen = _choose(model, grading, owner.struct.n > 1)
+    inputs, found = c.clast_form_inputs(), c.clast_prediction()
+    given = settled("predict", dict(resamples=resamples, seed=seed))
+    bootstrap = c.clast_bootstrap(n_resample=given["resamples"], level=0.95, seed=given["seed"])
+    check(call("clast_porosity_predict_set")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(bootstrap),
+                                             ctypes.byref(inputs), ctypes.byref(found)))
+    return _prediction(chosen, found, inputs, "table")
+
+
+def _complain(forms: Owner) -> None:
+    """Warns of the rows of a table that were left out."""
+    words = ctypes.create_string_buffer(512)
+    call("clast_form_set_complaint")(ctypes.byref(forms.struct), ctypes.cast(words, ctypes.c_char_p), len(words))
+    if words.value:
+        warn(words.value.decode("utf-8", "replace"))
+
+
+def _predict_moments(flatness: Moments | None, elongation: Moments | None, model: Model | Path, grading: str, grains: int) -> Prediction:
+    if flatness is None or elongation is None:
+        raise refuse(f"{'flatness' if flatness is None else 'elongation'}: is missing; give both flatness and elongation")
+    pairs = [_moments("flatness", flatness), _moments("elongation", elongation)]
+    if (pairs[0][1] is None) != (pairs[1][1] is None):
+        raise refuse("flatness, elongation: one has a deviation and the other has none")
+    has_spread = sum(d or 0.0 for _, d in pairs) > 0
+    chosen = _choose(model, grading, has_spread)
+    inputs, found = c.clast_form_inputs(), c.clast_prediction()
+    mean = (ctypes.c_double * 2)(*(m for m, _ in pairs))
+    deviation = (ctypes.c_double * 2)(*(d or 0.0 for _, d in pairs)) if has_spread else None
+    count = settled("predict", dict(grains=grains))["grains"]
+    check(call("clast_form_inputs_from_moments")(mean, deviation, count, ctypes.byref(inputs)))
+    check(call("clast_porosity_predict_moments")(ctypes.byref(chosen._model), ctypes.byref(inputs), ctypes.byref(found)))
+    return _prediction(chosen, found, inputs, "moments")
+
+
+def predict_beds(table: Any, *, model: Model | Path = "auto", grading: str = "U1", columns: str = "") -> Table:
+    """One porosity a row, each a bed of that one form (`clast predict --each`) or of the columns that a model of one's own takes.
+
+    Columns row (from 1), porosity, standard_error, in_range; rows that cannot be used are missing.
+    """
+    rows, beds = given_table("table", table), Owner(c.clast_table(), "clast_table_free")
+    chosen = _choose(model, grading, False)
+    if chosen.kind == "columns":
+        check(call("clast_porosity_predict_columns")(ctypes.byref(chosen._model), ctypes.byref(rows.struct), ctypes.byref(beds.struct)))
+        return table_of(beds)
+    owner = Owner(c.clast_form_set(), "clast_form_set_free")
+    check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    _complain(owner)
+    check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
+    return table_of(beds)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A linear porosity model of a table of beds, and how good it is; tables as `clast fit -o` writes them."""
+
+    model: Model
+    n_bed: int
+    n_left_out: int
+    n_candidate: int
+    n_removed: int
+    r2: float
+    cv_mean_error: float
+    cv_median_error: float
+    r2_held_out: float
+    p_value: float
+    residual_deviation: float
+    condition: float
+    terms: Table
+    ranking: Table
+    trials: Table
+    rows: Table
+    features: Table
+    left_out: Table
+    _data: Owner = field(repr=False)
+    _fit: Owner = field(repr=False)
+
+    def chart(self, name: str, path: Path) -> None:
+        """Draws "feature", "predicted", "residuals" or "leverage" into an .svg, .pdf or .png file."""
+        names = "|".join(call("clast_fit_chart_name")(k).decode() for k in range(c.VALUES["CLAST_N_FIT_CHART"]))
+        number = choice("name", name, names)
+        check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), encoded("path", path)))
+
+    def _repr_html_(self) -> str:
+        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
+        return numbers + self.model._repr_html_() + file_html(lambda path: self.chart("predicted", path), "svg", "predicted and measured")
+
+
+def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "fitted", **keys: Any) -> Fit:
+    """Fits a linear porosity model to a table of beds [Rettinger2022 sec. 6.3, 7.2].
+
+    `table` has a row a bed (a file, a structured array, a DataFrame, a dictionary of columns); with `grains` a second table, or the
+    folder of a study of `clast pack`, holds the grains of all beds, and a column of both (group="bed") names the bed.
+    """
+    beds = given_table("table", table)
+    data, made = Owner(c.clast_fit_data(), "clast_fit_data_free"), Owner(c.clast_porosity_fit(), "clast_porosity_fit_free")
+    choice("features", features, c.KEYS["fit"]["features"][5] or "")
+    with Config(c.clast_porosity_fit_config(), "clast_porosity_fit_fields", keys) as config:
+        what = features if features != "auto" else "mixture" if grains is not None else \
+            "form" if _has_forms(beds, config.struct.columns) else "columns"
+        if (what == "mixture") != (grains is not None):
+            raise refuse("features: 'mixture' and grains belong together: the features are means and deviations over the grains")
+        ends = (ctypes.byref(config.struct), ctypes.byref(data.struct))
+        if what == "mixture":
+            group = config.struct.group.decode()
+            rows = given_table("grains", _study_grains(grains, table_of(beds), group) if _is_folder(grains) else grains)
+            check(call("clast_fit_data_mixture")(ctypes.byref(beds.struct), ctypes.byref(rows.struct), *ends))
+        else:
+            check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
+        source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name),
+                                              encoded("source", source), ctypes.byref(made.struct)))
+    return _fit(data, made)
+
+
+def _fit(data: Owner, made: Owner) -> Fit:
+    m, f = made.struct.model, made.struct
+    return Fit(Model._of(made, m), m.n_bed, data.struct.left_out.n_row, data.struct.beds.n_column - 2, f.n_removed, m.r2, m.cv_mean_error,
+               m.cv_median_error, f.r2_held_out, f.p_value, m.deviation, f.condition,
+               **{name: table_of(made, getattr(f, name)) for name in ("terms", "ranking", "trials", "rows")},
+               features=table_of(data, data.struct.beds), left_out=table_of(data, data.struct.left_out), _data=data, _fit=made)
+
+
+def _has_forms(beds: Owner, columns: bytes) -> bool:
+    owner = Owner(c.clast_form_set(), "clast_form_set_free")
+    return bool(call("clast_form_set_of")(ctypes.byref(beds.struct), columns, ctypes.byref(owner.struct)) == 0)
+
+
+def _is_folder(value: Any) -> bool:
+    return isinstance(value, (str, os.PathLike)) and os.path.isdir(value)
+
+
+def _study_grains(folder: Path, beds: Table, group: str) -> dict[str, Any]:
+    """Forms of the grains of a study's runs that ended well."""
+    if group not in beds.columns or beds[group].dtype.kind != "f":
+        raise refuse(f"table: no column of numbers '{group}' names the run (group='run')")
+    is_good = beds["exit_code"] == 0 if "exit_code" in beds.columns else np.ones(len(beds), bool)
+    parts = []
+    for run in beds[group][is_good]:
+        grains = read_table(os.path.join(folder, "runs", f"{int(run):06d}", "out", "grains.csv"))
+        if not {"flatness", "elongation"} <= set(grains.columns):
+            raise Error("CLAST_E_FORMAT", f"grains: run {int(run)} of {os.fspath(folder)} has no columns flatness and elongation")
+        parts.append((np.full(len(grains), run), grains["flatness"], grains["elongation"]))
+    if not parts:
+        raise refuse(f"grains: no run of {os.fspath(folder)} ended well")
+    return {name: np.concatenate(column) for name, column in zip((group, "flatness", "elongation"), zip(*parts))}

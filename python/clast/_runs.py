@@ -1,0 +1,203 @@
+"""What a run leaves: results by name, its folder, its grains."""
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import tempfile
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _bindings as c
+from ._core import Config, Floats, Owner, Quantity, call, check, choice, encoded, fixed, html_table, refuse, settled, view
+from ._html import View, file_html, picture_html
+from ._tables import Path, Table, read_table, table_of
+
+
+@dataclass(frozen=True)
+class Result:
+    """A run's results under the names of its summary.json: `result.porosity`, `result["porosity"]`."""
+
+    values: dict[str, Any]
+    folder: str | None
+
+    def __getitem__(self, name: str) -> Any:
+        return self.values[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self.values:
+            raise AttributeError(f"no result {name}; there are {', '.join(self.values)}" if not name.startswith("_") else name)
+        return self.values[name]
+
+    @property
+    def run(self) -> Run:
+        """The run's folder, where one was written."""
+        if self.folder is None:
+            raise refuse("run: no folder was written; call with output=FOLDER")
+        return Run(self.folder)
+
+    def _repr_html_(self) -> str:
+        numbers = html_table({k: v for k, v in self.values.items() if not isinstance(v, (list, dict))})
+        return self.run._shown(numbers) if self.folder is not None and os.path.isdir(self.folder) else numbers
+
+
+class Assembly:
+    """Placed grains: views of the state's own memory."""
+
+    def __init__(self, owner: Owner) -> None:
+        a = owner.struct
+        n = a.n_grain
+        self._owner = owner
+        self.unit: str = a.unit.decode()
+        self.positions: Floats = view(owner, a.position, (n, 3), np.float64)
+        self.orientations: Floats = view(owner, a.orientation, (n, 4), np.float64)  #: quaternions w, x, y, z
+        self.scales: Floats = view(owner, a.scale, (n,), np.float64)
+        self.densities: Floats = view(owner, a.density, (n,), np.float64)
+        self.shape_ids: NDArray[np.int32] = fixed(owner, a.shape_id, (n,), np.int32)
+
+    @classmethod
+    def read(cls, path: Path) -> Assembly:
+        """The grains of a state file or a run's folder."""
+        found = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"])
+        check(call("clast_run_folder_state")(encoded("path", path), ctypes.cast(found, ctypes.c_char_p)))
+        struct = c.clast_assembly()
+        check(call("clast_state_read_assembly")(found.value, ctypes.byref(struct)))
+        return cls(Owner(struct, "clast_assembly_free"))
+
+    @classmethod
+    def read_spheres(cls, path: Path, *, columns: str = "", diameter: Quantity = 0.0) -> Assembly:
+        """Spheres that another program placed: text, .xyz, LAMMPS dump, VTK points; columns as in "id,x,y,z,d", `diameter` of all."""
+        size = ctypes.c_double(diameter if not isinstance(diameter, str) else 0.0)
+        if isinstance(diameter, str):
+            check(call("clast_unit_parse")(encoded("diameter", diameter), b"m", ctypes.byref(size)))
+        options, struct = c.clast_packing_options(columns=encoded("columns", columns), diameter=size.value), c.clast_assembly()
+        check(call("clast_packing_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(struct)))
+        return cls(Owner(struct, "clast_assembly_free"))
+
+    def _copy(self) -> Assembly:
+        struct = c.clast_assembly()
+        check(call("clast_assembly_copy")(ctypes.byref(self._owner.struct), ctypes.byref(struct)))
+        return Assembly(Owner(struct, "clast_assembly_free"))
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    @property
+    def volume(self) -> float:
+        """Sum of the grains' own volumes."""
+        return float(call("clast_assembly_volume")(ctypes.byref(self._owner.struct)))
+
+    def write(self, path: Path) -> None:
+        """Writes VTU, STL, OBJ, PLY, 3MF, CSV, dump or JSON by the name's end; lengths are in the assembly's own unit."""
+        check(call("clast_assembly_write")(ctypes.byref(self._owner.struct), encoded("path", path), None, None))
+
+    def view(self, triangles: int = 100_000, title: str = "clast") -> View:
+        """The interactive 3-D view, grains simplified to so many triangles together."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "view.html")
+            with Config(c.clast_report_config(), "clast_report_fields", {"title": title, "triangles": triangles}) as config:
+                check(call("clast_report_write_view")(ctypes.byref(self._owner.struct), ctypes.byref(config.struct), encoded("path", path)))
+            with _open_file(path, "rb") as file:
+                return View(file.read(), title)
+
+    def _picture(self) -> str:
+        from ._views import render  # which draws assemblies
+        return file_html(render(self, width=480, height=360).write, "png", f"{len(self)} grains")
+
+    def _repr_html_(self) -> str:
+        numbers = html_table({"grains": len(self), "unit of length": self.unit, f"volume ({self.unit}3)": self.volume})
+        return numbers + (self._picture() + self.view()._repr_html_() if len(self) else "")
+
+    def table(self) -> Table:
+        """One row a grain, as `clast export -o grains.csv`."""
+        table = c.clast_table()
+        check(call("clast_assembly_table")(ctypes.byref(self._owner.struct), ctypes.byref(table)))
+        return table_of(Owner(table, "clast_table_free"))
+
+
+def export(run: Path | Assembly, output: Path, *, level: int = 3, points: bool = False, colour: str = "grain", table: str = "",
+           unit: str = "") -> dict[str, Any]:
+    """Writes a run's grains as VTU, STL, OBJ, PLY, 3MF, CSV, JSON or LAMMPS dump by the name's end, or one `table` of the run.
+
+    STL, OBJ and PLY name no unit: they are in mm unless `unit` says else. Tells format, unit and counts.
+    """
+    given = settled("export", dict(level=level, points=points, colour=colour, table=table, unit=unit))
+    if table:
+        if isinstance(run, Assembly):
+            raise refuse("table: an assembly has none; give the run's folder")
+        state_table(run, table).write(output)
+        return {"file": os.fspath(output), "table": table}
+    grains = run if isinstance(run, Assembly) else Assembly.read(run)
+    bare = call("clast_export_format_of_path")(encoded("output", output)) in [c.VALUES[f"CLAST_EXPORT_{n}"] for n in ("STL", "OBJ", "PLY")]
+    chosen = unit or ("mm" if bare and grains.unit not in ("", "model") else None)
+    options = c.clast_export_options(level=given["level"], points=points, colour=choice("colour", colour, "grain|order|size|shape"),
+                                     unit=None if chosen is None else encoded("chosen", chosen))
+    told = c.clast_export_report()
+    check(call("clast_assembly_write")(ctypes.byref(grains._owner.struct), encoded("output", output), ctypes.byref(options), ctypes.byref(told)))
+    return {"file": os.fspath(output), "format": call("clast_export_format_name")(told.format).decode(), "unit": told.unit.decode(),
+            "n_grain": len(grains), "n_vertex": told.n_vertex, "n_triangle": told.n_triangle}
+
+
+def state_table(run: Path, name: str) -> Table:
+    """A table that the run's state holds ("history")."""
+    found, owner = ctypes.create_string_buffer(c.VALUES["CLAST_RUN_PATH"]), Owner(c.clast_table(), "clast_table_free")
+    check(call("clast_run_folder_state")(encoded("run", run), ctypes.cast(found, ctypes.c_char_p)))
+    check(call("clast_state_read_table")(found.value, encoded("name", name), ctypes.byref(owner.struct)))
+    return table_of(owner)
+
+
+class Run:
+    """A run's folder: its summary, manifest, tables and grains."""
+
+    def __init__(self, folder: Path) -> None:
+        check(call("clast_run_folder_check")(encoded("folder", folder)))
+        self.folder = os.fspath(folder)
+        if self._has("study.json"):  # a folder of runs: each has its manifest
+            self.manifest: dict[str, Any] = {"command": "study", "study": self._json("study.json")}
+            codes = self.table("results")["exit_code"]
+            self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int((codes == 0).sum()), "n_failed": int((codes > 0).sum())}
+        else:
+            self.manifest, self.summary = self._json("manifest.json"), self._json("summary.json")
+        self.command: str = self.manifest["command"]
+
+    def _json(self, name: str) -> dict[str, Any]:
+        with _open_file(os.path.join(self.folder, name)) as file:
+            values: dict[str, Any] = json.load(file)
+        return values
+
+    @property
+    def grains(self) -> Assembly:
+        return Assembly.read(self.folder)
+
+    def table(self, name: str) -> Table:
+        """A table of the folder by its name ("history", "profile")."""
+        return read_table(os.path.join(self.folder, name + ".csv"))
+
+    def view(self, triangles: int = 100_000) -> View:
+        """The interactive 3-D view of its grains."""
+        return self.grains.view(triangles, os.path.basename(os.path.abspath(self.folder)))
+
+    def _shown(self, numbers: str) -> str:
+        """Numbers, picture and 3-D view, as far as the run has them."""
+        pictures = [name for name in ("picture.png", "points.svg", "predicted.svg", "history.svg", "profile.svg", "spectrum.svg", "zingg.svg") if self._has(name)][:1]
+        for name in pictures:
+            with _open_file(os.path.join(self.folder, name), "rb") as file:
+                numbers += picture_html(file.read(), name[-3:], f"{self.command}: {name}")
+        return numbers + (("" if pictures else self.grains._picture()) + self.view()._repr_html_() if self._has("state.h5") else "")
+
+    def _has(self, name: str) -> bool:
+        return os.path.isfile(os.path.join(self.folder, name))
+
+    def _repr_html_(self) -> str:
+        return self._shown(html_table({k: v for k, v in self.summary.items() if not isinstance(v, (list, dict))}))
+
+
+_open_file = open
+
+
+def open(folder: Path) -> Run:  # noqa: A001 (clast.open)
+    """A run's folder, whatever command wrote it."""
+    return Run(folder)

@@ -1,0 +1,155 @@
+"""Many runs of one command, in parallel, resumable, one table out."""
+from __future__ import annotations
+
+import ctypes
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from . import _bindings as c
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse, warn
+from ._tables import Path, Table, read_table
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study's folder: how its runs went, and tables of what varied and came out."""
+
+    folder: str
+    n_run: int
+    n_before: int
+    n_done: int
+    n_failed: int
+    n_other: int
+
+    @property
+    def results(self) -> Table:
+        """A row a run: what varied, seed, exit code, every number of its results."""
+        return read_table(os.path.join(self.folder, "results.csv"))
+
+    @property
+    def times(self) -> Table:
+        """Results that differ from run to run (wall_s)."""
+        return read_table(os.path.join(self.folder, "times.csv"))
+
+    @property
+    def plan(self) -> Table:
+        return read_table(os.path.join(self.folder, "plan.csv"))
+
+    def _repr_html_(self) -> str:
+        return self.results._repr_html_()
+
+
+def _program() -> str:
+    """The command clast of this version: CLAST, beside the package or the interpreter (where pip puts it), or on the PATH."""
+    beside = [place / "clast" for place in (pathlib.Path(__file__).parent, pathlib.Path(sys.executable).parent)]
+    path = os.environ.get("CLAST") or next((str(one) for one in beside if one.is_file()), shutil.which("clast"))
+    if path is None or shutil.which(path) is None:
+        raise ImportError(f"clast.study: its runs are processes of the command clast, which is not {'at ' + path if path else 'on the PATH'}; "
+                          "install clast (make install), or set CLAST to the file")
+    version = subprocess.run([path, "--version"], stdout=subprocess.PIPE, text=True).stdout.split()[-1:]
+    if version != [c.VERSION]:
+        raise ImportError(f"clast.study: {path} is version {' '.join(version) or 'unknown'}, this package is for {c.VERSION}")
+    return os.path.abspath(shutil.which(path) or path)
+
+
+class _Workers:
+    """Processes of a study; the library calls these from one thread."""
+
+    START = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.POINTER(c.clast_study_item))
+    WAIT = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.POINTER(ctypes.c_int64), ctypes.POINTER(ctypes.c_int))
+    STOP = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+
+    def __init__(self, program: str, command: str) -> None:
+        self._program = program
+        self._busy: dict[int, subprocess.Popen[bytes]] = {}
+        self.failed: BaseException | None = None
+        self._held = (self.START(self._start), self.WAIT(self._wait), self.STOP(self._stop))
+        self.struct = c.clast_study_worker(has_folder=command in _FOLDERS, has_seed="seed" in c.KEYS[command],
+                                           has_resume="resume" in c.KEYS[command])
+        for name, function in zip(("start", "wait", "stop"), self._held):
+            setattr(self.struct, name, ctypes.cast(function, ctypes.c_void_p))
+
+    def _start(self, _: Any, item: Any) -> int:
+        one = item.contents
+        try:
+            folder = os.fsdecode(one.folder)
+            words = [os.fsdecode(one.argument[k]) for k in range(one.n_argument)]
+            with open(os.path.join(folder, "result.json"), "wb") as out, open(os.path.join(folder, "messages.txt"), "wb") as err:
+                self._busy[one.row] = subprocess.Popen([self._program, *words], stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                                       env={**os.environ, "CLAST_STUDY_PROCESS": str(os.getpid())})
+        except BaseException as failed:
+            self.failed = failed
+            return c.VALUES["CLAST_E_IO"]
+        return 0
+
+    def _wait(self, _: Any, row: Any, code: Any) -> int:
+        row[0] = -1
+        for _try in range(4):
+            for number, process in self._busy.items():
+                if process.poll() is not None:
+                    row[0], code[0] = number, process.returncode if process.returncode >= 0 else 128 - process.returncode
+                    del self._busy[number]
+                    return 0
+            time.sleep(0.005)
+        return 0
+
+    def _stop(self, _: Any) -> None:
+        for process in self._busy.values():
+            process.send_signal(signal.SIGTERM)
+
+
+_FOLDERS = frozenset(c.FOLDERS)
+
+
+def _check_keys(command: str, keys: dict[str, Any]) -> None:
+    """Refuses keys that the command does not have before the first run."""
+    if command == "study" or command not in c.KEYS:
+        raise refuse(f"run: '{command}' is no command that a study can run{nearest(command, c.KEYS)}")
+    for name in ("vary", "fix"):
+        entries = keys.get(name) or ()
+        for entry in [entries] if isinstance(entries, str) else entries:
+            key = entry.split("=")[0].strip().replace("-", "_")
+            if "=" not in entry or key not in c.KEYS[command]:
+                raise Error("CLAST_E_CONFIG", f"{name}: clast {command} has no key '{key}'{nearest(key, c.KEYS[command])}" if "=" in entry
+                            else f"{name}: takes key=value, not '{entry}'")
+    if int(keys.get("seeds") or 1) > 1 and "seed" not in c.KEYS[command]:
+        raise refuse(f"seeds: clast {command} draws nothing at random; seeds must be 1")
+
+
+def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: int = 0, progress: Progress = None, **keys: Any) -> Study:
+    """Runs a command for every combination of what varies: study(run="fill", argument="grain.stl", vary="spheres = 5|9", output="out").
+
+    `vary` and `fix` are texts as in YAML, lists of them, or dictionaries: vary={"spheres": [5, 9]}. Runs are processes of the command
+    `clast`, `jobs` at once (0: one a core). The same call goes on where it was stopped; runs that failed are tried again.
+    """
+    for name, given in (("vary", vary), ("fix", fix)):
+        if isinstance(given, dict):
+            given = [f"{key}={'|'.join(map(str, v)) if isinstance(v, (list, tuple)) else v}" if name == "vary" else f"{key}={v}"
+                     for key, v in given.items()]
+        if given is not None:
+            keys[name] = given
+    _check_keys(run, keys)
+    workers, report, monitor = _Workers(_program(), run), c.clast_study_report(), Monitor(progress)
+    before = call("clast_parallel_threads")()
+    call("clast_parallel_set_threads")(jobs)
+    try:
+        with Config(c.clast_study_config(), "clast_study_fields", {"run": run, **keys}) as config:
+            status = monitor.run(lambda m: call("clast_study_run")(ctypes.byref(config.struct), encoded("output", output),
+                                                                   ctypes.byref(workers.struct), None, m, ctypes.byref(report)))
+        if workers.failed is not None:
+            raise workers.failed
+        if status != c.VALUES["CLAST_E_NO"]:
+            check(status)
+    finally:
+        call("clast_parallel_set_threads")(before)
+    if report.n_failed:
+        warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
+             f"{report.first_failed:06d}.part/messages.txt; the same call tries them again")
+    return Study(os.fspath(output), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)

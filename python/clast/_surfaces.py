@@ -1,0 +1,153 @@
+"""Surfaces made from surfaces: the commands `clast mesh ...`."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+import numpy as np
+
+from . import _bindings as c
+from ._core import Config, Error, call, check, encoded, refuse, settled, whole
+from ._mesh import Mesh, MeshCheck
+from ._runs import Result
+from ._tables import Path
+
+Surface = Mesh | Path
+
+
+class SurfaceResult(Result):
+    """A surface that was made, `mesh`, and what the command tells of it: `result.volume`, `result["volume"]`."""
+
+    mesh: Mesh
+
+    def __init__(self, mesh: Mesh, values: dict[str, Any]) -> None:
+        super().__init__(values, None)
+        object.__setattr__(self, "mesh", mesh)
+
+
+def _read(surface: Surface, weld: bool = True) -> Mesh:
+    return surface if isinstance(surface, Mesh) else Mesh.read(surface, weld)
+
+
+def _numbers(struct: Any) -> dict[str, Any]:
+    """The members that are plain numbers."""
+    return {name: getattr(struct, name) for name, *_ in struct._fields_ if isinstance(getattr(struct, name), (bool, int, float))}
+
+
+def _keep(made: Mesh, values: dict[str, Any], output: Path | None) -> SurfaceResult:
+    if output is not None:
+        made.write(output)
+    return SurfaceResult(made, values)
+
+
+def mesh_repair(surface: Surface, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
+    """Makes a surface closed, oriented and manifold where it can; tells each change, and in `check` what it is now."""
+    made, report, given = c.clast_mesh(), c.clast_mesh_repair_report(), _read(surface, weld=False)
+    with Config(c.clast_mesh_repair_config(), "clast_mesh_repair_fields", keys) as config:
+        check(call("clast_mesh_repair")(given._struct(), ctypes.byref(config.struct), ctypes.byref(made),
+                                        ctypes.byref(report)))
+    mesh = Mesh._own(made)
+    found: MeshCheck = mesh.check()
+    return _keep(mesh, {**_numbers(report), "is_solid": found.is_solid, "check": found}, output)
+
+
+def mesh_hull(surface: Surface, *, output: Path | None = None) -> SurfaceResult:
+    """The convex hull of a surface or of points, and the volume that it adds."""
+    mesh = _read(surface, weld=False)
+    hull = mesh.hull()
+    welded = _read(surface).check() if len(mesh.triangles) else None
+    volume = welded.volume if welded is not None and welded.closed and welded.oriented else float("nan")
+    return _keep(hull, {"n_vertex": len(hull.vertices), "n_triangle": len(hull.triangles), "volume": volume, "area": mesh.area,
+                        "hull_volume": hull.volume, "hull_area": hull.area, "added_volume": hull.volume - volume}, output)
+
+
+def mesh_simplify(surface: Surface, faces: int = 300, *, output: Path | None = None) -> SurfaceResult:
+    """Fewer triangles, same volume; tells how far the two surfaces are apart. Fewer than wanted where topology forbids (`reached`)."""
+    wanted = settled("mesh simplify", dict(faces=faces))["faces"]
+    struct, report, given = c.clast_mesh(), c.clast_mesh_simplify_report(), _read(surface)
+    check(call("clast_mesh_simplify")(given._struct(), wanted, ctypes.byref(struct), ctypes.byref(report)))
+    made, volume, apart = Mesh._own(struct), report.volume_after, report.deviation
+    if output is not None and os.fspath(output).lower().endswith(".stl"):  # 24 bits
+        check(call("clast_mesh_round_float")(ctypes.byref(struct)))
+        volume = made.volume
+    values = {**_numbers(report), "volume": volume, "volume_change": volume / report.volume_before - 1.0, "hausdorff": apart.hausdorff,
+              "mean_distance": apart.mean}
+    return _keep(made, values, output)
+
+
+def mesh_form(surface: Surface, *, flatness: float = 0.0, elongation: float = 0.0, size: float = 0.0, unit_form: bool = False,
+              hull: int = 0, output: Path | None = None) -> SurfaceResult:
+    """A grain in its principal frame, stretched to S/I, I/L and sieve size (0: its own); hull > 0 takes the convex hull first."""
+    wanted = settled("mesh form", dict(flatness=flatness, elongation=elongation, size=size, unit_form=unit_form, hull=hull))
+    if unit_form and (flatness or elongation or size):
+        raise refuse("unit_form: makes L = I = S = 1; leave flatness, elongation and size out")
+    if 0 < hull < 4:
+        raise refuse(f"hull: a solid has 4 faces or more, not {hull}")
+    mesh = _read(surface)
+    if hull == 0:
+        _require_solid(mesh)
+    else:
+        struct = c.clast_mesh()
+        check(call("clast_reform_hull")(mesh._struct(), hull, ctypes.byref(struct)))
+        mesh = Mesh._own(struct)
+    turned, before = _principal(mesh)
+    own = dict(flatness=before["flatness"], elongation=before["elongation"], size=before["D"])
+    lengths = (ctypes.c_double * 3)(1.0, 1.0, 1.0)
+    if not unit_form:
+        call("clast_form_lengths")(*(wanted[key] or own[key] for key in own), lengths)
+    made = c.clast_mesh()
+    check(call("clast_reform_mesh")(turned._struct(), lengths, ctypes.byref(made)))
+    out = Mesh._own(made)
+    return _keep(out, {"before": before, "after": _principal(out)[1], "volume_hull": mesh.volume, "volume": out.volume,
+                       "n_triangle": len(out.triangles)}, output)
+
+
+def _require_solid(mesh: Mesh) -> None:
+    found = mesh.check()
+    if not (found.closed and found.oriented):
+        raise Error("CLAST_E_GEOMETRY", f"surface: {'not closed' if not found.closed else 'not oriented'}; call mesh_repair, "
+                    "or take its hull with hull=N")
+
+
+def _principal(mesh: Mesh) -> tuple[Mesh, dict[str, float]]:
+    """The grain turned so that L, I and S lie along x, y and z, and these."""
+    struct, axes = c.clast_mesh(), (ctypes.c_double * 3)()
+    check(call("clast_reform_principal")(mesh._struct(), ctypes.byref(struct), axes))
+    long, middle, least = axes
+    return Mesh._own(struct), {"L": long, "I": middle, "S": least, "D": float(call("clast_form_sieve_size")(middle, least)),
+                               "flatness": least / middle, "elongation": middle / long}
+
+
+def mesh_synthesize(index: int = 0, *, output: Path | None = None, **keys: Any) -> SurfaceResult:
+    """A grain of a wanted form, size and roughness that nobody scanned: the one of this index and seed (`--count` makes 0, 1, 2 ...)."""
+    index = whole("index", index, 0, 2**64 - 1)
+    struct, report = c.clast_mesh(), c.clast_synthesize_report()
+    with Config(c.clast_synthesize_config(), "clast_synthesize_fields", keys) as config:
+        check(call("clast_synthesize_grain")(ctypes.byref(config.struct), index, ctypes.byref(struct), ctypes.byref(report)))
+    return _keep(Mesh._own(struct), _numbers(report), output)
+
+
+def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: str = "", scale: float = 1.0, name: str = "") -> SurfaceResult:
+    """Writes a surface as STL, OBJ, PLY, OFF or 3MF by the name's end, in another unit if wanted; 3MF needs `unit`."""
+    wanted = settled("mesh convert", dict(unit=unit, out_unit=out_unit, scale=scale, name=name))
+    of_path = call("clast_mesh_format_of_path")(encoded("output", output))
+    if of_path == c.VALUES["CLAST_MESH_ANY"]:
+        raise refuse(f"output: {os.fspath(output)} is no surface format by its name; write .stl, .obj, .ply, .off or .3mf")
+    if not unit and (out_unit or of_path == c.VALUES["CLAST_MESH_3MF"]):
+        raise refuse(f"unit: is missing; {'out_unit needs it' if out_unit else '3MF is in millimetres'}")
+    factor, out_unit = wanted["scale"], out_unit or unit
+    if unit and unit != out_unit:
+        factor *= _metres(unit) / _metres(out_unit)
+    mesh = _read(surface, weld=False)
+    if factor != 1.0:
+        mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
+    options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", name) or None)
+    check(call("clast_mesh_write")(encoded("output", output), mesh._struct(), ctypes.byref(options)))
+    return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "factor": factor})
+
+
+def _metres(unit: str) -> float:
+    factor = ctypes.c_double()
+    check(call("clast_unit_factor")(encoded("unit", unit), b"m", ctypes.byref(factor)))
+    return factor.value

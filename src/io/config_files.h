@@ -1,0 +1,13 @@
+#pragma once
+// The files that a configuration names, for the manifest of its run: how many, and the i-th with
+// its role ("core", "sizes", "curve").
+#include "base/shared.h"
+#include <clast/aggregate_run.h>
+#include <clast/pack.h>
+
+CLX_SHARED int32_t clx_aggregate_n_file(const clast_aggregate_config *config);
+CLX_SHARED const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i,
+                                          const char **role);
+
+CLX_SHARED int32_t clx_pack_n_file(const clast_pack_config *config);
+CLX_SHARED const char *clx_pack_file(const clast_pack_config *config, int32_t i, const char **role);
