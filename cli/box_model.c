@@ -55,7 +55,8 @@ static json_t *events_of(const clast_spectrum_config *c, const clast_spectrum *r
 {
     const double *m0 = clast_table_numbers(&r->history, "M0");
     json_t *list = json_array();
-    for (int64_t i = 0; i < r->history.n_row && merges_alone(c) && isnan(r->gel_time); ++i) {
+    const bool is_whole = c->solver == CLAST_SOLVER_MONTE_CARLO || isnan(r->gel_time);
+    for (int64_t i = 0; i < r->history.n_row && merges_alone(c) && is_whole; ++i) {
         (void)json_array_append_new(list, json_real(m0[0] - m0[i]));
     }
     return list;
@@ -93,17 +94,47 @@ static json_t *summary_of(const cli_box *box, const char *kernel, int32_t repeat
     cli_json_text(out, "unit_n", "1/m^3");
     cli_json_count(out, "repeats", repeats);
     cli_json_count(out, "n_section", r->spectrum.n_row / h->n_row);
-    if (box->spectrum.solver == CLAST_SOLVER_SECTIONAL) {
-        (void)json_object_set_new(out, "gel_fraction", list_of(h, "gel_fraction"));
-        (void)json_object_set_new(out, "settled_fraction", list_of(h, "settled_fraction"));
-        cli_json_number(out, "gel_time", r->gel_time);
-        cli_json_bool(out, "is_gelation", r->is_gelation && isfinite(r->gel_time));
-        cli_json_number(out, "mass_error", r->mass_error);
-    }
+    (void)json_object_set_new(out, "gel_fraction", list_of(h, "gel_fraction"));
+    (void)json_object_set_new(out, "settled_fraction", list_of(h, "settled_fraction"));
+    (void)json_object_set_new(out, "added_fraction", list_of(h, "added_fraction"));
+    cli_json_number(out, "gel_time", r->gel_time);
+    cli_json_bool(out, "is_gelation", r->is_gelation);
+    cli_json_count(out, "n_gelled", r->n_gelled);
+    cli_json_number(out, "gel_size", r->gel_size);
     cli_json_number(out, "exact_gel_time", r->exact_gel_time);
+    cli_json_number(out, "mass_error", r->mass_error);
     cli_range_json(out, &r->range);
     cli_json_number(out, "wall_s", wall);
     return out;
+}
+
+/// Whether a share of the balance has anything to tell.
+static bool is_told(const clast_table *h, const char *name)
+{
+    static const double NOTHING = 1e-9;
+    const double *value = clast_table_numbers(h, name);
+    bool is_any = value != NULL && strstr(name, "_fraction") == NULL;
+    for (int64_t i = 0; i < h->n_row && value != NULL; ++i) {
+        is_any = is_any || value[i] > NOTHING;
+    }
+    return is_any;
+}
+
+/// When the box gelled, or outgrew its grid or its sample.
+static void print_gel(bool is_sectional, int32_t repeats, const clast_spectrum *r)
+{
+    const char *what = r->is_gelation ? "gelation"
+                       : is_sectional ? "the grid is too small (--size-max), seen"
+                                      : "the sample is too small (--particles, --size-max), seen";
+    (void)printf("\n%s at %.4g s", what, r->gel_time);
+    if (repeats > 1) {
+        (void)printf(" (mean of %d of %d runs)", r->n_gelled, repeats);
+    }
+    (void)printf(is_sectional ? ": by then 0.1 %% of the mass had left the grid above %.4g "
+                                "monomers; later moments are of the sizes on it\n"
+                              : ": by then particles above %.4g monomers held 0.1 %% of the mass; "
+                                "later values depend on --particles\n",
+                 r->gel_size);
 }
 
 static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
@@ -120,6 +151,7 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
                   {"M2", "M2 (1/m^3)"},
                   {"gel_fraction", "gel_fraction"},
                   {"settled_fraction", "settled"},
+                  {"added_fraction", "added"},
                   {"exact_M0", "exact n"}};
     enum { N_COLUMN = sizeof column / sizeof column[0] };
     (void)printf("kernel %s in a box, %s", kernel, is_sectional ? "sectional" : "Monte Carlo");
@@ -132,20 +164,17 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
     }
     for (int64_t i = -1; i < h->n_row; ++i) {
         for (int k = 0; k < N_COLUMN; ++k) {
-            const double *value = clast_table_numbers(h, column[k].name);
-            if (value != NULL && i < 0) {
+            if (is_told(h, column[k].name) && i < 0) {
                 (void)printf("%s%12s", k > 0 ? " " : "", column[k].title);
-            } else if (value != NULL) {
-                (void)printf("%s%12.6g", k > 0 ? " " : "", value[i]);
+            } else if (is_told(h, column[k].name)) {
+                (void)printf("%s%12.6g", k > 0 ? " " : "",
+                             clast_table_numbers(h, column[k].name)[i]);
             }
         }
         (void)putchar('\n');
     }
     if (isfinite(r->gel_time)) {
-        (void)printf("\n%s at %.4g s: by then 0.1 %% of the mass had left the grid above; later "
-                     "moments are of the sizes on the grid\n",
-                     r->is_gelation ? "gelation" : "the grid is too small (--size-max), seen",
-                     r->gel_time);
+        print_gel(is_sectional, repeats, r);
     }
 }
 
@@ -157,17 +186,23 @@ static clast_status write_files(const clast_spectrum *r, const char *folder, con
     static const char *const cluster[] = {"n_1", "n_2", "n_3", "n_4", "n_5",
                                           "n_6", "n_7", "n_8", NULL};
     static const char *const size[] = {"k = 1", "2", "3", "4", "5", "6", "7", "8", NULL};
+    static const char *const share[] = {"gel_fraction", "settled_fraction", "added_fraction", NULL};
+    static const char *const share_word[] = {"gel", "settled", "came in", NULL};
+    enum { N_CHART = 4 };
     const struct {
         const char *file, *const *name, *const *label, *axis;
-    } chart[3] = {{"number", number, word, "particles (1/m\xc2\xb3)"},
-                  {"moments", square, word, "M2, sum of squared sizes (1/m\xc2\xb3)"},
-                  {"clusters", cluster, size, "particles of k monomers (1/m\xc2\xb3)"}};
+    } chart[N_CHART] = {{"number", number, word, "particles (1/m\xc2\xb3)"},
+                        {"moments", square, word, "M2, sum of squared sizes (1/m\xc2\xb3)"},
+                        {"clusters", cluster, size, "particles of k monomers (1/m\xc2\xb3)"},
+                        {"balance", share, share_word, "share of the mass at the start (-)"}};
+    const bool has_balance = is_told(&r->history, share[0]) || is_told(&r->history, share[1]) ||
+                             is_told(&r->history, share[2]);
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/history.csv", folder);
     CLI_GUARD(clast_table_write_csv(&r->history, path));
     (void)snprintf(path, sizeof path, "%s/spectrum.csv", folder);
     CLI_GUARD(clast_table_write_csv(&r->spectrum, path));
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < (has_balance ? N_CHART : N_CHART - 1); ++k) {
         (void)snprintf(path, sizeof path, "%s/%s.%s", folder, chart[k].file, picture);
         CLI_GUARD(
             cli_draw_columns(&r->history, chart[k].name, chart[k].label, chart[k].axis, path));

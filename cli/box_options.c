@@ -80,13 +80,34 @@ static int side_of(const char *name)
     return -1;
 }
 
-/// What one solver of a box does not look at.
-static bool is_idle(const cli_box *box, const char *name)
+/// Why a box does not look at an option; NULL where it does.
+static const char *idle_in(const cli_box *box, const char *name)
 {
     static const char *const draws[] = {"particles", "collisions", "leap", "block", NULL};
-    static const char *const integrates[] = {"tolerance",         "breakage_exponent", "fragments",
-                                             "fragment_exponent", "source_size",       NULL};
-    return is_among(name, box->spectrum.solver == CLAST_SOLVER_SECTIONAL ? draws : integrates);
+    static const char *const integrates[] = {"tolerance", NULL};
+    static const char *const breaks[] = {"breakage_exponent", "fragments", "fragment_exponent",
+                                         NULL};
+    static const char *const enters[] = {"source_size", NULL};
+    static const char *const law[] = {"initial_mean", "initial_sd", NULL};
+    const clast_spectrum_config *c = &box->spectrum;
+    const struct {
+        bool is_idle;
+        const char *const *list, *why;
+    } rule[] = {
+        {c->solver == CLAST_SOLVER_SECTIONAL, draws, "with this --solver"},
+        {c->solver == CLAST_SOLVER_MONTE_CARLO, integrates, "with this --solver"},
+        {c->breakage_rate == 0.0, breaks, "without --breakage-rate"},
+        {c->fragments == CLAST_FRAGMENTS_HALVES, breaks + 2, "with --fragments halves"},
+        {c->source == 0.0, enters, "without --source"},
+        {c->initial == CLAST_INITIAL_TABLE, law, "with --initial table"},
+        {c->initial != CLAST_INITIAL_LOGNORMAL, law + 1, "without --initial lognormal"},
+    };
+    for (size_t k = 0; k < sizeof rule / sizeof rule[0]; ++k) {
+        if (rule[k].is_idle && is_among(name, rule[k].list)) {
+            return rule[k].why;
+        }
+    }
+    return NULL;
 }
 
 clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
@@ -102,18 +123,19 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
     }
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         char option[64];
-        const bool is_wrong = side_of(f->name) == (box->box_model ? -1 : 1) ||
-                              (box->box_model && is_idle(box, f->name));
+        const char *const why = box->box_model ? idle_in(box, f->name) : NULL;
+        const bool is_wrong = side_of(f->name) == (box->box_model ? -1 : 1) || why != NULL;
         (void)snprintf(option, sizeof option, "%s", f->name);
         for (char *at = strchr(option, '_'); at != NULL; at = strchr(at, '_')) {
             *at = '-';
         }
         if (is_wrong && !is_default(fields, f, config)) {
-            return cli_fail(CLAST_E_USAGE, "--%s %s", option,
+            return cli_fail(CLAST_E_USAGE, "--%s %s%s", option,
                             !box->box_model ? "is an option of a box: it needs --box-model"
                             : side_of(f->name) < 0
                                 ? "is an option of clouds: a box has no positions"
-                                : "does nothing with this --solver");
+                                : "does nothing ",
+                            why != NULL ? why : "");
         }
     }
     if (box->box_model &&

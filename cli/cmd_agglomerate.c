@@ -204,6 +204,10 @@ static json_t *summary(const config *c, const clast_agglomeration *r, double wal
     set_column(out, "n_cell", h, "n_cell");
     cli_json_count(out, "repeats", c->agglomerate.repeats);
     cli_json_count(out, "n_rebuilt", r->n_rebuilt);
+    set_column(out, "gel_fraction", h, "gel_fraction");
+    cli_json_number(out, "gel_time", r->gel_time);
+    cli_json_bool(out, "is_gelation", r->is_gelation);
+    cli_json_count(out, "n_gelled", r->n_gelled);
     if (r->has_fixed) {
         json_t *fixed = json_object();
         set_column(fixed, "n_particle", h, "fixed_n_particle");
@@ -246,6 +250,11 @@ static void print_words(const config *c, const clast_agglomeration *r)
             (void)printf(" %12.8g", fixed[i]);
         }
         (void)putchar('\n');
+    }
+    if (r->is_gelation) {
+        (void)printf("\ngelation by %.4g s (%d of %d runs): a particle holds more than n^(-1/3) of "
+                     "the monomers\n",
+                     r->gel_time, r->n_gelled, c->agglomerate.repeats);
     }
 }
 

@@ -140,16 +140,21 @@ typedef struct clast_spectrum_start {
 } clast_spectrum_start;
 
 typedef struct clast_spectrum {
-    /// One row a time: time_s, M0 .. M3 (sums of x^k [1/m^3]), gel_fraction and settled_fraction
-    /// (sectional; shares of the monomers at the start), n_1 .. n_8 [1/m^3] where sizes are whole
-    /// multiples of the smallest one; each with _sd, the standard deviation of the runs, where
-    /// there are several; exact_M0 and exact_M2 where known.
+    /// One row a time: time_s, M0 .. M3 (sums of x^k [1/m^3]), gel_fraction, settled_fraction and
+    /// added_fraction (came in; shares of the monomers at the start), n_1 .. n_8 [1/m^3] where
+    /// sizes are whole multiples of the smallest one; each with _sd, the standard deviation of the
+    /// runs, where there are several; gelled, the share of runs that had by then; exact_M0 and
+    /// exact_M2 where known. M1 + settled - added (sectional: + gel) stays what it was.
     clast_table history;
     /// One row a time and section: time_s, size (monomers), n [1/m^3], density [1/m^3 a monomer],
     /// mass_fraction, n_sd where there are several runs.
     clast_table spectrum;
-    double gel_time;       ///< when 1e-3 of the mass had left the grid [s]; NaN: it did not
-    bool is_gelation;      ///< then: the kernel gels, the grid is not merely too small
+    /// When 1e-3 of the mass at the start was in particles above gel_size [s], mean of the n_gelled
+    /// runs where it came to that; NaN: in none.
+    double gel_time;
+    double gel_size;       ///< end of the grid; Monte Carlo: at most particles^(2/3) mean sizes
+    int32_t n_gelled;      ///< runs
+    bool is_gelation;      ///< the kernel gels: grid or sample are not merely too small
     double exact_gel_time; ///< product kernel alone: 1 / (c M2(0)) [s]; else NaN
     double mass_error;     ///< largest, relative to what was there and came in
     int64_t n_evaluation;  ///< of the right-hand side; events of Monte Carlo
@@ -163,8 +168,9 @@ CLAST_API bool clast_spectrum_has_sectional(void);
 ///
 /// @param collide  kernel, medium, alpha, radius law, seed
 /// @param start    for CLAST_INITIAL_TABLE, else NULL
-/// @return CLAST_E_CONFIG for what does not go together (Monte Carlo knows no breakage, sources or
-/// settling; a kernel of velocities has no spectrum; no sectional solver in this build)
+/// @return CLAST_E_CONFIG for what does not go together (Monte Carlo breaks particles into a whole
+/// number of fragments alone; a kernel of velocities has no spectrum; no sectional solver in this
+/// build), CLAST_E_LIMIT where breakage and sources make over 2e7 particles of a run
 CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
                                              const clast_collide_config *collide,
                                              const clast_spectrum_start *start,
@@ -211,8 +217,9 @@ typedef struct clast_agglomerate_input {
 typedef struct clast_agglomeration {
     /// One row a time: time_s, n_particle, n_particle_sd, M1, M2, M3 (means over repeats of the
     /// sums of i^k, weighted), M2_sd and M3_sd, n_1 .. n_8 (aggregates of k monomers; with several
-    /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt; n_parcel with weights;
-    /// fixed_n_particle and
+    /// repeats n_k_sd), events (since the start), n_cell, is_rebuilt, gel_fraction (share of the
+    /// monomers in parcels that hold more than n^(-1/3) of them each, of n at the start), gelled
+    /// (share of the runs where that was 1e-3 by then); n_parcel with weights; fixed_n_particle and
     /// fixed_events beside a fixed mesh; exact_n_particle and exact_M2 where known.
     clast_table history;
     /// One row a particle, last state of the first repeat: coordinates, monomers, radius_m,
@@ -224,6 +231,9 @@ typedef struct clast_agglomeration {
     int32_t n_rebuilt; ///< decompositions after the first, first repeat
     int32_t n_cell;    ///< last, first repeat
     bool has_exact, has_fixed;
+    bool is_gelation; ///< in some run, of a kernel that gels
+    int32_t n_gelled; ///< runs where a parcel came to hold more than n^(-1/3) of the monomers
+    double gel_time;  ///< first of the history's times then [s], mean of those runs; NaN: in none
     clast_range_report range; ///< of the cells' runs, not of the fixed mesh
 } clast_agglomeration;
 

@@ -2170,6 +2170,7 @@ clast_workspace_policy._fields_ = [
     ('cells', c_int32),
     ('cells_every', c_int32),
     ('cells_level', c_double),
+    ('pairs_every', c_int32),
 ]
 clast_workspace_calls._fields_ = [
     ('n_call', c_int64),
@@ -2179,6 +2180,7 @@ clast_workspace_calls._fields_ = [
     ('since_cut', c_int64),
     ('moved', c_double),
     ('p_change', c_double),
+    ('n_pairs', c_int64),
 ]
 clast_workspace_step._fields_ = [
     ('dt', c_double),
@@ -2206,6 +2208,8 @@ clast_spectrum._fields_ = [
     ('history', clast_table),
     ('spectrum', clast_table),
     ('gel_time', c_double),
+    ('gel_size', c_double),
+    ('n_gelled', c_int32),
     ('is_gelation', c_bool),
     ('exact_gel_time', c_double),
     ('mass_error', c_double),
@@ -2232,6 +2236,9 @@ clast_agglomeration._fields_ = [
     ('n_cell', c_int32),
     ('has_exact', c_bool),
     ('has_fixed', c_bool),
+    ('is_gelation', c_bool),
+    ('n_gelled', c_int32),
+    ('gel_time', c_double),
     ('range', clast_range_report),
 ]
 clast_aggregate_params._fields_ = [
@@ -2632,13 +2639,13 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
     'clast_volume_options': (56, {'n': (0, 12), 'type': (12, 4), 'is_big_endian': (16, 1), 'skip': (24, 8), 'edge': (32, 24)}),
     'clast_points': (56, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'stride': (24, 8), 'axis_stride': (32, 8), 'weight': (40, 8), 'weight_stride': (48, 8)}),
-    'clast_workspace_policy': (32, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8)}),
-    'clast_workspace_calls': (56, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8)}),
+    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4)}),
+    'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
-    'clast_spectrum': (192, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'is_gelation': (72, 1), 'exact_gel_time': (80, 8), 'mass_error': (88, 8), 'n_evaluation': (96, 8), 'range': (104, 88)}),
+    'clast_spectrum': (200, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'mass_error': (96, 8), 'n_evaluation': (104, 8), 'range': (112, 88)}),
     'clast_agglomerate_config': (488, {'decompose': (0, 144), 'collide': (144, 288), 'kernel': (432, 8), 'duration': (440, 8), 'n_step': (448, 4), 'repeats': (452, 4), 'rebuild': (456, 4), 'change_level': (464, 8), 'fixed': (472, 4), 'depth': (480, 8)}),
-    'clast_agglomeration': (200, {'history': (0, 32), 'particles': (32, 32), 'spectrum': (64, 32), 'n_rebuilt': (96, 4), 'n_cell': (100, 4), 'has_exact': (104, 1), 'has_fixed': (105, 1), 'range': (112, 88)}),
+    'clast_agglomeration': (208, {'history': (0, 32), 'particles': (32, 32), 'spectrum': (64, 32), 'n_rebuilt': (96, 4), 'n_cell': (100, 4), 'has_exact': (104, 1), 'has_fixed': (105, 1), 'is_gelation': (106, 1), 'n_gelled': (108, 4), 'gel_time': (112, 8), 'range': (120, 88)}),
     'clast_aggregate_params': (336, {'mode': (0, 4), 'core_size': (8, 8), 'core_meaning': (16, 4), 'core_density': (24, 8), 'coat_weight': (32, 16), 'class_limit': (48, 16), 'coat_density': (64, 16), 'size': (80, 16), 'size_law': (96, 4), 'size_mean': (104, 8), 'size_deviation': (112, 8), 'size_shape': (120, 8), 'size_low': (128, 8), 'size_high': (136, 8), 'n_particle': (144, 4), 'size_draw': (148, 1), 'size_by_mass': (149, 1), 'replicate': (152, 4), 'size_meaning': (156, 4), 'order': (160, 4), 'cone': (168, 8), 'rays': (176, 4), 'orientations': (180, 4), 'axis': (184, 8), 'origin': (192, 4), 'target': (196, 4), 'start': (200, 8), 'max_tries': (208, 4), 'approach': (212, 4), 'walk_step': (216, 8), 'contact': (224, 4), 'flavour': (228, 4), 'march_coarse': (232, 8), 'march_fine': (240, 8), 'march_steps': (248, 4), 'march_vertices': (252, 4), 'envelope': (256, 16), 'envelope_every': (272, 4), 'envelope_rays': (276, 4), 'envelope_length': (280, 8), 'solid_union': (288, 1), 'permeability': (292, 4), 'stop_mass': (296, 8), 'stop_size': (304, 8), 'stop_porosity': (312, 8), 'pick': (320, 4), 'n_final': (324, 4), 'seed': (328, 8)}),
     'clast_aggregate_result': (520, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'mass': (16, 8), 'solid_sum': (24, 8), 'solid_union': (32, 8), 'solid_union_error': (40, 8), 'n_envelope': (48, 4), 'envelope': (56, 280), 'porosity': (336, 56), 'd_agg': (392, 8), 'density': (400, 8), 'radius_of_gyration': (408, 8), 'settling_velocity': (416, 8), 'settling_velocity_permeable': (424, 8), 'permeable': (432, 4), 'coat_porosity': (440, 8), 'coat_grain': (448, 8), 'permeability': (456, 8), 'drag_permeable': (464, 8), 'max_overlap': (472, 8), 'max_overlap_relative': (480, 8), 'n_lost': (488, 4), 'stop': (492, 4), 'contact_s': (496, 8), 'envelope_s': (504, 8), 'wall_s': (512, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
@@ -3279,7 +3286,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_memory_set_limit': (c_int, [c_int64], 'Sets the limit in bytes; 0: none.'),
     'clast_memory_limit': (c_int64, [], 'The limit in bytes; 0: none.'),
     'clast_memory_taken': (c_int64, [], "Bytes that the library's blocks take now."),
-    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means one per core.'),
+    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means OMP_NUM_THREADS where it is set, else one per core that the process may use.'),
     'clast_parallel_threads': (c_int32, [], 'Threads in use.'),
     'clast_comm_one': (POINTER(clast_comm), [], 'The only rank of one.'),
     'clast_comm_agree': (c_int, [POINTER(clast_comm), c_int, c_char_p], 'Makes all ranks agree on how a step ended: OK when it was so for every one, else the status and text of the first rank that failed (one that was merely stopped only if none failed).'),
@@ -3988,13 +3995,13 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'initial_mean': ('number', 1.0, '-', 1e-100, 1e+100, None, 'mean size at the start [monomers]'),
         'initial_sd': ('number', 1.5, '-', 1.001, 100.0, None, 'geometric standard deviation of a lognormal start'),
         'particles': ('integer', 10000.0, '-', 2.0, 10000000.0, None, 'particles of a Monte Carlo box'),
-        'size_min': ('number', 0.0, '-', 0.0, 1e+100, None, 'smallest size of the grid [monomers]; 0: that of the start'),
+        'size_min': ('number', 0.0, '-', 0.0, 1e+100, None, 'smallest size, which does not break [monomers]; 0: that of the start'),
         'size_max': ('number', 0.0, '-', 0.0, 1e+100, None, 'largest size of the grid [monomers]; 0: 1e5 mean sizes of the start'),
         'per_octave': ('integer', 16.0, '-', 1.0, 1000.0, None, 'sections of the grid that double the size'),
         'breakage_rate': ('number', 0.0, '-', 0.0, 1e+300, None, 'S1 [1/s]: a particle of x monomers breaks at S1 x^p'),
         'breakage_exponent': ('number', 1.0, '-', -10.0, 10.0, None, 'p'),
         'fragments': ('choice', 'power', '-', None, None, 'power|halves', 'sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves'),
-        'fragment_exponent': ('number', 0.0, '-', -0.99, 100.0, None, 'c; 0: two fragments, uniform'),
+        'fragment_exponent': ('number', 0.0, '-', -0.99, 100.0, None, 'c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1'),
         'source': ('number', 0.0, '-', 0.0, 1e+300, None, 'particles that come in, a volume and time [1/(m^3 s)]'),
         'source_size': ('number', 1.0, '-', 1e-100, 1e+100, None, 'their size [monomers]'),
         'settling_depth': ('number', 0.0, 'm', 0.0, 1e+300, None, 'particles leave at settling speed / this depth; 0: they stay'),
@@ -4106,7 +4113,7 @@ TABLES: dict[str, tuple[str, ...]] = {
     'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
     'clast_report_fields': ('title', 'rows', 'view', 'triangles', 'picture_mb'),
     'clast_study_fields': ('run', 'config', 'argument', 'fix', 'vary', 'design', 'table', 'seeds', 'seed', 'keep', 'shard'),
-    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level'),
+    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every'),
 }
 
 # Commands that write a run's folder.

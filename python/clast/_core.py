@@ -58,8 +58,6 @@ def _load() -> ctypes.CDLL:
 
 
 library = _load()
-# A process that was forked has none of the threads that OpenMP still counts: it works alone. Numbers do not depend on it.
-os.register_at_fork(after_in_child=lambda: library.clast_parallel_set_threads(1))
 _STATUS = {value: name for name, value in c.VALUES.items()
            if name == "CLAST_OK" or name.startswith("CLAST_E_")}
 _ready: dict[str, Any] = {}

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "cloud/contract.h"
 #include "cloud/kernel_range.h"
+#include "cloud/sectional.h"
 #include "cloud/size_classes.h"
 #include <math.h>
 #include <string.h>
@@ -109,7 +110,9 @@ enum { M1, M2, M3, N_MOMENT };
 /// Columns of the history.
 typedef struct {
     double *time, *n, *sd, *moment[N_MOMENT], *events, *n_cell, *rebuilt, *n_parcel;
-    double *fixed_n, *fixed_events, *exact_n, *exact_m2;
+    double *fixed_n, *fixed_events, *exact_n, *exact_m2, *gel, *gelled;
+    int64_t gel_row;             ///< of this run, the first that has gelled; -1 before
+    double gel_sum;              ///< of those times, over runs
     double *moment_sd[N_MOMENT]; ///< M1's is 0; sums of squares until the end
     clx_size_classes classes;
 } columns;
@@ -144,6 +147,8 @@ static clast_status make_history(clast_agglomeration *r, int64_t n_row, bool is_
                 {"events", "-", offsetof(columns, events), 0},
                 {"n_cell", "-", offsetof(columns, n_cell), 0},
                 {"is_rebuilt", "-", offsetof(columns, rebuilt), 0},
+                {"gel_fraction", "-", offsetof(columns, gel), 0},
+                {"gelled", "-", offsetof(columns, gelled), 0},
                 {"n_parcel", "-", offsetof(columns, n_parcel), 2},
                 {"fixed_n_particle", "-", offsetof(columns, fixed_n), 1},
                 {"fixed_events", "-", offsetof(columns, fixed_events), 1}};
@@ -161,6 +166,29 @@ static clast_status make_history(clast_agglomeration *r, int64_t n_row, bool is_
     }
 done:
     return status;
+}
+
+/// Share of the monomers in parcels that hold more than n^(-1/3) of them each: as much as the
+/// largest of a sample of n does when an infinite system gels [Aldous1999].
+static double gel_of(const clast_population *p, double monomers)
+{
+    const double least = monomers / cbrt((double)p->n);
+    double gel = 0.0;
+    for (int64_t i = 0; i < p->n; ++i) {
+        const double held = (double)p->monomers[i] * (p->weight != NULL ? p->weight[i] : 1.0);
+        gel += held > least ? held : 0.0;
+    }
+    return monomers > 0.0 ? gel / monomers : 0.0;
+}
+
+static void record_gel(double share, columns *c, int64_t row)
+{
+    static const double GEL_SHARE = 1e-3; // as in a box
+    c->gel[row] += share;
+    if (c->gel_row < 0 && share >= GEL_SHARE) {
+        c->gel_row = row;
+    }
+    c->gelled[row] += c->gel_row >= 0 ? 1.0 : 0.0;
 }
 
 /// Adds the state of a run to row `row`: sums over repeats, made means at the end.
@@ -199,6 +227,7 @@ static void record(const clx_evolution *run, columns *c, int64_t row)
     }
     c->n_cell[row] += run->n_cell;
     c->rebuilt[row] += run->is_rebuilt ? 1.0 : 0.0;
+    record_gel(gel_of(p, moment[M1]), c, row);
 }
 
 static clast_status one_run(clx_evolution *run, int32_t repeat, int64_t n_row, columns *c)
@@ -235,7 +264,8 @@ static void make_means(const clast_agglomerate_config *config, int64_t n_row, co
 {
     const double n = config->repeats;
     double *const sums[] = {c->n,      c->moment[M1], c->moment[M2], c->moment[M3],   c->events,
-                            c->n_cell, c->rebuilt,    c->fixed_n,    c->fixed_events, c->n_parcel};
+                            c->n_cell, c->rebuilt,    c->fixed_n,    c->fixed_events, c->n_parcel,
+                            c->gel,    c->gelled};
     for (int64_t row = 0; row < n_row; ++row) {
         c->time[row] = config->duration / config->n_step * (double)row;
         for (size_t k = 0; k < sizeof sums / sizeof sums[0]; ++k) {
@@ -295,6 +325,7 @@ done:
 
 static int64_t aggregate_of(const clast_population *p, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < p->n);
     while (p->owner[i] != i) {
         i = p->owner[i];
     }
@@ -350,6 +381,37 @@ static clast_status finish_first(const clx_evolution *run, const columns *c,
     return list_particles(run, made);
 }
 
+/// The time at which a run had gelled, and whether its kernel does.
+static void finish_gel(const clx_evolution *run, columns *c, clast_agglomeration *made)
+{
+    const clast_population *p = &run->population;
+    clast_collide_config collide = run->collide;
+    if (c->gel_row < 0) {
+        return;
+    }
+    ++made->n_gelled;
+    c->gel_sum += run->config->duration / run->config->n_step * (double)c->gel_row;
+    int64_t at = 0; // a particle as large as any: monomers like its own are what it grows by
+    for (int64_t i = 0; i < p->n; ++i) {
+        at = p->monomers[i] > p->monomers[at] ? i : at;
+    }
+    const double monomers = (double)p->monomers[at];
+    const double radius = p->radius[at];
+    if (collide.radius_law == CLAST_RADIUS_VOLUME) {
+        collide.monomer_radius = radius / cbrt(monomers);
+    }
+    if (radius > 0.0 && collide.radius_law == CLAST_RADIUS_VOLUME) {
+        collide.medium.particle_density =
+            p->mass[at] / (4.0 / 3.0 * CLAST_PI * radius * radius * radius);
+    }
+    if (run->medium != NULL && run->cell[at] >= 0) {
+        const double density = collide.medium.particle_density;
+        collide.medium = run->medium[run->cell[at]];
+        collide.medium.particle_density = density;
+    }
+    made->is_gelation = made->is_gelation || clx_kernel_gels(&collide, monomers);
+}
+
 static clast_status all_runs(const clast_agglomerate_input *input,
                              const clast_agglomerate_config *config, columns *c, clx_evolution *run,
                              clast_agglomeration *made)
@@ -362,8 +424,10 @@ static clast_status all_runs(const clast_agglomerate_input *input,
                                    .config = config,
                                    .is_fixed = fixed == 1,
                                    .range = fixed == 1 ? NULL : &made->range};
+            c->gel_row = -1;
             CLX_TRY(one_run(run, repeat, made->history.n_row, c));
         }
+        finish_gel(run, c, made);
         if (repeat == 0) {
             CLX_TRY(finish_first(run, c, made));
         }
@@ -417,6 +481,7 @@ clast_status clast_agglomerate(const clast_agglomerate_input *input,
     CLX_TRY(clx_size_classes_begin(n_row, &c.classes));
     CLX_TRY(all_runs(input, config, &c, &run, &made));
     make_means(config, n_row, &c);
+    made.gel_time = made.n_gelled > 0 ? c.gel_sum / made.n_gelled : (double)NAN;
     CLX_TRY(clx_size_classes_table(&c.classes, config->repeats, c.time, &made.spectrum));
     CLX_TRY(clx_size_classes_columns(&c.classes, config->repeats, &made.history));
     CLX_TRY(add_exact(&run, &made));

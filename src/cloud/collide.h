@@ -9,8 +9,9 @@ typedef struct clx_kind {
     clast_collider as;
     double weight;
     int64_t n;
-    int64_t head; ///< one of its particles; the others follow in `next`, in random order
-    double row;   ///< sum over the other particles of the kernel with them
+    int64_t head;  ///< one of its particles; the others follow in `next`, in random order
+    double row;    ///< sum over the other particles of the kernel with them
+    double change; ///< rate at which one settles or breaks, in a block that flows [1/s]
 } clx_kind;
 
 /// Scratch that has room for every particle; blocks use their own parts of it.
@@ -37,8 +38,10 @@ typedef struct clx_block {
     double scale; ///< alpha / V, times deal
     uint32_t needs;
     clx_rng *rng;
-    int64_t n_event; ///< drawn
-    double n_real;   ///< collisions of real particles
+    struct clx_box *box; ///< whose particles these are; NULL: they only collide
+    bool flows;          ///< they also settle, break and come in here, between collisions
+    int64_t n_event;     ///< drawn
+    double n_real;       ///< collisions of real particles
 } clx_block;
 
 /// Sorts the members into kinds; stops and returns false beyond `limit` kinds.

@@ -1,6 +1,8 @@
 // Events in one well-mixed block, kind by kind. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "base/status.h"
+#include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include "cloud/settling_pair.h"
 #include <math.h>
@@ -31,6 +33,9 @@ static void let_settle(const clx_block *b, clx_kind *kind)
 {
     if ((b->needs & CLAST_NEEDS_SETTLING) != 0) {
         kind->as.settling_speed = clast_kernel_settling_speed(b->medium, &kind->as);
+    }
+    if (b->flows) {
+        kind->change = clx_box_rate(b->box, (int64_t)kind->as.monomers);
     }
 }
 
@@ -63,6 +68,7 @@ static int64_t find_kind(const clx_block *b, const clx_kind *seen)
 
 static void put(clx_block *b, int64_t kind, int64_t particle)
 {
+    CLAST_ASSERT(kind >= 0 && particle >= 0);
     b->next[particle] = b->kind[kind].n > 0 ? b->kind[kind].head : -1;
     b->kind[kind].head = particle;
     ++b->kind[kind].n;
@@ -70,6 +76,7 @@ static void put(clx_block *b, int64_t kind, int64_t particle)
 
 static int64_t take(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(b->kind[kind].n > 0 && b->kind[kind].head >= 0);
     const int64_t particle = b->kind[kind].head;
     b->kind[kind].head = b->next[particle];
     --b->kind[kind].n;
@@ -90,7 +97,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
         }
         put(b, k, b->member[m]);
     }
-    for (int64_t k = 0; k < b->n_kind && (b->needs & CLAST_NEEDS_SETTLING) != 0; ++k) {
+    for (int64_t k = 0; k < b->n_kind; ++k) {
         let_settle(b, &b->kind[k]);
     }
     return true;
@@ -126,6 +133,10 @@ int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
     const double before = b->n_real;
     clast_collider pair[2];
     int n_live = 1;
+    if (b->box != NULL) {
+        clx_box_watch(b->box, b->population->monomers[i], -1);
+        clx_box_watch(b->box, b->population->monomers[j], -1);
+    }
     if (b->ranges != 0) { // as they are before they stick
         pair[0] = clx_population_collider(b->population, i);
         pair[1] = clx_population_collider(b->population, j);
@@ -136,6 +147,12 @@ int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
     } else {
         n_live = clx_population_stick(b->population, b->config, i, j, live, &b->n_real);
     }
+    if (b->box != NULL) {
+        clx_box_watch(b->box, b->population->monomers[live[0]], 1);
+    }
+    if (b->box != NULL && b->box->changes) { // equal sizes are equal to the last bit: one kind
+        clx_box_put(b->box, live[0], b->population->monomers[live[0]]);
+    }
     if (b->ranges != 0) {
         clx_range_add(b->ranges, b->config, b->medium, pair, b->n_real - before, &b->range);
     }
@@ -144,6 +161,7 @@ int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
 
 static double row_of(const clx_block *b, int64_t k)
 {
+    CLAST_ASSERT(k >= 0 && k < b->n_kind);
     double row = clx_block_self_rate(b, &b->kind[k]);
     for (int64_t l = 0; l < b->n_kind; ++l) {
         row += clx_block_kernel(b, &b->kind[k], &b->kind[l]) *
@@ -224,6 +242,7 @@ static void unload(clx_block *b, const clx_kind *gone)
 
 static void drop_if_empty(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(kind >= 0 && kind < b->n_kind);
     if (b->kind[kind].n == 0) {
         b->kind[kind] = b->kind[--b->n_kind];
     }
@@ -287,17 +306,82 @@ static bool one_event(clx_block *b, double total)
     return true;
 }
 
+/// Rate at which particles settle, break and come in here.
+static double changes_of(const clx_block *b)
+{
+    double rate = b->flows ? clx_box_source(b->box) : 0.0;
+    for (int64_t k = 0; k < b->n_kind && b->flows; ++k) {
+        rate += (double)b->kind[k].n * b->kind[k].change;
+    }
+    return rate;
+}
+
+/// A kind with chance n change; -1 without any.
+static int64_t pick_changing(const clx_block *b, double at)
+{
+    int64_t last = -1;
+    for (int64_t k = 0; k < b->n_kind; ++k) {
+        const double chance = (double)b->kind[k].n * b->kind[k].change;
+        if (chance > 0.0) {
+            last = k;
+            at -= chance;
+            if (at < 0.0) {
+                break;
+            }
+        }
+    }
+    return last;
+}
+
+/// A particle settles, breaks or comes in.
+static void one_change(clx_block *b, double total)
+{
+    int64_t live[CLX_MOST_FRAGMENTS];
+    int n_live = 0;
+    const double at = clx_rng_uniform(b->rng) * total - clx_box_source(b->box);
+    const int64_t kind = at < 0.0 ? -1 : pick_changing(b, at);
+    if (kind < 0) {
+        n_live = clx_box_source(b->box) > 0.0 ? clx_box_enter(b->box, b->rng, live) : 0;
+    } else {
+        const clx_kind gone = b->kind[kind];
+        const int64_t i = take(b, kind);
+        drop_if_empty(b, kind);
+        unload(b, &gone);
+        n_live = clx_box_change(b->box, i, b->rng, live);
+    }
+    for (int k = 0; k < n_live; ++k) {
+        load(b, live[k]);
+    }
+}
+
+/// One event at a time after the block began; false where none is left.
+static bool one_of_both(clx_block *b, double total, double change, double time)
+{
+    const double both = 0.5 * b->scale * total + change;
+    if (b->box != NULL) {
+        b->box->now = b->box->time + time;
+    }
+    if (change > 0.0 && clx_rng_uniform(b->rng) * both < change) {
+        one_change(b, change);
+        return true;
+    }
+    return one_event(b, total) || change > 0.0;
+}
+
 static void next_events(clx_block *b, double dt)
 {
     enum { LEAST_REFRESH = 64 };
     double total = total_of(b);
+    double change = changes_of(b);
     double time = 0.0;
     int64_t since = 0;
-    while (total > 0.0) {
-        time -= log(clx_rng_uniform(b->rng)) / (0.5 * b->scale * total);
-        if (time > dt || !one_event(b, total)) {
+    while (total > 0.0 || change > 0.0) {
+        time -= log(clx_rng_uniform(b->rng)) / (0.5 * b->scale * total + change);
+        if (time > dt || (b->flows && !clx_box_reserve(b)) ||
+            !one_of_both(b, total, change, time)) {
             return;
         }
+        change = changes_of(b);
         // rows drift by rounding as events go; summing them anew costs as much as a few events
         if (++since >= b->n_kind + LEAST_REFRESH) {
             total = clx_block_rates(b);
@@ -324,6 +408,7 @@ static void freeze(clx_block *b)
 
 static int64_t owner_of(const clast_population *p, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < p->n);
     while (p->owner[i] != i) {
         i = p->owner[i];
     }
@@ -332,6 +417,7 @@ static int64_t owner_of(const clast_population *p, int64_t i)
 
 static int64_t pick_frozen(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(kind >= 0 && kind < b->n_kind && b->kind[kind].n > 0);
     const int64_t at = b->kind[kind].head + clx_rng_below(b->rng, b->kind[kind].n);
     return owner_of(b->population, b->frozen[at]);
 }
@@ -371,26 +457,51 @@ void clx_block_drop_dead(clx_block *b)
     b->n = n;
 }
 
+/// Poisson number of collisions of a sub-step.
+static void poisson_events(clx_block *b, double total, double delta)
+{
+    const int64_t n_event = clx_rng_poisson(b->rng, 0.5 * b->scale * total * delta);
+    if (n_event > 0) {
+        freeze(b);
+        for (int64_t e = 0; e < n_event && frozen_event(b, total); ++e) {
+        }
+        clx_block_drop_dead(b);
+        (void)clx_block_sort(b, b->n);
+    }
+}
+
+/// The particles of a box settle, break and come in for a sub-step that begins `time` after dt did.
+static void poisson_flow(clx_block *b, clx_box *box, double time, double delta)
+{
+    box->time += time;
+    clx_box_flow(b, delta);
+    box->time -= time;
+    (void)clx_block_sort(b, b->n);
+}
+
 static void poisson(clx_block *b, double dt)
 {
+    clx_box *flowing = b->flows ? b->box : NULL;
     double left = dt;
-    while (left > 0.0 && b->n > 0) {
+    while (left > 0.0 && (b->n > 0 || flowing != NULL)) {
         const double total = clx_block_rates(b);
         double busiest = 0.0;
         for (int64_t k = 0; k < b->n_kind; ++k) {
             busiest = fmax(busiest, b->kind[k].row);
         }
-        if (!(total > 0.0)) {
-            return;
+        double delta = total > 0.0 ? fmin(left, b->config->leap / (b->scale * busiest)) : left;
+        if (flowing != NULL) {
+            delta = fmin(delta, clx_box_bound(b, b->config->leap));
         }
-        const double delta = fmin(left, b->config->leap / (b->scale * busiest));
-        const int64_t n_event = clx_rng_poisson(b->rng, 0.5 * b->scale * total * delta);
-        if (n_event > 0) {
-            freeze(b);
-            for (int64_t e = 0; e < n_event && frozen_event(b, total); ++e) {
-            }
-            clx_block_drop_dead(b);
-            (void)clx_block_sort(b, b->n);
+        if (b->box != NULL) {
+            b->box->now = b->box->time + dt - left;
+        }
+        if (total > 0.0) {
+            poisson_events(b, total, delta);
+        }
+        if (flowing != NULL) {
+            poisson_flow(b, flowing, dt - left, delta);
+            delta = flowing->status == CLAST_OK ? delta : left;
         }
         left -= delta;
     }

@@ -2,6 +2,8 @@
 // collide most (collectors) meeting the whole cell. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "base/status.h"
+#include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include <math.h>
 
@@ -24,6 +26,7 @@ typedef struct {
 
 void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
 {
+    CLAST_ASSERT(n >= 0);
     for (int64_t i = n - 1; i > 0; --i) {
         const int64_t j = clx_rng_below(rng, i + 1);
         const int64_t held = item[i];
@@ -36,8 +39,10 @@ void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
 /// rate, so that its expected number of collisions stays.
 static clx_block block_of(const deal *d, int64_t k)
 {
+    CLAST_ASSERT(k >= 0 && k < d->n_block);
     const int64_t begin = d->n * k / d->n_block;
     clx_block b = *d->cell;
+    b.flows = false; // between two deals
     b.member += begin;
     b.frozen += begin;
     b.kind += begin;
@@ -168,6 +173,7 @@ static void evolve_blocks(deal *d, int64_t parity, bool is_stale, double delta)
 /// Rate of a collector with all others, over scale: pairs of two collectors count half in each row.
 static double collector_row(const deal *d, int64_t c)
 {
+    CLAST_ASSERT(c >= d->n && c < d->n + d->n_collector);
     const clx_block *b = d->cell;
     const int64_t n_all = d->n + d->n_collector;
     double row = 0.5 * clx_block_self_rate(b, &b->kind[c]);
@@ -317,26 +323,80 @@ static double bound_by_collectors(deal *d, double delta)
     return rate * delta > most ? most / rate : delta;
 }
 
+/// Collisions for a time after a deal: half of the blocks evolve before the collectors and half
+/// after, so that the error of the splitting is of second order in delta.
+static void evolve_deal(deal *d, bool is_stale, double delta)
+{
+    evolve_blocks(d, d->parity, is_stale, delta);
+    if (d->n_collector > 0) {
+        evolve_collectors(d, delta);
+    }
+    evolve_blocks(d, 1 - d->parity, is_stale, delta);
+    drop_dead(d);
+    d->parity = 1 - d->parity;
+}
+
+/// Deals; returns the time until the next deal.
+static double next_deal(deal *d, bool *is_stale)
+{
+    const double delta = deal_until_even(d);
+    *is_stale = d->n_collector > 0; // they overwrite the kinds of the blocks
+    return *is_stale ? bound_by_collectors(d, delta) : delta;
+}
+
+static void collide_only(deal *d)
+{
+    while (d->left > 0.0 && d->n + d->n_collector > 1) {
+        bool is_stale = false;
+        const double delta = next_deal(d, &is_stale);
+        evolve_deal(d, is_stale, delta);
+        d->left -= delta;
+        if (d->cell->box != NULL) {
+            d->cell->box->time += delta;
+        }
+    }
+}
+
+/// Particles settle, break and come in between two deals.
+static void flow(deal *d, double delta)
+{
+    clx_block *cell = d->cell;
+    cell->n = d->n + d->n_collector;
+    clx_box_flow(cell, delta);
+    d->n = cell->n;
+    d->n_collector = 0;
+    d->n_kind = cell->box->n_kind;
+    cell->box->time += delta;
+}
+
+/// Half of the collisions of a time delta, all else, the other half of the collisions with the
+/// first half of the next delta: the error is of second order.
+static void collide_and_flow(deal *d)
+{
+    clx_box *box = d->cell->box;
+    double owed = 0.0; // collisions still to come
+    while (d->left > 0.0 && box->status == CLAST_OK) {
+        bool is_stale = false;
+        double delta = next_deal(d, &is_stale);
+        d->cell->n = d->n + d->n_collector;
+        delta = fmin(delta, clx_box_bound(d->cell, MIXING));
+        evolve_deal(d, is_stale, owed + 0.5 * delta);
+        flow(d, delta);
+        owed = 0.5 * delta;
+        d->left -= delta;
+    }
+    d->left = box->status == CLAST_OK ? owed : 0.0;
+    box->time -= owed;
+    collide_only(d);
+}
+
 void clx_block_evolve_dealt(clx_block *cell, int64_t *n_kind, double dt)
 {
     deal d = {.cell = cell, .n_kind = n_kind, .n = cell->n, .left = dt};
     cell->deal = 1.0;
-    while (d.left > 0.0 && d.n + d.n_collector > 1) {
-        double delta = deal_until_even(&d);
-        bool is_stale = false;
-        if (d.n_collector > 0) { // overwrites the kinds of the blocks
-            delta = bound_by_collectors(&d, delta);
-            is_stale = true;
-        }
-        // half of the blocks evolve before the collectors and half after: the error of the
-        // splitting is of second order in delta
-        evolve_blocks(&d, d.parity, is_stale, delta);
-        if (d.n_collector > 0) {
-            evolve_collectors(&d, delta);
-        }
-        evolve_blocks(&d, 1 - d.parity, is_stale, delta);
-        drop_dead(&d);
-        d.parity = 1 - d.parity;
-        d.left -= delta;
+    if (cell->flows) {
+        collide_and_flow(&d);
+    } else {
+        collide_only(&d);
     }
 }

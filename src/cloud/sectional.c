@@ -85,6 +85,25 @@ clast_collider clx_collider_of_size(const clast_collide_config *c, double x)
     return seen;
 }
 
+static double kernel_at(const clast_collide_config *collide, double x, double y)
+{
+    clast_collider pair[2] = {clx_collider_of_size(collide, x), clx_collider_of_size(collide, y)};
+    for (int k = 0; k < 2 && (clast_kernel_needs(collide->kernel) & CLAST_NEEDS_SETTLING) != 0;
+         ++k) {
+        pair[k].settling_speed = clast_kernel_settling_speed(&collide->medium, &pair[k]);
+    }
+    const double value = clast_kernel_value(collide->kernel, &collide->medium, &pair[0], &pair[1]);
+    return collide->sticking.law == CLAST_STICKING_CONSTANT
+               ? value
+               : value * clx_sticking_of(collide, &collide->medium, &pair[0], &pair[1]);
+}
+
+bool clx_kernel_gels(const clast_collide_config *collide, double x)
+{
+    static const double DEGREE_ABOVE_1 = 2.02;
+    return kernel_at(collide, x, 0.5 * x) > DEGREE_ABOVE_1 * kernel_at(collide, 0.5 * x, 0.25 * x);
+}
+
 static void fill_pairs(const clast_collide_config *collide, clx_sectional *s)
 {
     const int64_t n = s->n;
@@ -130,6 +149,7 @@ done:
 
 static double rate_at(const clx_sectional *s, const double *y, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     return (j == k ? 0.5 : 1.0) * s->rate[(int64_t)j * s->n + k] * y[j] * y[k] * s->monomers /
            s->x[j] * s->monomers / s->x[k];
 }
@@ -161,6 +181,7 @@ void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *co
 /// Integral of v^e from a to b.
 static double power_between(double e, double a, double b)
 {
+    CLAST_ASSERT(a > 0.0 && b > 0.0);
     return fabs(e + 1.0) < 1e-12 ? log(b / a) : (pow(b, e + 1.0) - pow(a, e + 1.0)) / (e + 1.0);
 }
 
@@ -253,6 +274,7 @@ typedef struct {
 
 static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     const int64_t at = (int64_t)j * s->n + k;
     const double unit = 1.0 / s->monomers;
     transfer t = {.i = s->lower[at], .loss = {s->x[j] * unit, s->x[k] * unit}};
@@ -276,6 +298,10 @@ void clx_sectional_slope(clx_sectional *s, const double *y, double *slope)
     }
     slope[n + CLX_GEL] = 0.0;
     slope[n + CLX_SETTLED] = 0.0;
+    slope[n + CLX_ADDED] = 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        slope[n + CLX_ADDED] += s->source[i];
+    }
     for (int32_t j = 0; j < s->n; ++j) {
         const double at_j = y[j] * s->monomers / s->x[j];
         slope[n + CLX_SETTLED] += s->sink[j] * y[j];

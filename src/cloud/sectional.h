@@ -3,8 +3,8 @@
 // section 6]
 #include <clast/agglomerate.h>
 
-/// State beyond the n sections: monomers that left the grid above, and that settled.
-enum { CLX_GEL, CLX_SETTLED, CLX_N_BESIDE };
+/// State beyond the n sections: monomers that left the grid above, that settled, that came in.
+enum { CLX_GEL, CLX_SETTLED, CLX_ADDED, CLX_N_BESIDE };
 
 /// y [n + CLX_N_BESIDE] are shares of the monomers at the start: y_i = N_i x_i / monomers.
 typedef struct clx_sectional {
@@ -37,8 +37,8 @@ void clx_sectional_add(const clx_sectional *s, double v, double number, double *
 clast_status clx_sectional_rates(const clast_spectrum_config *config,
                                  const clast_collide_config *collide, clx_sectional *s);
 
-/// dy/dt, and its Jacobian in columns [n + CLX_N_BESIDE][n + CLX_N_BESIDE]. Both keep the sum of y
-/// to rounding, sources apart.
+/// dy/dt, and its Jacobian in columns [n + CLX_N_BESIDE][n + CLX_N_BESIDE]. Both keep the sum of y,
+/// what came in taken off, to rounding.
 void clx_sectional_slope(clx_sectional *s, const double *y, double *slope);
 void clx_sectional_jacobian(const clx_sectional *s, const double *y, double *const *column);
 
@@ -53,5 +53,9 @@ void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *co
 
 /// A particle of x monomers as kernels see it.
 clast_collider clx_collider_of_size(const clast_collide_config *collide, double x);
+
+/// Whether the kernel gels in a finite time: at x and x/2 it is more than twice as high as at half
+/// these sizes.
+bool clx_kernel_gels(const clast_collide_config *collide, double x);
 
 void clx_sectional_free(clx_sectional *s);

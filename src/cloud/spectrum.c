@@ -3,10 +3,11 @@
 #include "cloud/spectrum.h"
 
 #include "base/alloc.h"
-#include "cloud/collide.h"
+#include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define FIELD(type, name) #name, .offset = offsetof(clast_spectrum_config, name), type
 const clast_field clast_spectrum_fields[] = {
@@ -24,7 +25,7 @@ const clast_field clast_spectrum_fields[] = {
     {FIELD(CLAST_FIELD_I32, particles), 10000, 2, 10000000, "-", "particles of a Monte Carlo box",
      NULL},
     {FIELD(CLAST_FIELD_F64, size_min), 0.0, 0.0, 1e100, "-",
-     "smallest size of the grid [monomers]; 0: that of the start", NULL},
+     "smallest size, which does not break [monomers]; 0: that of the start", NULL},
     {FIELD(CLAST_FIELD_F64, size_max), 0.0, 0.0, 1e100, "-",
      "largest size of the grid [monomers]; 0: 1e5 mean sizes of the start", NULL},
     {FIELD(CLAST_FIELD_I32, per_octave), 16, 1, 1000, "-",
@@ -35,7 +36,7 @@ const clast_field clast_spectrum_fields[] = {
     {FIELD(CLAST_FIELD_CHOICE, fragments), 0, 0, 0, "-",
      "sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves", "power|halves"},
     {FIELD(CLAST_FIELD_F64, fragment_exponent), 0.0, -0.99, 100.0, "-",
-     "c; 0: two fragments, uniform", NULL},
+     "c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1", NULL},
     {FIELD(CLAST_FIELD_F64, source), 0.0, 0.0, 1e300, "-",
      "particles that come in, a volume and time [1/(m^3 s)]", NULL},
     {FIELD(CLAST_FIELD_F64, source_size), 1.0, 1e-100, 1e100, "-", "their size [monomers]", NULL},
@@ -91,11 +92,13 @@ static clast_status check(const clast_spectrum_config *config, const clast_colli
               config->duration, config->n_step, config->repeats);
     CLX_TRY(clx_collide_config_check(collide));
     CLX_TRY(check_kernel(config, collide));
-    CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL ||
-                  (config->breakage_rate == 0.0 && config->source == 0.0 &&
-                   config->settling_depth == 0.0),
+    CLX_CHECK(config->solver == CLAST_SOLVER_SECTIONAL || config->breakage_rate == 0.0 ||
+                  clx_fragments_count(config) > 0,
               CLAST_E_CONFIG,
-              "solver: monte-carlo knows no breakage, sources or settling; take sectional");
+              "fragment_exponent: monte-carlo breaks particles into 2, 3, 4 .. %d fragments, "
+              "exponent 0, -0.5, -0.667 .. %.3f (1/(m-1) - 1); %g has no whole number: take "
+              "sectional",
+              CLX_MOST_FRAGMENTS, 1.0 / (CLX_MOST_FRAGMENTS - 1) - 1.0, config->fragment_exponent);
     CLX_CHECK(config->solver == CLAST_SOLVER_MONTE_CARLO || config->repeats == 1, CLAST_E_CONFIG,
               "repeats: the sectional solver draws nothing, so it runs once, not %d times",
               config->repeats);
@@ -105,11 +108,18 @@ done:
 
 static clast_status make_grid(const clx_start *start, clx_sectional *grid)
 {
+    clast_status status = CLAST_OK;
     const clast_spectrum_config *c = start->config;
-    const double low = c->size_min > 0.0 ? c->size_min : start->low;
+    const double low = start->low;
     const double mean = c->initial == CLAST_INITIAL_TABLE ? start->high : c->initial_mean;
     const double high = c->size_max > 0.0 ? c->size_max : fmax(1e5 * mean, 100.0 * start->high);
-    return clx_sectional_grid(low, high, start->unit, c->per_octave, grid);
+    CLX_CHECK(c->source == 0.0 || (c->source_size >= low && c->source_size <= high), CLAST_E_CONFIG,
+              "source_size: %g monomers lies outside the grid from %g to %g (--size-min, "
+              "--size-max)",
+              c->source_size, low, high);
+    CLX_TRY(clx_sectional_grid(low, high, start->unit, c->per_octave, grid));
+done:
+    return status;
 }
 
 static clast_status make_sums(int32_t n_row, int32_t n, clx_spectrum_sums *s)
@@ -122,7 +132,8 @@ static clast_status make_sums(int32_t n_row, int32_t n, clx_spectrum_sums *s)
     CLX_TRY(clx_alloc(&s->number2, (int64_t)n_row * n, sizeof *s->number2));
     CLX_TRY(clx_alloc(&s->moment, 4 * (int64_t)n_row, sizeof *s->moment));
     CLX_TRY(clx_alloc(&s->moment2, 4 * (int64_t)n_row, sizeof *s->moment2));
-    CLX_TRY(clx_alloc(&s->beside, CLX_N_BESIDE * (int64_t)n_row, sizeof *s->beside));
+    CLX_TRY(clx_alloc(&s->told, CLX_N_TOLD * (int64_t)n_row, sizeof *s->told));
+    CLX_TRY(clx_alloc(&s->told2, CLX_N_TOLD * (int64_t)n_row, sizeof *s->told2));
 done:
     return status;
 }
@@ -133,29 +144,26 @@ static void free_sums(clx_spectrum_sums *s)
     clx_free(s->number2);
     clx_free(s->moment);
     clx_free(s->moment2);
-    clx_free(s->beside);
+    clx_free(s->told);
+    clx_free(s->told2);
 }
 
 /// One row of the sectional solver into sums; the error of its mass.
-static double sum_row(const clx_sectional *g, const double *y, double time, int32_t row,
-                      clx_spectrum_sums *sums)
+static double sum_row(const clx_sectional *g, const double *y, int32_t row, clx_spectrum_sums *sums)
 {
+    const double added = 1.0 + y[g->n + CLX_ADDED];
     double mass = y[g->n + CLX_GEL] + y[g->n + CLX_SETTLED];
-    double added = 1.0;
     for (int32_t i = 0; i < g->n; ++i) {
         const double number = y[i] * g->monomers / g->x[i];
         double power = number;
         sums->number[(int64_t)row * g->n + i] = number;
         mass += y[i];
-        added += g->source[i] * time;
         for (int k = 0; k < 4; ++k) {
             sums->moment[4 * row + k] += power;
             power *= g->x[i];
         }
     }
-    for (int k = 0; k < CLX_N_BESIDE; ++k) {
-        sums->beside[CLX_N_BESIDE * row + k] = y[g->n + k];
-    }
+    memcpy(sums->told + (int64_t)CLX_N_TOLD * row, y + g->n, CLX_N_BESIDE * sizeof *y);
     return (mass - added) / added;
 }
 
@@ -222,14 +230,14 @@ static clast_status solve(const clx_start *start, const clast_collide_config *co
     CLX_TRY(look_at_rows(start, collide, g, rows, &made->range));
     for (int32_t row = 0; row < sums->n_row; ++row) {
         const double time = config->duration / config->n_step * row;
-        const double error = sum_row(g, rows + (int64_t)row * width, time, row, sums);
+        const double error = sum_row(g, rows + (int64_t)row * width, row, sums);
         made->mass_error = fmax(made->mass_error, fabs(error));
+        sums->told[CLX_N_TOLD * row + CLX_GELLED] = time >= made->gel_time ? 1.0 : 0.0;
     }
     sums->n_run = 1;
     made->n_evaluation = g->n_evaluation;
-    // a kernel whose value at twice the sizes is more than twice as high gels in a finite time
-    const int64_t n = g->n;
-    made->is_gelation = g->rate[n * n - 1] > 2.02 * g->rate[(n - 1 - config->per_octave) * (n + 1)];
+    made->n_gelled = isnan(made->gel_time) ? 0 : 1;
+    made->gel_size = g->x[g->n - 1];
 done:
     clx_free(rows);
     return status;
@@ -341,7 +349,8 @@ static clast_status make_history(const clx_start *start, const clx_sectional *g,
                                  const clx_spectrum_sums *sums, clast_table *history)
 {
     static const char *const name[4] = {"M0", "M1", "M2", "M3"};
-    static const char *const beside[CLX_N_BESIDE] = {"gel_fraction", "settled_fraction"};
+    static const char *const told[CLX_N_TOLD] = {"gel_fraction", "settled_fraction",
+                                                 "added_fraction", "gelled"};
     clast_status status = CLAST_OK;
     const clast_spectrum_config *config = start->config;
     double *time = NULL;
@@ -354,9 +363,10 @@ static clast_status make_history(const clx_start *start, const clx_sectional *g,
         CLX_TRY(add_columns(history, name[k], "1/m^3",
                             (series){sums->moment + k, sums->moment2 + k, 4, sums->n_run}));
     }
-    for (int k = 0; k < CLX_N_BESIDE && config->solver == CLAST_SOLVER_SECTIONAL; ++k) {
-        CLX_TRY(add_columns(history, beside[k], "-",
-                            (series){sums->beside + k, NULL, CLX_N_BESIDE, 1}));
+    for (int k = 0; k < CLX_N_TOLD; ++k) {
+        CLX_TRY(add_columns(history, told[k], "-",
+                            (series){sums->told + k, k != CLX_GELLED ? sums->told2 + k : NULL,
+                                     CLX_N_TOLD, sums->n_run}));
     }
     if (start->unit > 0.0) {
         CLX_TRY(add_clusters(g, sums, history));
@@ -368,6 +378,7 @@ done:
 /// Width of section i, half of the way to both neighbours.
 static double width_of(const clx_sectional *g, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < g->n && g->n >= 2);
     const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
     return 0.5 * (above + (i > 0 ? g->x[i] - g->x[i - 1] : above));
 }
@@ -424,6 +435,7 @@ clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
     } else {
         CLX_TRY(clx_spectrum_sample(&start, collide, &grid, &sums, &made));
     }
+    made.is_gelation = made.n_gelled > 0 && clx_kernel_gels(collide, grid.x[grid.n - 1]);
     CLX_TRY(make_history(&start, &grid, &sums, &made.history));
     CLX_TRY(add_exact(config, collide, &made));
     CLX_TRY(make_spectrum(config, &grid, &sums, &made.spectrum));

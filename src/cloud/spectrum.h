@@ -20,12 +20,15 @@ double clx_start_quantile(const clx_start *start, double u);
 /// Adds the start to the pivots of a grid [1/m^3]; number and mass kept.
 void clx_start_add(const clx_start *start, const clx_sectional *grid, double *number);
 
+/// Columns beside the moments: those of the balance, and whether the box had gelled by then.
+enum { CLX_GELLED = CLX_N_BESIDE, CLX_N_TOLD };
+
 /// Sums over runs; rows are times.
 typedef struct clx_spectrum_sums {
     int32_t n_row, n_run;
     double *number, *number2; ///< [n_row][n_section] and squares
     double *moment, *moment2; ///< [n_row][4] of x^k, and squares
-    double *beside;           ///< [n_row][CLX_N_BESIDE] shares, sectional alone
+    double *told, *told2;     ///< [n_row][CLX_N_TOLD] shares of the mass at the start, and squares
 } clx_spectrum_sums;
 
 /// Monte Carlo runs into sums.

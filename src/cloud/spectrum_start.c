@@ -47,6 +47,18 @@ done:
     return status;
 }
 
+/// Lets the smallest size be one that the start does not hold: that of the grid or of a source.
+static void refine(clx_start *s)
+{
+    const clast_spectrum_config *c = s->config;
+    const double size = c->size_min > 0.0 ? c->size_min : c->source > 0.0 ? c->source_size : s->low;
+    const double whole = round(s->unit / size);
+    if (size < s->low) {
+        s->low = size;
+        s->unit = fabs(s->unit - whole * size) > 1e-9 * s->unit ? 0.0 : whole > 0.0 ? size : 0.0;
+    }
+}
+
 clast_status clx_start_begin(const clast_spectrum_config *config, const clast_spectrum_start *table,
                              clx_start *start)
 {
@@ -72,6 +84,7 @@ clast_status clx_start_begin(const clast_spectrum_config *config, const clast_sp
     CLX_CHECK(config->size_max == 0.0 || config->size_max >= s.high, CLAST_E_CONFIG,
               "size_max: %g monomers is below the largest size at the start, %g", config->size_max,
               s.high);
+    refine(&s);
     *start = s;
 done:
     return status;
@@ -97,6 +110,7 @@ static double table_quantile(const clast_spectrum_start *t, double u)
 
 double clx_start_quantile(const clx_start *s, double u)
 {
+    CLAST_ASSERT(u > 0.0 && u <= 1.0);
     if (s->config->initial == CLAST_INITIAL_TABLE) {
         return table_quantile(s->table, u);
     }

@@ -1,6 +1,7 @@
 """CLI: agglomerate --box-model evolves a size spectrum without positions; clouds have spectra too."""
 import csv
 import math
+import random
 import re
 import unittest
 
@@ -66,6 +67,32 @@ class BoxModel(Case):
         self.assertAlmostEqual(r["n_particle"][-1], 2.0, delta=0.01)  # sqrt(2 S1 M1 / K)
         self.assertEqual(r["events"], [])
 
+    def test_monte_carlo_breaks_fills_settles_and_gels(self):
+        run = self.folder / "run"
+        words = (*BOX, "--kernel", "constant", "--constant", "0.5", "--duration", "3", "--n-step", "3", "--repeats", "8", "--particles",
+                 "1000", "--breakage-rate", "0.2", "--source", "0.5", "--settling-depth", "1mm", "--monomer-radius", "10um",
+                 "--particle-density", "2000")
+        r = clast(*words, "--json", "-o", run)
+        self.assertEqual(r.code, 0, r.err)
+        self.assertEqual(r.json["mass_error"], 0.0)
+        self.assertEqual(sorted(p.name for p in run.glob("*.svg")), sorted([*CHARTS, "balance.svg"]))
+        history = rows(run / "history.csv")
+        for row in history:
+            self.assertAlmostEqual(row["M1"] / 2 + row["settled_fraction"], 1 + row["added_fraction"], delta=1e-12)
+        self.assertGreater(history[-1]["settled_fraction"], 0.1)
+        self.assertAlmostEqual(r.json["added_fraction"][-1], 0.75, delta=0.05)
+        self.assertEqual(r.json["events"], [])  # no difference of numbers tells them here
+        self.assertIn("settled        added", clast(*words).out)
+        one, two = (clast(*words, "-j", threads, "--json").json for threads in ("1", "4"))
+        del one["wall_s"], two["wall_s"]
+        self.assertEqual(one, two)
+        gel = clast(*BOX, "--kernel", "product", "--product", "0.5", "--duration", "1.5", "--repeats", "3", "--particles", "5000", "--json")
+        self.assertEqual((gel.json["is_gelation"], gel.json["n_gelled"]), (True, 3))
+        self.assertAlmostEqual(gel.json["gel_time"], 1.0, delta=0.06)
+        self.assertGreater(gel.json["gel_fraction"][-1], 0.3)
+        out = clast(*BOX, "--kernel", "product", "--product", "0.5", "--duration", "1.5", "--repeats", "3", "--particles", "5000").out
+        self.assertRegex(out, r"gelation at (0\.9|1\.0)\d* s \(mean of 3 of 3 runs\)")
+
     def test_a_table_of_sizes_is_a_start(self):
         table = self.folder / "sizes.csv"
         table.write_text("size,number\n1,3\n4,1\n")
@@ -85,7 +112,15 @@ class BoxModel(Case):
                   (("agglomerate", UNIFORM, "--domain", "box:0,0,0,1,1,1", "--solver", "sectional"), "--solver is an option of a box"),
                   ((*BOX, UNIFORM), "a box has no positions"),
                   ((*BOX, "--mesh", "boxes"), "--mesh is an option of clouds"),
-                  ((*BOX, "--breakage-rate", "1"), "monte-carlo knows no breakage"),
+                  ((*BOX, "--breakage-rate", "1", "--fragment-exponent", "1"), "has no whole number: take sectional"),
+                  ((*BOX, "--fragments", "halves"), "--fragments does nothing without --breakage-rate"),
+                  ((*BOX, "--breakage-rate", "1", "--fragments", "halves", "--fragment-exponent", "-0.5"),
+                   "--fragment-exponent does nothing with --fragments halves"),
+                  ((*BOX, "--source-size", "2"), "--source-size does nothing without --source"),
+                  ((*BOX, "--source", "2", "--source-size", "1e9"), "source_size: 1e+09 monomers lies outside the grid"),
+                  ((*BOX, "--initial-sd", "2"), "--initial-sd does nothing without --initial lognormal"),
+                  ((*BOX, "--initial", "table", "--initial-file", UNIFORM, "--initial-mean", "2"),
+                   "--initial-mean does nothing with --initial table"),
                   ((*BOX, "--tolerance", "1e-3"), "--tolerance does nothing with this --solver"),
                   ((*BOX, "--initial", "table"), "--initial table and --initial-file go together"),
                   ((*BOX, "--kernel", "ballistic"), "which a box does not have"),
@@ -119,6 +154,22 @@ class CloudSpectra(Case):
         self.assertGreaterEqual(sum(row["n"] * row["size_high"] for row in last), 50 - 1e-9)
         self.assertGreater(r.json["moments_sd"]["M2"][-1], 0)
         self.assertEqual(sorted(p.name for p in run.glob("*.svg")), CHARTS)
+
+    def test_gelation_of_a_cloud_is_named(self):
+        points = self.folder / "points.csv"
+        rng = random.Random(3)
+        points.write_text("x,y,z\n" + "".join(f"{rng.random()},{rng.random()},{rng.random()}\n" for _ in range(1500)))
+        words = ("agglomerate", points, "--domain", "box:0,0,0,1,1,1", "--duration", "1.5", "--n-step", "30", "--repeats", "12")
+        gel = clast(*words, "--kernel", "product", "--product", str(1 / 1500), "-o", self.folder / "gel", "--json").json
+        self.assertEqual((gel["n_cell"][-1], gel["is_gelation"], gel["n_gelled"]), (1, True, 12))
+        self.assertAlmostEqual(gel["gel_time"], 1.0, delta=1500 ** (-1 / 3) + 0.05)  # the width of the critical window, and a step
+        self.assertAlmostEqual(gel["gel_fraction"][-1], 0.583, delta=0.02)  # g = 1 - exp(-g T) [Flory]
+        with open(self.folder / "gel/history.csv", encoding="utf-8") as file:
+            history = [{"gelled": float(row["gelled"])} for row in csv.DictReader(file)]
+        self.assertEqual((history[0]["gelled"], history[-1]["gelled"]), (0, 1))
+        self.assertRegex(clast(*words, "--kernel", "product", "--product", str(1 / 1500)).out, r"gelation by (0\.9|1\.)\d* s \(12 of 12 runs\)")
+        even = clast(*words, "--constant", str(1 / 1500), "--json").json
+        self.assertEqual((even["gel_time"], even["is_gelation"], even["n_gelled"]), (None, False, 0))
 
 
 if __name__ == "__main__":

@@ -45,11 +45,25 @@ static void need_sectional(void)
     }
 }
 
+/* Mass to 1e-12 in every row: M1, what settled, what came in, and what left the grid. */
+static void check_balance(const clast_spectrum_config *c, const clast_spectrum *r)
+{
+    const double *m1 = clast_table_numbers(&r->history, "M1");
+    const double *gel = clast_table_numbers(&r->history, "gel_fraction");
+    const double *settled = clast_table_numbers(&r->history, "settled_fraction");
+    const double *added = clast_table_numbers(&r->history, "added_fraction");
+    assert_true(r->mass_error < 1e-12);
+    for (int64_t i = 0; i < r->history.n_row; ++i) {
+        const double left = c->solver == CLAST_SOLVER_SECTIONAL ? gel[i] : 0.0;
+        CHECK_REL(m1[i] / m1[0] + left + settled[i], 1.0 + added[i], 1e-12);
+    }
+}
+
 static clast_spectrum evolve(const clast_spectrum_config *c, const clast_collide_config *k)
 {
     clast_spectrum r;
     CHECK_OK(clast_spectrum_evolve(c, k, NULL, &r));
-    assert_true(c->solver == CLAST_SOLVER_MONTE_CARLO || r.mass_error < 1e-12);
+    check_balance(c, &r);
     return r;
 }
 
@@ -335,6 +349,263 @@ static void gelation_is_named_with_its_time(void **state)
     clast_spectrum_free(&r);
 }
 
+/* What settling takes: Stokes' law for the closed forms, Re below 0.1. */
+static clast_collide_config falling(const char *name)
+{
+    clast_collide_config k = kernel(name);
+    k.monomer_radius = 1e-5;
+    k.medium.viscosity = 1e-3;
+    k.medium.density = 1000.0;
+    k.medium.particle_density = 2000.0;
+    k.medium.gravity = 10.0;
+    k.medium.settling_law = CLAST_SETTLING_STOKES;
+    return k;
+}
+
+enum { N_RUN = 40 };
+
+/* A column of the last row within `n` standard errors of its runs' mean. */
+static void check_mean(const clast_spectrum *r, const char *name, double want, double n)
+{
+    char deviation[64];
+    (void)snprintf(deviation, sizeof deviation, "%s_sd", name);
+    assert_true(last(r, deviation) > 0.0);
+    CHECK_ABS(last(r, name), want, n * last(r, deviation) / sqrt((double)N_RUN));
+}
+
+static clast_spectrum_config runs(double duration)
+{
+    clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, duration);
+    c.particles = 1000;
+    c.repeats = N_RUN;
+    return c;
+}
+
+/* Settling alone, drawn: singles and 8-mers leave at w1 / h and 4 w1 / h; each number falls as
+ * exp(-w t / h), and its deviation is binomial. */
+static void drawn_particles_settle_at_their_own_speed(void **state)
+{
+    (void)state;
+    const double size[2] = {1.0, 8.0};
+    const double number[2] = {0.5, 0.5};
+    const clast_spectrum_start start = {2, size, number};
+    clast_spectrum_config c = runs(60.0);
+    clast_collide_config k = falling("constant");
+    const double rate = 2.0 / 9.0 * 1000.0 * 10.0 * 1e-10 / 1e-3 / 0.02; /* w1 / h */
+    k.alpha = 0.0;
+    c.initial = CLAST_INITIAL_TABLE;
+    c.settling_depth = 0.02;
+    for (int32_t mode = CLAST_COLLISIONS_NEXT; mode <= CLAST_COLLISIONS_POISSON; ++mode) {
+        clast_spectrum r;
+        k.collisions = mode;
+        CHECK_OK(clast_spectrum_evolve(&c, &k, &start, &r));
+        check_balance(&c, &r);
+        const double p[2] = {exp(-rate * 60.0), exp(-4.0 * rate * 60.0)};
+        assert_true(p[0] > 0.3 && p[1] < 0.1);
+        check_mean(&r, "n_1", 0.5 * p[0], 3.0);
+        check_mean(&r, "n_8", 0.5 * p[1], 3.0);
+        check_mean(&r, "settled_fraction", 1.0 - (p[0] + 8.0 * p[1]) / 9.0, 3.0);
+        CHECK_REL(last(&r, "n_1_sd"), sqrt(500.0 * p[0] * (1.0 - p[0])) / 1000.0, 0.35);
+        clast_spectrum_free(&r);
+    }
+}
+
+/* A source, drawn: the number grows by q t with the deviation of Poisson's law; against settling it
+ * comes to q h / w, on the way q h / w + (N0 - q h / w) exp(-w t / h). A size between two whole
+ * numbers comes in as both. */
+static void drawn_particles_come_in(void **state)
+{
+    (void)state;
+    clast_spectrum_config c = runs(20.0);
+    clast_collide_config k = falling("constant");
+    k.alpha = 0.0;
+    c.source = 0.1;
+    c.source_size = 2.25;
+    clast_spectrum r = evolve(&c, &k);
+    check_mean(&r, "M0", 3.0, 3.0);
+    check_mean(&r, "n_2", 1.5, 3.0);
+    check_mean(&r, "n_3", 0.5, 3.0);
+    check_mean(&r, "added_fraction", 4.5, 3.0);
+    CHECK_REL(last(&r, "M0_sd"), sqrt(2000.0) / 1000.0, 0.35);
+    clast_spectrum_free(&r);
+    c.source_size = 1.0;
+    c.settling_depth = 2.0 / 9.0 * 1e-3; /* w / h = 1 / s */
+    c.source = 0.5;
+    c.duration = 1.0;
+    r = evolve(&c, &k);
+    check_mean(&r, "M0", 0.5 + 0.5 * exp(-1.0), 3.0);
+    clast_spectrum_free(&r);
+    c.duration = 12.0;
+    r = evolve(&c, &k);
+    check_mean(&r, "M0", 0.5, 3.0);
+    clast_spectrum_free(&r);
+}
+
+/* Random scission: S = k and uniform fragments in whole monomers cut each of the k - 1 bonds at the
+ * rate 1. Of chains of L: n_k = a^(k-1) (2 (1 - a) + (L - k - 1) (1 - a)^2), a = exp(-t), and
+ * a^(L-1) for k = L [Montroll1940]. Both solvers. */
+static void chains_break_as_montroll_and_simha_say(void **state)
+{
+    (void)state;
+    enum { LENGTH = 8 };
+    const double a = exp(-0.4);
+    clast_collide_config k = kernel("constant");
+    k.alpha = 0.0;
+    for (int32_t solver = clast_spectrum_has_sectional() ? 1 : 0; solver >= 0; --solver) {
+        clast_spectrum_config c = runs(0.4);
+        c.solver = solver;
+        c.repeats = solver == CLAST_SOLVER_SECTIONAL ? 1 : N_RUN;
+        c.initial_mean = LENGTH;
+        c.size_min = 1.0;
+        c.breakage_rate = 1.0;
+        for (int32_t mode = 0; mode <= (solver == CLAST_SOLVER_MONTE_CARLO ? 1 : 0); ++mode) {
+            k.collisions = mode;
+            clast_spectrum r = evolve(&c, &k);
+            for (int n = 1; n <= LENGTH; ++n) {
+                char name[8];
+                const double want =
+                    pow(a, n - 1) *
+                    (n < LENGTH ? 2.0 * (1.0 - a) + (LENGTH - n - 1) * (1.0 - a) * (1.0 - a) : 1.0);
+                (void)snprintf(name, sizeof name, "n_%d", n);
+                if (solver == CLAST_SOLVER_SECTIONAL) {
+                    CHECK_REL(last(&r, name), want, 1e-6);
+                } else {
+                    check_mean(&r, name, want, 3.5);
+                }
+            }
+            clast_spectrum_free(&r);
+        }
+    }
+}
+
+/* Chains of 8 that break into three, whose shares fall between whole numbers: drawn fragments have
+ * the integrated ones' means at each size. */
+static void whole_fragments_have_the_means_of_their_law(void **state)
+{
+    (void)state;
+    need_sectional();
+    clast_collide_config k = kernel("constant");
+    clast_spectrum_config c = runs(0.4);
+    k.alpha = 0.0;
+    c.initial_mean = 8.0;
+    c.size_min = 1.0;
+    c.breakage_rate = 1.0;
+    c.fragment_exponent = -0.5;
+    c.particles = 4000;
+    clast_spectrum drawn = evolve(&c, &k);
+    c.solver = CLAST_SOLVER_SECTIONAL;
+    c.repeats = 1;
+    clast_spectrum r = evolve(&c, &k);
+    for (int n = 1; n <= 8; ++n) {
+        char name[8];
+        (void)snprintf(name, sizeof name, "n_%d", n);
+        assert_true(last(&r, name) > 0.02);
+        check_mean(&drawn, name, last(&r, name), 3.5);
+    }
+    clast_spectrum_free(&drawn);
+    clast_spectrum_free(&r);
+}
+
+/* Breakage of sizes that are not whole, S = x: of m fragments, exponent 1/(m-1) - 1, the number
+ * grows as 1 + (m - 1) t from any start; an exponential one keeps its form with m = 2, where M2 is
+ * 2 / (1 + t). Halves at S = 1: exp(t). */
+static void drawn_particles_break_as_the_laws_say(void **state)
+{
+    (void)state;
+    clast_collide_config k = kernel("constant");
+    k.alpha = 0.0;
+    for (int32_t m = 2; m <= 5; ++m) {
+        clast_spectrum_config c = runs(1.0);
+        c.particles = 300;
+        c.per_octave = 1;
+        c.initial = m == 2 ? CLAST_INITIAL_EXPONENTIAL : CLAST_INITIAL_MONO;
+        c.size_min = 1e-10; /* what is below is lost as a particle, of 5 fragments 1e-2.5 */
+        c.breakage_rate = 1.0;
+        c.fragment_exponent = 1.0 / (m - 1) - 1.0;
+        clast_spectrum r = evolve(&c, &k);
+        CHECK_ABS(last(&r, "M0"), 1.0 * m,
+                  3.0 * last(&r, "M0_sd") / sqrt((double)N_RUN) + (m > 4 ? 0.03 : 1e-2));
+        if (m == 2) {
+            check_mean(&r, "M2", 1.0, 3.5);
+        }
+        clast_spectrum_free(&r);
+    }
+    clast_spectrum_config c = runs(1.0);
+    c.initial_mean = 1048576.0;
+    c.size_min = 1.0;
+    c.size_max = 1e7;
+    c.breakage_rate = 1.0;
+    c.breakage_exponent = 0.0;
+    c.fragments = CLAST_FRAGMENTS_HALVES;
+    clast_spectrum r = evolve(&c, &k);
+    check_mean(&r, "M0", exp(1.0), 3.0);
+    clast_spectrum_free(&r);
+}
+
+/* All at once, drawn against integrated: the means of both meet within 4 standard errors and what
+ * a sample of 1000 differs from infinitely many; whole sizes go event by event, others are dealt
+ * into blocks, and Poisson's sub-steps are a third way. */
+static void both_solvers_agree_on_all_processes(void **state)
+{
+    (void)state;
+    need_sectional();
+    static const char *const name[5] = {"M0", "M1", "M2", "settled_fraction", "added_fraction"};
+    for (int way = 0; way < 3; ++way) {
+        clast_spectrum_config c = runs(1.5);
+        clast_collide_config k = falling("constant");
+        c.initial = way == 1 ? CLAST_INITIAL_EXPONENTIAL : CLAST_INITIAL_MONO;
+        c.size_min = way == 1 ? 1e-3 : 0.0;
+        k.collisions = way == 2 ? CLAST_COLLISIONS_POISSON : CLAST_COLLISIONS_NEXT;
+        k.block = way == 1 ? 128 : 1024;
+        c.breakage_rate = 0.5;
+        c.settling_depth = 2.0 / 9.0 * 1e-2; /* w / h = 0.1 / s */
+        c.source = 0.3;
+        c.source_size = 2.0;
+        clast_spectrum drawn = evolve(&c, &k);
+        c.solver = CLAST_SOLVER_SECTIONAL;
+        c.repeats = 1;
+        c.per_octave = 24;
+        clast_spectrum r = evolve(&c, &k);
+        for (int i = 0; i < 5; ++i) {
+            char deviation[64];
+            (void)snprintf(deviation, sizeof deviation, "%s_sd", name[i]);
+            const double error = last(&drawn, deviation) / sqrt((double)N_RUN);
+            assert_true(error > 0.0 && error < 0.02 * last(&r, name[i]));
+            CHECK_ABS(last(&drawn, name[i]), last(&r, name[i]),
+                      4.0 * error + last(&r, name[i]) * (i == 2 ? 4e-3 : 2e-3));
+        }
+        clast_spectrum_free(&drawn);
+        clast_spectrum_free(&r);
+    }
+}
+
+/* Gelation, drawn: the product kernel at 1 / (c M2), to N^(-1/3); the constant one never gels, and
+ * a sample too small for its sizes is told as such. */
+static void drawn_gelation_is_named(void **state)
+{
+    (void)state;
+    clast_spectrum_config c = runs(1.5);
+    clast_collide_config k = kernel("product");
+    c.size_max = 0.0;
+    c.particles = 4000;
+    clast_spectrum r = evolve(&c, &k);
+    assert_true(r.is_gelation && r.n_gelled == N_RUN);
+    CHECK_ABS(r.gel_time, 1.0, 0.063); /* 4000^(-1/3) */
+    CHECK_REL(r.gel_size, 251.98, 1e-4);
+    CHECK_REL(last(&r, "gelled"), 1.0, 1e-15);
+    clast_spectrum_free(&r);
+    k = kernel("constant");
+    c.duration = 10.0;
+    r = evolve(&c, &k);
+    assert_true(!r.is_gelation && r.n_gelled == 0 && isnan(r.gel_time));
+    clast_spectrum_free(&r);
+    c.particles = 100;
+    c.duration = 100.0;
+    r = evolve(&c, &k);
+    assert_true(!r.is_gelation && r.n_gelled > 0 && r.gel_time > 5.0);
+    clast_spectrum_free(&r);
+}
+
 static clast_status evolve_once(void *context)
 {
     const clast_spectrum_config *c = context;
@@ -360,6 +631,9 @@ static void every_refused_allocation_is_told(void **state)
         c.size_max = 20.0;
         c.per_octave = 3;
         support_refuse_each_allocation(evolve_once, &c);
+        c.breakage_rate = 0.1;
+        c.source = 100.0; /* grows beyond its room */
+        support_refuse_each_allocation(evolve_once, &c);
         c.n_step = 3; // a kernel with ranges
         support_refuse_each_allocation(evolve_once, &c);
     }
@@ -374,8 +648,14 @@ static void what_does_not_go_together_is_refused(void **state)
     clast_spectrum_config c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
     CHECK_STATUS(clast_spectrum_evolve(&c, &moving, NULL, &r), CLAST_E_CONFIG);
     c.breakage_rate = 1.0;
+    c.fragment_exponent = -0.2; /* 2.25 fragments */
     CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
     assert_non_null(strstr(clast_error_detail(), "sectional"));
+    c = box(CLAST_SOLVER_MONTE_CARLO, 1.0);
+    c.source = 1.0;
+    c.source_size = 1e4; /* above the grid */
+    CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
+    assert_non_null(strstr(clast_error_detail(), "source_size"));
     c = box(CLAST_SOLVER_SECTIONAL, 1.0);
     c.concentration = 0.0;
     CHECK_STATUS(clast_spectrum_evolve(&c, &k, NULL, &r), CLAST_E_CONFIG);
@@ -400,6 +680,13 @@ int main(void)
         cmocka_unit_test(breakage_meets_the_exact_solutions),
         cmocka_unit_test(sources_and_sinks_keep_their_books),
         cmocka_unit_test(gelation_is_named_with_its_time),
+        cmocka_unit_test(drawn_particles_settle_at_their_own_speed),
+        cmocka_unit_test(drawn_particles_come_in),
+        cmocka_unit_test(chains_break_as_montroll_and_simha_say),
+        cmocka_unit_test(whole_fragments_have_the_means_of_their_law),
+        cmocka_unit_test(drawn_particles_break_as_the_laws_say),
+        cmocka_unit_test(both_solvers_agree_on_all_processes),
+        cmocka_unit_test(drawn_gelation_is_named),
         cmocka_unit_test(every_refused_allocation_is_told),
         cmocka_unit_test(what_does_not_go_together_is_refused),
     };
