@@ -3,7 +3,7 @@
 // each step.
 //
 //     bench_loop                    one row a size and policy; reference: the limits of a step
-//     bench_loop error [n] [steps] [seed] [policy]
+//     bench_loop error [n] [steps] [seed] [auto] [first cloud]
 //                                   what each policy costs and errs, on four drifting clouds:
 //                                   events against those of the plain twin at the same step
 //     bench_loop run N STEPS POLICY [CLOUD] [auto]
@@ -24,14 +24,18 @@ static const struct {
     clast_workspace_policy policy;
     const char *tests;
 } policies[] = {
-    {"each", {0, 1, 0, 0, 1, 0.05}, NULL},
-    {"tests_pearson", {0, 1, 0, 0, 1, 0.05}, "pearson"},
-    {"tests_every_50", {CLAST_TESTS_EVERY, 50, 0.5, 0, 1, 0.05}, NULL},
-    {"tests_moved", {CLAST_TESTS_MOVED, 1, 0.5, 0, 1, 0.05}, NULL},
-    {"tests_never", {CLAST_TESTS_NEVER, 1, 0.5, 0, 1, 0.05}, NULL},
-    {"never_cut_every_10", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_EVERY, 10, 0.05}, NULL},
-    {"never_cut_changed", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05}, NULL},
-    {"moved_cut_changed", {CLAST_TESTS_MOVED, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05}, NULL}};
+    {"each", {0, 1, 0, 0, 1, 0.05, 0}, NULL},
+    {"tests_pearson", {0, 1, 0, 0, 1, 0.05, 0}, "pearson"},
+    {"tests_every_50", {CLAST_TESTS_EVERY, 50, 0.5, 0, 1, 0.05, 0}, NULL},
+    {"tests_moved", {CLAST_TESTS_MOVED, 1, 0.5, 0, 1, 0.05, 0}, NULL},
+    {"tests_never", {CLAST_TESTS_NEVER, 1, 0.5, 0, 1, 0.05, 0}, NULL},
+    {"never_cut_every_10", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_EVERY, 10, 0.05, 0}, NULL},
+    {"never_cut_changed", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05, 0}, NULL},
+    {"pairs_every_50", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_EACH, 1, 0.05, 50}, NULL},
+    {"cut_10_pairs_50", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_EVERY, 10, 0.05, 50}, NULL},
+    {"changed_pairs_50", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05, 50}, NULL},
+    {"changed_pairs_200", {CLAST_TESTS_NEVER, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05, 200}, NULL},
+    {"moved_cut_changed", {CLAST_TESTS_MOVED, 1, 0.5, CLAST_CUT_CHANGED, 1, 0.05, 0}, NULL}};
 enum { N_POLICY = sizeof policies / sizeof policies[0], MOST_STEPS = 4000 };
 
 /// By cells alone, or by pairs where these do not resolve the cloud: a cut is then dearer.
@@ -87,6 +91,8 @@ static void end(loop *l)
     clast_fields_free(clast_decompose_fields, &l->config);
 }
 
+static clast_workspace_calls calls; ///< of the last policy that was timed
+
 /// CPU milliseconds of each step of a policy, ascending.
 static clast_status time_steps(int policy, drifting_kind kind, int64_t n, int n_step, double *ms)
 {
@@ -104,6 +110,7 @@ static clast_status time_steps(int policy, drifting_kind kind, int64_t n, int n_
         drifting_advance(&cloud);
     }
     qsort(ms, (size_t)n_step, sizeof *ms, compare);
+    (void)clast_workspace_count(l.workspace, &calls);
     end(&l);
     drifting_free(&cloud);
     return status;
@@ -253,6 +260,12 @@ static int64_t number(int argc, char **argv, int at, int64_t otherwise)
     return argc > at ? (int64_t)strtod(argv[at], NULL) : otherwise;
 }
 
+static clast_estimator estimator_of(int argc, char **argv, int at)
+{
+    return argc > at && strcmp(argv[at], "auto") == 0 ? CLAST_ESTIMATOR_AUTO
+                                                      : CLAST_ESTIMATOR_CELLS;
+}
+
 /// Median and mean of the steps of one policy.
 static clast_status run(int argc, char **argv)
 {
@@ -260,7 +273,7 @@ static clast_status run(int argc, char **argv)
     clast_status status = CLAST_OK;
     const int n_step = (int)number(argc, argv, 3, 1);
     const drifting_kind kind = (drifting_kind)number(argc, argv, 5, DRIFTING_MOVING);
-    estimator = argc > 6 && strcmp(argv[6], "auto") == 0 ? CLAST_ESTIMATOR_AUTO : estimator;
+    estimator = estimator_of(argc, argv, 6);
     for (int p = 0; p < N_POLICY && n_step > 0 && n_step <= MOST_STEPS; ++p) {
         if (strcmp(policies[p].name, argv[4]) == 0) {
             status = time_steps(p, kind, number(argc, argv, 2, 20000), n_step, ms);
@@ -268,8 +281,10 @@ static clast_status run(int argc, char **argv)
             for (int k = 0; k < n_step; ++k) {
                 mean += ms[k] / n_step;
             }
-            (void)printf("%.4g ms median, %.4g mean, %.4g most\n", ms[n_step / 2], mean,
-                         ms[n_step - 1]);
+            (void)printf("%.4g ms median, %.4g mean, %.4g most; of %lld calls %lld tested, %lld "
+                         "cut, %lld counted pairs\n",
+                         ms[n_step / 2], mean, ms[n_step - 1], (long long)calls.n_call,
+                         (long long)calls.n_test, (long long)calls.n_cut, (long long)calls.n_pairs);
         }
     }
     return status;
@@ -282,7 +297,9 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "error") == 0) {
         (void)printf("cloud,n,policy,ms_a_step,tests_a_step,cuts_a_step,bias,rms,worst,other_vote,"
                      "bias_to_truth,rms_to_truth,plain_bias_to_truth,plain_rms_to_truth\n");
-        for (int kind = 0; kind < N_DRIFTING && status == CLAST_OK; ++kind) {
+        estimator = estimator_of(argc, argv, 5);
+        for (int kind = (int)number(argc, argv, 6, 0); kind < N_DRIFTING && status == CLAST_OK;
+             ++kind) {
             status = errors((drifting_kind)kind, number(argc, argv, 2, 20000),
                             (int)number(argc, argv, 3, 200), (uint64_t)number(argc, argv, 4, 1));
         }

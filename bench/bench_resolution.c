@@ -1,8 +1,10 @@
 // Events by default over densities, places and numbers of points: of what is called resolved the
 // bias and how often the 95 % interval covers, of the rest how often the lower bound holds.
 //
-//     bench_resolution [n = 1000] [repeats = 100] [first seed = 1] [density, or all]
+//     bench_resolution [n = 1000] [repeats = 100] [first seed = 1] [density, or all] [place]
 //
+// Place: 2box, 3box, 3cylinder, 3surface; all without it. The estimator is that of CLAST_ESTIMATOR
+// (cells, pairs), auto without it.
 // Clouds have a Poisson number of points, as the interval supposes; the truth is the squared mean
 // number times the integral of the squared density; the bias is that for the number drawn. `tests`
 // votes do not move the numbers, so Pearson's alone runs.
@@ -13,6 +15,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const char *const place_name[N_PLACE] = {"box", "cylinder", "surface"};
 
 typedef struct {
     int n, n_resolved, n_covered, n_excluded, n_low;
@@ -41,13 +45,12 @@ static void add(const clast_decomposition *r, double mean_n, double truth, tally
 
 static void print_row(const density_scene *s, double mean_n, const tally *t)
 {
-    static const char *const place[N_PLACE] = {"box", "cylinder", "surface"};
     const double n = t->n_resolved > 0 ? t->n_resolved : (double)NAN;
     const double rest = t->n > t->n_resolved ? t->n - t->n_resolved : (double)NAN;
     const double mean = t->sum / n;
     const double sd = sqrt(fmax(0.0, t->squares / n - mean * mean));
     (void)printf("%s,%d,%s,%.0f,%d,%.6g,%.4f,%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3g\n",
-                 s->density->name, s->dimension, place[s->place], mean_n, t->n, s->integral,
+                 s->density->name, s->dimension, place_name[s->place], mean_n, t->n, s->integral,
                  (double)t->n_resolved / t->n, mean - 1.0, sd / sqrt(n), sd, t->half / n,
                  t->n_covered / n, (double)t->n_excluded / t->n, t->n_low / rest, t->low / rest,
                  rest / t->per_needed);
@@ -63,6 +66,10 @@ static clast_status run(const density_scene *s, double mean_n, int n_repeat, uin
     if (status == CLAST_OK) {
         status = clast_field_set(clast_fields_find(clast_decompose_fields, "tests"), &c, "pearson",
                                  false);
+    }
+    if (status == CLAST_OK && getenv("CLAST_ESTIMATOR") != NULL) {
+        status = clast_field_set(clast_fields_find(clast_decompose_fields, "estimator"), &c,
+                                 getenv("CLAST_ESTIMATOR"), false);
     }
     c.beta_dt = 1e-18;
     for (int k = 0; k < n_repeat && status == CLAST_OK; ++k) {
@@ -85,6 +92,12 @@ static clast_status run(const density_scene *s, double mean_n, int n_repeat, uin
     return status;
 }
 
+/// Whether the row is asked for; name: as 3box, or NULL.
+static bool is_place(const char *name, int32_t d, density_place place)
+{
+    return name == NULL || (name[0] == (char)('0' + d) && strcmp(name + 1, place_name[place]) == 0);
+}
+
 int main(int argc, char **argv)
 {
     const double mean_n = argc > 1 ? strtod(argv[1], NULL) : 1e3;
@@ -99,7 +112,7 @@ int main(int argc, char **argv)
         const int32_t d = 2 + k % 2;
         density_scene s = {0};
         if ((argc > 4 && strcmp(argv[4], "all") != 0 && strcmp(argv[4], law->name) != 0) ||
-            !density_fits(law, place, d)) {
+            !is_place(argc > 5 ? argv[5] : NULL, d, place) || !density_fits(law, place, d)) {
             continue;
         }
         status = density_scene_make(law, place, d, &s);

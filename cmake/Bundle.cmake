@@ -10,8 +10,8 @@ foreach(part VIEW HDF5 TIFF SUNDIALS)
     list(APPEND missing CLAST_${part})
   endif()
 endforeach()
-if(NOT TARGET OpenMP::OpenMP_C)
-  list(APPEND missing CLAST_OPENMP)
+if(NOT CLAST_THREADS)
+  list(APPEND missing CLAST_THREADS)
 endif()
 function(bundle_file name out) # where the compiler finds it
   execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=${name} OUTPUT_VARIABLE file OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -57,7 +57,7 @@ target_include_directories(clast_bundle_parts SYSTEM PRIVATE ${CAIRO_FT_INCLUDE_
 set_source_files_properties(packaging/bundle/font.c PROPERTIES COMPILE_DEFINITIONS "CARRIED_PATH=\"${CLAST_FONTS}\"")
 function(bundle_link target) # FILE...: no path and no time of this build stays in it
   target_link_options(${target} PRIVATE -static-libgcc -s -Wl,--build-id=none -Wl,--gc-sections -Wl,--as-needed -Wl,-z,defs
-    -Wl,--wrap=cairo_select_font_face -Wl,-Map=${BUNDLE}/${target}.map)
+    -Wl,--wrap=cairo_select_font_face,--wrap=hypot -Wl,-Map=${BUNDLE}/${target}.map)
   target_link_libraries(${target} PRIVATE -Wl,--start-group ${ARGN} -Wl,--end-group m)
 endfunction()
 

@@ -21,14 +21,6 @@ add_library(clast_deps INTERFACE)
 target_include_directories(clast_deps SYSTEM INTERFACE ${RANDOM123_INCLUDE})
 target_link_libraries(clast_deps INTERFACE PkgConfig::JANSSON PkgConfig::YAML PkgConfig::QHULL PkgConfig::LAPACKE
   ZLIB::ZLIB Threads::Threads m)
-if(CLAST_OPENMP)
-  find_package(OpenMP QUIET COMPONENTS C)
-  if(OpenMP_C_FOUND)
-    target_link_libraries(clast_deps INTERFACE OpenMP::OpenMP_C)
-  else()
-    clast_without(CLAST_OPENMP "threads" "OpenMP of ${CMAKE_C_COMPILER_ID} is not installed (gcc brings it; clang: libomp-dev)")
-  endif()
-endif()
 
 # Charts, pictures and pages. docs/adr/0010-two-libraries.md
 set(CLAST_HAVE_VIEW 0)

@@ -9,7 +9,7 @@ export AFL_SECONDS=${1:-60}
 tools/setup.sh afl
 export AFL_QUIET=1
 [ -f build/afl/build.ninja ] || cmake -S . -B build/afl -G Ninja -DCMAKE_C_COMPILER=afl-clang-fast -DCMAKE_C_COMPILER_LAUNCHER= \
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE="-O2 -g" -DCLAST_OPENMP=OFF -DCLAST_MPI=OFF -DBUILD_TESTING=OFF \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE="-O2 -g" -DCLAST_THREADS=OFF -DCLAST_MPI=OFF -DBUILD_TESTING=OFF \
     -DCLAST_BENCH=OFF > build-afl.log 2>&1 || { cat build-afl.log; exit 1; }
 rm -f build-afl.log
 cmake --build build/afl --target clast_cli > build/afl/build.log 2>&1 || { tail -20 build/afl/build.log; echo "afl: build failed"; exit 1; }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a public header that changed since the last release is not named in CHANGELOG's Unreleased *Interface*.
 
-Before the first release tag (v*) every header counts as changed.
+The last release is the commit that changed the file VERSION last; its section of CHANGELOG names every header when it is the first.
 """
 import pathlib
 import re
@@ -16,9 +16,8 @@ def git(*arguments):
 
 
 def changed_headers():
-    tag = git("describe", "--tags", "--abbrev=0", "--match", "v*").strip()
-    listing = git("diff", "--name-only", tag, "--", "include/clast") if tag else git("ls-files", "include/clast")
-    return [pathlib.PurePath(name).name for name in listing.split()]
+    release = git("log", "-1", "--format=%H", "--", "VERSION").strip()
+    return [pathlib.PurePath(name).name for name in git("diff", "--name-only", release, "HEAD", "--", "include/clast").split()]
 
 
 def interface_text():

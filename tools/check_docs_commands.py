@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs every shell and Python block of the documents, in order, in a clean folder for each document: tools/check_docs_commands.py CLAST [FILE...]
+"""Runs every shell and Python block of the documents, in order, in a clean folder for each document, as many documents at a time as
+there are cores: tools/check_docs_commands.py CLAST [FILE...]
 
 CLAST is the built command, `clast` in the blocks. The folder holds copies of data/ and examples/, so paths are those of a clone's
 root. A command must end with 0, or with the code that its comment states ("# exit code 1: ..."). A block that cannot run here says
@@ -7,6 +8,7 @@ why in its first line (```sh needs=WORD), WORD one of NEEDS; output is shown in 
 ```text output block must be in what the block before it has printed ("..." stands for anything). The Python blocks of a document are
 one program, which runs where libclast_view.so and NumPy are: beside CLAST, by PYTHON (/usr/bin/python3).
 """
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -172,9 +174,9 @@ def main():
         library = pathlib.Path(sys.argv[1]).resolve().parent / "libclast_view.so"
         if library.exists() and subprocess.run([PYTHON, "-c", "import numpy"], capture_output=True, check=False).returncode == 0:
             environment["CLAST_LIBRARY"] = str(library)
-        for name in sys.argv[2:] or documents():
-            ran, marked, wrong = run_document(name, environment)
-            n_run, n_marked, faults = n_run + ran, n_marked + marked, faults + wrong
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for ran, marked, wrong in pool.map(lambda name: run_document(name, environment), sys.argv[2:] or documents()):
+                n_run, n_marked, faults = n_run + ran, n_marked + marked, faults + wrong
     for fault in faults:
         print(fault)
     print(f"documents: {n_run} blocks run, {n_marked} marked as not for here, {len(faults)} faults, {time.monotonic() - began:.0f} s")

@@ -8,6 +8,8 @@ It also fails when headers include each other in a circle, or when more than two
 
 Only io, plot, render, base/file.c and base/lock.c may open files. Only base/number*.c may read or print a double by the C
 library, which obeys the host's locale.
+
+Fewer than LEAST_ASSERTS invariants (CLAST_ASSERT) in 1000 lines of src fail too.
 """
 import pathlib
 import re
@@ -21,6 +23,8 @@ OPENERS = re.compile(r"\b(fopen|open|fdopen|creat|H5Fopen|H5Fcreate)\s*\(")
 READERS = re.compile(r"\b(strto(?:d|f|ld)|atof|v?[fs]?scanf)\s*\(")
 PRINTERS = re.compile(r"\b(?:vs|s|f|vf)n?printf\s*\((?:[^;\"]|\"(?:[^\"\\]|\\.)*\")*?;", re.S)
 DOUBLE = re.compile(r"%[-+ #0]*[\d*]*(?:\.[\d*]*)?l?[efgaEFGA]")
+INVARIANT = re.compile(r"(?<!define )\bCLAST_ASSERT\(")
+LEAST_ASSERTS = 5  # in 1000 lines of src
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -127,9 +131,19 @@ def view_problems():
         yield f"{marked[name].relative_to(ROOT)}: {name} is marked CLX_SHARED, and the view does not call it"
 
 
+def assert_problems():
+    texts = [path.read_text() for path in ROOT.glob("src/*/*.[ch]")]
+    n_line = sum(text.count("\n") for text in texts)
+    n_assert = sum(len(INVARIANT.findall(strip_comments(text))) for text in texts)
+    if 1000 * n_assert < LEAST_ASSERTS * n_line:
+        yield (f"src: {n_assert} invariants in {n_line} lines are {1000 * n_assert / n_line:.1f} in 1000; "
+               f"state them by CLAST_ASSERT, {LEAST_ASSERTS} in 1000 at least")
+
+
 def problems():
     yield from circle_problems()
     yield from view_problems()
+    yield from assert_problems()
     defined = definers()
     for path in sorted(ROOT.glob("src/*/*.[ch]")):
         folder = path.parent.name

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Do the packages in build/packages work on a bare Debian 12 machine, as what they are for: tools/check_packages.sh [tarball] [wheel] [deb] [deb-dev] [sdist]
+# Do the packages in build/packages work on a bare Debian 12 machine, as what they are for: tools/check_packages.sh [tarball] [wheel] [deb] [deb-dev] [sdist] [notebooks]
 # Each is installed in a minimal root, does a real run whose numbers are those of this build, and is removed with nothing left.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 { # read as a whole before it runs: an edit meanwhile does no harm
 . tools/bare_root.sh
-version=$(sed -n 's/^project(clast VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(cat VERSION)
 made=build/packages
-wanted=${*:-tarball wheel deb deb-dev sdist}
+wanted=${*:-tarball wheel deb deb-dev sdist notebooks}
 install() { within "apt-get install -y -qq --no-install-recommends $*" > "$work/log" 2>&1 || fail "apt-get install $* failed"; }
 laid() { # the files of the root but apt's and the loader's own notes, and ours
     find "$root" -xdev \( -path "$root/var/lib/apt" -o -path "$root/var/cache" -o -path "$root/var/log" -o -path "$root/var/lib/dpkg" \
@@ -81,6 +81,19 @@ for package in $wanted; do
         clear_home
         same_as_before sdist
         say "pip builds and installs the source release"
+        ;;
+    notebooks)
+        install python3 python3-pip python3-numpy jupyter-nbconvert python3-ipykernel python3-matplotlib
+        wheel=$(cd "$made" && ls clast-"$version"-py3-none-manylinux_*.whl)
+        cp "$made/$wheel" "$root/given/build"
+        mkdir -p "$root/given/tests/python"
+        cp tests/python/test_notebooks.py "$root/given/tests/python"
+        home="mkdir -p /tmp/home; export HOME=/tmp/home PIP_BREAK_SYSTEM_PACKAGES=1 PATH=/tmp/home/.local/bin:\$PATH"
+        user "$home; pip install --quiet --no-index --user /given/build/$wheel" > "$work/log" 2>&1 || fail "notebooks: pip install failed"
+        user "$home; cd /tmp && python3 /given/tests/python/test_notebooks.py" > "$work/log" 2>&1 || fail "notebooks: a notebook failed"
+        grep -q '^OK$' "$work/log" || fail "notebooks: not all were run"
+        clear_home
+        say "the notebooks run from the wheel, and print what is stored in them"
         ;;
     deb | deb-dev)
         names="clast libclast0 libclast-view0 python3-clast"

@@ -6,6 +6,9 @@ usage: tools/check_pages.py [PAGE...]
 A source is cited by its key, [Welzl1991] or [Cook1977, sec. 2] (in a table the bare key does), and listed under "## References" (or "## Sources") as
 `- [Welzl1991] ...`; no key without an entry, no entry uncited, no author and year in prose instead of a key. A page that draws on
 nothing published says so there, beginning with "None".
+
+In all documents, headers, sources and notebooks a page that is named (docs/theory/dem.md) is there; in the documents also each file and each
+function in back quotes.
 """
 import pathlib
 import re
@@ -52,6 +55,32 @@ def faults_of(path):
     return faults
 
 
+def texts(*patterns):
+    for pattern in patterns:
+        for path in sorted(ROOT.glob(pattern)):
+            if "docs/reference" not in path.as_posix():
+                yield path.relative_to(ROOT), path.read_text(encoding="utf-8")
+
+
+def faults_of_names():
+    """What documents and sources name and is not there. Decisions (docs/adr) tell of what was, and are left out."""
+    known = set()
+    for _, text in texts("include/clast/*.h", "src/*/*.[ch]", "cli/*.c"):
+        known.update(re.findall(r"\bcl(?:ast|x)_[a-z0-9_]+", text))
+    for path, text in texts("README.md", "docs/*.md", "docs/*/*.md", "include/clast/*.h", "src/*/*.[ch]", "cli/*.[ch]", "examples/notebooks/*.ipynb", "examples/**/*.yaml"):
+        for name in sorted(set(re.findall(r"\bdocs/[a-z0-9_/-]+\.md\b", text))):
+            if not (ROOT / name).exists():
+                yield f"{path}: {name} is not there"
+        if path.suffix != ".md" or path.match("docs/adr/*"):
+            continue
+        for name in sorted(set(re.findall(r"`(cl(?:ast|x)_[a-z0-9_]+)`", text)) - known):
+            if not name.endswith("_"):
+                yield f"{path}: {name} is no function, type or table"
+        for name in sorted(set(re.findall(r"(?<![\w./-])(?:src|tests|tools|cli|bench|examples|data)/[a-z0-9_./-]+\.(?:c|h|py|sh|yaml|csv|md|def|js)\b", text))):
+            if not (ROOT / name).exists():
+                yield f"{path}: {name} is not there"
+
+
 def main():
     pages = [pathlib.Path(p) for p in sys.argv[1:]] or sorted(p for p in (ROOT / "docs/theory").glob("*.md") if p.stem != "index")
     n_fault = 0
@@ -59,6 +88,9 @@ def main():
         for fault in faults_of(page):
             n_fault += 1
             print(f"{page.name}: {fault}")
+    for fault in [] if sys.argv[1:] else faults_of_names():
+        n_fault += 1
+        print(fault)
     print(f"pages: {len(pages)} looked at, {n_fault} faults")
     return 1 if n_fault else 0
 

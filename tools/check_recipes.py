@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Recipes of packages name the version of CMakeLists.txt, and no option that it does not have: tools/check_recipes.py"""
+"""Recipes of packages name the release of the file VERSION, and no option that CMakeLists.txt does not have: tools/check_recipes.py"""
 import ast
 import pathlib
 import re
@@ -13,13 +13,13 @@ RECIPES = ("packaging/debian/rules", "packaging/conda/build_library.sh", "tools/
 
 def main():
     cmake = (ROOT / "CMakeLists.txt").read_text()
-    version = re.search(r"^project\(clast VERSION ([0-9.]+)", cmake, re.M).group(1)
+    version = (ROOT / "VERSION").read_text().strip()
     options = set(re.findall(r"^ *(?:option|set)\((CLAST_\w+|BUILD_TESTING)", cmake + (ROOT / "cmake/Install.cmake").read_text(), re.M))
     faults = []
     for name, pattern in VERSIONS.items():
         found = re.search(pattern, (ROOT / name).read_text(), re.M)
         if found is None or found.group(1) != version:
-            faults.append(f"{name}: version {found.group(1) if found else 'none'}, CMakeLists.txt has {version}")
+            faults.append(f"{name}: version {found.group(1) if found else 'none'}, VERSION has {version}")
     for name in RECIPES:
         faults += [f"{name}: -D{option}, which CMakeLists.txt does not have"
                    for option in re.findall(r"-D(CLAST_\w+|BUILD_TESTING)", (ROOT / name).read_text()) if option not in options]

@@ -2,7 +2,7 @@
 """Every page of the built site as a reader sees it, in headless Chromium: tools/check_site.py [-j N] [--sample] [--only WORD] [--pictures FOLDER] [FOLDER]
 
 Looked for on each page, at desktop width in light and dark and at 375 px: formulas left as TeX, messages on the console, anything that
-fails to load or is fetched from elsewhere, a page wider than the screen, links inside the site that lead nowhere; and what a reader
+fails to load or is fetched from elsewhere, a page wider than the screen, links inside the site that lead nowhere, a search that finds nothing; and what a reader
 with a screen reader or weak eyes needs: language, one h1, headings in order, names of links, buttons, fields and pictures, ids that are
 unique, contrast (4.5, large text 3). Where axe-core is at hand (AXE=FILE, or npm and a registry) its serious and critical findings count
 too. --pictures writes what was seen as PNG. Needs chromium (tools/setup.sh site); it is spoken to over a pipe, Python's standard library suffices.
@@ -196,6 +196,21 @@ def look(browser, page, site, axe, ids, pictures):
     return sorted(faults)
 
 
+FOUND = """new Promise(done => {
+    const until = Date.now() + 20000, count = () => document.querySelectorAll("#search-results li").length;
+    const look = () => count() >= 5 || Date.now() > until ? done(count()) : setTimeout(look, 100);
+    look();
+})"""
+
+
+def search_fault(browser, site):
+    """What is wrong with the search for a word that many pages have, or None."""
+    refused = browser.open((site / "search.html").as_uri() + "?q=porosity")
+    if refused:
+        return f"search.html: does not load: {refused}"
+    return None if browser.value(FOUND) >= 5 else "search.html: a search for porosity finds less than 5 pages"
+
+
 def sample(pages, site):
     """All pages but those of a template, of which the largest three stand for the others."""
     for folder in MADE_ALIKE:
@@ -240,6 +255,10 @@ def main():
             n_fault += len(found)
             for fault in found:
                 print(f"{page.relative_to(site)}: {fault}", flush=True)
+    unfound = None if asked.only else search_fault(browsers[0], site)
+    if unfound:
+        n_fault += 1
+        print(unfound)
     for browser in browsers:
         browser.close()
     size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file()) / 1e6

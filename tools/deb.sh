@@ -8,7 +8,7 @@ work=$made/deb
 rm -rf "$work"
 mkdir -p "$work/clast-$version"
 if [ -e .git ]; then git archive HEAD | tar -C "$work/clast-$version" -xf -; else tools/list_files.sh | tar --null -T - -cf - | tar -C "$work/clast-$version" -xf -; fi
-cp -r packaging/debian "$work/clast-$version/"
+cp -r "$work/clast-$version/packaging/debian" "$work/clast-$version/"
 log=$work/log
 (cd "$work/clast-$version" && DEB_BUILD_OPTIONS="noautodbgsym parallel=$(nproc)" dpkg-buildpackage -us -uc -b > "$log" 2>&1) ||
     { tail -40 "$log" >&2; echo "deb: dpkg-buildpackage failed (above)" >&2; exit 1; }

@@ -3,7 +3,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 [ -e .git ] || { echo "dist: this is no git clone; a release is made from a commit"; exit 1; }
-version=$(sed -n 's/^project(clast VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(cat VERSION)
 [ -z "$(git status --porcelain --untracked-files=no)" ] || echo "dist: changes that are not committed are left out"
 mkdir -p build
 git archive --format=tar --prefix="clast-$version/" --add-virtual-file="clast-$version/PKG-INFO:$(tools/wheel_backend.py metadata)" HEAD | gzip -9n > "build/clast-$version.tar.gz"

@@ -19,7 +19,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "TABLES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 '''
@@ -100,6 +100,9 @@ class Bindings:
                 row = (k["type"], k["default"], k["unit"], k["low"], k["high"], k["choices"], k["doc"])
                 yield f"        {k['name']!r}: {row!r},"
             yield "    },"
+        yield "}\n\n# Keys of the library's own tables.\nTABLES: dict[str, tuple[str, ...]] = {"
+        for name, fields in self.d["configurations"].items():
+            yield f"    {name!r}: {tuple(k['name'] for k in fields)!r},"
         yield "}\n\n# Commands that write a run's folder."
         yield f"FOLDERS: tuple[str, ...] = {tuple(c['name'] for c in self.d['commands'] if c['writes_folder'])!r}"
 

@@ -2,7 +2,8 @@
 """Writes the pages of the reference that are made, not written, into docs/reference: tools/make_reference.py [CLAST]
 
 c/ has a page a public header, filled by Doxygen and Breathe; commands/ a page a command, from `clast describe --json` and
-`--help-all`; files.md what runs write, by running them; python.md the docstrings of python/clast; verdicts.md the counts of docs/validation. A page that stays as it was is not
+`--help-all`; files.md what runs write, by running them; python.md the docstrings of python/clast;
+notebooks/ those of examples; verdicts.md the counts of docs/validation. A page that stays as it was is not
 touched, so that Sphinx reads only what has changed.
 """
 import collections
@@ -15,6 +16,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import reference_files  # noqa: E402 (beside this file)
+import reference_notebooks  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TO = ROOT / "docs/reference"
@@ -22,12 +24,21 @@ OPTION = re.compile(r"^  --(\[no-\])?([a-z][a-z0-9-]*) +(\S.*)?$")
 LIMIT = 1e300  # a range that ends beyond is open
 
 
+def first_sentence(header):
+    """What a header's first comment says in its first sentence."""
+    found = re.search(r"^///? ?(.*(?:\n///? ?\S.*)*)", header, re.M)
+    words = re.sub(r"\n///? ?", " ", found[1]) if found else ""
+    return re.split(r"(?<=[.?]) |:? {2,}|:$", words)[0]
+
+
 def pages_of_headers(_clast):
     """(name, text) of a page for each public header, and of their index."""
-    names = sorted(path.stem for path in (ROOT / "include/clast").glob("*.h") if path.stem != "clast")
-    entries = "\n".join(names)
-    yield "c/index", f"# C interface\n\nEvery public header; `clast/clast.h` includes them all.\n\n```{{toctree}}\n:maxdepth: 1\n\n{entries}\n```\n"
-    for name in names:
+    headers = {path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / "include/clast").glob("*.h")) if path.stem != "clast"}
+    rows = "\n".join(f"| [{name}.h]({name}.md) | {cell(first_sentence(text))} | {len(re.findall('^CLAST_API', text, re.M))} |" for name, text in headers.items())
+    entries = "\n".join(headers)
+    yield "c/index", (f"# C interface\n\nEvery public header; `clast/clast.h` includes all but `mpi.h`. How a program is built: [the C library](../../library.md).\n\n"
+                      f"| header | what it has | functions and tables |\n| --- | --- | --- |\n{rows}\n\n```{{toctree}}\n:hidden:\n\n{entries}\n```\n")
+    for name in headers:
         yield f"c/{name}", f"# {name}.h\n\n```{{doxygenfile}} {name}.h\n```\n"
 
 
@@ -124,6 +135,10 @@ def page_of_files(clast):
     yield "files", reference_files.page(clast)
 
 
+def pages_of_notebooks(_clast):
+    yield from reference_notebooks.pages()
+
+
 def verdicts(_clast):
     """A table of how many rows of each validation's CSV were judged, and how."""
     lines = ["| rows in | judged | pass | open | fail |", "| --- | --- | --- | --- | --- |"]
@@ -146,7 +161,7 @@ def write_page(name, text):
 
 def main():
     clast = str(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/clast").resolve())
-    made = {write_page(name, text) for make in (pages_of_headers, pages_of_commands, page_of_files, page_of_python, verdicts) for name, text in make(clast)}
+    made = {write_page(name, text) for make in (pages_of_headers, pages_of_commands, page_of_files, page_of_python, pages_of_notebooks, verdicts) for name, text in make(clast)}
     for path in TO.rglob("*.md"):
         if path not in made:
             path.unlink()

@@ -1,6 +1,6 @@
 # Sourced by the tools that make packages: version, date and the bundled targets. Two packages of one commit have the same bytes.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-version=$(sed -n 's/^project(clast VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(cat VERSION)
 if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then # the commit's time, which an unpacked release has on its files
     SOURCE_DATE_EPOCH=$(if [ -e .git ]; then git log -1 --format=%ct; else stat -c %Y CMakeLists.txt; fi)
 fi

@@ -1,15 +1,18 @@
 """The functions of python/clast with every keyword in their signatures, from the hand-written ones and the tables of keys."""
 import ast
 import pathlib
+import re
 import textwrap
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1] / "python/clast"
-FILES = {"fill": {"name", "history"}}  # keys by which the command alone writes files
-MODULES = ("_beds", "_clouds", "_core", "_growth", "_html", "_mesh", "_models", "_runs", "_studies", "_surfaces", "_tables", "_views")
+FILES = {"fill": {"name", "history"},  # keys by which the command alone writes files; those of clouds, which a box has not
+         "box_model": {"rebuild", "change_level", "fixed", "depth", "self_collisions"}}
+MODULES = ("_beds", "_boxes", "_clouds", "_core", "_grains", "_growth", "_html", "_mesh", "_models", "_runs", "_studies", "_surfaces", "_tables", "_views")
 # function: its module, its command, and the library's tables that its **keys may name
 FUNCTIONS = {
     "aggregate": ("_growth", "aggregate", ["clast_aggregate_fields"]),
     "agglomerate": ("_clouds", "agglomerate", ["clast_agglomerate_fields", "clast_decompose_fields"]),
+    "box_model": ("_boxes", "agglomerate", ["clast_spectrum_fields", "clast_agglomerate_fields"]),
     "decompose": ("_clouds", "decompose", ["clast_decompose_fields"]),
     "export": ("_runs", "export", []),
     "fill": ("_beds", "fill", ["clast_fill_fields"]),
@@ -27,7 +30,9 @@ FUNCTIONS = {
     "predict_beds": ("_models", "predict", []),
     "render": ("_views", "render", ["clast_render_fields"]),
     "report": ("_views", "report", ["clast_report_fields"]),
+    "grain_statistics": ("_grains", "shape", []),
     "shape": ("_mesh", "shape", []),
+    "shapes": ("_grains", "shape", []),
     "study": ("_studies", "study", ["clast_study_fields"]),
 }
 HEAD = '''"""One function a command, every keyword with its type: written by tools/make_python.py, do not edit."""
@@ -127,4 +132,5 @@ def told(row):
     if row["type"] == "integer":
         default = int(default)
     facts.append("no default" if default in ("", None) else f"default {default}" if isinstance(default, str) else f"default {default!r}")
-    return f"{row['doc']} ({'; '.join(facts)})".replace('"""', "'''")
+    doc = re.sub(r"(?<!\w)\|(\w+)\|(?!\w)", r"abs(\1)", row["doc"])  # which would be a substitution in the documents
+    return f"{doc} ({'; '.join(facts)})".replace('"""', "'''")

@@ -17,7 +17,7 @@ import time
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-VERSION = re.search(r"^project\(clast VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M).group(1)
+VERSION = (ROOT / "VERSION").read_text().strip()
 INFO = f"clast-{VERSION}.dist-info"
 TOOLS = {"cmake": "cmake>=3.25", "ninja": "ninja"}
 

@@ -25,8 +25,8 @@ CLAST_API int64_t clast_memory_limit(void);
 /// Bytes that the library's blocks take now.
 CLAST_API int64_t clast_memory_taken(void);
 
-/// Threads for all later work of the calling thread; 0 means one per core. Results never depend on
-/// it.
+/// Threads for all later work of the calling thread; 0 means OMP_NUM_THREADS where it is set, else
+/// one per core that the process may use. Results never depend on it.
 CLAST_API void clast_parallel_set_threads(int32_t n);
 
 /// Threads in use.

@@ -44,7 +44,9 @@ typedef enum {
 /// Between tests the last vote stands. Whatever the policy says, points are tested and cut at the
 /// first call, after clast_workspace_forget, and when configuration, domain or dimension are not
 /// those of the call before; and cut when the vote turns, or when the number of points has changed
-/// by half since the cut. The error of each policy is measured in docs/theory/decompose.md.
+/// by half since the cut. Between counts of pairs (estimator auto) the last estimate follows what
+/// cells show; they are counted before their time where that has changed by a factor of two, or
+/// contradicts it. The error of each policy is measured in docs/theory/decompose.md.
 typedef struct clast_workspace_policy {
     int32_t tests;       ///< clast_tests_when
     int32_t tests_every; ///< calls
@@ -52,6 +54,8 @@ typedef struct clast_workspace_policy {
     int32_t cells;       ///< clast_cut_when
     int32_t cells_every; ///< calls
     double cells_level;  ///< of the chi-square test that finds the cloud changed
+    int32_t pairs_every; ///< calls at least between two counts of the pairs of a cloud that cells
+                         ///< do not resolve; 0: at each cut
 } clast_workspace_policy;
 
 /// Fields of clast_workspace_policy: keys, defaults, ranges and units; ends with a row of zeros.
@@ -63,6 +67,7 @@ typedef struct clast_workspace_calls {
     int64_t since_test, since_cut; ///< calls since: 0 the last one did, -1 none has
     double moved;    ///< by the last call: standard errors since the tests, NAN where not measured
     double p_change; ///< by the last call: of its counts, NAN where not measured
+    int64_t n_pairs; ///< calls that counted the pairs of a cloud that cells do not resolve
 } clast_workspace_calls;
 
 /// An empty workspace, which the caller destroys; CLAST_E_MEMORY.

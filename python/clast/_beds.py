@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_table, refuse, settled, view
+from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_table, refuse, settled, view, warn
 from ._html import file_html
 from ._mesh import Mesh
 from ._runs import Assembly
@@ -58,7 +58,13 @@ def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Sphere
     with Config(c.clast_fill_config(), "clast_fill_fields", keys) as config:
         check(monitor.run(lambda m: call("clast_fill")(surface._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
                                                        ctypes.byref(report))))
-    owner = Owner(spheres, "clast_spheres_free")
+    owner, found = Owner(spheres, "clast_spheres_free"), surface.check()
+    if found.n_intersection > 0:
+        warn(f"the surface cuts itself at {found.n_intersection} pairs of triangles; its volume counts overlaps twice, so shares of it come "
+             "out low (mesh_check)")
+    if report.open_share > 1e-6:
+        warn(f"the surface has {found.n_open_edge} open edges; their holes were capped, which leaves {report.open_share:.2g} of the volume "
+             "uncertain")
     return Spheres(view(owner, spheres.centre, (spheres.n, 3), np.float64), view(owner, spheres.radius, (spheres.n,), np.float64),
                    **{name: getattr(report, name) for name in _TOLD}, _owner=owner, _mesh=surface)
 

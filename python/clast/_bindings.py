@@ -5,7 +5,7 @@ from ctypes import (POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_fl
                     c_uint32, c_uint64, c_void_p)
 from typing import Any
 
-__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "VALUES", "VERSION"]
+__all__ = ["FOLDERS", "KEYS", "PROTOTYPES", "SIZES", "TABLES", "VALUES", "VERSION"]
 
 _ = (c_char, c_float, c_uint32)
 
@@ -2170,6 +2170,7 @@ clast_workspace_policy._fields_ = [
     ('cells', c_int32),
     ('cells_every', c_int32),
     ('cells_level', c_double),
+    ('pairs_every', c_int32),
 ]
 clast_workspace_calls._fields_ = [
     ('n_call', c_int64),
@@ -2179,6 +2180,7 @@ clast_workspace_calls._fields_ = [
     ('since_cut', c_int64),
     ('moved', c_double),
     ('p_change', c_double),
+    ('n_pairs', c_int64),
 ]
 clast_workspace_step._fields_ = [
     ('dt', c_double),
@@ -2637,8 +2639,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
     'clast_volume_options': (56, {'n': (0, 12), 'type': (12, 4), 'is_big_endian': (16, 1), 'skip': (24, 8), 'edge': (32, 24)}),
     'clast_points': (56, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'stride': (24, 8), 'axis_stride': (32, 8), 'weight': (40, 8), 'weight_stride': (48, 8)}),
-    'clast_workspace_policy': (32, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8)}),
-    'clast_workspace_calls': (56, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8)}),
+    'clast_workspace_policy': (40, {'tests': (0, 4), 'tests_every': (4, 4), 'tests_moved': (8, 8), 'cells': (16, 4), 'cells_every': (20, 4), 'cells_level': (24, 8), 'pairs_every': (32, 4)}),
+    'clast_workspace_calls': (64, {'n_call': (0, 8), 'n_test': (8, 8), 'n_cut': (16, 8), 'since_test': (24, 8), 'since_cut': (32, 8), 'moved': (40, 8), 'p_change': (48, 8), 'n_pairs': (56, 8)}),
     'clast_workspace_step': (16, {'dt': (0, 8), 'step': (8, 8)}),
     'clast_collide_config': (288, {'kernel': (0, 4), 'medium': (8, 120), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'radius_law': (220, 4), 'collisions': (224, 4), 'monomer_radius': (232, 8), 'fractal_dimension': (240, 8), 'fractal_prefactor': (248, 8), 'leap': (256, 8), 'block': (264, 4), 'self_collisions': (268, 1), 'keep_positions': (269, 1), 'seed': (272, 8), 'count_unit': (280, 8)}),
     'clast_spectrum': (200, {'history': (0, 32), 'spectrum': (32, 32), 'gel_time': (64, 8), 'gel_size': (72, 8), 'n_gelled': (80, 4), 'is_gelation': (84, 1), 'exact_gel_time': (88, 8), 'mass_error': (96, 8), 'n_evaluation': (104, 8), 'range': (112, 88)}),
@@ -3284,7 +3286,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_memory_set_limit': (c_int, [c_int64], 'Sets the limit in bytes; 0: none.'),
     'clast_memory_limit': (c_int64, [], 'The limit in bytes; 0: none.'),
     'clast_memory_taken': (c_int64, [], "Bytes that the library's blocks take now."),
-    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means one per core.'),
+    'clast_parallel_set_threads': (None, [c_int32], 'Threads for all later work of the calling thread; 0 means OMP_NUM_THREADS where it is set, else one per core that the process may use.'),
     'clast_parallel_threads': (c_int32, [], 'Threads in use.'),
     'clast_comm_one': (POINTER(clast_comm), [], 'The only rank of one.'),
     'clast_comm_agree': (c_int, [POINTER(clast_comm), c_int, c_char_p], 'Makes all ranks agree on how a step ended: OK when it was so for every one, else the status and text of the first rank that failed (one that was merely stopped only if none failed).'),
@@ -4093,6 +4095,25 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
     'completion': {
         'shell': ('choice', 'bash', '-', None, None, 'bash|zsh', 'which shell'),
     },
+}
+
+# Keys of the library's own tables.
+TABLES: dict[str, tuple[str, ...]] = {
+    'clast_spectrum_fields': ('solver', 'initial', 'concentration', 'initial_mean', 'initial_sd', 'particles', 'size_min', 'size_max', 'per_octave', 'breakage_rate', 'breakage_exponent', 'fragments', 'fragment_exponent', 'source', 'source_size', 'settling_depth', 'tolerance'),
+    'clast_agglomerate_fields': ('kernel', 'duration', 'n_step', 'repeats', 'collisions', 'leap', 'block', 'self_collisions', 'out_of_range', 'alpha', 'sticking', 'film_viscosity', 'film_thickness', 'asperity', 'restitution', 'critical_stokes', 'stokes_exponent', 'adhesion', 'young', 'poisson', 'radius_law', 'monomer_radius', 'fractal_dimension', 'fractal_prefactor', 'constant', 'additive', 'product', 'temperature', 'viscosity', 'density', 'particle_density', 'mean_free_path', 'shear', 'shear_constant', 'dissipation', 'speed_rms', 'gravity', 'efficiency', 'settling_law', 'rebuild', 'change_level', 'fixed', 'depth'),
+    'clast_aggregate_fields': ('mode', 'core', 'core_size', 'core_meaning', 'core_density', 'coat', 'coat_weight', 'class_limit', 'coat_density', 'core_spheres', 'coat_spheres', 'fill_spheres', 'fill', 'unit', 'accept_faults', 'sizes', 'size_column', 'size_unit', 'size', 'size_law', 'size_mean', 'size_deviation', 'size_shape', 'size_low', 'size_high', 'n_particle', 'size_draw', 'size_by_mass', 'replicate', 'size_meaning', 'order', 'cone', 'rays', 'orientations', 'axis', 'origin', 'target', 'start', 'max_tries', 'approach', 'walk_step', 'contact', 'flavour', 'march_coarse', 'march_fine', 'march_steps', 'march_vertices', 'envelope', 'envelope_every', 'solid_union', 'envelope_rays', 'envelope_length', 'permeability', 'stop_mass', 'stop_size', 'stop_porosity', 'fit', 'observed_size', 'observed_size_error', 'observed_density', 'observed_density_error', 'observed_velocity', 'observed_velocity_error', 'fit_packing', 'fit_repeats', 'fit_replicate_max', 'pick', 'n_final', 'repeats', 'confidence', 'seed', 'checkpoint_every', 'picture', 'printable', 'neck', 'spacing', 'force', 'resume'),
+    'clast_decompose_fields': ('domain', 'outside', 'variant', 'mesh', 'events', 'level', 'votes', 'tests', 'statistic', 'paper', 'ghost_samples', 'crossfit', 'lower', 'strict', 'max_pass', 'beta_dt', 'tree_level', 'tree_root_level', 'variable_tolerance', 'tree_least', 'tree_refine', 'extrapolate', 'pairs', 'pairs_radius', 'estimator', 'seed'),
+    'clast_dem_fields': ('domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify'),
+    'clast_fill_fields': ('spheres', 'strategy', 'filled', 'volume_error', 'centroid_error', 'inertia_error', 'min_radius', 'min_share', 'tolerance', 'candidates', 'first_at_centre', 'vertex_subset', 'max_tries', 'outer', 'shrink', 'overlap', 'protrusion', 'allow_open', 'seed', 'name', 'history'),
+    'clast_synthesize_fields': ('flatness', 'flatness_deviation', 'elongation', 'elongation_deviation', 'form_low', 'form_high', 'size', 'measure', 'rough', 'tolerance', 'decay', 'degrees', 'faces', 'seed'),
+    'clast_mesh_repair_fields': ('weld', 'weld_tolerance', 'drop', 'split', 'split_tolerance', 'loose', 'orient', 'fill', 'fill_size', 'separate', 'keep'),
+    'clast_pack_fields': ('curve', 'spread', 'count', 'size_meaning', 'shapes', 'shape_weight', 'unit', 'hull', 'faces', 'ellipsoids', 'form_law', 'flatness_mean', 'flatness_deviation', 'elongation_mean', 'elongation_deviation', 'density', 'density_of', 'density_weight', 'mass', 'seed', 'container', 'container_unit', 'domain', 'width', 'depth', 'height', 'floor', 'lid', 'law', 'contact_scheme', 'restitution', 'collision_time', 'young', 'poisson', 'friction', 'wall_friction', 'rolling_friction', 'rolling_model', 'cohesion', 'cohesion_energy', 'surface_energy', 'clip', 'normal_torque', 'gyroscopic', 'clump_contacts', 'time_step', 'gravity', 'fluid_density', 'fluid_viscosity', 'sphere_drag', 'hindrance', 'added_mass', 'wet_restitution', 'rounding', 'skin', 'verify', 'generator', 'spacing', 'fill_low', 'fill_high', 'first_low', 'first_high', 'initial_speed', 'random_turn', 'shake_amplitude', 'shake_period', 'shaking_time', 'shake_from_start', 'damping', 'rule', 'height_change', 'check_time', 'still_speed', 'max_steps', 'max_damping_time', 'layer', 'cut', 'trim', 'series_time', 'frame_time', 'checkpoint_time', 'force', 'resume'),
+    'clast_pairs_fields': ('pairs_radius', 'pairs_shells', 'outside'),
+    'clast_porosity_fit_fields': ('target', 'columns', 'group', 'n_term', 'use', 'correlation_limit', 'n_fold', 'n_repeat', 'score', 'validation', 'n_permutation', 'seed'),
+    'clast_render_fields': ('width', 'height', 'samples', 'ambient_rays', 'projection', 'up', 'azimuth', 'elevation', 'field_of_view', 'zoom', 'colour', 'tint', 'scale', 'shading', 'background', 'ground', 'cut', 'cut_position', 'colour_bar', 'scale_bar', 'unit', 'sun_azimuth', 'sun_elevation', 'sun_radius', 'ambient', 'seed'),
+    'clast_report_fields': ('title', 'rows', 'view', 'triangles', 'picture_mb'),
+    'clast_study_fields': ('run', 'config', 'argument', 'fix', 'vary', 'design', 'table', 'seeds', 'seed', 'keep', 'shard'),
+    'clast_workspace_fields': ('tests', 'tests_every', 'tests_moved', 'cells', 'cells_every', 'cells_level', 'pairs_every'),
 }
 
 # Commands that write a run's folder.

@@ -2,16 +2,17 @@
 from __future__ import annotations
 
 import ctypes
-import os
-import tempfile
+import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, whole
+from ._boxes import warn_of_range
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, warn, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -35,11 +36,41 @@ class Decomposition:
     pair_integral_high: float
     resolved: bool
     points_needed: float
-    cells: NDArray[Any]  #: low, high, volume, count, weight, events of each cell
-    cell_of_point: NDArray[np.int32]  #: -1 for points left out; the library's own memory
-
+    ideal_score: float
+    estimator: str  #: "cells", or "pairs" by distance
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
+
+    @cached_property
+    def cells(self) -> NDArray[Any]:
+        """low, high, volume, count, weight, events of each cell."""
+        kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
+        cells = np.zeros(self.n_cell, np.dtype(kinds))
+        for name, *kind in kinds:
+            cells[name] = view(self._owner, getattr(self._owner.struct.cells, name), (self.n_cell, *kind[1:]), kind[0])
+        return cells
+
+    @cached_property
+    def cell_of_point(self) -> NDArray[np.int32]:
+        """Each point's cell, -1 for points left out; the library's own memory."""
+        return fixed(self._owner, self._owner.struct.cells.of_point, (self.n + self.n_outside,), np.int32)
+
+    @cached_property
+    def tests(self) -> Table:
+        """The votes: name, statistic, p, reject."""
+        before = self._owner.struct.before
+        votes = [(v.name.decode(), v.statistic, v.p, float(v.reject)) for v in (before.vote[k] for k in range(before.n_test))]
+        return np.array(votes, [("name", "U16"), ("statistic", "f8"), ("p", "f8"), ("reject", "f8")]).view(Table)
+
+    @cached_property
+    def pairs(self) -> Table:
+        """g(r) in shells of distance, with pairs=True or the estimator "pairs"."""
+        return table_of(self._owner, self._owner.struct.pairs.shells)
+
+    @property
+    def n_repeated(self) -> int:
+        """Points that lie where another lies."""
+        return self._cloud.n_repeated
 
     def chart(self, name: str, path: Path) -> None:
         """Draws "points", "density", "score" or "events" ("pair_integral" without beta_dt) into an .svg, .pdf or .png file."""
@@ -96,9 +127,9 @@ class Cloud:
         table, struct = Owner(c.clast_table(), "clast_table_free"), c.clast_cloud()
         options = c.clast_points_options(dataset=encoded("dataset", dataset) or None, frame=whole("frame", frame, -2**63, 2**63 - 1))
         check(call("clast_cloud_read")(encoded("path", path), ctypes.byref(options), ctypes.byref(table.struct)))
-        wanted = c.clast_cloud_columns(radius_column=encoded("radius_column", radius_column), diameter_column=encoded("diameter_column", diameter_column),
-                                       mass_column=encoded("mass_column", mass_column), weight_column=encoded("weight_column", weight_column),
-                                       variable_column=encoded("variable_column", variable_column), unit=encoded("unit", unit))
+        names = dict(radius_column=radius_column, diameter_column=diameter_column, mass_column=mass_column, weight_column=weight_column,
+                     variable_column=variable_column, unit=unit)
+        wanted = c.clast_cloud_columns(**{name: encoded(name, text) for name, text in names.items()})
         lists = [_text_list(columns), _text_list(velocity_columns)]
         wanted.columns, wanted.velocity_columns = lists
         check(call("clast_cloud_from_table")(ctypes.byref(table.struct), ctypes.byref(wanted), ctypes.byref(struct)))
@@ -174,6 +205,8 @@ def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, 
     result = c.clast_decomposition()
     with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": _domain(cloud, domain), **keys}) as config:
         check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
+    if result.n_pass > 0 and result.points_per_bin < 10:
+        warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
     return _decomposition(Owner(result, "clast_decomposition_free"), cloud)
 
 
@@ -197,7 +230,8 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
                 **keys: Any) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
-    The columns are those of the first snapshot; keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
+    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
     duration="10s", n_step=100, seed=1).
     """
     if not snapshots:
@@ -208,7 +242,9 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     given, held = c.clast_agglomerate_input(), []
     given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
     for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
-        if value is not None:
+        if value is not None and name != "monomers" and (isinstance(value, str) or np.ndim(value) == 0):
+            keys[name] = value  # of all particles
+        elif value is not None:
             held.append(_column(name, value, made[0].positions))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
@@ -216,22 +252,20 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
+    warn_of_range(r.range)
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
 def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
     r, nan = owner.struct, float("nan")
-    n, is_bound = r.cells.n, not np.isnan(r.events_low)
-    kinds: list[Any] = [("low", "f8", 3), ("high", "f8", 3), ("volume", "f8"), ("count", "i8"), ("weight", "f8"), ("events", "f8")]
-    cells = np.zeros(n, np.dtype(kinds))
-    for name, *kind in kinds:
-        cells[name] = view(owner, getattr(r.cells, name), (n, *kind[1:]), kind[0])
-    given = tuple(v if np.isfinite(v) else nan for v in
+    is_bound = not math.isnan(r.events_low)
+    given = tuple(v if math.isfinite(v) else nan for v in
                   (r.events if is_bound else nan, r.events_low, r.events_high if is_bound else nan))
     none = (nan, nan, nan)
     events, pairs = (given, none) if r.beta_dt > 0 else (none, given)
+    estimator = "pairs" if r.estimator == c.VALUES["CLAST_ESTIMATOR_PAIRS"] else "cells"
     return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
-                         stop=call("clast_decompose_stop_text")(r.stop).decode(), n_cell=n, events=events[0], events_low=events[1],
-                         events_high=events[2], pair_integral=pairs[0], pair_integral_low=pairs[1], pair_integral_high=pairs[2],
-                         resolved=r.resolved, points_needed=r.points_needed if np.isfinite(r.points_needed) else nan, cells=cells,
-                         cell_of_point=fixed(owner, r.cells.of_point, (r.n + r.n_outside,), np.int32), _cloud=cloud, _owner=owner)
+                         ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
+                         n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved,
+                         points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

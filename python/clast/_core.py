@@ -10,7 +10,9 @@ import operator
 import os
 import pathlib
 import signal
+import sys
 import threading
+import warnings
 from typing import Any, Callable, Iterable, Iterator, NamedTuple, ParamSpec, Sequence, TypeVar, Union
 
 import numpy as np
@@ -56,8 +58,6 @@ def _load() -> ctypes.CDLL:
 
 
 library = _load()
-# A process that was forked has none of the threads that OpenMP still counts: it works alone. Numbers do not depend on it.
-os.register_at_fork(after_in_child=lambda: library.clast_parallel_set_threads(1))
 _STATUS = {value: name for name, value in c.VALUES.items()
            if name == "CLAST_OK" or name.startswith("CLAST_E_")}
 _ready: dict[str, Any] = {}
@@ -174,6 +174,17 @@ def keys(command: str) -> dict[str, Key]:
     return {name: Key(*row) for name, row in c.KEYS[command].items()}
 
 
+def warn(line: str) -> None:
+    """What the command says on its error stream; shown where people called the package."""
+    frame, level = sys._getframe(1), 2
+    while frame is not None and frame.f_code.co_filename.startswith(_HOME):
+        frame, level = frame.f_back, level + 1  # type: ignore[assignment]
+    warnings.warn(line, stacklevel=level)
+
+
+_HOME = os.path.dirname(__file__) + os.sep
+
+
 def given(names: dict[str, Any], but: str = "") -> dict[str, Any]:
     """The keywords that were given: those that are not None."""
     return {name: value for name, value in names.items() if value is not None and name != but}
@@ -246,6 +257,12 @@ class Config:
         self.close()
 
 
+def _log(_: Any, text: bytes) -> None:
+    """What comes next ("printable.stl: about 48 MB"), to the logger "clast"."""
+    import logging
+    logging.getLogger("clast").info("%s", text.decode("utf-8", "replace"))
+
+
 class Monitor:
     """Progress to a callback or tqdm; Ctrl-C asks the work to end at its checkpoint, then is KeyboardInterrupt."""
 
@@ -258,6 +275,8 @@ class Monitor:
         self.struct = c.clast_monitor()
         self.struct.report = ctypes.cast(self._report, ctypes.c_void_p)
         self.struct.stop = ctypes.cast(self._stop, ctypes.c_void_p)
+        self._note = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)(_log)
+        self.struct.note = ctypes.cast(self._note, ctypes.c_void_p)
 
     def _tell(self, _: Any, phase: bytes, done: int, total: int) -> None:
         if self._progress is not None and self._failed is None:

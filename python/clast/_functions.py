@@ -3,10 +3,12 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from . import _beds, _clouds, _growth, _mesh, _models, _runs, _studies, _surfaces, _views
+from . import _beds, _boxes, _clouds, _grains, _growth, _mesh, _models, _runs, _studies, _surfaces, _views
 from ._beds import Porosity, Spheres
+from ._boxes import Spectrum
 from ._clouds import Agglomeration, Decomposition
 from ._core import Progress, Quantities, Quantity, given, spelt
+from ._grains import GrainStatistics, Grains
 from ._mesh import Mesh, MeshCheck, Shape
 from ._models import Fit, Model, Moments, Prediction
 from ._runs import Assembly, Result
@@ -15,9 +17,9 @@ from ._surfaces import Surface, SurfaceResult
 from ._tables import Path, Table, Text, Texts
 from ._views import Picture
 
-__all__ = ["aggregate", "agglomerate", "decompose", "export", "fill", "fit", "mesh_check", "mesh_convert", "mesh_form",
-           "mesh_hull", "mesh_repair", "mesh_simplify", "mesh_synthesize", "pack", "porosity", "predict",
-           "predict_beds", "render", "report", "shape", "study"]
+__all__ = ["aggregate", "agglomerate", "box_model", "decompose", "export", "fill", "fit", "mesh_check", "mesh_convert",
+           "mesh_form", "mesh_hull", "mesh_repair", "mesh_simplify", "mesh_synthesize", "pack", "porosity", "predict",
+           "predict_beds", "render", "report", "grain_statistics", "shape", "shapes", "study"]
 
 
 @spelt
@@ -272,7 +274,8 @@ def agglomerate(
 ) -> Agglomeration:
     """Evolves a Cloud, or positions (n, 1 to 3) [m], one a snapshot: cells by decomposition, collisions in them by a kernel.
 
-    The columns are those of the first snapshot; keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
+    The columns are those of the first snapshot; speed_rms, temperature, shear and dissipation are numbers, texts with a unit ("300 K"), or
+    arrays of one value a particle. Keywords are the keys of `clast agglomerate` (kernel="constant", constant=1e-3,
     duration="10s", n_step=100, seed=1).
 
     Keywords (None: the default; a number is SI, a text has its unit):
@@ -347,6 +350,133 @@ def agglomerate(
         seed: seed of the ghost points (default 1)
     """
     return _clouds.agglomerate(*snapshots, **given(locals(), 'snapshots'))
+
+
+@spelt
+def box_model(
+        *,
+        sizes: Any = None,
+        seed: int | None = None,
+        solver: Literal["monte-carlo", "sectional"] | None = None,
+        initial: Literal["mono", "exponential", "lognormal", "table"] | None = None,
+        concentration: float | None = None,
+        initial_mean: float | None = None,
+        initial_sd: float | None = None,
+        particles: int | None = None,
+        size_min: float | None = None,
+        size_max: float | None = None,
+        per_octave: int | None = None,
+        breakage_rate: float | None = None,
+        breakage_exponent: float | None = None,
+        fragments: Literal["power", "halves"] | None = None,
+        fragment_exponent: float | None = None,
+        source: float | None = None,
+        source_size: float | None = None,
+        settling_depth: Quantity | None = None,
+        tolerance: float | None = None,
+        kernel: Text | None = None,
+        duration: Quantity | None = None,
+        n_step: int | None = None,
+        repeats: int | None = None,
+        collisions: Literal["next", "poisson"] | None = None,
+        leap: float | None = None,
+        block: int | None = None,
+        out_of_range: Literal["error", "extrapolate"] | None = None,
+        alpha: float | None = None,
+        sticking: Literal["constant", "viscous", "liquid", "contact"] | None = None,
+        film_viscosity: Quantity | None = None,
+        film_thickness: Quantity | None = None,
+        asperity: Quantity | None = None,
+        restitution: float | None = None,
+        critical_stokes: float | None = None,
+        stokes_exponent: float | None = None,
+        adhesion: float | None = None,
+        young: Quantity | None = None,
+        poisson: float | None = None,
+        radius_law: Literal["volume", "fractal-collision", "fractal-gyration"] | None = None,
+        monomer_radius: Quantity | None = None,
+        fractal_dimension: float | None = None,
+        fractal_prefactor: float | None = None,
+        constant: float | None = None,
+        additive: float | None = None,
+        product: float | None = None,
+        temperature: Quantity | None = None,
+        viscosity: Quantity | None = None,
+        density: Quantity | None = None,
+        particle_density: Quantity | None = None,
+        mean_free_path: Quantity | None = None,
+        shear: Quantity | None = None,
+        shear_constant: float | None = None,
+        dissipation: Quantity | None = None,
+        speed_rms: Quantity | None = None,
+        gravity: Quantity | None = None,
+        efficiency: float | None = None,
+        settling_law: Literal["standard", "stokes"] | None = None,
+) -> Spectrum:
+    """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
+
+    Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+
+    Keywords (None: the default; a number is SI, a text has its unit):
+        seed: seed of the ghost points (default 1)
+        solver: of a box: draws, or a sectional population balance (needs SUNDIALS) (monte-carlo, sectional; default monte-carlo)
+        initial: sizes at the start of a box (mono, exponential, lognormal, table; default mono)
+        concentration: particles a volume at the start of a box [1/m^3] (at least 0; default 0.0)
+        initial_mean: mean size at the start [monomers] (at least 1e-100; default 1.0)
+        initial_sd: geometric standard deviation of a lognormal start (1.001 to 100; default 1.5)
+        particles: particles of a Monte Carlo box (2 to 1e+07; default 10000)
+        size_min: smallest size, which does not break [monomers]; 0: that of the start (at least 0; default 0.0)
+        size_max: largest size of the grid [monomers]; 0: 1e5 mean sizes of the start (at least 0; default 0.0)
+        per_octave: sections of the grid that double the size (1 to 1000; default 16)
+        breakage_rate: S1 [1/s]: a particle of x monomers breaks at S1 x^p (at least 0; default 0.0)
+        breakage_exponent: p (-10 to 10; default 1.0)
+        fragments: sizes v of the fragments of x: (c + 2)/x (v/x)^c, or two halves (power, halves; default power)
+        fragment_exponent: c; 0: two fragments, uniform; monte-carlo: m fragments, 1/(m-1) - 1 (-0.99 to 100; default 0.0)
+        source: particles that come in, a volume and time [1/(m^3 s)] (at least 0; default 0.0)
+        source_size: their size [monomers] (at least 1e-100; default 1.0)
+        settling_depth: particles leave at settling speed / this depth; 0: they stay (m; at least 0; default 0.0)
+        tolerance: relative error of a step of the sectional solver (1e-12 to 0.01; default 1e-07)
+        kernel: collision kernel, or a sum: brownian+settling; see the table above (default constant)
+        duration: time that passes, with several snapshots from each to the next (s; at least 0; default 1.0)
+        n_step: steps of a snapshot (1 to 1e+06; default 10)
+        repeats: runs with other draws, of which means are told (1 to 1e+06; default 1)
+        collisions: event by event, or a Poisson number of events a sub-step (next, poisson; default next)
+        leap: collisions of the busiest particle in a sub-step of poisson (1e-06 to 1; default 0.01)
+        block: kinds of particles above which a cell is dealt into random blocks; 0: never (0 to 1e+06; default 1024)
+        out_of_range: kernels and sticking beyond where they hold (the table above) (error, extrapolate; default error)
+        alpha: share of collisions that stick; with another law of sticking a factor on it (0 to 1; default 1.0)
+        sticking: share that sticks: alpha, or by the impact: a viscous film, wet ash, elastic contacts (constant, viscous, liquid, contact; default constant)
+        film_viscosity: viscous, liquid: of the liquid on the particles (Pa s; 0 to 1e+12; default 0.0)
+        film_thickness: viscous: h of the film (m; 0 to 1; default 0.0)
+        asperity: viscous: height h_a of the roughness (m; 0 to 1; default 0.0)
+        restitution: viscous: e of the dry solids (0 to 1; default 0.0)
+        critical_stokes: liquid: St_cr, where half of the collisions stick (0 to 1e+12; default 1.3)
+        stokes_exponent: liquid: q of 1 / (1 + (St / St_cr)^q) (0 to 100; default 0.8)
+        adhesion: contact: work of adhesion of the surfaces [J/m^2] (0 to 1e+06; default 0.0)
+        young: contact: Young's modulus of the particles (Pa; at least 0; default 0.0)
+        poisson: contact: Poisson's ratio of the particles (-0.999 to 0.5; default 0.25)
+        radius_law: collision radius of an aggregate: of the summed volume, a0 (i / k_f)^(1 / D_f), or from that law of the radius of gyration (volume, fractal-collision, fractal-gyration; default volume)
+        monomer_radius: radius a0 of a monomer where no column gives radii (m; at least 0; default 0.0)
+        fractal_dimension: D_f (1 to 3; default 1.8)
+        fractal_prefactor: k_f (0.001 to 1000; default 1.0)
+        constant: K of kernel constant [m^d/s] (at least 0; default 1e-06)
+        additive: b of kernel additive [m^d/s] (at least 0; default 1e-06)
+        product: c of kernel product [m^d/s] (at least 0; default 1e-06)
+        temperature: of the fluid (K; 0 to 100000; default 293.15)
+        viscosity: dynamic viscosity of the fluid (Pa s; 0 to 1e+06; default 0.001002)
+        density: of the fluid (kg/m^3; 0 to 100000; default 998.2)
+        particle_density: of the particles' solid (kg/m^3; 0 to 100000; default 0.0)
+        mean_free_path: of a gas, for the slip correction; 0: none (m; 0 to 1; default 0.0)
+        shear: shear rate G (1/s; 0 to 1e+12; default 0.0)
+        shear_constant: constant of shear_turbulent, 1.3 as often printed; 0: sqrt(8 pi/15) = 1.2944 (0 to 100; default 0.0)
+        dissipation: turbulent dissipation eps (m^2/s^3; 0 to 1e+12; default 0.0)
+        speed_rms: turbulent velocity of the fluid, one component (m/s; 0 to 1e+06; default 0.0)
+        gravity: gravity g (m/s^2; 0 to 1e+06; default 9.80665)
+        efficiency: collision efficiency E of settling; 0: by Stokes number and ratio of radii (0 to 1; default 0.0)
+        settling_law: drag of settling spheres: the standard curve, or Stokes' (standard, stokes; default standard)
+    """
+    return _boxes.box_model(**given(locals()))
 
 
 @spelt
@@ -531,7 +661,7 @@ def fit(
         group: column that names the bed, in the table of beds and in that of the grains (default bed)
         n_term: features of the model (1 to 20; default 2)
         use: take these features (a,b,...) instead of selecting (no default)
-        correlation_limit: remove features whose |r| to a chosen one is greater (0 to 1; default 0.8)
+        correlation_limit: remove features whose abs(r) to a chosen one is greater (0 to 1; default 0.8)
         n_fold: folds of the cross-validation (2 to 1e+06; default 10)
         n_repeat: cross-validations with other folds to average (1 to 10000; default 1)
         score: absolute error that decides: the mean (Tables 9, 10 of the paper) or the median (mean, median; default mean)
@@ -825,7 +955,7 @@ def pack(
         poisson: Poisson's ratio (nu_p) (0 to 0.5; default 0.22)
         friction: coefficient of friction between grains (mu_p) (0 to 100; default 0.5)
         wall_friction: the same at walls; -1: as between grains (-1 to 100; default -1.0)
-        rolling_friction: rolling torque over R* |F_n| (0 to 100; default 0.0)
+        rolling_friction: rolling torque over R* abs(F_n) (0 to 100; default 0.0)
         rolling_model: rolling friction as a constant torque, or as a spring by which a grain rests on a slope (torque, spring; default torque)
         cohesion: attraction of touching grains: none, with the contact area, DMT's pull-off, or JKR's (its neck with law hertz) (none, area, dmt, jkr; default none)
         cohesion_energy: attraction per contact area, cohesion: area (J/m^3; 0 to 1e+12; default 0.0)
@@ -1058,6 +1188,24 @@ def report(
 
 
 @spelt
+def grain_statistics(
+        table: Any,
+        *,
+        columns: str = '',
+        resamples: int = 2000,
+        seed: int = 1,
+) -> GrainStatistics:
+    """Statistics of a table with a row a grain: a file, a structured array, a DataFrame, a dictionary of columns.
+
+    Keywords (None: the default; a number is SI, a text has its unit):
+        columns: table: columns of flatness,elongation or of L,I,S; none: by their names (no default)
+        resamples: statistics: bootstrap resamples for the intervals (0 to 1e+06; default 2000)
+        seed: statistics: random numbers of the resamples (at least 0; default 1)
+    """
+    return _grains.grain_statistics(**given(locals()))
+
+
+@spelt
 def shape(
         path: Path,
         *,
@@ -1071,6 +1219,53 @@ def shape(
         hull: measure the convex hull (as packings use it), not the surface (default False)
     """
     return _mesh.shape(**given(locals()))
+
+
+@spelt
+def shapes(
+        *files: Path,
+        axes: str = 'ellipsoid',
+        hull: bool = False,
+        unit: str = '',
+        kind: str = 'auto',
+        degree: int = -1,
+        level: int = 5,
+        spacing: float = 0.0,
+        voxels: Any = None,
+        voxel_type: str = 'u8',
+        big_endian: bool = False,
+        skip: int = 0,
+        voxel_edge: Any = None,
+        dataset: str = '',
+        threshold: float | None = None,
+        least_voxels: int = 1,
+        columns: str = '',
+        surfaces: Path | None = None,
+) -> Grains:
+    """Measures every grain of many files, in parallel: surfaces, series of harmonics, volumes of labels or grey values, points, tables.
+
+    What cannot be measured is told in `faults`, the others are measured. Without `unit` lengths are those of the files.
+
+    Keywords (None: the default; a number is SI, a text has its unit):
+        axes: definition of L, I and S behind D and the form factors (ellipsoid, box, fitted, feret, principal; default ellipsoid)
+        hull: measure the convex hull (as packings use it), not the surface (default False)
+        unit: unit of the files' coordinates (mm, um, ...): results are then SI; none: model units (no default)
+        kind: what the files hold; auto: by name and content (auto, surface, series, voxels, points, table, clump; default auto)
+        degree: series: terms up to this degree; -1: all (-1 to 256; default -1)
+        level: series: surface of 20 x 4^level triangles for calipers and boxes (0 to 8; default 5)
+        spacing: points: grid they were sampled on, in their unit, for a surface; 0: their convex hull (at least 0; default 0.0)
+        voxels: volume without a header: its sizes NX,NY,NZ, x fastest (no default)
+        voxel_type: type of its values (u8, i8, u16, i16, u32, i32, f32, f64; default u8)
+        big_endian: its values have their high byte first (default False)
+        skip: bytes before its values (0 to 2.14748e+09; default 0)
+        voxel_edge: volume: edges of a voxel, A or A,B,C along x, y, z; none: the file's, or 1 (no default)
+        dataset: volume in an HDF5 file: name of the array [z][y][x] (no default)
+        threshold: volume: grains are the connected parts above this grey value, their surfaces its level; none: values are labels, 0 outside (no default)
+        least_voxels: volume: grains of fewer voxels are left out (1 to 2.14748e+09; default 1)
+        columns: table: columns of flatness,elongation or of L,I,S; none: by their names (no default)
+        surfaces: write each grain's surface (or hull) as PLY into this folder (no default)
+    """
+    return _grains.shapes(*files, **given(locals(), 'files'))
 
 
 @spelt

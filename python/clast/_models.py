@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, choice, encoded, html_table, keys, refuse, settled
+from ._core import Config, Error, Owner, call, check, choice, encoded, html_table, keys, refuse, settled, warn
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
@@ -124,6 +124,7 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     if _choose(model, grading, False).kind == "columns":
         raise refuse("model: takes columns of a table, a row a bed; call predict_beds")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    _complain(owner)
     chosen = _choose(model, grading, owner.struct.n > 1)
     inputs, found = c.clast_form_inputs(), c.clast_prediction()
     given = settled("predict", dict(resamples=resamples, seed=seed))
@@ -131,6 +132,14 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
     check(call("clast_porosity_predict_set")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(bootstrap),
                                              ctypes.byref(inputs), ctypes.byref(found)))
     return _prediction(chosen, found, inputs, "table")
+
+
+def _complain(forms: Owner) -> None:
+    """Warns of the rows of a table that were left out."""
+    words = ctypes.create_string_buffer(512)
+    call("clast_form_set_complaint")(ctypes.byref(forms.struct), ctypes.cast(words, ctypes.c_char_p), len(words))
+    if words.value:
+        warn(words.value.decode("utf-8", "replace"))
 
 
 def _predict_moments(flatness: Moments | None, elongation: Moments | None, model: Model | Path, grading: str, grains: int) -> Prediction:
@@ -162,6 +171,7 @@ def predict_beds(table: Any, *, model: Model | Path = "auto", grading: str = "U1
         return table_of(beds)
     owner = Owner(c.clast_form_set(), "clast_form_set_free")
     check(call("clast_form_set_of")(ctypes.byref(rows.struct), encoded("columns", columns), ctypes.byref(owner.struct)))
+    _complain(owner)
     check(call("clast_porosity_predict_each")(ctypes.byref(chosen._model), ctypes.byref(owner.struct), ctypes.byref(beds.struct)))
     return table_of(beds)
 
@@ -224,8 +234,8 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
-        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name), encoded("source", source),
-                                              ctypes.byref(made.struct)))
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name),
+                                              encoded("source", source), ctypes.byref(made.struct)))
     return _fit(data, made)
 
 

@@ -155,8 +155,12 @@ class Run:
     def __init__(self, folder: Path) -> None:
         check(call("clast_run_folder_check")(encoded("folder", folder)))
         self.folder = os.fspath(folder)
-        self.manifest: dict[str, Any] = self._json("manifest.json")
-        self.summary: dict[str, Any] = self._json("summary.json")
+        if self._has("study.json"):  # a folder of runs: each has its manifest
+            self.manifest: dict[str, Any] = {"command": "study", "study": self._json("study.json")}
+            codes = self.table("results")["exit_code"]
+            self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int((codes == 0).sum()), "n_failed": int((codes > 0).sum())}
+        else:
+            self.manifest, self.summary = self._json("manifest.json"), self._json("summary.json")
         self.command: str = self.manifest["command"]
 
     def _json(self, name: str) -> dict[str, Any]:
@@ -178,7 +182,7 @@ class Run:
 
     def _shown(self, numbers: str) -> str:
         """Numbers, picture and 3-D view, as far as the run has them."""
-        pictures = [name for name in ("picture.png", "points.svg", "predicted.svg", "history.svg", "profile.svg") if self._has(name)][:1]
+        pictures = [name for name in ("picture.png", "points.svg", "predicted.svg", "history.svg", "profile.svg", "spectrum.svg", "zingg.svg") if self._has(name)][:1]
         for name in pictures:
             with _open_file(os.path.join(self.folder, name), "rb") as file:
                 numbers += picture_html(file.read(), name[-3:], f"{self.command}: {name}")

@@ -7,13 +7,13 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 import time
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
 from . import _bindings as c
-from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse
+from ._core import Config, Error, Monitor, Progress, call, check, encoded, nearest, refuse, warn
 from ._tables import Path, Table, read_table
 
 
@@ -47,9 +47,9 @@ class Study:
 
 
 def _program() -> str:
-    """The command clast of this version: CLAST, beside the package, or on the PATH."""
-    beside = pathlib.Path(__file__).parent / "clast"
-    path = os.environ.get("CLAST") or (str(beside) if beside.is_file() else shutil.which("clast"))
+    """The command clast of this version: CLAST, beside the package or the interpreter (where pip puts it), or on the PATH."""
+    beside = [place / "clast" for place in (pathlib.Path(__file__).parent, pathlib.Path(sys.executable).parent)]
+    path = os.environ.get("CLAST") or next((str(one) for one in beside if one.is_file()), shutil.which("clast"))
     if path is None or shutil.which(path) is None:
         raise ImportError(f"clast.study: its runs are processes of the command clast, which is not {'at ' + path if path else 'on the PATH'}; "
                           "install clast (make install), or set CLAST to the file")
@@ -150,6 +150,6 @@ def study(*, output: Path, run: str, vary: Any = None, fix: Any = None, jobs: in
     finally:
         call("clast_parallel_set_threads")(before)
     if report.n_failed:
-        warnings.warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
-                      f"{report.first_failed:06d}.part/messages.txt; the same call tries them again", stacklevel=2)
+        warn(f"{report.n_failed} of {report.n_run} runs failed; the first says why in {os.fspath(output)}/runs/"
+             f"{report.first_failed:06d}.part/messages.txt; the same call tries them again")
     return Study(os.fspath(output), report.n_run, report.n_before, report.n_done, report.n_failed, report.n_other)

@@ -102,6 +102,7 @@ done:
 /// all.
 static int64_t class_of(const size_class *list, int64_t n, double size)
 {
+    CLAST_ASSERT(n > 0);
     int64_t nearest = 0;
     double least = HUGE_VAL;
     for (int64_t i = 0; i < n; ++i) {

@@ -35,6 +35,7 @@ void clx_clusters_free(clx_clusters *clusters)
 /// cluster has the same bits.
 static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
 {
+    CLAST_ASSERT(cluster->n > 0);
     const clast_assembly *all = &a->assembly;
     double moment[3] = {0.0, 0.0, 0.0};
     double second = 0.0;
@@ -59,6 +60,7 @@ static void sum_up(const clast_aggregate *a, clx_cluster *cluster)
 /// A cluster of n grains from `first` on, with the contacts made since `first_contact`.
 static clast_status add_cluster(clast_aggregate *a, int32_t first, int32_t n, int32_t first_contact)
 {
+    CLAST_ASSERT(first >= 0 && n > 0 && first + n <= a->assembly.n_grain);
     clast_status status = CLAST_OK;
     clx_clusters *all = &a->clusters;
     CLX_TRY(clx_grow(&all->cluster, &all->room, all->n + 1, sizeof *all->cluster));
@@ -186,6 +188,7 @@ done:
 static clast_status as_group(const clast_aggregate *a, const clx_cluster *cluster,
                              clx_kit_group *group)
 {
+    CLAST_ASSERT(cluster->n > 0 && cluster->mass >= 0.0);
     const clast_assembly *all = &a->assembly;
     *group = (clx_kit_group){.n_part = cluster->n};
     const clast_status status = clx_alloc(&group->part, cluster->n, sizeof *group->part);
@@ -258,6 +261,7 @@ done:
 static clast_status join(clast_aggregate *a, clx_cluster *large, const clx_cluster *small,
                          const clx_kit_group *group, const clx_landing *landing)
 {
+    CLAST_ASSERT(large != small && large->n > 0 && small->n > 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&large->grain, &large->room, large->n + small->n, sizeof *large->grain));
     CLX_TRY(join_contacts(a, large, small, landing));
@@ -339,6 +343,7 @@ static void prepare_search(const clast_aggregate *a, const clx_cluster *large,
 
 static clast_status merge(clast_aggregate *a, clx_cluster *large, clx_cluster *small)
 {
+    CLAST_ASSERT(large != small && large->n >= small->n);
     clast_status status = CLAST_OK;
     clx_kit_group group = {0};
     clx_search search;
@@ -373,6 +378,7 @@ static clast_status step(clast_aggregate *a)
 /// The one with most grains, the first of equals.
 static const clx_cluster *largest_of(const clx_clusters *clusters)
 {
+    CLAST_ASSERT(clusters->n > 0);
     const clx_cluster *best = &clusters->cluster[0];
     for (int32_t i = 1; i < clusters->n; ++i) {
         best = clusters->cluster[i].n > best->n ? &clusters->cluster[i] : best;

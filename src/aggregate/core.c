@@ -128,6 +128,7 @@ done:
 
 clast_status clx_aggregate_begin_core(clast_aggregate *a)
 {
+    CLAST_ASSERT(a->assembly.n_grain == 0 && a->n_placed == 0);
     const clast_status status = place_core(a);
     return status == CLAST_OK ? check_sizes(a) : status;
 }

@@ -39,6 +39,7 @@ clast_status clx_envelope_tracker_create(int32_t n_kind, const clast_envelope_ki
                                          const clast_envelope_options *options,
                                          clx_envelope_tracker **tracker)
 {
+    CLAST_ASSERT(n_kind >= 0 && n_kind <= CLAST_N_ENVELOPE);
     clast_status status = CLAST_OK;
     clx_envelope_tracker *made = NULL;
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
@@ -59,6 +60,7 @@ done:
 clast_status clx_envelope_tracker_add(clx_envelope_tracker *tracker, const clast_assembly *assembly,
                                       int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < assembly->n_grain);
     clast_status status = CLAST_OK;
     for (int32_t k = 0; k < tracker->n; ++k) {
         tracked *item = &tracker->item[k];

@@ -97,6 +97,7 @@ static void summarise(const job *j, clx_fit_node *node)
 
 static clast_status run_job(job *j)
 {
+    CLAST_ASSERT(j->n > 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&j->value, j->n, sizeof *j->value));
     CLX_TRY(clx_parallel_try(j->n, 1, grow_some, j));
@@ -135,6 +136,7 @@ static clast_status report(clx_fit *fit, int32_t level)
 static clast_status grow_node(clx_fit *fit, int32_t level, int32_t replicate,
                               const clx_fit_node **node)
 {
+    CLAST_ASSERT(level >= 0 && level < fit->n_level && replicate >= 1);
     clast_status status = CLAST_OK;
     const clx_fit_packing *packing = &fit->packing[level];
     clx_fit_node made = {.level = level, .replicate = replicate};
@@ -218,6 +220,7 @@ done:
 
 static clast_status search_level(clx_fit *fit, int32_t level)
 {
+    CLAST_ASSERT(level >= 0 && level < fit->n_level);
     clast_status status = CLAST_OK;
     const clx_fit_node *node = NULL;
     const int32_t limit = fit->config->fit_replicate_max;

@@ -9,6 +9,7 @@
 /// poorly.
 static double pooled_scatter(const clx_fit *fit, int32_t observable)
 {
+    CLAST_ASSERT(observable >= 0 && observable < CLX_FIT_N_MODEL);
     double sum = 0.0;
     int32_t n = 0;
     for (int32_t i = 0; i < fit->n_node; ++i) {
@@ -96,6 +97,7 @@ void clx_fit_set_chi2(clx_fit *fit)
 /// Weights under even chances for packings and ln N_A, summing to 1; returns the best node.
 static int32_t set_weights(clx_fit *fit)
 {
+    CLAST_ASSERT(fit->n_node > 0);
     int32_t best = 0;
     double sum = 0.0;
     for (int32_t i = 1; i < fit->n_node; ++i) {
@@ -126,6 +128,7 @@ static int by_value(const void *p, const void *q)
 /// A quantity of the nodes by weight; `list` is scratch [n_node] that holds the values.
 static clast_fit_estimate estimate(const clx_fit *fit, weighed *list, int32_t best)
 {
+    CLAST_ASSERT(best >= 0 && best < fit->n_node);
     clast_fit_estimate e = {.best = list[best].value};
     double squares = 0.0;
     double sum = 0.0;

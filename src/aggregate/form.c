@@ -81,6 +81,7 @@ static void group_support(const clx_kit *kit, const clx_kit_group *group, const 
 /// Farthest pair of points; `axis` is the unit vector between them.
 static double farthest_pair(const clast_mesh *points, double axis[3])
 {
+    CLAST_ASSERT(points->n_vert > 0);
     double best = -1.0;
     int32_t pair[2] = {0, 0};
     for (int32_t i = 0; i < points->n_vert; ++i) {
@@ -120,6 +121,7 @@ static double raise_length(const clx_kit *kit, const clx_kit_group *group, doubl
 
 static void project(clast_mesh *points, const double axis[3])
 {
+    CLAST_ASSERT(v3_is_unit(axis, 1e-9));
     for (int32_t i = 0; i < points->n_vert; ++i) {
         v3_axpy(points->vert[i], points->vert[i], -v3_dot(points->vert[i], axis), axis);
     }
@@ -139,6 +141,7 @@ static double extent(const clast_mesh *points, const double axis[3])
 
 static bool is_plain(const clx_kit *kit, const clx_kit_group *group, double form[3])
 {
+    CLAST_ASSERT(group->n_part > 0);
     const clast_shape *shape = kit->shape[group->part[0].shape].shape;
     const bool plain = group->n_part == 1 &&
                        (shape->kind == CLAST_SHAPE_SPHERE || shape->kind == CLAST_SHAPE_ELLIPSOID);

@@ -9,6 +9,8 @@
 
 static clast_status enter_scene(clast_aggregate *a, int32_t grain)
 {
+    CLAST_ASSERT(grain >= 0 && grain < a->assembly.n_grain &&
+                 clx_touch_scene_count(a->scene) == grain);
     clast_status status = CLAST_OK;
     const int64_t before = grain > 0 ? a->sphere_end[grain - 1] : 0;
     const clx_touch_body body = clx_aggregate_body(a, grain);
@@ -33,6 +35,7 @@ static clast_status enter_march(clast_aggregate *a, int32_t grain)
 
 static clast_status account(clast_aggregate *a, int32_t grain)
 {
+    CLAST_ASSERT(grain >= 0 && grain < a->assembly.n_grain);
     clast_status status = CLAST_OK;
     const clast_assembly *all = &a->assembly;
     const clx_kit_shape *shape = &a->kit.shape[a->kit_shape[all->shape_id[grain]]];
@@ -57,6 +60,7 @@ done:
 
 clast_status clx_aggregate_track(clast_aggregate *a, int32_t first)
 {
+    CLAST_ASSERT(first >= 0 && first <= a->assembly.n_grain);
     clast_status status = CLAST_OK;
     const double begun = clx_clock();
     for (int32_t i = first; i < a->assembly.n_grain && a->tracker != NULL; ++i) {
@@ -70,6 +74,8 @@ done:
 clast_status clx_aggregate_lay_group(clast_aggregate *a, int32_t group, const double centre[3],
                                      const double orientation[4], double scale)
 {
+    CLAST_ASSERT(group >= 0 && group < a->kit.n_group && scale > 0.0);
+    CLAST_ASSERT(q_is_unit(orientation, 1e-9));
     clast_status status = CLAST_OK;
     const clx_kit_group *g = &a->kit.group[group];
     const int32_t first = a->assembly.n_grain;
@@ -92,6 +98,7 @@ done:
 
 clast_status clx_aggregate_account_all(clast_aggregate *a, int32_t first)
 {
+    CLAST_ASSERT(first >= 0 && first <= a->assembly.n_grain);
     clast_status status = CLAST_OK;
     for (int32_t i = first; i < a->assembly.n_grain; ++i) {
         CLX_TRY(account(a, i));

@@ -29,6 +29,7 @@ void clast_aggregate_destroy(clast_aggregate *a)
 
 static uint64_t seed_of(const clast_aggregate_params *params, int32_t repeat)
 {
+    CLAST_ASSERT(repeat >= 0);
     if (repeat == 0) {
         return params->seed;
     }
@@ -142,6 +143,7 @@ done:
 /// Last row's value in an envelope column, NAN when that row was not measured.
 static double last_value(const clast_aggregate *a, int32_t column)
 {
+    CLAST_ASSERT(column >= 0 && column < a->history.n_column);
     const clx_history *h = &a->history;
     return h->n_row > 0 ? h->value[(h->n_row - 1) * h->n_column + column] : (double)NAN;
 }

@@ -197,6 +197,7 @@ typedef struct {
 
 static clast_status make_group_form(const kit_job *job, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < job->kit->n_group);
     clx_kit_group *group = &job->kit->group[g];
     const int32_t meaning = g == 0 ? job->params->core_meaning : job->params->size_meaning;
     return group->n_part > 0 ? measure_form(job->kit, meaning == CLAST_SIZE_MEAN, group) : CLAST_OK;
@@ -225,6 +226,7 @@ static clast_status make_all(const clast_aggregate_params *params, clx_kit *kit)
 /// Assembly g of the input: 0 the core (none in cluster mode), 1 + k coating shape k.
 static const clast_assembly *assembly_of(const clast_aggregate_input *input, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g <= input->n_coat);
     return g == 0 ? input->core : &input->coat[g - 1];
 }
 
@@ -303,6 +305,7 @@ double clx_kit_size(const clx_kit_group *group, int32_t meaning)
 void clx_kit_pose(const clx_kit_group *group, int32_t part, const double centre[3],
                   const double orientation[4], double scale, clx_kit_part *placed)
 {
+    CLAST_ASSERT(part >= 0 && part < group->n_part && scale > 0.0);
     const clx_kit_part *p = &group->part[part];
     double arm[3];
     q_rotate(arm, orientation, p->position);

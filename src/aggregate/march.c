@@ -161,6 +161,7 @@ static clast_status add_pair(const march_ray *ray, const double from[3], double 
 static clast_status find_spans(const marching *m, const march_ray *ray, double rotation[3][3],
                                double scale, span_list *list)
 {
+    CLAST_ASSERT(scale > 0.0 && ray->shape + 1 < m->march->n_shape);
     clast_status status = CLAST_OK;
     const clx_march *march = m->march;
     const clx_march_shape *shape = &march->shape[1 + ray->shape];
@@ -203,6 +204,7 @@ static bool intersects(const span_list *list, double s)
 /// Inward while free, then outward while intersecting; the k-th step is k times the constant.
 static double march_along(const clx_march *march, double length, const span_list *list, bool *lost)
 {
+    CLAST_ASSERT(length >= 0.0);
     const int32_t limit = march->params->march_steps;
     double s = march->start * length;
     int32_t k = 0;
@@ -287,6 +289,7 @@ static void find_touched(const clx_march *march, clx_march_landing *landing)
 clast_status clx_march_run(const clx_march *march, const clx_aim *aim, double size,
                            clx_march_landing *landing)
 {
+    CLAST_ASSERT(size > 0.0 && march->n_grain > 0);
     clast_status status = CLAST_OK;
     const clast_aggregate_params *c = march->params;
     const int64_t n_trial = (int64_t)c->rays * c->orientations;

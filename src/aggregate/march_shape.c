@@ -39,6 +39,7 @@ done:
 /// Moves the spheres to their centroid; their reach from there.
 static void centre_spheres(clx_march_shape *made)
 {
+    CLAST_ASSERT(made->spheres.n > 0);
     clast_spheres *s = &made->spheres;
     double weight = 0.0;
     double sum[3] = {0.0, 0.0, 0.0};
@@ -64,6 +65,7 @@ static const double *soup_vertex(const clast_mesh *mesh, int64_t entry)
 static clast_status sample_length(const clast_mesh *mesh, int32_t wanted, uint64_t seed,
                                   uint64_t number, double *length)
 {
+    CLAST_ASSERT(wanted > 0);
     clast_status status = CLAST_OK;
     const int64_t n = 3 * (int64_t)mesh->n_tri;
     const int64_t k = wanted < n ? wanted : n;
@@ -145,12 +147,14 @@ double clx_march_length(const clx_march *march, double size, int32_t class_shape
 
 double clx_march_scale(const clx_march *march, double length, int32_t shape)
 {
+    CLAST_ASSERT(length >= 0.0 && shape >= 0 && shape + 1 < march->n_shape);
     return length / march->shape[1 + shape].length;
 }
 
 clast_status clx_march_add(clx_march *march, int32_t shape, const double centroid[3],
                            const double orientation[4], double scale)
 {
+    CLAST_ASSERT(shape >= 0 && shape < march->n_shape && scale > 0.0);
     clast_status status = CLAST_OK;
     const clx_march_shape *s = &march->shape[shape];
     double m[3][3];

@@ -71,6 +71,7 @@ done:
 
 static double equivalent_diameter(double volume)
 {
+    CLAST_ASSERT(!(volume < 0.0));
     return cbrt(6.0 * volume / CLAST_PI);
 }
 
@@ -98,6 +99,7 @@ static bool is_measured(clast_aggregate *a, double *row)
 
 clast_status clx_aggregate_measure_row(clast_aggregate *a, double *row)
 {
+    CLAST_ASSERT(a->history.n_column >= CLX_HISTORY_FIXED);
     clast_status status = CLAST_OK;
     clast_envelope envelope[CLAST_N_ENVELOPE];
     const double begun = clx_clock();

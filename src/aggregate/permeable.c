@@ -31,6 +31,7 @@ done:
 static clast_status sum_coat(const clast_assembly *grains, int32_t first, double *volume,
                              double *surface)
 {
+    CLAST_ASSERT(first >= 0 && first <= grains->n_grain);
     clast_status status = CLAST_OK;
     *volume = 0.0;
     *surface = 0.0;

@@ -7,6 +7,7 @@
 
 static void two_of(clx_rng *rng, int32_t n, int32_t pair[2])
 {
+    CLAST_ASSERT(n >= 2);
     pair[0] = (int32_t)clx_rng_below(rng, n);
     pair[1] = (int32_t)clx_rng_below(rng, n - 1);
     pair[1] += pair[1] >= pair[0] ? 1 : 0;
@@ -24,6 +25,7 @@ static double total_mass(const clx_clusters *all)
 /// Each of the two drawn in proportion to its mass, the second among the others.
 static void by_mass(const clx_clusters *all, clx_rng *rng, int32_t pair[2])
 {
+    CLAST_ASSERT(all->n >= 2);
     double left = total_mass(all);
     for (int k = 0; k < 2; ++k) {
         const double u = clx_rng_uniform(rng) * left;
@@ -63,6 +65,7 @@ static void brownian(const clx_clusters *all, clx_rng *rng, int32_t pair[2])
 void clx_pick_pair(const clast_aggregate *a, int32_t pair[2])
 {
     clx_rng rng = clx_rng_at(a->seed, CLX_STREAM_CLUSTER, (uint64_t)a->n_placed);
+    CLAST_ASSERT(a->clusters.n >= 2);
     if (a->params->pick == CLAST_PICK_MASS) {
         by_mass(&a->clusters, &rng, pair);
     } else if (a->params->pick == CLAST_PICK_BROWNIAN) {

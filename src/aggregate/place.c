@@ -18,6 +18,7 @@ enum { PROBE = 256 };
 
 static void prepare_search(const clast_aggregate *a, int32_t shape, clx_search *search)
 {
+    CLAST_ASSERT(shape >= 0 && shape + 1 < a->kit.n_group);
     const clast_aggregate_params *c = a->params;
     *search =
         (clx_search){.kit = &a->kit,
@@ -185,6 +186,7 @@ done:
 
 static clast_status place(clast_aggregate *a)
 {
+    CLAST_ASSERT(a->n_placed < a->n_step);
     return a->params->contact == CLAST_CONTACT_MARCH ? place_by_march(a) : place_by_touch(a);
 }
 

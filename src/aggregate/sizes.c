@@ -11,6 +11,8 @@ enum { SIZE_LIMIT = 100000000 };
 
 static double draw_in_bin(const clast_sizes *sizes, int64_t bin, clx_rng *rng)
 {
+    CLAST_ASSERT(bin >= 0 && bin < sizes->n && sizes->low[bin] > 0.0 &&
+                 sizes->low[bin] <= sizes->high[bin]);
     const double low = sizes->low[bin];
     const double high = sizes->high[bin];
     return low == high ? low : low * pow(high / low, clx_rng_uniform(rng));
@@ -179,12 +181,30 @@ static void put_in_order(const clast_aggregate_params *c, uint64_t seed, double 
     }
 }
 
+/// A list that a caller has filled himself.
+static clast_status check_rows(const clast_sizes *sizes)
+{
+    clast_status status = CLAST_OK;
+    for (int64_t i = 0; i < sizes->n; ++i) {
+        const double low = sizes->low[i];
+        const double high = sizes->high[i];
+        CLX_CHECK(low > 0.0 && low <= high && isfinite(high) && sizes->count[i] >= 0.0,
+                  CLAST_E_CONFIG,
+                  "sizes: row %lld has sizes from %g to %g m, %g times; sizes must be above 0 and "
+                  "rise, a count 0 or more",
+                  (long long)i + 1, low, high, sizes->count[i]);
+    }
+done:
+    return status;
+}
+
 static clast_status list_sizes(const clast_aggregate_params *c, const clast_sizes *sizes,
                                uint64_t seed, double **size, int64_t *n)
 {
     if (sizes == NULL || sizes->n == 0) {
         return clx_fail(CLAST_E_CONFIG, "sizes: the list is empty");
     }
+    CLX_GUARD(check_rows(sizes));
     return c->size_draw ? draw_list(c, sizes, seed, size, n) : take_list(c, sizes, seed, size, n);
 }
 
@@ -214,6 +234,7 @@ done:
 
 static int32_t by_weight(const clast_f64_list *weight, int32_t n_coat, double u)
 {
+    CLAST_ASSERT(u >= 0.0 && u < 1.0 && n_coat > 0);
     if (weight->n == 0) {
         const int32_t pick = (int32_t)(u * n_coat);
         return pick < n_coat ? pick : n_coat - 1;
@@ -237,6 +258,7 @@ static int32_t by_weight(const clast_f64_list *weight, int32_t n_coat, double u)
 int32_t clx_sizes_shape(const clast_aggregate_params *c, int32_t n_coat, uint64_t seed,
                         int64_t particle, double size)
 {
+    CLAST_ASSERT(particle >= 0 && size > 0.0);
     if (c->class_limit.n > 0) {
         int32_t k = 0;
         while (k < c->class_limit.n && size > c->class_limit.item[k]) {

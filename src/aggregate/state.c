@@ -22,16 +22,20 @@ void clx_aggregate_free(clast_aggregate *a)
 
 int32_t clx_aggregate_shape(const clast_aggregate *a, int32_t particle)
 {
+    CLAST_ASSERT(particle >= 0 && particle < a->n_particle);
     return clx_sizes_shape(a->params, a->input->n_coat, a->seed, particle, a->size[particle]);
 }
 
 double clx_aggregate_scale(const clast_aggregate *a, int32_t particle, int32_t shape)
 {
+    CLAST_ASSERT(particle >= 0 && particle < a->n_particle && shape >= 0 &&
+                 shape + 1 < a->kit.n_group);
     return a->size[particle] / clx_kit_size(&a->kit.group[1 + shape], a->params->size_meaning);
 }
 
 clx_touch_body clx_aggregate_body(const clast_aggregate *a, int32_t grain)
 {
+    CLAST_ASSERT(grain >= 0 && grain < a->assembly.n_grain);
     const clast_assembly *all = &a->assembly;
     clx_touch_body body = a->kit.shape[a->kit_shape[all->shape_id[grain]]].body;
     clx_touch_body_place(&body, all->position[grain], all->orientation[grain], all->scale[grain]);
@@ -50,6 +54,7 @@ clx_aim clx_aggregate_aim(const clast_aggregate *a)
 
 double clx_aggregate_gyration(const clast_aggregate *a)
 {
+    CLAST_ASSERT(a->mass >= 0.0);
     double centre[3];
     v3_scale(centre, 1.0 / a->mass, a->moment);
     return sqrt(fmax(0.0, a->second / a->mass - v3_norm2(centre)));

@@ -46,6 +46,7 @@ typedef struct {
 /// Centre of the k-th sphere of all composites, in the world.
 static void sphere_centre(const clx_search *s, int64_t k, double centre[3])
 {
+    CLAST_ASSERT(k >= 0 && k < s->sphere_end[s->n_body - 1]);
     int32_t low = 0;
     int32_t high = s->n_body - 1;
     while (low < high) {
@@ -181,12 +182,14 @@ static int by_rank(const void *a, const void *b)
 /// Margin that covers rounding in distances and places along a ray.
 static double margin_of(const clx_search *s, double best)
 {
+    CLAST_ASSERT(best >= 0.0);
     return ROUNDING * (s->scale * s->group->radius + best);
 }
 
 /// Where along the ray the particle certainly loses: beyond b + sqrt(best^2 - h2).
 static double losing_place(const clx_search *s, const ray *r, double best)
 {
+    CLAST_ASSERT(best >= 0.0);
     double b;
     double h2;
     foot_of(s, r, &b, &h2);
@@ -198,6 +201,7 @@ static double losing_place(const clx_search *s, const ray *r, double best)
 bool clx_search_fly(const clx_search *s, const double origin[3], const double orientation[4],
                     const clx_touch_path *path, clx_landing *landing)
 {
+    CLAST_ASSERT(q_is_unit(orientation, 1e-9) && s->scale > 0.0 && s->group->n_part > 0);
     clx_touch_path rest = *path;
     bool found = false;
     for (int32_t i = 0; i < s->group->n_part; ++i) {
@@ -225,6 +229,7 @@ bool clx_search_fly(const clx_search *s, const double origin[3], const double or
 static bool attempt_trial(const clx_search *s, const ray *r, int64_t trial, double bound,
                           clx_landing *landing)
 {
+    CLAST_ASSERT(trial >= 0);
     double back[3];
     v3_scale(back, -1.0, r->direction);
     clx_touch_path path = clx_touch_path_along(back);
@@ -314,6 +319,7 @@ const char *clx_search_paths(const clx_search *search)
 
 clast_status clx_search_run(const clx_search *search, clx_landing *best)
 {
+    CLAST_ASSERT(search->aim.n_ray > 0 && search->n_orientation > 0);
     clast_status status = CLAST_OK;
     const int64_t n_ray = search->aim.n_ray;
     race all = {.search = search,

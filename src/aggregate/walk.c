@@ -28,6 +28,7 @@ typedef struct {
 /// Radius of the smallest part, by its bounding sphere.
 static double smallest_part(const clx_search *s)
 {
+    CLAST_ASSERT(s->group->n_part > 0);
     double least = HUGE_VAL;
     for (int32_t i = 0; i < s->group->n_part; ++i) {
         const clx_kit_part *part = &s->group->part[i];
@@ -50,6 +51,7 @@ static void begin(walk *w)
 /// exterior, cos theta by its inverse distribution.
 static bool come_back(walk *w)
 {
+    CLAST_ASSERT(w->outer >= 0.0);
     double out[3];
     double side[2][3];
     v3_sub(out, w->x, w->search->centre);
@@ -128,6 +130,7 @@ static bool step(walk *w, clx_landing *landing)
 
 void clx_walk_run(clx_search *search, int32_t tries, clx_landing *landing)
 {
+    CLAST_ASSERT(tries > 0 && search->walk_step > 0.0);
     walk w = {.search = search};
     w.least = search->walk_step * smallest_part(search);
     w.outer = (search->reach + search->scale * search->group->radius) * (1.0 + 1e-12) + w.least;

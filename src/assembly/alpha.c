@@ -49,6 +49,7 @@ static void cloud_free(cloud *c)
 
 static clast_status add_sample(cloud *c, const double at[3])
 {
+    CLAST_ASSERT(c->n >= 0);
     clast_status status = CLAST_OK;
     int64_t key = 0;
     CLX_CHECK(c->n < MAX_SAMPLES, CLAST_E_LIMIT,
@@ -128,6 +129,7 @@ done:
 /// Fineness of a round grain's surface: edges of an icosphere are 1.1 r / 2^level.
 static int level_of(const clast_assembly *a, int32_t i, double spacing)
 {
+    CLAST_ASSERT(spacing >= 0.0);
     const double r = a->scale[i] * a->shape[a->shape_id[i]].semi_axes[0];
     int level = 1;
     while (level < MAX_LEVEL && 1.1 * r > spacing * (double)(1 << level)) {
@@ -165,6 +167,7 @@ done:
 /// on the hull that is outwards for sure, whereas a flat tetrahedron does not know its own sides.
 static const double *face_of(const cloud *c, const clx_delaunay_tet *t, int k, double normal[3])
 {
+    CLAST_ASSERT(k >= 0 && k < 4);
     double u[3];
     double v[3];
     const double *p = c->point[t->corner[(k + 1) & 3]];
@@ -216,6 +219,7 @@ static double circle_of(const cloud *c, const clx_delaunay_tet *t, int k)
 static bool passes(const cloud *c, const clx_delaunay *d, int32_t i, int k, int32_t other,
                    double length)
 {
+    CLAST_ASSERT(i >= 0 && i < d->n_tet && k >= 0 && k < 4);
     double normal[3], here[3], there[3], to[3];
     const clx_delaunay_tet *t = &d->tet[i];
     if (circle_of(c, t, k) > length) {
@@ -240,6 +244,7 @@ static bool passes(const cloud *c, const clx_delaunay *d, int32_t i, int k, int3
 /// Marks the tetrahedra that the ball reaches.
 static clast_status roll(const cloud *c, const clx_delaunay *d, double length, bool *reached)
 {
+    CLAST_ASSERT(length >= 0.0);
     clast_status status = CLAST_OK;
     int32_t *stack = NULL;
     int32_t n = 0;

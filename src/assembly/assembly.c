@@ -61,6 +61,7 @@ done:
 /// Room to ask for when n items are full: half as much again.
 static int32_t next_capacity(int32_t n)
 {
+    CLAST_ASSERT(n >= 0);
     if (n < 16) {
         return 16;
     }
@@ -214,6 +215,7 @@ done:
 
 static double grain_volume(const clast_assembly *a, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     const double s = a->scale[i];
     return s * s * s * a->shape[a->shape_id[i]].volume;
 }
@@ -294,6 +296,7 @@ static void place(double out[3], double turn[3][3], const double position[3], do
 
 static void widen_grain(const clast_assembly *a, int32_t i, double low[3], double high[3])
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     static const double nothing[3] = {0.0, 0.0, 0.0};
     const clast_shape *shape = &a->shape[a->shape_id[i]];
     const double s = a->scale[i];

@@ -83,6 +83,7 @@ static double mesh_distance(const clast_bvh *bvh, const double x[3], row_state *
 static double shape_distance(const clx_distance_field *field, int32_t shape_id, const double x[3],
                              row_state *row)
 {
+    CLAST_ASSERT(shape_id >= 0 && shape_id < field->assembly->n_shape);
     const clast_shape *shape = &field->assembly->shape[shape_id];
     switch (shape->kind) {
     case CLAST_SHAPE_SPHERE:
@@ -100,6 +101,7 @@ static double shape_distance(const clx_distance_field *field, int32_t shape_id, 
 /// Nodes of one axis within [low, high]: false when there are none.
 static bool node_range(const clx_grid *g, int axis, const double low_high[2], int32_t range[2])
 {
+    CLAST_ASSERT(axis >= 0 && axis < 3 && g->h > 0.0);
     const double first = ceil((low_high[0] - g->low[axis]) / g->h);
     const double last = floor((low_high[1] - g->low[axis]) / g->h);
     range[0] = first > 0.0 ? (int32_t)first : 0;
@@ -126,6 +128,7 @@ static void node_at(const clx_grid *g, int32_t i, int32_t j, int32_t k, double x
 
 static void lower(clx_grid *g, int32_t i, int32_t j, int32_t k, double value)
 {
+    CLAST_ASSERT(i >= 0 && i < g->n[0] && j >= 0 && j < g->n[1] && k >= 0 && k < g->n[2]);
     float *slot = &g->value[((int64_t)k * g->n[1] + j) * g->n[0] + i];
     if ((float)value < *slot) {
         *slot = (float)value;

@@ -74,6 +74,7 @@ static void ellipsoid_farthest(const double a[3], const double c[3], double x[3]
 
 static void sphere_farthest(far_point *far, const double centre[3], const double at[3], double r)
 {
+    CLAST_ASSERT(r >= 0.0);
     double u[3];
     double x[3];
     v3_sub(u, at, centre);
@@ -87,6 +88,7 @@ static void sphere_farthest(far_point *far, const double centre[3], const double
 static void grain_farthest(const clast_assembly *assembly, int32_t i, const double centre[3],
                            far_point *far)
 {
+    CLAST_ASSERT(i >= 0 && i < assembly->n_grain);
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double *position = assembly->position[i];

@@ -48,6 +48,7 @@ clast_status clast_envelope_parse(const char *name, clast_envelope_kind *kind)
 
 static double sphere_volume(double radius)
 {
+    CLAST_ASSERT(!(radius < 0.0));
     return 4.0 / 3.0 * CLAST_PI * radius * radius * radius;
 }
 

@@ -93,6 +93,7 @@ static void add_grain(gyration *g, const clast_assembly *a, int32_t i)
 
 static double gyration_radius(const gyration *g)
 {
+    CLAST_ASSERT(g->volume >= 0.0);
     return sqrt(fmax(0.0, g->second / g->volume - v3_norm2(g->first) / (g->volume * g->volume)));
 }
 
@@ -172,6 +173,7 @@ static void count_solid(const clast_assembly *assembly, around *c)
 /// the ball that it has in common with itself moved by s, x = 1 - (s / 2R)^2.
 static double share_inside(double dimension, double r, double ball)
 {
+    CLAST_ASSERT(dimension >= 0.0 && ball >= 0.0);
     double sum = 0.0;
     for (int k = 0; k < N_SHELL; ++k) {
         const double u = 0.5 * r / ball * pow((k + 0.5) / N_SHELL, 1.0 / dimension);

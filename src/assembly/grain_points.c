@@ -32,6 +32,7 @@ static bool in_tree(const clx_touch_tree *tree, const double p[3])
 
 bool clx_body_holds(const clx_touch_body *body, const double x[3])
 {
+    CLAST_ASSERT(body->radius >= 0.0);
     double p[3];
     double q = 0.0;
     if (v3_distance2(x, body->position) > body->radius * body->radius) {
@@ -68,6 +69,8 @@ static void place(const clx_touch_body *body, const double c[3], double p[3])
 
 bool clx_body_draw(const clx_touch_body *body, const double cube[3], double x[3])
 {
+    CLAST_ASSERT(cube[0] >= 0.0 && cube[0] <= 1.0 && cube[1] >= 0.0 && cube[1] <= 1.0 &&
+                 cube[2] >= 0.0 && cube[2] <= 1.0);
     double p[3];
     place(body, cube, p);
     for (int k = 0; k < 3; ++k) {

@@ -131,6 +131,7 @@ done:
 clast_status clx_hull_parts_add(clx_hull_parts *parts, const clast_assembly *assembly, int32_t i,
                                 clx_smooth_hull *hull)
 {
+    CLAST_ASSERT(i >= 0 && i < assembly->n_grain);
     clast_status status = CLAST_OK;
     const double *position = assembly->position[i];
     const double scale = assembly->scale[i];

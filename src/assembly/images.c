@@ -26,6 +26,7 @@ static void imaged_free(imaged *m)
 
 static clast_status add(const clast_assembly *a, int32_t i, const double shift[3], imaged *m)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     clast_status status = CLAST_OK;
     double at[3];
     v3_add(at, a->position[i], shift);
@@ -69,6 +70,7 @@ done:
 static clast_status make_images(const clast_assembly *a, const clast_period *period, double gap,
                                 imaged *m)
 {
+    CLAST_ASSERT(m->all.n_grain == 0);
     static const double none[3] = {0.0, 0.0, 0.0};
     clast_status status = CLAST_OK;
     double largest = 0.0;

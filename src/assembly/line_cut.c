@@ -172,6 +172,7 @@ static void add(double m[3], double sign, const double x[2])
 /// Intervals less their union.
 static void common(int32_t n, double (*x)[2], double m[3])
 {
+    CLAST_ASSERT(n >= 0);
     m[0] = m[1] = m[2] = 0.0;
     for (int32_t i = 1; i < n; ++i) { // by where they begin
         for (int32_t k = i; k > 0 && x[k][0] < x[k - 1][0]; --k) {
@@ -222,6 +223,7 @@ static void surplus_of(int32_t n, double (*x)[2], const double *density, double 
 /// The box in y and z of what boxes share; marks those that share any. False: nothing.
 static bool shared_box(int32_t n, body *b, double low[3], double high[3])
 {
+    CLAST_ASSERT(n >= 0);
     bool is_any = false;
     v3_set(low, FAR, FAR, FAR);
     v3_set(high, -FAR, -FAR, -FAR);
@@ -302,6 +304,7 @@ done:
 static int32_t meet(int32_t n_body, const body *b, const double *density, const double at[2],
                     met *line)
 {
+    CLAST_ASSERT(n_body >= 0);
     int32_t n = 0;
     for (int32_t i = 0; i < n_body; ++i) {
         if (b[i].is_shared && cut(&b[i], at[0], at[1], line->x[n])) {

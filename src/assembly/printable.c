@@ -75,6 +75,7 @@ typedef struct {
 
 static bool neighbour_of(const clx_grid *g, int64_t node, int which, int64_t *neighbour)
 {
+    CLAST_ASSERT(which >= 0 && which < CLX_GRID_NEIGHBOURS);
     const int32_t at[3] = {(int32_t)(node % g->n[0]), (int32_t)(node / g->n[0] % g->n[1]),
                            (int32_t)(node / ((int64_t)g->n[0] * g->n[1]))};
     int64_t index = 0;

@@ -72,6 +72,7 @@ static clast_status add_ellipse(shadow *s, const double centre[3], double half[3
 
 static clast_status add_ball(shadow *s, const double centre[3], double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     double half[3][3] = {{radius, 0.0, 0.0}, {0.0, radius, 0.0}, {0.0, 0.0, radius}};
     return add_ellipse(s, centre, half);
 }
@@ -169,6 +170,7 @@ static int by_line(const void *p, const void *q)
 /// Sorts spans and joins those that overlap, in place; returns their new number.
 static int64_t join_spans(span *spans, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     int64_t kept = 0;
     if (n > 1) {
         qsort(spans, (size_t)n, sizeof *spans, by_line);

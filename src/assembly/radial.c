@@ -21,6 +21,7 @@ typedef struct profile {
 
 static void add_ball(profile *p, double r, double d, double density)
 {
+    CLAST_ASSERT(r >= 0.0 && d >= 0.0 && p->n_bin > 0);
     double inner = 0.0;
     for (int32_t k = 0; k < p->n_bin; ++k) {
         const double outer = clx_ball_within(r, d, (k + 1) * p->step);
@@ -32,6 +33,7 @@ static void add_ball(profile *p, double r, double d, double density)
 
 static double shell_volume(const profile *p, int32_t k)
 {
+    CLAST_ASSERT(k >= 0 && k < p->n_bin);
     const double low = k * p->step;
     const double high = (k + 1) * p->step;
     return 4.0 / 3.0 * CLAST_PI * (high * high * high - low * low * low);
@@ -65,6 +67,7 @@ static double within_shell(const profile *p, int32_t k, const clx_touch_body *bo
 
 static void add_share(profile *p, int32_t k, double volume, double variance, double density)
 {
+    CLAST_ASSERT(k >= 0 && k < p->n_bin);
     p->solid[k] += volume;
     p->mass[k] += density * volume;
     p->error[k] += variance;

@@ -111,12 +111,14 @@ static void place_spheres(const clast_assembly *assembly, rays *r)
 
 static int32_t belt_of(const rays *r, double z)
 {
+    CLAST_ASSERT(r->n_belt > 0);
     const int32_t belt = (int32_t)(0.5 * (z + 1.0) * r->n_belt);
     return belt < 0 ? 0 : belt >= r->n_belt ? r->n_belt - 1 : belt;
 }
 
 static int32_t slot_of(const rays *r, const double d[3])
 {
+    CLAST_ASSERT(r->n_slot > 0);
     const double turn = 0.5 + atan2(d[1], d[0]) / (2.0 * CLAST_PI);
     const int32_t slot = (int32_t)(turn * r->n_slot);
     return slot >= r->n_slot ? 0 : slot;
@@ -158,6 +160,7 @@ done:
 /// Meets the rays of some cells of one belt with one sphere.
 static void meet_cells(rays *r, int32_t begin, int32_t end, int32_t s)
 {
+    CLAST_ASSERT(begin >= 0 && begin <= end && s >= 0 && s < r->n_sphere);
     const double *at = r->at[s];
     const double beyond = v3_norm2(at) - r->radius[s] * r->radius[s];
     for (int32_t i = r->first[begin]; i < r->first[end]; ++i) {

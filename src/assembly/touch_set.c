@@ -105,6 +105,7 @@ static bool keep_within(int32_t body, const clx_gap *gap, void *context)
 /// Insertion sort of one grain's few finds by the other grain.
 static void sort_from(clx_pairs *p, int32_t first)
 {
+    CLAST_ASSERT(first >= 0 && first <= p->n);
     for (int32_t i = first + 1; i < p->n; ++i) {
         for (int32_t j = i; j > first && p->pair[j][1] < p->pair[j - 1][1]; --j) {
             double point[3];
@@ -148,5 +149,6 @@ clast_status clx_touch_set_near(const clx_touch_set *set, clx_pairs *pairs)
 
 clast_status clx_touch_set_within(const clx_touch_set *set, double gap, clx_pairs *pairs)
 {
+    CLAST_ASSERT(gap >= 0.0);
     return collect(set, true, gap, pairs);
 }

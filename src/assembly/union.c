@@ -48,6 +48,7 @@ clast_union_options clast_union_options_default(void)
 
 static double grain_volume(const clast_assembly *a, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     const double s = a->scale[i];
     return s * s * s * a->shape[a->shape_id[i]].volume;
 }
@@ -61,6 +62,7 @@ static double grain_radius(const clast_assembly *a, int32_t i)
 /// Mean of 1 / k over one shifted lattice of points in a grain.
 static double shifted_mean(const group *g, const member *m, int shift)
 {
+    CLAST_ASSERT(shift >= 0 && shift < N_SHIFT && g->n_point > 0);
     const clx_touch_body *body = clx_touch_scene_body(g->set->scene, m->grain);
     clx_rng rng =
         clx_rng_at(g->seed, CLX_STREAM_UNION, (uint64_t)m->grain * N_SHIFT + (unsigned)shift);
@@ -170,6 +172,7 @@ done:
 static double overlap_depth(const clx_touch_body *a, const clx_touch_body *b, double least,
                             double known)
 {
+    CLAST_ASSERT(least >= 0.0);
     clx_gap gap;
     if (!clx_touch_gap(a, b, 0.0, &gap)) {
         return 0.0;
@@ -203,6 +206,7 @@ typedef struct {
 
 static double smaller_radius(const clast_assembly *a, const int32_t pair[2])
 {
+    CLAST_ASSERT(pair[0] >= 0 && pair[0] < pair[1] && pair[1] < a->n_grain);
     return fmin(grain_radius(a, pair[0]), grain_radius(a, pair[1]));
 }
 

@@ -51,6 +51,7 @@ static void wrap_free(wrap *w)
 static clast_status wrap_alloc(const clast_assembly *assembly, double length, int32_t n_cell,
                                wrap *w)
 {
+    CLAST_ASSERT(length >= 0.0 && n_cell > 0);
     clast_status status = CLAST_OK;
     double low[3];
     double high[3];
@@ -87,6 +88,7 @@ done:
 
 static void node_of(const clx_grid *g, int64_t p, int32_t at[3])
 {
+    CLAST_ASSERT(p >= 0 && p < (int64_t)g->n[0] * g->n[1] * g->n[2]);
     at[0] = (int32_t)(p % g->n[0]);
     at[1] = (int32_t)(p / g->n[0] % g->n[1]);
     at[2] = (int32_t)(p / ((int64_t)g->n[0] * g->n[1]));
@@ -95,6 +97,7 @@ static void node_of(const clx_grid *g, int64_t p, int32_t at[3])
 /// Signed distance of a node to what the present transform is about.
 static double own_distance(const wrap *w, int64_t q)
 {
+    CLAST_ASSERT(q >= 0 && q < w->n_node);
     const double d = (double)w->grid.value[q];
     return w->of_centres ? w->length - d : d;
 }

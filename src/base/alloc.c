@@ -187,6 +187,7 @@ static slot *new_slot(clx_pool *pool)
 /// A block of at least `bytes`, its contents unset; NULL without memory.
 static void *pool_take(clx_pool *pool, size_t bytes)
 {
+    CLAST_ASSERT(pool->n <= pool->capacity && bytes > 0);
     const size_t size = rounded(bytes);
     for (int64_t k = 0; k < pool->n; ++k) {
         if (!pool->slot[k].is_used && pool->slot[k].bytes == size) {
@@ -219,6 +220,7 @@ static slot *pool_find(const clx_pool *pool, const void *at)
 static void *pool_grow(clx_pool *pool, void *old, size_t bytes)
 {
     slot *s = old != NULL ? pool_find(pool, old) : NULL;
+    CLAST_ASSERT(old == NULL || (s != NULL && s->is_used));
     if (s != NULL && s->bytes >= bytes) {
         return old;
     }
@@ -340,6 +342,7 @@ static int64_t grown(int64_t capacity, int64_t need)
 
 clast_status clx_grow(void *block, int64_t *capacity, int64_t need, size_t size)
 {
+    CLAST_ASSERT(*capacity >= 0 && size > 0);
     if (need <= *capacity) {
         return CLAST_OK;
     }
@@ -370,6 +373,7 @@ static void *take_lines(size_t bytes)
 
 clast_status clx_grow_lines(void *block, int64_t *capacity, int64_t need, size_t size)
 {
+    CLAST_ASSERT(*capacity >= 0 && size > 0);
     void *old = NULL;
     size_t bytes = 0;
     if (need <= *capacity) {

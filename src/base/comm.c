@@ -101,6 +101,8 @@ void clx_gathered_free(clx_gathered *all)
 clast_status clx_comm_gather(const clast_comm *comm, const void *bytes, int64_t n,
                              clx_gathered *all)
 {
+    CLAST_ASSERT(comm->rank >= 0 && comm->rank < comm->n_rank);
+    CLAST_ASSERT(n >= 0 && all->bytes == NULL);
     clast_status status = CLAST_OK;
     const bool is_first = comm->rank == 0;
     int64_t *each = NULL; // [2 n_rank]: 8 bytes of each, then their number of bytes

@@ -93,6 +93,7 @@ clast_status clx_field_check(const clast_field *f, const void *slot)
 clast_status clx_fields_check_part(const clast_field *fields, size_t begin, size_t end,
                                    const void *part)
 {
+    CLAST_ASSERT(begin < end);
     clast_status status = CLAST_OK;
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         if (f->offset >= begin && f->offset < end) {

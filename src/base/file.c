@@ -227,6 +227,7 @@ static clast_status open_device(clx_file *file)
 
 clast_status clx_file_begin(const char *path, clx_file *file)
 {
+    CLAST_ASSERT(file->buffer == NULL);
     clast_status status = CLAST_OK;
     clx_file made = {0};
     char *buffer = NULL;
@@ -247,6 +248,7 @@ done:
 
 static clast_status flush(clx_file *file)
 {
+    CLAST_ASSERT(file->used >= 0 && file->used <= CLX_FILE_BUFFER);
     int64_t done = 0;
     while (done < file->used) {
         const ssize_t n =
@@ -387,6 +389,7 @@ done:
 
 clast_status clx_file_read_all(const char *path, int64_t limit, char **bytes, int64_t *n)
 {
+    CLAST_ASSERT(limit >= 0);
     clast_status status = CLAST_OK;
     char *block = NULL;
     int64_t capacity = 0;

@@ -85,6 +85,7 @@ static clast_status complain(const char *path, const char *lock)
 
 clast_status clx_lock_take(const char *path, double patience, clx_lock *lock, bool *is_busy)
 {
+    CLAST_ASSERT(lock->path == NULL && patience >= 0.0);
     clast_status status = CLAST_OK;
     const struct timespec pause = {0, 20000000};
     const double begun = clx_clock();

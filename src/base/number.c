@@ -55,6 +55,7 @@ static const char *scan_exponent(const char *p, const char *end, int64_t *expone
 
 static const char *scan(const char *p, const char *end, decimal *d)
 {
+    CLAST_ASSERT(p <= end);
     bool any = false;
     bool point = false;
     *d = (decimal){.is_negative = p < end && *p == '-'};
@@ -84,6 +85,7 @@ static const char *scan(const char *p, const char *end, decimal *d)
 /// (high bits of a 128-bit integer, rounded to 53, ties to even) * 2^exponent; not for subnormals.
 static double round_wide(u128 q, bool sticky, int exponent)
 {
+    CLAST_ASSERT(q != 0);
     const uint64_t high = (uint64_t)(q >> 64);
     const int n_bit = high != 0 ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll((uint64_t)q);
     const int shift = n_bit - 53;
@@ -100,6 +102,7 @@ static double round_wide(u128 q, bool sticky, int exponent)
 /// word * 10^exponent, |exponent| <= 27, word > 0, by one exact division or product.
 static double convert_wide(uint64_t word, int exponent)
 {
+    CLAST_ASSERT(word > 0 && abs(exponent) <= CLX_NUMBER_POWER);
     uint64_t five = 1;
     for (int i = exponent < 0 ? -exponent : exponent; i > 0; --i) {
         five *= 5;
@@ -144,6 +147,7 @@ static void big_times_power_of_ten(big *a, int64_t power)
 
 static int big_bits(const big *a)
 {
+    CLAST_ASSERT(a->n > 0 && a->limb[a->n - 1] != 0);
     return 32 * a->n - __builtin_clz(a->limb[a->n - 1]);
 }
 
@@ -176,6 +180,7 @@ static int big_compare(const big *a, const big *b)
 /// a -= b for a >= b
 static void big_subtract(big *a, const big *b)
 {
+    CLAST_ASSERT(big_compare(a, b) >= 0);
     int64_t borrow = 0;
     for (int i = 0; i < a->n; ++i) {
         borrow += (int64_t)a->limb[i] - (i < b->n ? (int64_t)b->limb[i] : 0);
@@ -211,6 +216,7 @@ static int64_t big_digits(const decimal *d, big *a)
 /// 64 bits of a quotient (top bit set) * 2^exponent, rounded to what double holds there.
 static double round_word(uint64_t q, bool sticky, int64_t exponent)
 {
+    CLAST_ASSERT(q >> 63 == 1);
     const int64_t low = -1074 - exponent; // bits below the least subnormal
     const int shift = low > 11 ? (int)(low < 65 ? low : 65) : 11;
     if (shift > 64) {

@@ -5,6 +5,8 @@
 // more division; the text is printf's %g to the byte. Elsewhere printf does it.
 #include "base/number.h"
 
+#include "base/status.h"
+
 #include <locale.h>
 #include <math.h>
 #include <stdbool.h>
@@ -58,6 +60,7 @@ static int format_any(double value, char text[CLX_NUMBER_SIZE])
 /// to the nearest whole number, ties to even.
 static uint64_t whole_part(uint64_t mantissa, int exponent, int power, bool *up)
 {
+    CLAST_ASSERT(power >= 0 && power <= CLX_NUMBER_POWER);
     u128 product = mantissa;
     for (int i = 0; i < power; ++i) {
         product *= 5;
@@ -76,6 +79,7 @@ static uint64_t whole_part(uint64_t mantissa, int exponent, int power, bool *up)
 
 static uint64_t power_of_ten(int power)
 {
+    CLAST_ASSERT(power >= 0 && power <= 19);
     uint64_t ten = 1;
     for (int i = 0; i < power; ++i) {
         ten *= 10;
@@ -98,6 +102,7 @@ static int place_of(uint64_t mantissa, int exponent)
 /// Digits as printf's %g writes them: plain from 1e-4 up to the precision, no zeros at the end.
 static int put_digits(uint64_t word, int n_digit, int place, char *text)
 {
+    CLAST_ASSERT(n_digit >= LEAST_DIGITS && n_digit <= MOST_DIGITS && word < power_of_ten(n_digit));
     char digit[MOST_DIGITS] = {0};
     const int precision = n_digit;
     int n = 0;

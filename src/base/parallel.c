@@ -1,38 +1,328 @@
-// OpenMP behind one function; without OpenMP the same blocks run in order.
+// A team of threads that outlives the work it is given. docs/adr/0012-threads.md
+//
+// Idle threads spin for a bounded time, then sleep. Whoever has work opens it and begins at once;
+// threads that wake in time join, the others are not waited for. Where other processes take the
+// cores from threads that have joined, so that callers wait for them, the team rests for a while.
+#if CLAST_HAVE_THREADS
+// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
+#define _GNU_SOURCE // sched_getaffinity
+#endif
 #include "base/parallel.h"
 
+#include "base/clock.h"
 #include <clast/machine.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 
-#ifdef _OPENMP
-#include <omp.h>
+static void work_alone(int64_t n, int64_t block, clx_kernel kernel, void *context)
+{
+    for (int64_t begin = 0; begin < n; begin += block) {
+        kernel(begin, begin + block < n ? begin + block : n, 0, context);
+    }
+}
+
+#if CLAST_HAVE_THREADS
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+
+enum {
+    MOST = 1024,     // threads of a team
+    SPIN = 2000,     // looks before a thread sleeps, 40 to 100 us
+    REST_LEAST = 64, // works done alone after a team kept its caller waiting
+    REST_MOST = 8192
+};
+
+// Work at hand: who is at it, whether it is open, which it is.
+static const uint64_t ONE = 1;                  // thread at it
+static const uint64_t OPEN = UINT64_C(1) << 31; // may be joined
+static const uint64_t NEXT = UINT64_C(1) << 32; // number of the work
+static const double LOST = 0.4;                 // of the time of recent works: the team rests
+
+static struct {
+    _Alignas(64) _Atomic uint64_t state;
+    _Alignas(64) _Atomic int64_t next; ///< block to be taken
+    // of the work at hand: written while it is closed and none is at it
+    int64_t n, block;
+    clx_kernel kernel;
+    void *context;
+    int32_t n_thread, n_look; ///< that may join; looks before they sleep
+    // of the caller that has the team
+    _Alignas(64) atomic_flag taken;
+    int32_t n_made;         ///< threads, apart from callers
+    int32_t rest, rest_for; ///< works still to be done alone; how many after the next bad spell
+    double lost, spent;     ///< decaying sums over works [s]
+    _Atomic int64_t off_ns; ///< longest time that a thread at the work at hand had no core
+    // for those that sleep
+    pthread_mutex_t lock;
+    pthread_cond_t wake, done;
+    _Atomic int32_t n_asleep;
+    _Atomic bool is_awaited; ///< the caller sleeps until none is at it
+} team = {.taken = ATOMIC_FLAG_INIT,
+          .rest_for = REST_LEAST,
+          .lock = PTHREAD_MUTEX_INITIALIZER,
+          .wake = PTHREAD_COND_INITIALIZER,
+          .done = PTHREAD_COND_INITIALIZER};
+
+static _Thread_local int32_t n_wanted; // of this thread; 0: as the machine has
+
+/// Cores that this process may use.
+static int32_t n_core(void)
+{
+    static _Atomic int32_t known;
+    if (atomic_load(&known) == 0) {
+        cpu_set_t set;
+        atomic_store(&known, sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1);
+    }
+    return atomic_load(&known);
+}
+
+/// Where nobody asks for a number: OMP_NUM_THREADS, as other programs of a job script, or cores.
+static int32_t n_usual(void)
+{
+    static _Atomic int32_t known;
+    if (atomic_load(&known) == 0) {
+        const char *asked = getenv("OMP_NUM_THREADS"); // NOLINT(concurrency-mt-unsafe)
+        const int64_t n = asked != NULL ? strtoll(asked, NULL, 10) : 0;
+        atomic_store(&known, n > 0 && n < MOST ? (int32_t)n : n_core());
+    }
+    return atomic_load(&known);
+}
 
 void clast_parallel_set_threads(int32_t n)
 {
-    omp_set_num_threads(n > 0 ? n : omp_get_num_procs());
+    n_wanted = n < 0 ? 0 : n < MOST ? n : MOST;
 }
 
 int32_t clast_parallel_threads(void)
 {
-    return omp_get_max_threads();
+    return n_wanted > 0 ? n_wanted : n_usual();
+}
+
+static void relax(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
+}
+
+static uint64_t number_of(uint64_t state)
+{
+    return state / NEXT;
+}
+
+static uint64_t n_at(uint64_t state)
+{
+    return state & (OPEN - 1);
+}
+
+static void take_blocks(int32_t worker)
+{
+    const int64_t n_block = (team.n + team.block - 1) / team.block;
+    for (int64_t b = 0; (b = atomic_fetch_add(&team.next, 1)) < n_block;) {
+        const int64_t end = (b + 1) * team.block;
+        team.kernel(b * team.block, end < team.n ? end : team.n, worker, team.context);
+    }
+}
+
+/// How often to look before sleep; not at all where others wait for the core.
+static int patience(void)
+{
+    return clast_parallel_threads() > n_core() ? 0 : SPIN;
+}
+
+/// Waits for a work of another number than this.
+static void wait_for_work(uint64_t number, int n_look)
+{
+    for (int i = 0; i < n_look; ++i) {
+        if (number_of(atomic_load(&team.state)) != number) {
+            return;
+        }
+        relax();
+    }
+    (void)pthread_mutex_lock(&team.lock);
+    (void)atomic_fetch_add(&team.n_asleep, 1);
+    while (number_of(atomic_load(&team.state)) == number) {
+        (void)pthread_cond_wait(&team.wake, &team.lock);
+    }
+    (void)atomic_fetch_sub(&team.n_asleep, 1);
+    (void)pthread_mutex_unlock(&team.lock);
+}
+
+static bool join(uint64_t number)
+{
+    uint64_t state = atomic_load(&team.state);
+    while (number_of(state) == number && (state & OPEN) != 0) {
+        if (atomic_compare_exchange_weak(&team.state, &state, state + ONE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void leave(void)
+{
+    const uint64_t before = atomic_fetch_sub(&team.state, ONE);
+    if (n_at(before) == 1 && (before & OPEN) == 0 && atomic_load(&team.is_awaited)) {
+        (void)pthread_mutex_lock(&team.lock);
+        (void)pthread_cond_signal(&team.done);
+        (void)pthread_mutex_unlock(&team.lock);
+    }
+}
+
+/// Takes blocks, and notes how long the thread was without a core meanwhile.
+static void work_along(int32_t worker)
+{
+    const double begun[2] = {clx_clock(), clx_clock_thread()};
+    take_blocks(worker);
+    const double busy = clx_clock_thread() - begun[1];
+    const int64_t off_ns = (int64_t)(1e9 * (clx_clock() - begun[0] - busy));
+    int64_t most = atomic_load(&team.off_ns);
+    while (off_ns > most && !atomic_compare_exchange_weak(&team.off_ns, &most, off_ns)) {
+    }
+}
+
+static void *be_worker(void *number_of_worker)
+{
+    const int32_t worker = *(const int32_t *)number_of_worker;
+    uint64_t number = number_of(atomic_load(&team.state));
+    for (;;) {
+        int n_look = 0;
+        if (join(number)) {
+            if (worker < team.n_thread) {
+                n_wanted = team.n_thread; // kernels ask how many they are
+                work_along(worker);
+                n_look = team.n_look;
+            }
+            leave();
+        }
+        wait_for_work(number, n_look);
+        number = number_of(atomic_load(&team.state));
+    }
+    return NULL;
+}
+
+/// The child of a fork has none of the threads.
+static void forget_team(void)
+{
+    atomic_store(&team.state, 0);
+    atomic_store(&team.n_asleep, 0);
+    atomic_store(&team.is_awaited, false);
+    team.n_made = 0;
+    (void)pthread_mutex_init(&team.lock, NULL);
+    (void)pthread_cond_init(&team.wake, NULL);
+    (void)pthread_cond_init(&team.done, NULL);
+    atomic_flag_clear(&team.taken);
+}
+
+static void watch_forks(void)
+{
+    (void)pthread_atfork(NULL, NULL, forget_team);
+}
+
+/// Makes threads until there are so many; signals are for the caller's. Fewer where the system
+/// gives none.
+static void grow_team(int32_t n)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    static int32_t worker[MOST];
+    sigset_t all, before;
+    (void)sigfillset(&all);
+    (void)pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (team.n_made < n) {
+        pthread_t thread;
+        int32_t *own = &worker[team.n_made];
+        *own = team.n_made + 1;
+        if (pthread_create(&thread, NULL, be_worker, own) != 0) {
+            break;
+        }
+        (void)pthread_detach(thread);
+        ++team.n_made;
+    }
+    (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+    (void)pthread_once(&once, watch_forks);
+}
+
+static void open_work(int64_t n, int64_t block, clx_kernel kernel, void *context)
+{
+    team.n = n;
+    team.block = block;
+    team.kernel = kernel;
+    team.context = context;
+    team.n_thread = clast_parallel_threads();
+    team.n_look = patience();
+    atomic_store(&team.next, 0);
+    atomic_store(&team.off_ns, 0);
+    const uint64_t state = atomic_load(&team.state);
+    atomic_store(&team.state, (number_of(state) + 1) * NEXT + OPEN);
+    if (atomic_load(&team.n_asleep) > 0) {
+        (void)pthread_mutex_lock(&team.lock);
+        (void)pthread_cond_broadcast(&team.wake);
+        (void)pthread_mutex_unlock(&team.lock);
+    }
+}
+
+/// No block is left: none may join any more, and those at it come to their ends.
+static void close_work(void)
+{
+    (void)atomic_fetch_and(&team.state, ~OPEN);
+    for (int i = 0; i < team.n_look; ++i) {
+        if (n_at(atomic_load(&team.state)) == 0) {
+            return;
+        }
+        relax();
+    }
+    (void)pthread_mutex_lock(&team.lock);
+    atomic_store(&team.is_awaited, true);
+    while (n_at(atomic_load(&team.state)) != 0) {
+        (void)pthread_cond_wait(&team.done, &team.lock);
+    }
+    atomic_store(&team.is_awaited, false);
+    (void)pthread_mutex_unlock(&team.lock);
+}
+
+/// Lets the team rest where its callers wait for threads that have no core: what they wait is lost,
+/// more than the threads bring once it is over LOST.
+static void judge(double begun, double worked, double ended)
+{
+    const double fade = 1.0 - 1.0 / 32;
+    const double off = 1e-9 * (double)atomic_load(&team.off_ns);
+    const double waited = ended - worked;
+    team.lost = fade * team.lost + (off < waited ? off : waited);
+    team.spent = fade * team.spent + (ended - begun);
+    if (team.lost > LOST * team.spent && team.spent > 1e-3) {
+        team.rest = team.rest_for;
+        team.rest_for = team.rest_for < REST_MOST ? 2 * team.rest_for : REST_MOST;
+        team.lost = team.spent = 0.0;
+    } else if (team.lost < 0.25 * LOST * team.spent) {
+        team.rest_for = REST_LEAST;
+    }
 }
 
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
-    const int64_t n_block = (n + block - 1) / block;
-    if (n_block <= 1 || omp_get_max_threads() == 1 || omp_in_parallel()) {
-        for (int64_t b = 0; b < n_block; ++b) {
-            const int64_t end = (b + 1) * block;
-            kernel(b * block, end < n ? end : n, 0, context);
-        }
+    CLAST_ASSERT(block > 0);
+    const int32_t n_thread = clast_parallel_threads();
+    if (n <= block || n_thread == 1 || atomic_flag_test_and_set(&team.taken)) {
+        work_alone(n, block, kernel, context); // the team is another caller's, or this is inside it
         return;
     }
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int64_t b = 0; b < n_block; ++b) {
-        const int64_t end = (b + 1) * block;
-        kernel(b * block, end < n ? end : n, omp_get_thread_num(), context);
+    if (team.rest > 0) {
+        --team.rest;
+        work_alone(n, block, kernel, context);
+    } else {
+        const double begun = clx_clock();
+        grow_team(n_thread - 1);
+        open_work(n, block, kernel, context);
+        take_blocks(0);
+        const double worked = clx_clock();
+        close_work();
+        judge(begun, worked, clx_clock());
     }
+    atomic_flag_clear(&team.taken);
 }
 
 #else
@@ -49,9 +339,7 @@ int32_t clast_parallel_threads(void)
 
 void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
-    for (int64_t begin = 0; begin < n; begin += block) {
-        kernel(begin, begin + block < n ? begin + block : n, 0, context);
-    }
+    work_alone(n, block, kernel, context);
 }
 #endif
 

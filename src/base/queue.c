@@ -17,12 +17,14 @@ static void send(const clx_queue *q, int32_t to, int64_t kind, int64_t item, int
 
 clx_queue clx_queue_begin(const clast_comm *comm, int64_t n, clx_queue_owner owner)
 {
+    CLAST_ASSERT(comm->rank >= 0 && comm->rank < comm->n_rank);
     return (clx_queue){.comm = comm, .owner = owner, .n = n, .given = -1, .is_empty = n <= 0};
 }
 
 /// Rank 0: the next open item, or -1.
 static int64_t next_open(clx_queue *q)
 {
+    CLAST_ASSERT(q->comm->rank == 0 && q->next >= 0);
     while (q->next < q->n && q->owner.is_open != NULL &&
            !q->owner.is_open(q->owner.context, q->next)) {
         ++q->next;
@@ -52,6 +54,7 @@ static void stop_all(clx_queue *q)
 
 static void serve_first(clx_queue *q, int32_t from, const int64_t word[CLAST_COMM_WORDS])
 {
+    CLAST_ASSERT(from > 0 && from < q->comm->n_rank);
     switch (word[0]) {
     case ASK:
         send(q, from, GIVE, q->is_stopping ? -1 : next_open(q), 0);
@@ -120,6 +123,7 @@ bool clx_queue_take(clx_queue *q, int64_t *item)
 
 void clx_queue_end(clx_queue *q, int64_t item, int64_t code)
 {
+    CLAST_ASSERT(item >= 0 && item < q->n);
     if (q->comm->rank == 0) {
         note_end(q, item, code);
     } else {

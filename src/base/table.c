@@ -107,6 +107,7 @@ done:
 
 static void shorten(clast_table *table, int64_t n_row)
 {
+    CLAST_ASSERT(n_row >= 0 && n_row <= table->n_row);
     for (int32_t c = 0; c < table->n_column; ++c) {
         char **text = table->column[c].text;
         for (int64_t i = n_row; text != NULL && i < table->n_row; ++i) {
@@ -119,6 +120,7 @@ static void shorten(clast_table *table, int64_t n_row)
 
 static clast_status lengthen(clast_column *column, int64_t old, int64_t n_row)
 {
+    CLAST_ASSERT(n_row >= old);
     clast_status status = CLAST_OK;
     if (column->number != NULL) {
         CLX_TRY(clx_realloc(&column->number, n_row, sizeof *column->number));

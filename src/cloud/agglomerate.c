@@ -325,6 +325,7 @@ done:
 
 static int64_t aggregate_of(const clast_population *p, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < p->n);
     while (p->owner[i] != i) {
         i = p->owner[i];
     }

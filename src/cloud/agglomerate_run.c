@@ -125,6 +125,7 @@ done:
 
 static double first_radius(const clx_evolution *r, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < r->population.n);
     const clast_collide_config *c = &r->collide;
     const double n = (double)r->population.monomers[i];
     if (r->input->snapshot[0].radius != NULL) {

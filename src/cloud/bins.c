@@ -10,6 +10,7 @@ enum { N_CLASS = 65536 };
 
 static int32_t class_of(double x)
 {
+    CLAST_ASSERT(x >= 0.0);
     const int32_t c = (int32_t)(x * N_CLASS);
     return c < N_CLASS ? c : N_CLASS - 1;
 }
@@ -65,6 +66,7 @@ done:
 
 clast_status clx_bins_choose(const double *u, int64_t n, int32_t d, double width[3], clx_bins *bins)
 {
+    CLAST_ASSERT(n > 0 && d >= 1 && d <= 3);
     clast_status status = CLAST_OK;
     static const double quartile[2] = {0.25, 0.75};
     clx_bins made = {.d = d, .nb = {1, 1, 1}, .n_bin = 1};
@@ -98,6 +100,7 @@ int64_t clx_bins_of(const clx_bins *bins, const double *u)
 
 void clx_bins_box(const clx_bins *bins, int64_t bin, double low[3], double high[3])
 {
+    CLAST_ASSERT(bin >= 0 && bin < bins->n_bin);
     for (int32_t j = bins->d - 1; j >= 0; --j) {
         const int64_t at = bin % bins->nb[j];
         bin /= bins->nb[j];

@@ -16,6 +16,7 @@
 
 clx_depth_law clx_depth_law_of_box(int32_t d, const double *side)
 {
+    CLAST_ASSERT(d >= 1 && d <= 3);
     clx_depth_law law = {.d = d};
     double shortest = side[0];
     for (int32_t j = 1; j < d; ++j) {
@@ -130,6 +131,7 @@ static void sum_steps(int64_t begin, int64_t end, int32_t worker, void *context)
 
 double clx_depth_distance(const clx_depth_law *law, const double *z, int64_t n)
 {
+    CLAST_ASSERT(n > 0);
     double part[N_PART + 1] = {0.0};
     double sum = 0.0;
     distance_context context = {law, z, n, part};

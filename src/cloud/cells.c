@@ -64,6 +64,7 @@ static void claim(claims *c, int64_t corner, const int64_t size[3], int32_t numb
 /// Grows the box at `corner` along one axis, a layer at a time.
 static void grow_axis(const claims *c, int64_t corner, int32_t axis, int64_t size[3])
 {
+    CLAST_ASSERT(axis >= 0 && axis < 3 && size[axis] >= 1);
     const int64_t at = corner / c->stride[axis] % c->bins->nb[axis];
     while (at + size[axis] < c->bins->nb[axis]) {
         int64_t layer[3] = {size[0], size[1], size[2]};
@@ -94,6 +95,7 @@ static void boxes(const clx_bins *bins, const uint16_t *tag, int32_t *cell, int3
 
 static int32_t root_of(int32_t *parent, int32_t b)
 {
+    CLAST_ASSERT(b >= 0);
     while (parent[b] != b) {
         parent[b] = parent[parent[b]];
         b = parent[b];

@@ -11,6 +11,7 @@ enum { POINTS_A_BLOCK = 10, MOST_AN_AXIS = 64 };
 
 static int64_t block_of(const double *u, int32_t d, int32_t g)
 {
+    CLAST_ASSERT(g >= 1 && d >= 1 && d <= 3);
     int64_t block = 0;
     for (int32_t j = 0; j < d; ++j) {
         const int32_t at = (int32_t)(u[j] * g);

@@ -1,6 +1,7 @@
 // Events in one well-mixed block, kind by kind. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "base/status.h"
 #include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include "cloud/settling_pair.h"
@@ -67,6 +68,7 @@ static int64_t find_kind(const clx_block *b, const clx_kind *seen)
 
 static void put(clx_block *b, int64_t kind, int64_t particle)
 {
+    CLAST_ASSERT(kind >= 0 && particle >= 0);
     b->next[particle] = b->kind[kind].n > 0 ? b->kind[kind].head : -1;
     b->kind[kind].head = particle;
     ++b->kind[kind].n;
@@ -74,6 +76,7 @@ static void put(clx_block *b, int64_t kind, int64_t particle)
 
 static int64_t take(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(b->kind[kind].n > 0 && b->kind[kind].head >= 0);
     const int64_t particle = b->kind[kind].head;
     b->kind[kind].head = b->next[particle];
     --b->kind[kind].n;
@@ -158,6 +161,7 @@ int clx_block_stick(clx_block *b, int64_t i, int64_t j, int64_t live[2])
 
 static double row_of(const clx_block *b, int64_t k)
 {
+    CLAST_ASSERT(k >= 0 && k < b->n_kind);
     double row = clx_block_self_rate(b, &b->kind[k]);
     for (int64_t l = 0; l < b->n_kind; ++l) {
         row += clx_block_kernel(b, &b->kind[k], &b->kind[l]) *
@@ -238,6 +242,7 @@ static void unload(clx_block *b, const clx_kind *gone)
 
 static void drop_if_empty(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(kind >= 0 && kind < b->n_kind);
     if (b->kind[kind].n == 0) {
         b->kind[kind] = b->kind[--b->n_kind];
     }
@@ -403,6 +408,7 @@ static void freeze(clx_block *b)
 
 static int64_t owner_of(const clast_population *p, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < p->n);
     while (p->owner[i] != i) {
         i = p->owner[i];
     }
@@ -411,6 +417,7 @@ static int64_t owner_of(const clast_population *p, int64_t i)
 
 static int64_t pick_frozen(clx_block *b, int64_t kind)
 {
+    CLAST_ASSERT(kind >= 0 && kind < b->n_kind && b->kind[kind].n > 0);
     const int64_t at = b->kind[kind].head + clx_rng_below(b->rng, b->kind[kind].n);
     return owner_of(b->population, b->frozen[at]);
 }

@@ -2,6 +2,7 @@
 // collide most (collectors) meeting the whole cell. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "base/status.h"
 #include "cloud/box.h"
 #include "cloud/kernel_range.h"
 #include <math.h>
@@ -25,6 +26,7 @@ typedef struct {
 
 void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
 {
+    CLAST_ASSERT(n >= 0);
     for (int64_t i = n - 1; i > 0; --i) {
         const int64_t j = clx_rng_below(rng, i + 1);
         const int64_t held = item[i];
@@ -37,6 +39,7 @@ void clx_block_shuffle(int64_t *item, int64_t n, clx_rng *rng)
 /// rate, so that its expected number of collisions stays.
 static clx_block block_of(const deal *d, int64_t k)
 {
+    CLAST_ASSERT(k >= 0 && k < d->n_block);
     const int64_t begin = d->n * k / d->n_block;
     clx_block b = *d->cell;
     b.flows = false; // between two deals
@@ -170,6 +173,7 @@ static void evolve_blocks(deal *d, int64_t parity, bool is_stale, double delta)
 /// Rate of a collector with all others, over scale: pairs of two collectors count half in each row.
 static double collector_row(const deal *d, int64_t c)
 {
+    CLAST_ASSERT(c >= d->n && c < d->n + d->n_collector);
     const clx_block *b = d->cell;
     const int64_t n_all = d->n + d->n_collector;
     double row = 0.5 * clx_block_self_rate(b, &b->kind[c]);

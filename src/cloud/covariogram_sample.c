@@ -305,6 +305,7 @@ done:
 /// Mean of one shift.
 static double mean_of(const sampler *s, int shift, int32_t i)
 {
+    CLAST_ASSERT(shift >= 0 && i >= 0 && i <= s->n);
     double sum = 0.0;
     for (int b = 0; b < N_BLOCK; ++b) {
         sum += s->sum[(int64_t)(shift * N_BLOCK + b) * (s->n + 1) + i];

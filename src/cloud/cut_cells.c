@@ -67,6 +67,7 @@ static void cut_boxes(int64_t begin, int64_t end, int32_t worker, void *context)
 /// Nearest cell with a volume, by boxes.
 static int32_t nearest_cell(const clast_cells *cells, const double *u)
 {
+    CLAST_ASSERT(cells->n > 0);
     int32_t nearest = 0;
     double least = INFINITY;
     for (int32_t c = 0; c < cells->n; ++c) {
@@ -84,6 +85,7 @@ static int32_t nearest_cell(const clast_cells *cells, const double *u)
 
 static void move_cell(clast_cells *cells, int32_t from, int32_t to)
 {
+    CLAST_ASSERT(to >= 0 && to <= from && from < cells->n);
     for (int k = 0; k < 3; ++k) {
         cells->low[to][k] = cells->low[from][k];
         cells->high[to][k] = cells->high[from][k];

@@ -150,6 +150,7 @@ void clast_decomposition_free(clast_decomposition *result)
 
 static clast_status alloc_cells(clast_cells *cells, int32_t n)
 {
+    CLAST_ASSERT(n > 0);
     clast_status status = CLAST_OK;
     cells->n = n;
     cells->is_box = true;
@@ -374,6 +375,7 @@ static void to_domain(const clast_domain *domain, clast_cells *cells)
 /// Every second point, from `first` on.
 static clast_status take_half(const clast_cloud *cloud, int first, clast_cloud *half)
 {
+    CLAST_ASSERT(first == 0 || first == 1);
     clast_status status = CLAST_OK;
     const int32_t d = cloud->dimension;
     CLX_TRY(clast_cloud_alloc((cloud->n - first + 1) / 2, d, half));

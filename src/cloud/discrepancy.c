@@ -105,6 +105,7 @@ static double liang(double v1, double v2, double n, double xi, double zeta2)
 
 static void statistics(const constants *c, int64_t n_point, int32_t d, clast_discrepancy *r)
 {
+    CLAST_ASSERT(n_point > 1 && d >= 1 && d <= 3);
     const double n = (double)n_point;
     const double mean = pow(c->mean, d);
     const double v1 = r->U1 - mean;

@@ -12,6 +12,9 @@
 
 enum { MOST_PARTS = 8, N_POWER = 4 };
 
+static const double most_carried = 2.0; ///< factor by which a count's pairs in cells may change
+                                        ///< before it is made anew
+
 /// A volume whose density is taken as uniform.
 typedef struct {
     double volume;
@@ -54,6 +57,7 @@ static int32_t halved(const clast_cells *cells, int32_t c)
 /// Which of the cell's 2^d halves holds the point u.
 static int half_of(const clast_cells *cells, int32_t c, const double *u, int32_t d)
 {
+    CLAST_ASSERT(c >= 0 && c < cells->n && d >= 1 && d <= 3);
     int half = 0;
     for (int32_t j = 0; j < d; ++j) {
         half |= u[j] >= 0.5 * (cells->low[c][j] + cells->high[c][j]) ? 1 << j : 0;
@@ -97,6 +101,7 @@ done:
 /// Real volume of half h of a cell of a mesh domain.
 static double cut_half(const clast_domain *domain, const clast_cells *cells, int32_t c, int h)
 {
+    CLAST_ASSERT(h >= 0 && h < 8);
     double u[2][3];
     double corner[2][3];
     double volume = 1.0;
@@ -158,6 +163,7 @@ static void add_pairs(count *n, const part *p, int n_part)
 /// Most events of a cell: every particle in one.
 static double cap_of(const count *n, int32_t c)
 {
+    CLAST_ASSERT(c >= 0 && c < n->cells->n);
     return n->config->beta_dt > 0.0 ? 0.5 * n->cells->weight[c] : (double)INFINITY;
 }
 
@@ -356,6 +362,32 @@ done:
     return status;
 }
 
+static void remember_count(const clx_resolution *shown, const clx_ladder *ladder, clx_shown *cached)
+{
+    if (cached != NULL) {
+        cached->is_counted = true;
+        cached->counted = (clx_counted){shown->is_by_pairs, *shown, *ladder};
+    }
+}
+
+/// The last count as these points have it: what it showed beyond the pairs in the finest cells that
+/// have pairs enough, then and now, is taken to have stayed. False where it must be counted anew.
+static bool carry_over(const clx_shown *cached, const clx_ladder *ladder, clx_resolution *shown)
+{
+    const clx_counted *last = &cached->counted;
+    const double factor =
+        cached->may_carry && last->is_known ? clx_ladder_change(&last->ladder, ladder) : 0.0;
+    if (!(factor <= most_carried && factor * most_carried >= 1.0)) {
+        return false;
+    }
+    const clx_resolution carried = scaled(last->by_pairs, factor);
+    if (carried.resolved && !clx_resolution_allows(ladder, carried.value)) {
+        return false;
+    }
+    *shown = carried;
+    return true;
+}
+
 /// What the pairs of all points show, and by cells alone: counted, or as cached.
 static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *found,
                                clast_decomposition *r)
@@ -363,19 +395,27 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
     clast_status status = CLAST_OK;
     clx_ladder ladder;
     const double all = count_all(n);
+    if (cached != NULL) {
+        cached->is_counted = false;
+    }
     if (cached != NULL && cached->is_known) {
-        *found = (clx_shown){true, scaled(cached->relative, all), scaled(cached->cells, all)};
+        found->relative = scaled(cached->relative, all);
+        found->cells = scaled(cached->cells, all);
         return CLAST_OK;
     }
     CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
     found->relative = found->cells = clx_resolution_of(&ladder);
     if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
         !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {
-        CLX_TRY(ask_pairs(n, &ladder, &found->relative, r));
+        if (cached == NULL || n->config->pairs || !carry_over(cached, &ladder, &found->relative)) {
+            CLX_TRY(ask_pairs(n, &ladder, &found->relative, r));
+            remember_count(&found->relative, &ladder, cached);
+        }
     }
     if (cached != NULL && all > 0.0) {
-        *cached =
-            (clx_shown){true, scaled(found->relative, 1.0 / all), scaled(found->cells, 1.0 / all)};
+        cached->is_known = true;
+        cached->relative = scaled(found->relative, 1.0 / all);
+        cached->cells = scaled(found->cells, 1.0 / all);
     }
 done:
     return status;

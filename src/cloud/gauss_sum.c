@@ -112,6 +112,7 @@ typedef struct {
 /// Cell of a coordinate and the four cubic B-spline weights of the nodes cell - 1 .. cell + 2.
 static int64_t spline_weights(const grid *g, double x, int32_t axis, double weight[4])
 {
+    CLAST_ASSERT(axis >= 0 && axis < g->d);
     const double at = (x - g->low[axis]) / g->h;
     const double cell = floor(at);
     const double t = at - cell;
@@ -370,6 +371,7 @@ done:
 
 clast_status clx_gauss_sum_gridded(const double *y, int64_t n, int32_t d, double beta, double *sum)
 {
+    CLAST_ASSERT(n > 0 && d >= 1 && d <= 3 && beta > 0.0);
     clast_status status = CLAST_OK;
     grid g = {.y = y, .n = n, .d = d, .h = SPACING / beta};
     kernel_coefficients(g.kernel);

@@ -22,6 +22,7 @@ clx_ghost_plan clx_ghosts_plan(const int32_t *count, const uint8_t *label, int64
 
 int32_t clx_ghosts_depth_class(const clx_depth_law *law, const double *u, int32_t n_grid)
 {
+    CLAST_ASSERT(n_grid > 0);
     const double at = ceil(clx_depth_of(law, u) * n_grid - 0.5);
     return at < 0.0 ? 0 : at > n_grid ? n_grid : (int32_t)at;
 }

@@ -96,6 +96,7 @@ static void moments(block_context *c, int64_t n, clast_henze_zirkler *r)
 /// Lower Cholesky factor; false when the covariance is singular to rounding.
 static bool factor(double covariance[3][3], int32_t d, double l[3][3])
 {
+    CLAST_ASSERT(d >= 1 && d <= 3);
     for (int32_t a = 0; a < d; ++a) {
         for (int32_t b = 0; b <= a; ++b) {
             double sum = covariance[a][b];

@@ -23,6 +23,9 @@ enum { N_SHIFT = 5, DEEPEST = 18 };
 /// A rung needs so many pairs beside those of repeated points: less say nothing.
 static const double least_pairs = 4.0;
 
+/// A change of a rung is looked at where it has so many.
+static const double enough_pairs = 500.0;
+
 /// Cells that the border cuts to less than this part are taken as so large: a pair in a corner's
 /// sliver would weigh 125 times as much as others, and the sum stays a lower bound.
 static const double least_part = 0.02;
@@ -93,6 +96,7 @@ static double cell_volume(const ladder_walk *w, ladder_cell *cell)
 /// Adds a cell to its rung r.
 static void add_cell(ladder_walk *w, ladder_cell *cell, int32_t r)
 {
+    CLAST_ASSERT(cell->begin <= cell->end && r >= 0);
     const double n = (double)(cell->end - cell->begin);
     const double volume = cell_volume(w, cell);
     double power[3] = {n, n, n}; // sums of w, w^2, w^4
@@ -176,6 +180,7 @@ static void order_points(const ladder_walk *w, ladder_cell *cell)
 /// Where the cell's part that begins here ends; its points agree in the bits above `shift`.
 static int64_t part_end(const ladder_walk *w, int64_t begin, int64_t end, int shift)
 {
+    CLAST_ASSERT(begin < end && shift >= 0 && shift < 64);
     const clx_keyed *point = w->point;
     const uint64_t part = point[begin].key >> shift;
     int64_t last = begin; // in the part
@@ -398,4 +403,17 @@ done:
     clx_free(w.own);
     clx_free(w.met);
     return status;
+}
+
+double clx_ladder_change(const clx_ladder *before, const clx_ladder *now)
+{
+    double found = (double)NAN;
+    for (int32_t r = 0; r < now->n; ++r) {
+        const int32_t own = now->first + r - before->first;
+        if (own >= 0 && own < before->n && now->n_pair[r] >= enough_pairs &&
+            before->n_pair[own] >= enough_pairs) {
+            found = now->pairs[r] / before->pairs[own];
+        }
+    }
+    return found;
 }

@@ -34,6 +34,7 @@ done:
 
 static int32_t value_at(const frequency *f, int64_t rank)
 {
+    CLAST_ASSERT(rank >= 0 && rank < f->total);
     int64_t below = 0;
     int32_t value = 0;
     while (value < f->most && below + f->bins[value] <= rank) {
@@ -45,6 +46,7 @@ static int32_t value_at(const frequency *f, int64_t rank)
 /// Percentile of type 5.
 static double percentile(const frequency *f, double p)
 {
+    CLAST_ASSERT(p >= 0.0 && p <= 1.0);
     if (f->total == 0) {
         return 0.0;
     }

@@ -37,6 +37,7 @@ double clx_pair_edge_safe(const clast_domain *d, const double *x, double most)
 
 static double in_box(const clast_domain *d, const double *x, const double *y)
 {
+    CLAST_ASSERT(d->kind == CLAST_DOMAIN_BOX);
     double weight = 1.0;
     for (int32_t j = 0; j < d->dimension; ++j) {
         const double image = x[j] + x[j] - y[j];

@@ -21,6 +21,7 @@ static int n_chunk_of(int64_t n)
 
 static int32_t cells_an_axis(int32_t d)
 {
+    CLAST_ASSERT(d >= 1 && d <= 3);
     return d == 1 ? 65536 : d == 2 ? 512 : 64;
 }
 
@@ -49,6 +50,7 @@ static void slab_coefficients(double x, int32_t g, double c[CLAST_N_DISCREPANCY]
 
 static int32_t cell_of(double x, int32_t g)
 {
+    CLAST_ASSERT(x >= 0.0 && g > 0);
     const int32_t cell = (int32_t)(x * g);
     return cell < g ? cell : g - 1;
 }

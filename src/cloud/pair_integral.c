@@ -63,6 +63,7 @@ typedef struct {
 
 static double ball(int32_t d)
 {
+    CLAST_ASSERT(d >= 1 && d <= 3);
     return d == 1 ? 2.0 : d == 2 ? CLAST_PI : 4.0 / 3.0 * CLAST_PI;
 }
 
@@ -78,12 +79,14 @@ static double gauss_in_ball(int32_t d, double s, double r)
 /// Integral of exp(-r / length) over it.
 static double exp_in_ball(int32_t d, double length, double r)
 {
+    CLAST_ASSERT(d >= 1 && d <= 3 && length > 0.0);
     const double unit[3] = {2.0, 2.0 * CLAST_PI, 8.0 * CLAST_PI};
     return unit[d - 1] * pow(length, d) * clx_gamma_p(d, r / length);
 }
 
 static void add_shape(fit *f, double s, bool is_kink)
 {
+    CLAST_ASSERT(f->n_shape >= 0 && f->n_shape < MOST_SHAPE);
     const clx_pair_shells *in = f->in;
     const double n_pair = 0.5 * in->n * (in->n - 1.0) / f->scale;
     const int32_t j = f->n_shape++;
@@ -147,6 +150,7 @@ static void prepare(const clx_pair_shells *in, bool has_kinks, double stretch, f
 
 static void expect(const fit *f, int32_t n_shape, const double *c, double *mean)
 {
+    CLAST_ASSERT(n_shape >= 1 && n_shape <= f->n_shape);
     memset(mean, 0, CLAST_MAX_SHELL * sizeof *mean);
     for (int32_t j = 0; j < n_shape; ++j) {
         for (int32_t k = 0; k < f->in->n_shell && c[j] > 0.0; ++k) {
@@ -158,6 +162,7 @@ static void expect(const fit *f, int32_t n_shape, const double *c, double *mean)
 /// Solves a x = b, a symmetric and positive definite [n][n], by Cholesky; a is lost.
 static void solve(double *a, int n, double *b)
 {
+    CLAST_ASSERT(n >= 0 && n <= MOST_SHAPE);
     for (int j = 0; j < n; ++j) {
         for (int k = 0; k < j; ++k) {
             for (int i = j; i < n; ++i) {

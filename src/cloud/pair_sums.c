@@ -64,6 +64,7 @@ static void add_to(basis *total, const basis *b, double sign, int32_t n_basis)
 
 static void tree_add(work *w, int64_t n, int64_t rank, const basis *b, double sign)
 {
+    CLAST_ASSERT(rank >= 1 && rank <= n);
     for (int64_t i = rank; i <= n; i += i & -i) {
         add_to(&w->tree[i], b, sign, w->n_basis);
     }
@@ -209,6 +210,7 @@ static void sweep(work *w, const crossing *c)
 /// Merges item[low, middle) and item[middle, high), each sorted.
 static void merge(const comparison *c, const int64_t range[3], int64_t *item, int64_t *scratch)
 {
+    CLAST_ASSERT(range[0] <= range[1] && range[1] <= range[2]);
     int64_t i = range[0];
     int64_t j = range[1];
     for (int64_t k = range[0]; k < range[2]; ++k) {
@@ -277,6 +279,7 @@ static void sum_few(work *w, const int64_t *item, int64_t n)
 /// `order` and along axis 2 in `last`.
 static void divide(work *w, int64_t low, int64_t high)
 {
+    CLAST_ASSERT(low <= high);
     const comparison by_middle = {w->u, w->d, 1};
     const comparison by_last = {w->u, w->d, 2};
     const int64_t range[3] = {low, low + (high - low) / 2, high};

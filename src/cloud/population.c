@@ -1,6 +1,8 @@
 // What becomes of the particles of a collision. [docs/theory/agglomeration.md section 2]
 #include "cloud/collide.h"
 
+#include "base/status.h"
+
 #include <math.h>
 
 double clx_aggregate_radius(const clast_collide_config *c, double monomers)
@@ -16,6 +18,7 @@ double clx_aggregate_radius(const clast_collide_config *c, double monomers)
 
 clast_collider clx_population_collider(const clast_population *p, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < p->n);
     clast_collider seen = {
         .monomers = (double)p->monomers[i], .radius = p->radius[i], .mass = p->mass[i]};
     for (int32_t k = 0; k < p->dimension && p->velocity != NULL; ++k) {
@@ -61,6 +64,7 @@ static void take_up(clast_population *p, const clast_collide_config *c, int64_t 
 int clx_population_stick(clast_population *p, const clast_collide_config *c, int64_t i, int64_t j,
                          int64_t live[2], double *n_real)
 {
+    CLAST_ASSERT(i != j && p->monomers[i] > 0 && p->monomers[j] > 0);
     const double w[2] = {p->weight != NULL ? p->weight[i] : 1.0,
                          p->weight != NULL ? p->weight[j] : 1.0};
     const int64_t few = w[0] < w[1] ? i : j;

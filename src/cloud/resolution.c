@@ -5,6 +5,8 @@
 // estimate's systematic error. [docs/theory/decompose.md section 8]
 #include "cloud/resolution.h"
 
+#include "base/status.h"
+
 #include <math.h>
 
 enum { LEAST_HALVINGS = 3 };
@@ -55,6 +57,7 @@ static double error_between(const clx_ladder *l, int32_t a, int32_t b)
 /// sample is not taken for resolved because a small number came out small by chance.
 static double step_at(const clx_ladder *l, int32_t r)
 {
+    CLAST_ASSERT(r >= 2 && r < l->n);
     const double seen = l->pairs[r] - l->pairs[r - 2];
     const double before = r > 2 ? l->pairs[r - 1] - l->pairs[r - 3] : 0.0;
     return fmax(fmax(seen, before / expected_ratio), error_between(l, r, r - 2));

@@ -72,6 +72,7 @@ double clx_moments_drift(const clx_moments *before, const clx_moments *now, int3
 
 int32_t clx_blocks_levels(int64_t n, int32_t d)
 {
+    CLAST_ASSERT(d >= 1 && d <= 3);
     int32_t levels = 1;
     while (levels < MOST_LEVELS && n >> (d * (levels + 1)) >= POINTS_A_BLOCK) {
         ++levels;
@@ -114,6 +115,7 @@ void clx_blocks_free(clx_blocks *blocks)
 /// Two-sample chi-square of the blocks `levels` halvings down: its upper probability.
 static double change_at(const clx_blocks *a, const clx_blocks *b, int32_t levels)
 {
+    CLAST_ASSERT(levels >= 1 && a->d == b->d);
     const int64_t each = a->n >> (a->d * levels);
     double chi2 = 0.0;
     double n_filled = 0.0;

@@ -98,6 +98,7 @@ done:
 
 static void swap_points(clx_sample *s, int32_t d, int64_t a, int64_t b)
 {
+    CLAST_ASSERT(a >= 0 && a < s->n && b >= 0 && b < s->n);
     for (int32_t j = 0; j < d; ++j) {
         const double held = s->u[a * d + j];
         s->u[a * d + j] = s->u[b * d + j];

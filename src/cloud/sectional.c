@@ -149,6 +149,7 @@ done:
 
 static double rate_at(const clx_sectional *s, const double *y, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     return (j == k ? 0.5 : 1.0) * s->rate[(int64_t)j * s->n + k] * y[j] * y[k] * s->monomers /
            s->x[j] * s->monomers / s->x[k];
 }
@@ -180,6 +181,7 @@ void clx_sectional_ranges(const clx_sectional *s, const clast_collide_config *co
 /// Integral of v^e from a to b.
 static double power_between(double e, double a, double b)
 {
+    CLAST_ASSERT(a > 0.0 && b > 0.0);
     return fabs(e + 1.0) < 1e-12 ? log(b / a) : (pow(b, e + 1.0) - pow(a, e + 1.0)) / (e + 1.0);
 }
 
@@ -272,6 +274,7 @@ typedef struct {
 
 static transfer transfer_of(const clx_sectional *s, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(j >= 0 && j < s->n && k >= 0 && k < s->n);
     const int64_t at = (int64_t)j * s->n + k;
     const double unit = 1.0 / s->monomers;
     transfer t = {.i = s->lower[at], .loss = {s->x[j] * unit, s->x[k] * unit}};

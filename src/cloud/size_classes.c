@@ -38,6 +38,7 @@ static double low_of(int32_t k)
 
 static int32_t class_of(int64_t monomers)
 {
+    CLAST_ASSERT(monomers >= 1);
     const double size = (double)monomers;
     if (monomers <= CLX_N_SINGLE) {
         return (int32_t)monomers - 1;
@@ -52,6 +53,7 @@ static int32_t class_of(int64_t monomers)
 
 void clx_size_classes_count(clx_size_classes *c, const clast_population *p, int64_t row)
 {
+    CLAST_ASSERT(row >= 0 && row < c->n_row);
     double number[CLX_N_CLASS] = {0};
     for (int64_t i = 0; i < p->n; ++i) {
         if (p->monomers[i] > 0) {

@@ -35,6 +35,7 @@ static void swap_points(tree *t, int64_t a, int64_t b)
 /// Brings the median of [begin, end) along an axis to `middle`, less before it.  [Hoare1961]
 static void select_median(tree *t, int64_t begin, int64_t end, int64_t middle, int axis)
 {
+    CLAST_ASSERT(begin <= middle && middle < end);
     int64_t low = begin;
     int64_t high = end - 1;
     while (low < high) {
@@ -65,6 +66,7 @@ static void select_median(tree *t, int64_t begin, int64_t end, int64_t middle, i
 // NOLINTNEXTLINE(misc-no-recursion): as deep as the tree, log2 n
 static void build(tree *t, int64_t node, int64_t begin, int64_t end)
 {
+    CLAST_ASSERT(begin < end);
     int widest = 0;
     for (int k = 0; k < t->d; ++k) {
         t->low[node][k] = 1.0;

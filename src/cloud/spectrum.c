@@ -378,6 +378,7 @@ done:
 /// Width of section i, half of the way to both neighbours.
 static double width_of(const clx_sectional *g, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < g->n && g->n >= 2);
     const double above = i + 1 < g->n ? g->x[i + 1] - g->x[i] : g->x[i] - g->x[i - 1];
     return 0.5 * (above + (i > 0 ? g->x[i] - g->x[i - 1] : above));
 }

@@ -110,6 +110,7 @@ static double table_quantile(const clast_spectrum_start *t, double u)
 
 double clx_start_quantile(const clx_start *s, double u)
 {
+    CLAST_ASSERT(u > 0.0 && u <= 1.0);
     if (s->config->initial == CLAST_INITIAL_TABLE) {
         return table_quantile(s->table, u);
     }

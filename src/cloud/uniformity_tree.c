@@ -52,6 +52,7 @@ static int bits_below(const growth *g, int depth)
 /// First of the points from `begin` on whose code is at least `key`.
 static int64_t first_from(const growth *g, int64_t begin, int64_t end, uint64_t key)
 {
+    CLAST_ASSERT(begin <= end);
     while (begin < end) {
         const int64_t middle = begin + (end - begin) / 2;
         if (g->point[middle].key < key) {
@@ -106,6 +107,7 @@ static int64_t count_tested(const growth *g, const node *cell, int levels, int64
 /// Pearson's chi-square for even counts of n points.
 static double unevenness(const int64_t *count, int n_block, int64_t n)
 {
+    CLAST_ASSERT(n > 0 && n_block > 1);
     const double expected = (double)n / n_block;
     double chi2 = 0.0;
     for (int b = 0; b < n_block; ++b) {
@@ -118,6 +120,7 @@ static double unevenness(const int64_t *count, int n_block, int64_t n)
 /// The chi-square that is exceeded with this probability, by bisection.
 static double critical(double level, double freedom)
 {
+    CLAST_ASSERT(level > 0.0 && freedom > 0.0);
     double low = 0.0;
     double high = freedom + 1.0;
     while (clx_chi2_sf(high, freedom) > level) {
@@ -341,6 +344,7 @@ done:
 
 int32_t clx_uniformity_tree_last(const uint64_t *key, int32_t low, int32_t high, uint64_t at)
 {
+    CLAST_ASSERT(low < high);
     while (high - low > 1) {
         const int32_t middle = low + (high - low) / 2;
         if (key[middle] <= at) {

@@ -24,6 +24,10 @@ const clast_field clast_workspace_fields[] = {
     {FIELD(CLAST_FIELD_I32, cells_every), 10, 1, 1e9, "-", "every: calls from cut to cut", NULL},
     {FIELD(CLAST_FIELD_F64, cells_level), 0.05, 1e-12, 1.0, "-",
      "changed: level of the chi-square test of the counts since the cut", NULL},
+    {FIELD(CLAST_FIELD_I32, pairs_every), 0, 0, 1e9, "-",
+     "calls at least between two counts of the pairs of a cloud that cells do not resolve; 0: at "
+     "each cut",
+     NULL},
     {0}};
 #undef FIELD
 
@@ -40,6 +44,7 @@ struct clast_workspace {
     clx_moments tested;      ///< at the last tests
     clx_blocks counted;      ///< at the last cut
     clx_shown shown;         ///< by the pairs of the last cut
+    int64_t since_pairs;     ///< calls since pairs by distance were counted
     int64_t n_cut;           ///< points at the last cut
     clast_uniformity cut_by; ///< vote at the last cut
     clx_cell_cache cache;
@@ -146,6 +151,7 @@ typedef struct {
 /// at that of a tree's root; 38 at the most, where p ends.
 static double vote_margin(const clast_uniformity *tests, const clast_decompose_config *config)
 {
+    CLAST_ASSERT(tests->n_test >= 0 && tests->n_test <= CLAST_N_TEST);
     double z[CLAST_N_TEST] = {0};
     for (int32_t k = 0; k < tests->n_test; ++k) { // descending
         const double own = -clx_normal_quantile(fmax(tests->vote[k].p, 1e-300));
@@ -310,13 +316,15 @@ static void keep(call *c, uint64_t setup)
     w->calls.n_cut += c->is_cut ? 1 : 0;
     w->calls.since_test = c->is_test ? 0 : w->calls.since_test < 0 ? -1 : w->calls.since_test + 1;
     w->calls.since_cut = c->is_cut ? 0 : w->calls.since_cut + 1;
+    w->since_pairs = w->shown.is_counted ? 0 : w->since_pairs + 1;
+    w->calls.n_pairs += w->shown.is_counted ? 1 : 0;
     w->calls.moved = c->moved;
     w->calls.p_change = c->p_change;
 }
 
 static void forget(clast_workspace *w)
 {
-    w->has_tests = w->has_cells = false;
+    w->has_tests = w->has_cells = w->shown.counted.is_known = false;
     w->cut_by = (clast_uniformity){0};
 }
 
@@ -340,6 +348,8 @@ static clast_status run_call(call *c, const clast_domain *domain)
     if (c->is_cut) {
         c->workspace->shown.is_known = false;
     }
+    c->workspace->shown.may_carry =
+        c->workspace->since_pairs + 1 < c->workspace->policy.pairs_every;
     CLX_TRY(clx_decompose_events(&c->cloud, &c->sample, c->config, &c->workspace->shown, &c->made));
 done:
     return status;

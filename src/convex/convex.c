@@ -10,12 +10,14 @@
 
 clx_convex clx_convex_sphere(double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     return (clx_convex){
         .kind = CLX_CONVEX_SPHERE, .round = radius, .bounding_radius = radius, .inner = radius};
 }
 
 clx_convex clx_convex_ellipsoid(const double axes[3])
 {
+    CLAST_ASSERT(axes[0] >= 0.0 && axes[1] >= 0.0 && axes[2] >= 0.0);
     return (clx_convex){.kind = CLX_CONVEX_ELLIPSOID,
                         .semi_axes = {axes[0], axes[1], axes[2]},
                         .bounding_radius = fmax(axes[0], fmax(axes[1], axes[2])),
@@ -24,6 +26,7 @@ clx_convex clx_convex_ellipsoid(const double axes[3])
 
 clx_convex clx_convex_hull(const clx_hull_core *core, double scale)
 {
+    CLAST_ASSERT(scale > 0.0);
     return (clx_convex){.kind = CLX_CONVEX_HULL,
                         .core = core,
                         .scale = scale,
@@ -50,6 +53,7 @@ static double roundness(const clx_convex *shape)
 static void finish(const clx_pair *pair, const double n[3], const double on_a[3], double core_gap,
                    clx_contact *contact)
 {
+    CLAST_ASSERT(v3_is_unit(n, 1e-6));
     const double along = -0.5 * (core_gap + pair->a->round - pair->b->round);
     contact->gap = core_gap - pair->a->round - pair->b->round;
     v3_copy(contact->normal, n);
@@ -133,6 +137,7 @@ static void see(const clx_pair *pair, double unit, clx_gjk_pair *out)
 /// Point of a or b named by the simplex and its weights.
 static void witness(const clx_simplex *s, double on_a[3])
 {
+    CLAST_ASSERT(s->n >= 1 && s->n <= 4);
     v3_set(on_a, 0.0, 0.0, 0.0);
     for (int i = 0; i < s->n; ++i) {
         v3_axpy(on_a, on_a, s->weight[i], s->p[i].w);
@@ -186,6 +191,7 @@ static int recall_facet(const clx_pair *pair, const clx_warm_start *warm_start, 
 static void recall(const clx_pair *pair, const clx_warm_start *warm_start, clx_gjk_pair *seen,
                    clx_simplex *simplex)
 {
+    CLAST_ASSERT(warm_start->n <= 4);
     int32_t vert[4][2];
     int n = warm_start->n;
     if (warm_start->kind != CLX_FACET_NONE) {
@@ -205,6 +211,7 @@ static void recall(const clx_pair *pair, const clx_warm_start *warm_start, clx_g
 
 static void remember(const clx_simplex *simplex, clx_warm_start *warm_start)
 {
+    CLAST_ASSERT(simplex->n >= 0 && simplex->n <= 4);
     *warm_start = (clx_warm_start){.n = (uint16_t)simplex->n};
     for (int i = 0; i < simplex->n; ++i) {
         warm_start->vert[0][i] = (uint16_t)simplex->p[i].vert[0];
@@ -217,6 +224,7 @@ static void remember(const clx_simplex *simplex, clx_warm_start *warm_start)
 static void sharpen(const clx_pair *pair, const clx_simplex *simplex, clx_contact *contact,
                     clx_warm_start *warm_start)
 {
+    CLAST_ASSERT(simplex->n >= 1 && simplex->n <= 4);
     int32_t vert[2][3] = {{0}};
     clx_contact sharp;
     double margin = 0.0;
@@ -362,6 +370,7 @@ static bool search_hulls(const clx_pair *pair, double max_gap, clx_warm_start *w
 static bool hulls(const clx_pair *pair, double max_gap, clx_warm_start *warm_start,
                   clx_contact *contact)
 {
+    CLAST_ASSERT(pair->a->core != NULL && pair->b->core != NULL);
     const double rounds = pair->a->round + pair->b->round;
     if (!search_hulls(pair, max_gap + rounds, warm_start, contact)) {
         contact->gap -= rounds;

@@ -8,6 +8,7 @@
 #include "convex/ellipsoid_pair.h"
 
 #include "base/machine.h"
+#include "base/status.h"
 #include "math/least.h"
 #include "math/vec3.h"
 
@@ -102,6 +103,7 @@ CLX_INLINE void expand(const clx_ellipsoids *p, const double m[3], local *at)
 /// Newton step in the tangent plane; K is shifted to be positive definite.
 static void newton_step(const local *at, double size, double step[2])
 {
+    CLAST_ASSERT(size >= 0.0);
     const double mean = 0.5 * (at->k[0] + at->k[2]);
     const double half = 0.5 * (at->k[0] - at->k[2]);
     const double lowest = mean - sqrt(half * half + at->k[1] * at->k[1]);
@@ -227,6 +229,7 @@ static void first_guess(const clx_ellipsoids *p, double m[3])
 /// Deep overlap: the best of starts in all directions.
 static double climb_from_everywhere(const clx_ellipsoids *p, double size, double best, double m[3])
 {
+    CLAST_ASSERT(size >= 0.0);
     for (int i = 0; i < 27; ++i) {
         const int cell[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
         double d[3] = {cell[0], cell[1], cell[2]};

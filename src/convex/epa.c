@@ -53,6 +53,7 @@ static void set_plane(polytope *h, int f)
 
 static int new_face(polytope *h, int a, int b, int c)
 {
+    CLAST_ASSERT(a != b && b != c && c != a);
     const int f = h->n_spare > 0 ? h->spare[--h->n_spare] : h->n_face++;
     h->face[f].vert[0] = (int16_t)a;
     h->face[f].vert[1] = (int16_t)b;
@@ -73,6 +74,7 @@ static double height(const polytope *h, int f, const double w[3])
 /// horizon does not fit.
 static bool find_horizon(polytope *h, int seed, const double w[3])
 {
+    CLAST_ASSERT(seed >= 0 && seed < h->n_face);
     int n = 0;
     h->n_horizon = 0;
     h->stack[n++] = (int16_t)seed;
@@ -146,6 +148,7 @@ static bool close_horizon(polytope *h, int at)
 /// Square of what point c adds to the span of `n` chosen points.
 static double spread(const clx_mink *p, const int pick[4], int n, int c)
 {
+    CLAST_ASSERT(n >= 1 && n <= 3);
     double e[3], f[3], g[3], m[3];
     v3_sub(e, p[c].w, p[pick[0]].w);
     if (n == 1) {
@@ -166,6 +169,7 @@ static double spread(const clx_mink *p, const int pick[4], int n, int c)
 /// supports along the axes.
 static bool first_polytope(clx_gjk_pair *pair, const clx_simplex *simplex, polytope *h)
 {
+    CLAST_ASSERT(simplex->n >= 1 && simplex->n <= 4);
     static const int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
     static const int16_t beside[4][3] = {{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {0, 2, 1}};
     clx_mink p[10];
@@ -221,6 +225,7 @@ static bool first_polytope(clx_gjk_pair *pair, const clx_simplex *simplex, polyt
 
 static int lowest(const polytope *h)
 {
+    CLAST_ASSERT(h->n_face >= 4);
     int best = 0;
     for (int f = 1; f < h->n_face; ++f) {
         best = h->offset[f] < h->offset[best] ? f : best;
@@ -302,6 +307,7 @@ static bool is_known(const polytope *h, const clx_mink *p)
 
 double clx_epa(clx_gjk_pair *pair, clx_simplex *simplex, double normal[3], double *depth)
 {
+    CLAST_ASSERT(pair->size >= 0.0);
     polytope h;
     const double tolerance = pair->size * (pair->is_smooth ? TOLERANCE_SMOOTH : TOLERANCE_FLAT);
     double upper = INFINITY; // the least support met

@@ -42,6 +42,7 @@ static void place(const body *b, const double x[3], double out[3])
 /// Face f of body k with vertex v of the other.
 static void view_face(const body both[2], int k, int32_t f, int32_t v, view *out)
 {
+    CLAST_ASSERT(f >= 0 && f < both[k].core->n_face && v >= 0 && v < both[1 - k].core->n_vert);
     const body *own = &both[k];
     const body *other = &both[1 - k];
     const clx_core_face *face = &own->core->face[f];
@@ -83,6 +84,7 @@ static bool holds_edge(const clx_core_edge *edge, const double n[3], int *beyond
 /// Edge i of a with edge j of b; false if they are parallel.
 static bool view_edges(const body both[2], int32_t i, int32_t j, view *out)
 {
+    CLAST_ASSERT(i >= 0 && i < both[0].core->n_edge && j >= 0 && j < both[1].core->n_edge);
     const clx_core_edge *ea = &both[0].core->edge[i];
     const clx_core_edge *eb = &both[1].core->edge[j];
     double a[3], b[3], e[3], f[3], n[3], w[3], c[3], own[3];
@@ -170,6 +172,7 @@ static clx_facet edge_facet(int k, int32_t own, int32_t other)
 static int32_t first_met(const clx_hull_core *core, int32_t v, const double q0[3],
                          const double q1[3])
 {
+    CLAST_ASSERT(v >= 0 && v < core->n_vert);
     double first = 1.0;
     int32_t edge = -1;
     for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
@@ -211,6 +214,7 @@ static clx_facet turn_about(const body both[2], int k, int32_t e, const double n
 /// The facet across side `side` of a face of body k.
 static clx_facet across_face(const body both[2], int k, int32_t f, int32_t v, int side)
 {
+    CLAST_ASSERT(side >= 0 && side < both[k].core->face[f].n);
     const clx_hull_core *core = both[k].core;
     const int32_t e = core->side[core->face[f].first + side].edge;
     const clx_core_edge *edge = &core->edge[e];
@@ -222,6 +226,7 @@ static clx_facet across_face(const body both[2], int k, int32_t f, int32_t v, in
 /// The facet across a side of an edge pair: 0, 1 the ends of a's edge, 2, 3 those of b's.
 static clx_facet across_edges(const body both[2], int32_t i, int32_t j, const view *at, int side)
 {
+    CLAST_ASSERT(side >= 0 && side < 4);
     const int k = side < 2 ? 1 : 0; // the body whose edge is turned about
     const int end = side & 1;
     const int32_t e = k == 0 ? i : j;
@@ -340,6 +345,7 @@ static double margin_of(const body both[2], const clx_facet *facet, const view *
 
 static bool is_listed(const clx_facet *list, int n, const clx_facet *facet)
 {
+    CLAST_ASSERT(n >= 0 && n <= MAX_FLOOD);
     for (int i = 0; i < n; ++i) {
         if (list[i].kind == facet->kind && list[i].i == facet->i && list[i].j == facet->j) {
             return true;
@@ -393,6 +399,7 @@ static bool settle(const clx_pair *pair, const body both[2], clx_facet *facet, v
 
 bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *contact, double *margin)
 {
+    CLAST_ASSERT(pair->a->kind == CLX_CONVEX_HULL && pair->b->kind == CLX_CONVEX_HULL);
     const body both[2] = {
         {pair->a->core, pair->turn_a, pair->a->scale, {0.0, 0.0, 0.0}},
         {pair->b->core,
@@ -415,6 +422,7 @@ bool clx_facet_follow(const clx_pair *pair, clx_facet *facet, clx_contact *conta
 static int32_t face_along(const clx_hull_core *core, int32_t vert, const double n[3],
                           double *cosine)
 {
+    CLAST_ASSERT(vert >= 0 && vert < core->n_vert);
     int32_t best = -1;
     *cosine = -INFINITY;
     for (int32_t i = core->near_first[vert]; i < core->near_first[vert + 1]; ++i) {

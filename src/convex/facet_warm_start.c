@@ -188,6 +188,7 @@ static double across(const double n[3], const double x[3])
 static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
                           clx_warm_start *warm_start)
 {
+    CLAST_ASSERT(f >= 0 && v >= 0);
     const clx_convex *own = k == 0 ? pair->a : pair->b;
     const clx_convex *other = k == 0 ? pair->b : pair->a;
     const clx_core_face *face = &own->core->face[f];
@@ -223,12 +224,14 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
 /// Sine of the least angle from n (body axes) to the ends of the edge's arc of normals.
 static double arc_limit(const clx_core_edge *edge, const double n[3])
 {
+    CLAST_ASSERT(v3_is_unit(n, 1e-6));
     const double least = lesser_of(v3_dot(n, edge->out[0]), v3_dot(n, edge->out[1]));
     return lesser_of(greater_of(least - CLX_FLOAT_SLACK, 0.0), MOST_TURN);
 }
 
 static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_warm_start *warm_start)
 {
+    CLAST_ASSERT(i >= 0 && i < pair->a->core->n_edge && j >= 0 && j < pair->b->core->n_edge);
     const clx_core_edge *ea = &pair->a->core->edge[i];
     const clx_core_edge *eb = &pair->b->core->edge[j];
     edge_place at;

@@ -37,6 +37,8 @@ static void put(const clx_seen *body, const double local[3], double x[3])
 
 void clx_mink_of(const clx_gjk_pair *pair, int32_t vert_a, int32_t vert_b, clx_mink *out)
 {
+    CLAST_ASSERT(vert_a >= 0 && vert_a < pair->a.core->n_vert);
+    CLAST_ASSERT(vert_b >= 0 && vert_b < pair->b.core->n_vert);
     double a[3], b[3];
     v3_scale(a, pair->a.scale, pair->a.core->vert[vert_a]);
     v3_scale(b, pair->b.scale, pair->b.core->vert[vert_b]);
@@ -205,6 +207,7 @@ static double nearest_on_tetrahedron(const clx_simplex *s, double weight[4], dou
 /// Drops the points without weight, keeping the order.
 static void compact(clx_simplex *s, const double weight[4])
 {
+    CLAST_ASSERT(s->n >= 1 && s->n <= 4);
     int n = 0;
     for (int i = 0; i < s->n; ++i) {
         if (weight[i] > 0.0) {
@@ -219,6 +222,7 @@ static void compact(clx_simplex *s, const double weight[4])
 /// Returns the squared distance; 0 with four points left: the origin is inside.
 static double reduce(clx_simplex *s, double v[3])
 {
+    CLAST_ASSERT(s->n >= 1 && s->n <= 4);
     double weight[4] = {1.0, 0.0, 0.0, 0.0};
     double d2 = 0.0;
     switch (s->n) {
@@ -257,6 +261,7 @@ static bool holds(const clx_simplex *s, const clx_mink *p)
 clx_gjk_answer clx_gjk(clx_gjk_pair *pair, double max_gap, clx_simplex *simplex, double v[3],
                        double *gap)
 {
+    CLAST_ASSERT(simplex->n >= 0 && simplex->n <= 4 && pair->size >= 0.0);
     const double tolerance = pair->size * (pair->is_smooth ? TOLERANCE_SMOOTH : TOLERANCE_FLAT);
     const double touching2 = TOUCHING * TOUCHING * pair->size * pair->size;
     clx_simplex trial = *simplex;

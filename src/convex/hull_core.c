@@ -119,6 +119,7 @@ static bool in_plane(const scratch *s, int32_t t, const double normal[3], double
 /// Gathers all triangles in the plane of triangle `seed` into face number `face`.
 static int32_t gather_face(scratch *s, int32_t seed, int32_t face, double tol)
 {
+    CLAST_ASSERT(s->face_of[seed] < 0);
     double normal[3], offset;
     int32_t n = 1;
     triangle_plane(&s->hull, seed, normal, &offset);
@@ -172,6 +173,7 @@ static bool trace_face(const scratch *s, clx_hull_core *core, int32_t n)
 /// Plane by Newell's sum, moved out to hold every corner; then the sides' own planes.
 static void measure_face(clx_hull_core *core, clx_core_face *face)
 {
+    CLAST_ASSERT(face->n >= 3);
     double sum[3] = {0.0, 0.0, 0.0};
     clx_core_side *side = core->side + face->first;
     const double *origin = core->vert[side[0].vert];
@@ -268,6 +270,7 @@ static void build_edges(scratch *s, clx_hull_core *core)
 static int32_t edge_between(const clx_hull_core *core, int32_t a, int32_t b, const int32_t *head,
                             const int32_t *list)
 {
+    CLAST_ASSERT(a >= 0 && a < core->n_vert && b >= 0 && b < core->n_vert);
     for (int32_t i = head[a]; i < head[a + 1]; ++i) {
         const clx_core_edge *edge = &core->edge[list[i]];
         if (edge->vert[0] == b || edge->vert[1] == b) {
@@ -322,6 +325,7 @@ done:
 /// Direction at the middle of cell (i, j) of a cube's side.
 static void cell_direction(int side, int i, int j, double d[3])
 {
+    CLAST_ASSERT(side >= 0 && side < 6);
     const double u = (2 * i + 1) / (double)CLX_CORE_GRID - 1.0;
     const double v = (2 * j + 1) / (double)CLX_CORE_GRID - 1.0;
     const int k = side / 2;
@@ -426,6 +430,7 @@ int32_t clx_core_start(const clx_hull_core *core, const double d[3])
 
 int32_t clx_core_climb(const clx_hull_core *core, const double d[3], int32_t from)
 {
+    CLAST_ASSERT(from >= 0 && from < core->n_vert);
     for (int32_t step = 0; step < core->n_vert; ++step) { // rounding could go round in circles
         double best = 0.0;
         int32_t at = from;

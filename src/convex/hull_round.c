@@ -89,6 +89,7 @@ static double tip_of(const scene *e, const double d[3], double y[3])
 /// The face, if the foot is in it; else the edge beyond which it lies farthest.
 static bool ask_face(const scene *e, feature *at, answer *out)
 {
+    CLAST_ASSERT(at->i >= 0 && at->i < e->core->n_face);
     const clx_core_face *face = &e->core->face[at->i];
     double beyond = SLACK * e->size;
     int32_t edge = -1;
@@ -172,6 +173,7 @@ static bool find_across(const scene *e, const double from[3], const double along
 /// The edge, if the foot is on it and the normal between its faces'; else the neighbour.
 static bool ask_edge(const scene *e, feature *at, answer *out)
 {
+    CLAST_ASSERT(at->i >= 0 && at->i < e->core->n_edge);
     const clx_core_edge *edge = &e->core->edge[at->i];
     double from[3];
     double along[3];
@@ -201,6 +203,7 @@ static bool ask_edge(const scene *e, feature *at, answer *out)
 /// The vertex, if the normal is one of its; else the edge that it leans over most.
 static bool ask_vertex(const scene *e, feature *at, answer *out)
 {
+    CLAST_ASSERT(at->i >= 0 && at->i < e->core->n_vert);
     const clx_hull_core *core = e->core;
     double corner[3];
     double most = SLACK;
@@ -260,6 +263,7 @@ static feature begin(const scene *e, const double turn[9], double sign,
 CLX_FOR_EACH_MACHINE
 bool clx_hull_round_contact(const clx_pair *pair, clx_warm_start *warm_start, clx_contact *contact)
 {
+    CLAST_ASSERT((pair->a->kind == CLX_CONVEX_HULL) != (pair->b->kind == CLX_CONVEX_HULL));
     const bool is_a = pair->a->kind == CLX_CONVEX_HULL;
     const double *turn = is_a ? pair->turn_a : pair->turn_b;
     const double sign = is_a ? -1.0 : 1.0; // the contact's normal is from b to a

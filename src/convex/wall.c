@@ -27,6 +27,7 @@ static inline bool is_kept(const clx_warm_start *warm_start, const double d[3])
 static void keep(const clx_hull_core *core, int32_t v, const double d[3],
                  clx_warm_start *warm_start)
 {
+    CLAST_ASSERT(v >= 0 && v < core->n_vert);
     double turn = 1.0;
     for (int32_t i = core->near_first[v]; i < core->near_first[v + 1]; ++i) {
         const clx_core_near *near = &core->near[i];
@@ -76,6 +77,7 @@ static void deepest(const clx_placed *body, const double n[3], clx_warm_start *w
 void clx_plane_contact(const clx_placed *body, const double plane[4], clx_warm_start *warm_start,
                        clx_contact *contact)
 {
+    CLAST_ASSERT(v3_is_unit(plane, 1e-9));
     double tip[3];
     deepest(body, plane, warm_start, tip);
     contact->gap =
@@ -209,6 +211,7 @@ static double hull_reach(const clx_placed *body, const double c[2], double u[2],
 void clx_cylinder_contact(const clx_placed *body, const double axis[2], double radius,
                           clx_contact *contact)
 {
+    CLAST_ASSERT(radius >= 0.0);
     const double c[2] = {body->position[0] - axis[0], body->position[1] - axis[1]};
     double u[2], tip[3];
     const double reach = body->shape->kind == CLX_CONVEX_HULL ? hull_reach(body, c, u, tip)

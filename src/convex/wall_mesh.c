@@ -158,6 +158,7 @@ static double box_distance2(const clx_tree_node *node, const double x[3])
 int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], double cutoff,
                            int32_t cap, int32_t *tri)
 {
+    CLAST_ASSERT(cap >= 0);
     int32_t stack[CLX_TREE_DEPTH + 1];
     int32_t n_stack = 0;
     int32_t n = 0;
@@ -190,6 +191,7 @@ int32_t clx_wall_mesh_near(const clx_wall_mesh *wall, const double point[3], dou
 /// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
 static int32_t insert(clx_wall_contact *list, int32_t n, int32_t cap, const clx_wall_contact *one)
 {
+    CLAST_ASSERT(n >= 0 && n <= cap);
     int32_t at = 0;
     while (at < n && list[at].contact.gap <= one->contact.gap) {
         if (v3_dot(list[at].contact.normal, one->contact.normal) > SAME_PUSH) {
@@ -216,6 +218,7 @@ static int32_t insert(clx_wall_contact *list, int32_t n, int32_t cap, const clx_
 int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body, double max_gap,
                                int32_t cap, clx_wall_contact *contact)
 {
+    CLAST_ASSERT(cap > 0);
     int32_t tri[MOST_NEAR];
     int32_t n = 0;
     const int32_t n_near = clx_wall_mesh_near(
@@ -262,6 +265,7 @@ static bool measure(const clast_mesh *mesh, int32_t number, clx_wall_triangle *t
 static void measure_tilts(const clast_mesh *mesh, const clx_topology *topology, int32_t number,
                           clx_wall_triangle *t)
 {
+    CLAST_ASSERT(number >= 0 && number < mesh->n_tri);
     for (int k = 0; k < 3; ++k) {
         clx_wall_triangle other;
         const int32_t half = 3 * number + k;

@@ -15,6 +15,7 @@ static inline bool uses_eight(const clx_batch *p)
 CLX_FOR_EACH_MACHINE
 void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
 {
+    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH);
     clx_lanes a[4], b[4], r[3];
     for (int from = 0; from < p->n; from += CLX_LANES) {
         offsets(dem, p, from, a, b, r);
@@ -25,6 +26,7 @@ void clx_batch_offsets(const clast_dem *dem, clx_batch *p)
 CLX_FOR_EACH_MACHINE
 void clx_batch_arms(clx_batch *p)
 {
+    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH);
     clx_lanes offset[3], arm[3];
     for (int from = 0; from < p->n; from += CLX_LANES) {
         load3(p->meet.offset[0] + from, offset);
@@ -97,6 +99,7 @@ int clx_batch_edges(const clast_dem *dem, clx_batch *p)
 
 void clx_batch_force(const clast_dem *dem, const clx_batch *p, bool has_walls)
 {
+    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH && clx_batch_has_law(&dem->law));
 #if CLX_MAKES_WIDE
     if (uses_eight(p)) {
         clx_avx512_force(dem, p, has_walls);

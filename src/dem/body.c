@@ -171,12 +171,14 @@ void clx_dem_shape_measures(const clast_dem *dem, int32_t shape, double measures
 
 static int32_t n_item_of(const clast_dem *dem, int32_t shape)
 {
+    CLAST_ASSERT(shape >= 0 && shape < dem->n_body);
     const clast_shape *s = &dem->body[shape].shape;
     return s->kind == CLAST_SHAPE_CLUMP ? s->spheres.n : s->parts.n > 0 ? s->parts.n : 1;
 }
 
 static clx_convex convex_of(const clast_dem *dem, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < dem->list.item_capacity);
     const clx_grain *g = &dem->grain[clx_item_grain(dem, i)];
     const clx_dem_body *body = &dem->body[g->shape];
     if (clx_item_is_round(dem, i)) {
@@ -219,6 +221,7 @@ done:
 
 clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain)
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     int64_t need = dem->n_item;
     for (int32_t i = 0; i < n; ++i) {
@@ -244,6 +247,7 @@ done:
 /// Item k of a shape that is not one convex body.
 static clx_item make_item(const clx_dem_body *body, int32_t k)
 {
+    CLAST_ASSERT(k >= -1);
     clx_item item = {.part = k};
     if (body->n_part > 0) {
         item.part = body->part[k].is_sphere ? k : -2 - k;
@@ -278,6 +282,7 @@ static void add_items(clast_dem *dem, int32_t g)
 
 void clx_items_place(clast_dem *dem, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < dem->n_grain && dem->item_begin != NULL);
     clx_grain *grain = &dem->grain[g];
     const clx_dem_body *body = &dem->body[grain->shape];
     for (int32_t i = dem->item_begin[g]; i < dem->item_begin[g + 1]; ++i) {

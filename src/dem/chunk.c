@@ -39,6 +39,7 @@ void clx_sweeping_free(clx_sweeping *s)
 
 static inline uint64_t packed(int64_t next, int64_t end)
 {
+    CLAST_ASSERT(next >= 0 && next <= end && end <= INT32_MAX);
     return (uint64_t)next | (uint64_t)end << 32;
 }
 
@@ -55,6 +56,7 @@ static inline int64_t end_of(uint64_t left)
 /// Notes that grains a and b have a pair.
 static inline void note_low(clx_sweeping *s, int32_t a, int32_t b)
 {
+    CLAST_ASSERT(a >= 0 && b >= 0);
     _Atomic int32_t *lowest = &s->lowest[b / CLX_LANES];
     int32_t now = atomic_load_explicit(lowest, memory_order_relaxed);
     while (a < now && !atomic_compare_exchange_weak_explicit(lowest, &now, a, memory_order_relaxed,
@@ -124,6 +126,7 @@ static void weigh_all(clast_dem *dem)
     clx_dem_for(dem, n_block, AT_ONCE, weigh, dem);
     for (int64_t b = 0; b < n_block; ++b) {
         s->before[b + 1] += s->before[b];
+        CLAST_ASSERT(s->before[b + 1] >= s->before[b]);
     }
 }
 
@@ -140,6 +143,7 @@ static int32_t most_pairs(const clast_dem *dem)
 
 clast_status clx_chunks_weigh(clast_dem *dem, int32_t n_worker)
 {
+    CLAST_ASSERT(n_worker >= 1);
     clast_status status = CLAST_OK;
     clx_sweeping *s = &dem->sweeping;
     const int64_t n_four = dem->n_grain / CLX_LANES + 1;
@@ -186,6 +190,7 @@ static int64_t grain_at(const clast_dem *dem, double work)
 
 static void set_chunk(clx_chunk *chunk, int64_t begin, int64_t end)
 {
+    CLAST_ASSERT(begin >= 0 && begin <= end);
     chunk->begin = (int32_t)begin;
     chunk->n_deferred = 0;
     chunk->n_contribution = 0;
@@ -282,6 +287,7 @@ static clx_chunk *steal_half(clx_sweeping *s)
 
 clx_chunk *clx_chunk_claim(clx_sweeping *s, int32_t worker)
 {
+    CLAST_ASSERT(worker >= 0 && s->n_worker >= 1);
     for (int32_t k = 0; k < s->n_worker; ++k) {
         clx_chunk *chunk = &s->chunk[(worker + k) % s->n_worker];
         if (!atomic_exchange(&chunk->is_claimed, true)) {
@@ -293,6 +299,7 @@ clx_chunk *clx_chunk_claim(clx_sweeping *s, int32_t worker)
 
 void clx_chunk_pace(clx_sweeping *s, int32_t worker, int64_t work, double seconds)
 {
+    CLAST_ASSERT(work >= 0 && seconds >= 0.0);
     s->pace[worker].work += work;
     s->pace[worker].seconds += seconds;
 }

@@ -92,6 +92,7 @@ static void find_rest(clast_dem *dem, clx_batch *p, int answered)
 /// Contacts of a batch.
 static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 {
+    CLAST_ASSERT(p->n >= 1 && p->n <= CLX_BATCH);
     int answered = 0;
     switch (kind) {
     case CLX_BATCH_FACES:
@@ -119,6 +120,7 @@ static void find_all(clast_dem *dem, clx_batch *p, clx_batch_kind kind)
 
 static void end_contact(const clast_dem *dem, const clx_batch *p, int k)
 {
+    CLAST_ASSERT(k >= 0 && k < p->n);
     clx_dem_pair *pair = p->pair[k];
     clx_contact_history *history = clx_pair_history(dem, pair);
     if (history != NULL) {
@@ -134,6 +136,7 @@ static void end_contact(const clast_dem *dem, const clx_batch *p, int k)
 static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_dem_touch *t,
                           clx_pair_force *out)
 {
+    CLAST_ASSERT(pair->a >= 0 && (pair->b < 0 || pair->b > pair->a));
     clx_force_torque on_a = {0};
     clx_force_torque on_b = {0};
     clx_add_pair_force(dem, pair, clx_pair_history(dem, pair), t, &on_a, &on_b);
@@ -147,6 +150,7 @@ static void force_of_pair(const clast_dem *dem, clx_dem_pair *pair, const clx_de
 
 static void force_of_lane(const clast_dem *dem, const clx_batch *p, int k)
 {
+    CLAST_ASSERT(k >= 0 && k < p->n);
     clx_dem_touch t = {.distance = p->meet.gap[k]};
     for (int c = 0; c < 3; ++c) {
         t.normal[c] = -p->meet.normal[c][k];
@@ -311,6 +315,7 @@ CLX_INLINE void fill_from(const clast_dem *dem, const piece *s, const uint16_t *
 static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kind, int from,
                         clx_batch *p)
 {
+    CLAST_ASSERT(from >= 0 && from < s->n[kind]);
     const uint16_t *at = s->at[kind] + from;
     p->n = s->n[kind] - from < CLX_BATCH ? s->n[kind] - from : CLX_BATCH;
     if (kind == CLX_BATCH_ANY) {
@@ -329,6 +334,7 @@ static inline void fill(const clast_dem *dem, const piece *s, clx_batch_kind kin
 /// Forces of the active pairs of the piece; lists those, and returns how many they are.
 static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 {
+    CLAST_ASSERT(n >= 1 && n <= PIECE);
     const bool has_law = clx_batch_has_law(&dem->law) && dem->config.added_mass <= 0.0;
     const int n_active = sort_active(dem, n, s, active);
     clx_batch batch;
@@ -348,6 +354,7 @@ static int find_piece(clast_dem *dem, int n, piece *s, clx_active_pair *active)
 
 static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force, piece *s)
 {
+    CLAST_ASSERT(at >= 0 && at < dem->inner.n);
     s->index = dem->inner.index + at;
     s->packed = dem->inner.is_packed ? dem->inner.packed + at : NULL;
     s->n_left = dem->inner.n - at;
@@ -357,6 +364,7 @@ static void begin_piece(const clast_dem *dem, int64_t at, clx_pair_force *force,
 int32_t clx_contacts_among(clast_dem *dem, int32_t begin, int32_t end, clx_pair_force *force,
                            clx_active_pair *active)
 {
+    CLAST_ASSERT(begin >= 0 && begin <= end && end <= dem->inner.n);
     piece s;
     int32_t n_active = 0;
     for (int32_t at = begin; at < end; at += PIECE) {
@@ -421,6 +429,7 @@ bool clx_dem_is_serial(const clast_dem *dem)
 
 void clx_dem_for(const clast_dem *dem, int64_t n, int64_t block, clx_kernel kernel, void *context)
 {
+    CLAST_ASSERT(n >= 0 && block > 0);
     if (!clx_dem_is_serial(dem)) {
         clx_parallel_for(n, block, kernel, context);
         return;

@@ -26,6 +26,7 @@ done:
 
 int64_t clx_container_end(const clast_dem *dem, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < dem->n_item);
     int64_t k = dem->list.begin[i];
     while (k < dem->list.begin[i + 1] && clx_pair_is_container(dem, &dem->list.pair[k])) {
         ++k;
@@ -35,6 +36,7 @@ int64_t clx_container_end(const clast_dem *dem, int32_t i)
 
 static clx_placed place(const clast_dem *dem, int32_t i, clx_convex *ball)
 {
+    CLAST_ASSERT(i >= 0 && i < dem->n_item);
     clx_placed body = {.turn = clx_item_turn(dem, i)};
     if (dem->convex != NULL) {
         body.shape = &dem->convex[i];
@@ -56,6 +58,7 @@ static void touch_from_contact(const clx_contact *c, clx_dem_touch *t)
 void clx_container_touch_again(const clast_dem *dem, const clx_dem_pair *pair,
                                clx_warm_start *warm_start, clx_dem_touch *touch)
 {
+    CLAST_ASSERT(clx_pair_is_container(dem, pair));
     clx_convex ball;
     clx_contact contact;
     const clx_placed body = place(dem, pair->a, &ball);
@@ -83,6 +86,7 @@ typedef struct {
 /// Inserts a contact in order of depth; none stays whose normal is that of a deeper one.
 static void insert(candidates *p, const clx_contact *c, int64_t pair)
 {
+    CLAST_ASSERT(p->n >= 0 && p->n <= CLX_CONTAINER_TOUCHES);
     int32_t at = 0;
     while (at < p->n && p->contact[at].gap <= c->gap) {
         if (v3_dot(p->contact[at].normal, c->normal) > SAME_NORMAL) {
@@ -187,6 +191,7 @@ int32_t clx_container_meet(clast_dem *dem, int32_t i,
 
 clast_status clx_container_find(clast_dem *dem, int32_t i)
 {
+    CLAST_ASSERT(dem->container != NULL && dem->list.is_stale[i] != 0);
     clast_status status = CLAST_OK;
     clx_neighbour_list *l = &dem->list;
     const double cutoff = clx_item_radius(dem, i) + l->anchor[i].margin;

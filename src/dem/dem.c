@@ -122,6 +122,7 @@ done:
 
 static clast_status reserve(clast_dem *dem, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     if (n <= dem->grain_capacity) {
         return CLAST_OK;
@@ -140,6 +141,9 @@ done:
 
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
 {
+    CLAST_ASSERT(from->shape >= 0 && from->shape < dem->n_body);
+    CLAST_ASSERT(from->scale > 0.0 && from->density > 0.0);
+    CLAST_ASSERT(v3_is_finite(from->position) && q_is_unit(from->orientation, 1e-9 + 1e-12));
     clx_dem_body *body = &dem->body[from->shape];
     const double s = from->scale;
     const double volume = s * s * s * body->shape.volume;

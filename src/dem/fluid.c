@@ -53,6 +53,7 @@ done:
 /// Slab whose middle lies below a height, and the weight of the next in linear interpolation.
 static int32_t slab_of(const clx_slabs *s, double z, double *share)
 {
+    CLAST_ASSERT(s->n >= 1 && s->thick > 0.0);
     const double at = fmin(fmax((z - s->low) / s->thick - 0.5, 0.0), (double)(s->n - 1));
     const int32_t k = (int32_t)at;
     *share = at - (double)k;
@@ -120,6 +121,7 @@ static double resistance(const clast_dem *dem, const clx_grain *g)
 
 double clx_fluid_rotation_factor(const clast_dem *dem, const clx_grain *g, double dt)
 {
+    CLAST_ASSERT(dt >= 0.0 && g->mass >= 0.0 && g->radius >= 0.0);
     return 1.0 / (1.0 + dt * resistance(dem, g) * 2.5 / (g->mass * g->radius * g->radius));
 }
 

@@ -18,6 +18,8 @@ void clx_dem_grid_free(clx_dem_grid *grid)
 
 static uint32_t hash(const clx_dem_grid *grid, int32_t level, const int32_t at[3])
 {
+    CLAST_ASSERT(level >= 0 && level < CLX_MAX_LEVEL &&
+                 (grid->n_bucket & (grid->n_bucket - 1)) == 0);
     uint32_t h = (uint32_t)at[0] * 0x9E3779B1u ^ (uint32_t)at[1] * 0x85EBCA77u ^
                  (uint32_t)at[2] * 0xC2B2AE3Du ^ (uint32_t)level * 0x27D4EB2Fu;
     h ^= h >> 15;
@@ -28,6 +30,7 @@ static uint32_t hash(const clx_dem_grid *grid, int32_t level, const int32_t at[3
 
 static int32_t level_of(double radius, double smallest)
 {
+    CLAST_ASSERT(radius >= smallest && smallest >= 0.0);
     return (int32_t)fmin(floor(log2(radius / smallest * (1.0 + 1e-12))), CLX_MAX_LEVEL - 1);
 }
 
@@ -89,6 +92,7 @@ static double column_of(const clx_dem_grid *grid, int32_t level, int c, double x
 /// The same in the period about the origin.
 static int32_t cell_of(const clx_dem_grid *grid, int32_t level, int c, double column)
 {
+    CLAST_ASSERT(level >= 0 && level < grid->n_level);
     const double n = grid->n_cell[level][c];
     return (int32_t)(n > 0.0 ? column - n * floor(column / n) : column);
 }
@@ -114,6 +118,7 @@ static void sort_by_level(const clast_dem *dem, clx_dem_grid *grid)
     for (int32_t l = 0; l < CLX_MAX_LEVEL; ++l) {
         grid->level_begin[l + 1] += grid->level_begin[l];
         next[l] = grid->level_begin[l];
+        CLAST_ASSERT(grid->level_begin[l + 1] <= dem->n_item);
     }
     for (int32_t i = 0; i < dem->n_item; ++i) {
         grid->by_level[next[grid->cell[i].level]++] = i;
@@ -166,6 +171,7 @@ static void enter_level(const clx_dem_grid *grid, clx_dem_grid_walk *w)
 bool clx_dem_grid_begin(const clx_dem_grid *grid, int32_t level, const double x[3], double cutoff,
                         clx_dem_grid_walk *walk)
 {
+    CLAST_ASSERT(level >= 0 && level < grid->n_level && cutoff > 0.0);
     if (grid->cutoff[level] == 0.0) {
         return false;
     }

@@ -70,6 +70,7 @@ static old_range old_of(const clx_inner_list *inner, int64_t i)
 /// Pair k of the list: its copy where the old range begins with it.
 static inline const clx_dem_pair *pair_now(const clast_dem *dem, int64_t k, old_range *old)
 {
+    CLAST_ASSERT(k >= 0 && k < dem->list.n_pair);
     const clx_packed_row *row = &dem->inner.old;
     if (old->at < old->end && row->index[old->at] == k) {
         return &row->packed[old->at++].pair;
@@ -157,6 +158,7 @@ static void gather(clast_dem *dem)
 
 clast_status clx_inner_gather(clast_dem *dem)
 {
+    CLAST_ASSERT(!dem->inner.is_packed);
     clast_status status = CLAST_OK;
     clx_inner_list *inner = &dem->inner;
     CLX_TRY(clx_grow(&inner->in_begin, &inner->grain_capacity, (int64_t)dem->n_grain + 2,
@@ -193,6 +195,7 @@ done:
 /// Copies a pair and its warm start from the neighbour list.
 static inline void copy_from_list(const clx_neighbour_list *l, int32_t k, clx_packed_pair *packed)
 {
+    CLAST_ASSERT(k >= 0 && k < l->n_pair && (int64_t)l->pair[k].slot < l->n_slot + 1);
     packed->pair = l->pair[k];
     if (packed->pair.slot != 0) {
         packed->warm_start = l->warm_start[packed->pair.slot].record;
@@ -202,6 +205,7 @@ static inline void copy_from_list(const clx_neighbour_list *l, int32_t k, clx_pa
 /// Copies them back.
 static inline void copy_to_list(clx_neighbour_list *l, int32_t k, const clx_packed_pair *packed)
 {
+    CLAST_ASSERT(k >= 0 && k < l->n_pair);
     l->pair[k] = packed->pair;
     if (packed->pair.slot != 0) {
         l->warm_start[packed->pair.slot].record = packed->warm_start;

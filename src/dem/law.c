@@ -1,12 +1,15 @@
 // Constants of the contact laws, and the times and energies that follow from them.
 #include "dem/law.h"
 
+#include "base/status.h"
+
 /// Spring k and dashpot d over mass whose semi-implicit Euler steps, v' = v - dt (k x + d v), x' =
 /// x
 /// + dt v', have the multipliers exp(-D dt / 2 +- i W dt) of x'' + D x' + w2 x = 0, W^2 = w2 -
 /// D^2/4: positions are then those of the exact solution.
 static void fit(double w2, double rate, double dt, double *k, double *d)
 {
+    CLAST_ASSERT(dt > 0.0);
     const double swing = w2 - 0.25 * rate * rate;
     const double turn = swing >= 0.0 ? cos(sqrt(swing) * dt) : cosh(sqrt(-swing) * dt);
     *d = -expm1(-rate * dt) / dt;
@@ -18,6 +21,7 @@ static const double TURNING = 3.5;
 
 double clx_law_steps(const clx_law *law, int n)
 {
+    CLAST_ASSERT(n > 0);
     const double swing = n * TURNING * law->kappa * law->stiffness * law->time * law->time;
     const double rate = n * TURNING * law->root_kappa * law->damping * law->time;
     return (rate + sqrt(rate * rate + 4.0 * swing)) / 4.0;
@@ -95,6 +99,7 @@ static double jkr_energy(const clx_law *law, double overlap, double radius)
 /// Half swing of a mass on Hertz's spring, linearised at an overlap of 1 % of R*.
 static double hertz_time(const clx_law *law, double mass, double radius)
 {
+    CLAST_ASSERT(mass >= 0.0 && radius >= 0.0);
     const double slope = 2.0 * law->young * sqrt(radius * 0.01 * radius);
     return CLAST_PI * sqrt(mass / slope);
 }
@@ -106,6 +111,7 @@ double clx_law_time(const clx_law *law, double mass, double radius)
 
 double clx_law_speed(const clx_law *law, double mass, double radius, double bounding)
 {
+    CLAST_ASSERT(mass >= 0.0 && bounding >= 0.0);
     const double d = 0.5 * bounding;
     return law->kind == CLAST_DEM_LINEAR
                ? d * sqrt(law->stiffness)

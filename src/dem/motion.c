@@ -56,6 +56,7 @@ static void angular_velocity_of(clx_dem_body *body, const clx_motion *m, double 
 static void turn_round(clx_grain *g, clx_motion *m, const double torque[3], double factor,
                        double dt)
 {
+    CLAST_ASSERT(g->mass >= 0.0 && g->radius >= 0.0);
     v3_axpy(g->omega, g->omega, 2.5 * dt / (g->mass * g->radius * g->radius), torque);
     v3_scale(g->omega, factor, g->omega);
     turn_by(g->omega, dt, m->orientation);
@@ -155,6 +156,7 @@ static void add_fluid_torque(const clast_dem *dem, int64_t i, double torque[3])
 /// Moves one grain's centre; the speed that its surface had at most.
 static double shift(const clx_moving *c, int64_t i, const double f[3])
 {
+    CLAST_ASSERT(c->dem->grain[i].mass >= 0.0);
     clast_dem *dem = c->dem;
     clx_grain *g = &dem->grain[i];
     const clx_motion *m = &dem->motion[i];
@@ -208,6 +210,8 @@ static bool move_one(const clx_moving *c, int64_t i, const clx_force_torque *tot
 CLX_FOR_EACH_MACHINE
 void clx_move_incoming(const clx_inner_list *inner, int64_t g, clx_force_torque *total)
 {
+    CLAST_ASSERT(inner->in_begin[g] <= inner->in_begin[g + 1] &&
+                 inner->in_begin[g + 1] <= inner->n);
     clx_lanes force = lanes_all(0.0);
     clx_lanes torque = lanes_all(0.0);
     for (int32_t k = inner->in_begin[g]; k < inner->in_begin[g + 1]; ++k) {
@@ -270,6 +274,7 @@ static int flag_of(clast_dem *dem, int64_t first, int n)
 
 int clx_move_group(const clx_moving *c, int64_t first, int n, const clx_force_torque *total)
 {
+    CLAST_ASSERT(n >= 1 && n <= CLX_MOVE_MOST && first + n <= c->dem->n_grain);
     clast_dem *dem = c->dem;
     int flag = 0;
     for (int k = 0; k < n && dem->law.is_exact; ++k) {

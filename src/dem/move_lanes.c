@@ -183,6 +183,7 @@ CLX_INLINE void write_back(clast_dem *dem, int64_t i, bool is_round, const grain
 
 bool clx_move_has_lanes(const clast_dem *dem, int64_t i, int n)
 {
+    CLAST_ASSERT(n >= 1 && n <= CLX_MOVE_MOST && i + n <= dem->n_grain);
     const clx_grain *g = &dem->grain[i];
     int n_round = 0;
     for (int k = 0; k < n; ++k) {

@@ -36,6 +36,7 @@ void clx_neighbour_list_free(clx_neighbour_list *list)
 
 clast_status clx_neighbour_list_reserve(clx_neighbour_list *list, int64_t n_item)
 {
+    CLAST_ASSERT(n_item >= 0);
     clast_status status = CLAST_OK;
     if (n_item <= list->item_capacity) {
         return CLAST_OK;
@@ -56,6 +57,7 @@ static const double LOOK_AHEAD = 50.0;
 
 static void set_anchor(clast_dem *dem, int32_t i)
 {
+    CLAST_ASSERT(v3_is_finite(clx_item_position(dem, i)) && clx_item_radius(dem, i) >= 0.0);
     clx_anchor *at = &dem->list.anchor[i];
     const int32_t g = clx_item_grain(dem, i);
     const double radius = clx_item_radius(dem, i);
@@ -88,6 +90,7 @@ static void mark_stale(clast_dem *dem)
 
 static clast_status add_found(clx_neighbour_list *l, clx_found found)
 {
+    CLAST_ASSERT(found.a >= 0 && (found.b < 0 || found.b > found.a));
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found));
     l->found[l->n_found++] = found;
@@ -116,6 +119,7 @@ done:
 /// One candidate of a stale item's query.
 static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
 {
+    CLAST_ASSERT(i >= 0 && i < dem->n_item && k >= 0 && k < dem->n_item);
     clx_neighbour_list *l = &dem->list;
     const clx_anchor *a = &l->anchor[i];
     const clx_anchor *b = &l->anchor[k];
@@ -160,6 +164,7 @@ done:
 
 static clast_status find_items(clast_dem *dem, int32_t i)
 {
+    CLAST_ASSERT(dem->list.is_stale[i] != 0);
     clast_status status = CLAST_OK;
     const clx_neighbour_list *l = &dem->list;
     clx_dem_grid_walk walk;
@@ -243,6 +248,7 @@ static bool is_same(const clx_dem_pair *old, const clx_found *f)
 
 clast_status clx_neighbour_list_assign_slot(clx_neighbour_list *l, clx_dem_pair *pair)
 {
+    CLAST_ASSERT(pair->slot == 0);
     clast_status status = CLAST_OK;
     if (l->n_free > 0) {
         pair->slot = (uint32_t)l->free_slot[--l->n_free] & CLX_MOST_SLOTS;
@@ -263,6 +269,7 @@ done:
 /// Copies an old pair with its contact history to the new list.
 static void keep_pair(clx_neighbour_list *l, int64_t old, int64_t n)
 {
+    CLAST_ASSERT(n < l->other_capacity);
     l->other[n] = l->pair[old];
     if (l->other_history != NULL) {
         l->other_history[n] = l->history[old];
@@ -271,6 +278,7 @@ static void keep_pair(clx_neighbour_list *l, int64_t old, int64_t n)
 
 static void drop_pair(clx_neighbour_list *l, int64_t old)
 {
+    CLAST_ASSERT(l->n_free < l->n_slot || l->pair[old].slot == 0);
     if (l->pair[old].slot != 0) { // free_slot has room for all slots
         l->free_slot[l->n_free++] = (int32_t)l->pair[old].slot;
     }
@@ -278,6 +286,7 @@ static void drop_pair(clx_neighbour_list *l, int64_t old)
 
 static void start_pair(clx_neighbour_list *l, const clx_found *f, int64_t n)
 {
+    CLAST_ASSERT(n < l->other_capacity);
     l->other[n] = new_pair(f);
     if (l->other_history != NULL) {
         l->other_history[n] = (clx_contact_history){0};
@@ -287,6 +296,7 @@ static void start_pair(clx_neighbour_list *l, const clx_found *f, int64_t n)
 /// Old and found pairs of one item, both sorted by b, into the other buffer at n.
 static int64_t merge_item(clx_neighbour_list *l, int64_t old, int64_t old_end, int32_t i, int64_t n)
 {
+    CLAST_ASSERT(old <= old_end && l->found_begin[i] <= l->found_begin[i + 1]);
     int64_t f = l->found_begin[i];
     const int64_t f_end = l->found_begin[i + 1];
     while (old < old_end || f < f_end) {

@@ -37,6 +37,7 @@ static void write_grain(const clast_dem *dem, int64_t i, double *out)
 
 static void write_pair(const clx_dem_pair *pair, int32_t *id, double *out)
 {
+    CLAST_ASSERT(pair->a >= 0 && (pair->b < 0 || pair->b > pair->a));
     id[0] = pair->a;
     id[1] = pair->b;
     id[2] = pair->period[0];

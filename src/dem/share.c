@@ -69,6 +69,7 @@ bool clx_is_first_contact(const clast_dem *dem, const clx_dem_pair *pair)
 
 static void divide(clx_pair_force *force, int32_t n)
 {
+    CLAST_ASSERT(n >= 1);
     const double share = 1.0 / n;
     for (int k = 0; k < 4; ++k) {
         force->force[k] *= share;
@@ -80,6 +81,7 @@ static void divide(clx_pair_force *force, int32_t n)
 /// Divides the forces of one grain's own contacts.
 static void share(clast_dem *dem, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < dem->n_grain && dem->item_begin != NULL);
     const clx_inner_list *inner = &dem->inner;
     const int32_t begin = inner->begin[dem->item_begin[g]];
     const int32_t end = inner->begin[dem->item_begin[g + 1]];

@@ -37,6 +37,7 @@ typedef struct {
 CLX_INLINE void defer(clast_dem *dem, clx_chunk *chunk, int32_t grain, const double force[4],
                       const double torque[4])
 {
+    CLAST_ASSERT(grain >= 0 && grain < dem->n_grain);
     const int64_t at = clx_chunk_offset(dem, chunk) + chunk->n_contribution++;
     clx_force_torque *total = &dem->sweeping.contribution[at];
     lanes_store(total->force, lanes_load(force));
@@ -91,6 +92,7 @@ static void add_forces(clast_dem *dem, block in)
 
 static int move_and_clear(const clx_moving *c, int64_t g, int n)
 {
+    CLAST_ASSERT(n >= 1 && g + n <= c->dem->n_grain);
     clx_force_torque *total = &c->dem->inner.total[g];
     const int flag = clx_move_group(c, g, n, total);
     memset(total, 0, (size_t)n * sizeof *total);
@@ -122,6 +124,7 @@ static int move_block(const clx_moving *c, clx_chunk *chunk, int64_t begin, int6
 static int sweep_block(const clx_moving *c, clx_chunk *chunk, int64_t begin, int64_t end,
                        int32_t worker)
 {
+    CLAST_ASSERT(begin < end && end - begin <= BLOCK && end <= c->dem->n_grain);
     clast_dem *dem = c->dem;
     const int64_t offset = (int64_t)worker * dem->sweeping.most;
     clx_pair_force *force = dem->sweeping.force + offset;

@@ -7,6 +7,7 @@ static const double FAR = 0.1;
 void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_start *warm_start,
                       clx_dem_touch *t)
 {
+    CLAST_ASSERT(pair->a >= 0 && pair->b > pair->a && pair->b < dem->n_item);
     clx_contact contact;
     clx_pair shapes = {.a = &dem->convex[pair->a],
                        .b = &dem->convex[pair->b],
@@ -26,6 +27,7 @@ void clx_touch_convex(const clast_dem *dem, const clx_dem_pair *pair, clx_warm_s
 void clx_touch_convex_wall(const clast_dem *dem, const clx_dem_pair *pair,
                            clx_warm_start *warm_start, clx_dem_touch *t)
 {
+    CLAST_ASSERT(pair->b < 0 && pair->b >= -dem->n_wall);
     static const double axis[2] = {0.0, 0.0};
     static const double nowhere[3] = {0.0, 0.0, 0.0};
     const clx_wall *wall = &dem->wall[-1 - pair->b];

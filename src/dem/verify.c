@@ -21,6 +21,7 @@ static void count(clast_dem_verification *v, double error)
 
 static double cold_gap(const clast_dem *dem, const clx_dem_pair *pair)
 {
+    CLAST_ASSERT(pair->a >= 0 && pair->a < dem->n_item);
     clx_contact contact;
     clx_pair shapes = {.a = &dem->convex[pair->a],
                        .b = &dem->convex[pair->b],

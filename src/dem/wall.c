@@ -3,6 +3,7 @@
 
 static void add_plane(clast_dem *dem, int axis, double sign, double place)
 {
+    CLAST_ASSERT(dem->n_wall >= 0 && dem->n_wall < CLX_MAX_WALL);
     clx_wall wall = {.kind = CLX_WALL_PLANE};
     wall.normal[axis] = sign;
     wall.offset = sign * place;

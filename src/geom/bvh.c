@@ -79,6 +79,7 @@ bool clx_bvh_is_closed(const clast_mesh *mesh)
 
 static void fill_boxes(const clast_bvh *bvh, clx_tree_box *box)
 {
+    CLAST_ASSERT(bvh->reach >= 0.0);
     const double pad = 0x1p-50 * bvh->reach;
     for (int32_t t = 0; t < bvh->mesh->n_tri; ++t) {
         const int32_t *tri = bvh->mesh->tri[t];

@@ -85,6 +85,7 @@ typedef struct {
 static void visit_leaf(const clast_bvh *bvh, const clx_tree_node *node, const double point[3],
                        nearest *best)
 {
+    CLAST_ASSERT(node->right == 0 && node->count > 0);
     for (int32_t i = node->first; i < node->first + node->count; ++i) {
         double candidate[3];
         const double d2 = clx_triangle_closest(bvh->corner[i], point, candidate);
@@ -100,6 +101,7 @@ static void visit_leaf(const clast_bvh *bvh, const clx_tree_node *node, const do
 
 static void walk(const clast_bvh *bvh, const double point[3], nearest *best)
 {
+    CLAST_ASSERT(bvh->tree.n_node > 0);
     struct {
         int32_t node;
         double d2;

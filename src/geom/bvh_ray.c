@@ -54,6 +54,7 @@ static double enter(const clx_tree_node *node, const ray_frame *ray)
 static bool visit_leaf(const clast_bvh *bvh, const clx_tree_node *node, ray_frame *ray,
                        clast_hit *hit)
 {
+    CLAST_ASSERT(node->right == 0 && node->count > 0);
     bool found = false;
     for (int32_t i = node->first; i < node->first + node->count; ++i) {
         double t = 0.0;

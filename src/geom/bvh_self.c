@@ -215,6 +215,7 @@ typedef struct {
 
 static void keep(self_search *search, block_result *result, int32_t i, int32_t j)
 {
+    CLAST_ASSERT(i != j);
     const int32_t *item = search->bvh->tree.item;
     int32_t pair[2] = {item[i], item[j]};
     if (pair[0] > pair[1]) {
@@ -247,6 +248,7 @@ static bool boxes_meet(const double low[3], const double high[3], const double o
 /// Pairs of triangle i (in leaf order) with every later one.
 static void search_one(self_search *search, block_result *result, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < search->bvh->tree.n_item);
     const clast_bvh *bvh = search->bvh;
     int32_t stack[CLX_TREE_DEPTH + 1];
     int n_stack = 1;
@@ -322,6 +324,7 @@ static int compare_pairs(const void *a, const void *b)
 clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t cap, int32_t (*pair)[2],
                                         int64_t *n_pair)
 {
+    CLAST_ASSERT(cap >= 0 && (pair != NULL || cap == 0));
     clast_status status = CLAST_OK;
     const int64_t n_block = (bvh->tree.n_item + BLOCK - 1) / BLOCK;
     self_search search = {.bvh = bvh};

@@ -13,6 +13,7 @@
 
 bool clx_is_flat(const clast_mesh *mesh, int32_t t)
 {
+    CLAST_ASSERT(t >= 0 && t < mesh->n_tri);
     return clx_is_flat_at(mesh, mesh->tri[t]);
 }
 
@@ -74,6 +75,7 @@ static bool same_corners(const sorted_triangle *a, const sorted_triangle *b)
 /// Is the surface closed around a group of n triangles with these corners without any of them?
 static bool is_closed_without(const clx_topology *topology, int32_t t, int32_t n)
 {
+    CLAST_ASSERT(t >= 0 && n > 0);
     bool even = true;
     for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
         even = even && (clx_edge_use(topology, topology->edge_of[h]) - n) % 2 == 0;

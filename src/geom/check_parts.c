@@ -133,6 +133,7 @@ typedef struct {
 /// Does the part wind around the point? Its winding number is 0 outside and +-1 inside.
 static bool winds_around(const part_lists *lists, int32_t part, const double point[3])
 {
+    CLAST_ASSERT(part >= 0 && lists->first[part] <= lists->first[part + 1]);
     const clast_mesh *mesh = lists->mesh;
     double sum = 0.0;
     for (int32_t i = lists->first[part]; i < lists->first[part + 1]; ++i) {
@@ -145,6 +146,7 @@ static bool winds_around(const part_lists *lists, int32_t part, const double poi
 /// Middles of three triangles vote, so that one contact point does not decide.
 static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
 {
+    CLAST_ASSERT(inner != outer);
     int votes = 0;
     const int32_t n = lists->first[inner + 1] - lists->first[inner];
     for (int i = 0; i < 3; ++i) {
@@ -161,6 +163,7 @@ static bool lies_in(const part_lists *lists, int32_t inner, int32_t outer)
 /// Of all parts around one, the outermost has the largest volume.
 static void keep_outermost(clast_mesh_part *list, int32_t inner, int32_t outer)
 {
+    CLAST_ASSERT(inner != outer);
     const int32_t known = list[inner].outermost;
     if (known < 0 || fabs(list[outer].volume) > fabs(list[known].volume)) {
         list[inner].outermost = outer;

@@ -53,6 +53,7 @@ done:
 
 int32_t clx_thinning_corner(const clx_thinning *thin, int32_t vertex, int32_t corner)
 {
+    CLAST_ASSERT(vertex >= 0 && vertex < thin->mesh.n_vert);
     int32_t c = corner < 0 ? thin->head[vertex] : thin->next[corner];
     while (c >= 0 && thin->dead[c / 3]) {
         c = thin->next[c];
@@ -80,6 +81,7 @@ typedef struct {
 
 static void add_triangle(const clx_thinning *thin, int32_t t, int32_t u, int32_t v, edge_sums *s)
 {
+    CLAST_ASSERT(t >= 0 && t < thin->mesh.n_tri && !thin->dead[t]);
     double p[3][3];
     double a[3];
     double b[3];
@@ -124,6 +126,7 @@ static void sum_edge(const clx_thinning *thin, int32_t u, int32_t v, edge_sums *
 /// Least of the quadratic form in the plane normal . x = volume; x is relative to the origin.
 static bool place_in_plane(const edge_sums *s, double x[3])
 {
+    CLAST_ASSERT(s->n_ring > 0);
     double n[3];
     double q[2][3];
     double m[2][2];
@@ -156,6 +159,7 @@ static bool place_in_plane(const edge_sums *s, double x[3])
 
 double clx_collapse_place(clx_thinning *thin, int32_t u, int32_t v, double place[3])
 {
+    CLAST_ASSERT(u != v);
     edge_sums s = {.n_ring = 0};
     double x[3];
     double hx[3];
@@ -267,12 +271,14 @@ static bool keeps_sides(const clx_thinning *thin, int32_t vertex, int32_t other,
 
 bool clx_collapse_is_sound(clx_thinning *thin, int32_t u, int32_t v, const double place[3])
 {
+    CLAST_ASSERT(u != v);
     return keeps_topology(thin, u, v) && keeps_sides(thin, u, v, place) &&
            keeps_sides(thin, v, u, place);
 }
 
 void clx_collapse_do(clx_thinning *thin, int32_t u, int32_t v, const double place[3])
 {
+    CLAST_ASSERT(u != v && thin->n_alive >= 2);
     int32_t last = -1;
     for (int32_t c = thin->head[v]; c >= 0; c = thin->next[c]) {
         int32_t *tri = thin->mesh.tri[c / 3];

@@ -52,6 +52,7 @@ void clx_cell_free(clx_cell *cell)
 
 clast_status clx_cell_box(const double low[3], const double high[3], clx_cell *cell)
 {
+    CLAST_ASSERT(low[0] <= high[0] && low[1] <= high[1] && low[2] <= high[2]);
     clast_status status = CLAST_OK;
     cell->n_face = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -86,6 +87,7 @@ static void swap_corners(clx_cell_face *a, clx_cell_face *b)
 static clast_status clip_face(clx_cell *cell, clx_cell_face *f, const double normal[3],
                               double offset)
 {
+    CLAST_ASSERT(f->n >= 3);
     clast_status status = CLAST_OK;
     clx_cell_face *made = &cell->clipped;
     CLX_TRY(clx_grow(&cell->height, &cell->height_capacity, f->n, sizeof *cell->height));

@@ -23,6 +23,7 @@ typedef struct {
 /// What of `in` has side * (coordinate - plane) >= 0.
 static void cut(const piece *in, int axis, double plane, double side, piece *out)
 {
+    CLAST_ASSERT(in->n >= 0 && in->n < MOST_CORNER && axis >= 0 && axis < 3);
     out->n = 0;
     for (int i = 0; i < in->n; ++i) {
         const double *a = in->p[i];
@@ -56,6 +57,7 @@ static bool slab(const piece *in, int axis, double low, double high, piece *out)
 /// Signed area of the shadow along x, and the integral of x over it.
 static double shadow(const piece *s, double *moment)
 {
+    CLAST_ASSERT(s->n >= 3);
     const double *a = s->p[0];
     double area = 0.0;
     *moment = 0.0;
@@ -72,6 +74,7 @@ static double shadow(const piece *s, double *moment)
 /// First and last bin along an axis that the piece reaches; flat pieces have one.
 static void span(const piece *s, int axis, int32_t nb, int32_t range[2])
 {
+    CLAST_ASSERT(s->n > 0 && nb > 0);
     double low = s->p[0][axis];
     double high = low;
     for (int i = 1; i < s->n; ++i) {
@@ -91,6 +94,7 @@ typedef struct {
 /// A piece within one column of bins.
 static void add_column(const sums *s, const piece *column, int64_t at, int64_t stride)
 {
+    CLAST_ASSERT(at >= 0 && at < stride);
     int32_t range[2];
     span(column, 0, s->grid->nb[0], range);
     for (int32_t i = range[0]; i <= range[1]; ++i) {
@@ -149,6 +153,7 @@ static double snapped(double share)
 
 clast_status clx_cut_grid_shares(const clast_mesh *mesh, const clx_cut_grid *grid, double *share)
 {
+    CLAST_ASSERT(grid->nb[0] > 0 && grid->nb[1] > 0 && grid->nb[2] > 0);
     clast_status status = CLAST_OK;
     const int64_t stride = (int64_t)grid->nb[1] * grid->nb[2];
     const int64_t n_bin = stride * grid->nb[0];

@@ -124,6 +124,7 @@ done:
 /// Finds the tetrahedra behind each face.
 static clast_status join(clx_delaunay *c)
 {
+    CLAST_ASSERT(c->n_tet > 0 && c->neighbour == NULL);
     clast_status status = CLAST_OK;
     const int64_t n = 4 * (int64_t)c->n_tet;
     CLX_TRY(clx_alloc(&c->faces, n, sizeof *c->faces));
@@ -166,6 +167,7 @@ done:
 
 clast_status clx_delaunay_outside(const clx_delaunay *c, int32_t n, bool *outside)
 {
+    CLAST_ASSERT(n >= 0 && n <= c->n_tet);
     clast_status status = CLAST_OK;
     int32_t *stack = NULL;
     int32_t n_stack = 0;

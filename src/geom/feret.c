@@ -23,6 +23,7 @@ typedef struct {
 
 static void try_pair(feret_walk *w, int32_t a, int32_t b)
 {
+    CLAST_ASSERT(a >= 0 && a < w->body->n_vert && b >= 0 && b < w->body->n_vert);
     const double tie = 2e-12; // of the square
     const double d2 = v3_distance2(w->body->vert[a], w->body->vert[b]);
     const int32_t low = a < b ? a : b;
@@ -89,6 +90,7 @@ static void try_edges(feret_walk *w, const double about[3], int32_t a0, int32_t 
 static int32_t next_opposite(const clx_hull_body *body, int32_t v, const double n[3],
                              const double m[3], double end, double *tangent)
 {
+    CLAST_ASSERT(v >= 0 && v < body->n_vert);
     int32_t best = -1;
     *tangent = end;
     for (int32_t i = body->begin[v]; i < body->begin[v + 1]; ++i) {
@@ -158,6 +160,7 @@ static void try_face(feret_walk *w, int32_t face, const int32_t *opposite, bool 
 
 clast_status clx_hull_body_feret(const clx_hull_body *body, clx_feret *feret)
 {
+    CLAST_ASSERT(body->n_face >= 4);
     clast_status status = CLAST_OK;
     feret_walk w = {.body = body, .longest2 = 0.0, .shortest = INFINITY};
     int32_t *opposite = NULL;

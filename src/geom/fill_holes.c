@@ -60,6 +60,7 @@ static double area(const clast_mesh *mesh, int32_t a, int32_t b, int32_t c)
 /// Is (a, b) an edge of the surface as it was?
 static bool is_edge(const filler *f, int32_t a, int32_t b)
 {
+    CLAST_ASSERT(a != b);
     const int32_t low = a < b ? a : b;
     const int32_t high = a < b ? b : a;
     int32_t begin = f->first[low];
@@ -95,6 +96,7 @@ static clast_status add_triangle(filler *f, int32_t a, int32_t b, int32_t c)
 /// Fills the tables for a loop of n corners: cost[i][j] of the polygon i, i + 1, ..., j.
 static void plan(filler *f, const int32_t *corner, int32_t n)
 {
+    CLAST_ASSERT(n >= 2 && n <= MOST);
     for (int32_t span = 1; span < n; ++span) {
         for (int32_t i = 0; i + span < n; ++i) {
             const int32_t j = i + span;
@@ -123,6 +125,7 @@ static void plan(filler *f, const int32_t *corner, int32_t n)
 /// Emits the planned triangles.
 static clast_status emit(filler *f, const int32_t *corner, int32_t n)
 {
+    CLAST_ASSERT(n >= 2 && n <= MOST);
     clast_status status = CLAST_OK;
     int32_t stack[2 * MOST][2];
     int32_t n_stack = 1;
@@ -132,6 +135,7 @@ static clast_status emit(filler *f, const int32_t *corner, int32_t n)
         const int32_t i = stack[--n_stack][0];
         const int32_t j = stack[n_stack][1];
         const int32_t k = f->split[i * MOST + j];
+        CLAST_ASSERT(k < 0 || (i < k && k < j));
         if (k < 0) {
             continue;
         }
@@ -162,6 +166,7 @@ static clast_status push(filler *f, const int32_t *corner, int32_t n)
 static clast_status choose(const clast_mesh *mesh, const int32_t *corner, int32_t n,
                            int32_t chosen[MOST])
 {
+    CLAST_ASSERT(n > MOST);
     double *along = NULL;
     const clast_status status = clx_alloc(&along, n + 1, sizeof *along);
     if (status != CLAST_OK) {

@@ -26,6 +26,7 @@ static double distance_at(const sampling *s, const double p[3])
 /// Samples one triangle at the middles of its small ones (upright and turned alike).
 static void sample_triangle(const sampling *s, int32_t t, double *greatest, double *sum)
 {
+    CLAST_ASSERT(s->n_row > 0);
     const int32_t *tri = s->mesh->tri[t];
     const double step = 1.0 / s->n_row;
     for (int32_t i = 0; i < s->n_row; ++i) {

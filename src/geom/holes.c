@@ -100,6 +100,7 @@ static int32_t step(loop_walk *w, int32_t *cursor, int32_t v)
 /// Walks from `start` until no arc is left there, cutting off loops into `loops`.
 static void walk_from(loop_walk *w, int32_t *cursor, int32_t start, clx_loops *loops)
 {
+    CLAST_ASSERT(start >= 0 && loops->begin[loops->n_loop] >= 0);
     int32_t n_path = 0;
     int32_t at = start;
     w->path[n_path++] = at;
@@ -174,6 +175,7 @@ void clx_loops_free(clx_loops *loops)
 
 double clx_loop_extent(const clast_mesh *mesh, const clx_loops *loops, int32_t loop)
 {
+    CLAST_ASSERT(loop >= 0 && loop < loops->n_loop);
     double low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int32_t i = loops->begin[loop]; i < loops->begin[loop + 1]; ++i) {

@@ -21,6 +21,7 @@ static const double RANK_TOLERANCE = 1e-13; // of the extent; doubles near 1 are
 static double farthest(const double (*point)[3], int64_t n, double axis[3][3], int rank,
                        double offset[3])
 {
+    CLAST_ASSERT(n > 0 && rank >= 0 && rank <= 3);
     double best = -1.0;
     for (int64_t i = 0; i < n; ++i) {
         double d[3];

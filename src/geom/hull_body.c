@@ -28,6 +28,7 @@ void clx_hull_body_free(clx_hull_body *body)
 
 static clast_status reserve(const clx_hull_inc *hull, clx_hull_body *body)
 {
+    CLAST_ASSERT(hull->is_solid && hull->n_facet >= 4 && hull->n_facet % 2 == 0);
     clast_status status = CLAST_OK;
     body->n_face = hull->n_facet;
     body->n_vert = hull->n_vert;
@@ -80,6 +81,7 @@ static void copy_vertices(const clx_hull_inc *hull, const int32_t *number, clx_h
 
 static void measure_face(clx_hull_body *body, int32_t f)
 {
+    CLAST_ASSERT(f >= 0 && f < body->n_face);
     double u[3];
     double v[3];
     double n[3];
@@ -138,7 +140,9 @@ static void find_twins(clx_hull_body *body)
         for (int k = 0; k < 3; ++k) {
             const int32_t end = body->face[f][(k + 1) % 3];
             const int32_t across = body->twin[clx_half_of(f, k)];
+            CLAST_ASSERT(across >= 0 && across < body->n_face);
             const int32_t *corner = body->face[across];
+            CLAST_ASSERT(corner[0] == end || corner[1] == end || corner[2] == end);
             body->twin[clx_half_of(f, k)] = clx_half_of(across, corner[0] == end   ? 0
                                                                 : corner[1] == end ? 1
                                                                                    : 2);
@@ -255,6 +259,7 @@ done:
 
 int32_t clx_hull_body_support(const clx_hull_body *body, const double direction[3], int32_t start)
 {
+    CLAST_ASSERT(start >= 0 && start < body->n_vert);
     int32_t at = start;
     double reach = v3_dot(body->vert[at], direction);
     for (int32_t step = 0; step < body->n_vert; ++step) {

@@ -74,6 +74,7 @@ static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *bo
 /// Inserts a box among the best few, in rising order; it is below the last when all are taken.
 static void keep(clx_box kept[KEPT], int *n_kept, const clx_box *box)
 {
+    CLAST_ASSERT(*n_kept >= 0 && *n_kept <= KEPT);
     int at = *n_kept < KEPT ? (*n_kept)++ : KEPT - 1;
     for (; at > 0 && box_volume(&kept[at - 1]) > box_volume(box); --at) {
         kept[at] = kept[at - 1];
@@ -83,6 +84,7 @@ static void keep(clx_box kept[KEPT], int *n_kept, const clx_box *box)
 
 static void sort_edges(clx_box *box)
 {
+    CLAST_ASSERT(box->edge[0] >= 0.0 && box->edge[1] >= 0.0 && box->edge[2] >= 0.0);
     for (int i = 1; i < 3; ++i) {
         for (int j = i; j > 0 && box->edge[j] > box->edge[j - 1]; --j) {
             double axis[3];

@@ -8,6 +8,7 @@
 // (9/27).
 #include "geom/hull_body.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { N_SAMPLE = 24, N_REFINE = 80 };
@@ -45,6 +46,7 @@ static double box_at(const family *f, double angle, clx_box *box)
 /// The least box between two angles that enclose one minimum (golden section).
 static double refine(const family *f, double low, double high, clx_box *box)
 {
+    CLAST_ASSERT(low <= high);
     const double ratio = 0.5 * (sqrt(5.0) - 1.0);
     double at[2] = {high - ratio * (high - low), low + ratio * (high - low)};
     double volume[2] = {box_at(f, at[0], box), box_at(f, at[1], box)};

@@ -43,6 +43,7 @@ static double signed_distance(const clx_hull_inc *hull, const clx_hull_facet *fa
 
 bool clx_hull_inc_sees(const clx_hull_inc *hull, const clx_hull_facet *facet, const double point[3])
 {
+    CLAST_ASSERT(facet->vert[0] >= 0);
     const double distance = signed_distance(hull, facet, point);
     const double doubt = facet->tolerance * hull->reach;
     if (distance > doubt) {
@@ -121,6 +122,7 @@ done:
 
 static int32_t new_facet(clx_hull_inc *hull, int32_t a, int32_t b, int32_t c)
 {
+    CLAST_ASSERT(a != b && b != c && c != a);
     const int32_t f =
         hull->n_free_facet > 0 ? hull->free_facet[--hull->n_free_facet] : hull->facet_end++;
     hull->facet[f] = (clx_hull_facet){.vert = {a, b, c},
@@ -138,6 +140,7 @@ static int32_t new_facet(clx_hull_inc *hull, int32_t a, int32_t b, int32_t c)
 
 static void drop_facet(clx_hull_inc *hull, int32_t f)
 {
+    CLAST_ASSERT(f >= 0 && f < hull->facet_end && hull->facet[f].vert[0] >= 0);
     for (int k = 0; k < 3; ++k) {
         const int32_t v = hull->facet[f].vert[k];
         if (--hull->vert[v].degree == 0) {
@@ -164,12 +167,14 @@ static int32_t new_vertex(clx_hull_inc *hull, const double point[3], int32_t tag
 /// Edge number of `facet` that runs from `from`.
 static int side_from(const clx_hull_facet *facet, int32_t from)
 {
+    CLAST_ASSERT(facet->vert[0] == from || facet->vert[1] == from || facet->vert[2] == from);
     return facet->vert[0] == from ? 0 : facet->vert[1] == from ? 1 : 2;
 }
 
 /// Collects the facets that the point sees, from one of them, and the edges around them.
 static clast_status find_horizon(clx_hull_inc *hull, int32_t first, const double point[3])
 {
+    CLAST_ASSERT(hull->facet[first].vert[0] >= 0);
     clast_status status = CLAST_OK;
     const int64_t seen = 2 * ++hull->stamp;
     CLX_TRY(clx_grow(&hull->visible, &hull->visible_room, hull->facet_end, sizeof *hull->visible));
@@ -205,6 +210,7 @@ done:
 /// Joins the point to every horizon edge; new facets go to hull->fresh.
 static void raise_cone(clx_hull_inc *hull, const double point[3], int32_t tag)
 {
+    CLAST_ASSERT(hull->n_horizon >= 3);
     const int32_t apex = new_vertex(hull, point, tag);
     for (int32_t i = 0; i < hull->n_horizon; ++i) {
         const clx_hull_edge *edge = &hull->horizon[i];
@@ -224,6 +230,7 @@ static void raise_cone(clx_hull_inc *hull, const double point[3], int32_t tag)
 
 static clast_status push_work(clx_hull_inc *hull, int32_t f)
 {
+    CLAST_ASSERT(f >= 0 && f < hull->facet_end);
     const clast_status status =
         clx_grow(&hull->work, &hull->work_room, (int64_t)hull->n_work + 1, sizeof *hull->work);
     if (status == CLAST_OK) {
@@ -250,6 +257,7 @@ static clast_status assign(clx_hull_inc *hull, int32_t i, const double point[3],
 
 static int32_t farthest_listed(const clx_hull_inc *hull, int32_t f, const double (*point)[3])
 {
+    CLAST_ASSERT(hull->facet[f].outside >= 0);
     int32_t best = hull->facet[f].outside;
     double far = signed_distance(hull, &hull->facet[f], point[best]);
     for (int32_t i = hull->next[best]; i >= 0; i = hull->next[i]) {
@@ -401,6 +409,7 @@ static void clear_lists(clx_hull_inc *hull)
 static clast_status insert_batch(clx_hull_inc *hull, int32_t n, const double (*point)[3],
                                  const int32_t *tag)
 {
+    CLAST_ASSERT(n > 0 && hull->is_solid);
     clast_status status = CLAST_OK;
     double low[3];
     double high[3];
@@ -489,6 +498,7 @@ static bool find_simplex(const clx_hull_inc *hull, int32_t s[4])
 
 static clast_status raise_simplex(clx_hull_inc *hull, const int32_t s[4])
 {
+    CLAST_ASSERT(!hull->is_solid && hull->n_pending >= 4);
     clast_status status = CLAST_OK;
     int32_t v[4];
     int32_t f[4];
@@ -537,6 +547,7 @@ done:
 
 static void extend_box(clx_hull_inc *hull, int32_t n, const double (*point)[3])
 {
+    CLAST_ASSERT(n > 0);
     if (hull->n_pending == 0 && !hull->is_solid) {
         v3_copy(hull->low, point[0]);
         v3_copy(hull->high, point[0]);
@@ -580,6 +591,7 @@ done:
 clast_status clx_hull_inc_add(clx_hull_inc *hull, int32_t n, const double (*point)[3],
                               const int32_t *tag)
 {
+    CLAST_ASSERT(n >= 0);
     const clast_status status = check_finite(n, point);
     if (status != CLAST_OK || n == 0) {
         return status;

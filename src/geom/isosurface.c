@@ -61,6 +61,7 @@ void clx_grid_free(clx_grid *grid)
 
 static int64_t node_index(const clx_grid *g, int32_t i, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(i >= 0 && i < g->n[0] && j >= 0 && j < g->n[1] && k >= 0 && k < g->n[2]);
     return ((int64_t)k * g->n[1] + j) * g->n[0] + i;
 }
 
@@ -213,6 +214,8 @@ static bool border_is_outside(const clx_grid *g, double level)
 
 clast_status clx_isosurface(const clx_grid *grid, double level, double apart, clast_mesh *mesh)
 {
+    CLAST_ASSERT(grid->n[0] >= 2 && grid->n[1] >= 2 && grid->n[2] >= 2);
+    CLAST_ASSERT(apart >= 0.0 && apart < 0.5);
     clast_status status = CLAST_OK;
     march m = {.grid = grid, .level = level, .apart = apart};
     const int64_t slots = (int64_t)grid->n[0] * grid->n[1] * N_EDGE;

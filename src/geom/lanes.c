@@ -1,6 +1,8 @@
 // The loops that hulls spend most of their time in: balls against a plane, a point against planes.
 #include "geom/lanes.h"
 
+#include "base/status.h"
+
 #include <math.h>
 
 // Clang takes no vectors by value between a clone and what it inlines, and the thread sanitizer
@@ -17,6 +19,7 @@ typedef int64_t marks __attribute__((vector_size(32)));
 
 void clx_lanes_set(clx_lanes *lanes, int32_t i, const double v[3], double w)
 {
+    CLAST_ASSERT(i >= 0);
     clx_lanes *group = &lanes[i / 4];
     for (int k = i % 4; k < 4; ++k) {
         group->w[k] = k == i % 4 ? w : -HUGE_VAL;
@@ -30,6 +33,7 @@ FOR_EACH_MACHINE
 int32_t clx_lanes_next(const clx_lanes *lanes, int32_t group, int32_t n_group, const double n[3],
                        double beyond)
 {
+    CLAST_ASSERT(group >= 0 && n_group >= 0);
     for (; group < n_group; ++group) {
         const clx_lanes *b = &lanes[group];
         const four *x = (const four *)b->v[0];

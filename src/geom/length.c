@@ -38,6 +38,7 @@ static void swap_points(double (*point)[3], int32_t i, int32_t j)
 /// Hoare's selection: afterwards points [begin, middle) are <= those of [middle, end) along axis k.
 static void select_middle(double (*point)[3], int32_t begin, int32_t end, int32_t middle, int k)
 {
+    CLAST_ASSERT(begin <= middle && middle < end);
     int32_t low = begin;
     int32_t high = end - 1;
     while (low < high) {
@@ -76,6 +77,7 @@ static int widest_axis(const length_node *node)
 
 static int32_t build(length_tree *tree, int32_t begin, int32_t end)
 {
+    CLAST_ASSERT(begin < end);
     const int32_t number = tree->n_node++;
     length_node *node = &tree->node[number];
     *node = (length_node){.begin = begin, .end = end};

@@ -2,6 +2,7 @@
 // points [Welzl1991], entered with the farthest point each time [Gaertner1999].
 #include "geom/miniball.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { MAX_PIVOTS = 200 };
@@ -19,6 +20,7 @@ typedef struct search {
 /// Solves the k x k system by elimination with pivoting; false when it is singular.
 static bool solve(int k, double m[3][4], double x[3])
 {
+    CLAST_ASSERT(k >= 0 && k <= 3);
     for (int c = 0; c < k; ++c) {
         int best = c;
         for (int r = c + 1; r < k; ++r) {
@@ -53,6 +55,7 @@ static bool solve(int k, double m[3][4], double x[3])
 /// d_i^2 / 2. False when they are affinely dependent.
 static bool through_bound(search *s)
 {
+    CLAST_ASSERT(s->n_bound >= 1 && s->n_bound <= 4);
     double d[3][3];
     double m[3][4];
     double x[3];
@@ -112,6 +115,7 @@ static void move_to_front(search *s, int32_t n)
 void clx_miniball(int32_t n, const double (*point)[3], int32_t *order, double centre[3],
                   double *radius)
 {
+    CLAST_ASSERT(n >= 1);
     search s = {.point = point, .order = order, .radius2 = -1.0};
     int32_t n_front = 0;
     for (int32_t i = 0; i < n; ++i) {

@@ -44,6 +44,8 @@ static void scan_rows(int64_t begin, int64_t end, int32_t worker, void *context)
 /// Squared distance of a node (along the axes before `axis`) to its nearest so far.
 static double height_of(const transform *t, int64_t node, int32_t nearest)
 {
+    CLAST_ASSERT(t->axis == 1 || t->axis == 2);
+    CLAST_ASSERT(nearest >= 0);
     const int64_t row = node / t->n[0] - nearest / t->n[0]; // same layer: rows apart
     const double dx = (double)(node % t->n[0] - nearest % t->n[0]);
     const double dy = (double)row;
@@ -101,6 +103,7 @@ static void envelop_lines(int64_t begin, int64_t end, int32_t worker, void *cont
 
 clast_status clx_nearest_node(const int32_t n[3], const uint8_t *marked, int32_t *nearest)
 {
+    CLAST_ASSERT(n[0] > 0 && n[1] > 0 && n[2] > 0);
     clast_status status = CLAST_OK;
     transform t = {.n = {n[0], n[1], n[2]}, .marked = marked, .nearest = nearest};
     const int64_t workers = clx_parallel_workers();

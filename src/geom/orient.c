@@ -8,6 +8,7 @@
 
 static void turn_over(clast_mesh *mesh, int32_t t)
 {
+    CLAST_ASSERT(t >= 0 && t < mesh->n_tri);
     const int32_t swap = mesh->tri[t][1];
     mesh->tri[t][1] = mesh->tri[t][2];
     mesh->tri[t][2] = swap;
@@ -24,6 +25,7 @@ typedef struct {
 /// the queue, and those to be turned in *n_turn.
 static int32_t flood_from(flood *f, int32_t seed, int32_t *n_turn)
 {
+    CLAST_ASSERT(f->side[seed] == 0);
     int32_t n = 0;
     f->queue[n++] = seed;
     f->side[seed] = 1;
@@ -94,6 +96,7 @@ done:
 
 clast_status clx_orient_outward(clast_mesh *mesh, bool *turned, int32_t n_known)
 {
+    CLAST_ASSERT(n_known >= 0);
     clast_status status = CLAST_OK;
     clx_topology topology = {0};
     clast_mesh_check_result found = {0};

@@ -54,6 +54,7 @@ done:
 /// Twice the area vector, about the first corner.
 static void newell(const double (*vert)[3], int32_t n, const int32_t *corner, double normal[3])
 {
+    CLAST_ASSERT(n >= 3);
     const double *o = vert[corner[0]];
     normal[0] = normal[1] = normal[2] = 0.0;
     for (int32_t i = 1; i + 1 < n; ++i) {
@@ -185,6 +186,7 @@ static bool is_ear(clx_polygon_cutter *c, int32_t j, int stage)
 
 static void unlink_corner(clx_polygon_cutter *c, int32_t j)
 {
+    CLAST_ASSERT(c->next[j] != j && c->prev[j] != j);
     c->next[c->prev[j]] = c->next[j];
     c->prev[c->next[j]] = c->prev[j];
     c->is_reflex[j] = 0;
@@ -196,6 +198,7 @@ static void unlink_corner(clx_polygon_cutter *c, int32_t j)
 /// The first ear from j on, in the strictest stage that has one.
 static int32_t find_ear(clx_polygon_cutter *c, int32_t j, int32_t n_left)
 {
+    CLAST_ASSERT(n_left >= 3);
     for (int stage = STAGE_STRICT; stage < STAGE_ANYTHING; ++stage) {
         for (int32_t k = 0; k < n_left && c->n_test <= CLX_POLYGON_N_TEST; ++k, j = c->next[j]) {
             ++c->n_test;

@@ -51,6 +51,7 @@ typedef struct {
 /// power-of-two size.
 static int32_t middle(clast_mesh *mesh, edge_slot *slots, uint32_t mask, int32_t a, int32_t b)
 {
+    CLAST_ASSERT(a != b);
     const int32_t low = a < b ? a : b;
     const int32_t high = a < b ? b : a;
     uint32_t h = ((uint32_t)low * 2654435761u ^ (uint32_t)high * 2246822519u) & mask;

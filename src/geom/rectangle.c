@@ -6,6 +6,7 @@
 // found is then measured over all corners.
 #include "geom/hull_body.h"
 
+#include "base/status.h"
 #include "math/lanes.h"
 
 enum { FEW = 64 }; ///< corners up to which trying all edges is the faster way
@@ -23,6 +24,7 @@ typedef struct {
 
 static int32_t following(const clx_shadow *s, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < s->n);
     return i + 1 < s->n ? i + 1 : 0;
 }
 
@@ -98,6 +100,7 @@ static int least_turn(const calipers *c)
 /// Keeps the rectangle with a side along d, turned back by k quarters, if it is the least so far.
 static void take(calipers *c, int k, const double d[2], double area)
 {
+    CLAST_ASSERT(k >= 0 && k < 4);
     const double length2 = d[0] * d[0] + d[1] * d[1];
     if (length2 > c->tolerance2 && area * c->best_length2 < c->best * length2) {
         c->best = area;

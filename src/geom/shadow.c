@@ -68,6 +68,7 @@ static double left_turn(const double a[2], const double b[2], const double c[2])
 static int32_t add_chain(const double (*point)[2], int32_t from, int32_t to, int32_t step,
                          double (*hull)[2], int32_t m)
 {
+    CLAST_ASSERT(step == 1 || step == -1);
     const int32_t low = m;
     for (int32_t i = from; i != to; i += step) {
         while (m >= low + 2 && left_turn(hull[m - 2], hull[m - 1], point[i]) <= 0.0) {
@@ -104,6 +105,7 @@ static int32_t find_outline(const clx_hull_body *body, const double direction[3]
                             clx_shadow *shadow, int32_t *first)
 {
     int32_t n = 0;
+    CLAST_ASSERT(shadow->up != NULL);
     for (int32_t f = 0; f < body->n_face; ++f) {
         shadow->up[f] = v3_dot(body->normal[f], direction) > UPRIGHT;
     }
@@ -168,6 +170,7 @@ static bool walk_outline(const clx_hull_body *body, const double direction[3], c
 
 void clx_shadow_cast(const clx_hull_body *body, const double direction[3], clx_shadow *shadow)
 {
+    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
     int32_t first = 0;
     v3_frame(direction, shadow->u, shadow->v);
     if (walk_outline(body, direction, shadow)) {
@@ -310,6 +313,7 @@ void clx_face_views_free(clx_face_views *views)
 void clx_shadow_extremes(const clx_hull_body *body, const clx_face_views *views, double axis[3][3],
                          double *least, double *greatest, double direction[3])
 {
+    CLAST_ASSERT(views->n > 0);
     const double *low = axis[0];
     const double *high = axis[0];
     *least = INFINITY;

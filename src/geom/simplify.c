@@ -46,6 +46,7 @@ static bool is_cheaper(const heap_edge *a, const heap_edge *b)
 
 static void sink(simplifier *s, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < s->n_heap);
     const heap_edge item = s->heap[i];
     for (int64_t child = 2 * i + 1; child < s->n_heap; child = 2 * i + 1) {
         if (child + 1 < s->n_heap && is_cheaper(&s->heap[child + 1], &s->heap[child])) {
@@ -62,6 +63,7 @@ static void sink(simplifier *s, int64_t i)
 
 static heap_edge pop(simplifier *s)
 {
+    CLAST_ASSERT(s->n_heap > 0);
     const heap_edge top = s->heap[0];
     s->heap[0] = s->heap[--s->n_heap];
     if (s->n_heap > 0) {
@@ -73,6 +75,7 @@ static heap_edge pop(simplifier *s)
 /// Prices the edge (u, v) and puts it on the heap.
 static clast_status push(simplifier *s, int32_t u, int32_t v)
 {
+    CLAST_ASSERT(u != v);
     double place[3];
     heap_edge e = {.u = u < v ? u : v, .v = u < v ? v : u};
     e.cost = clx_collapse_place(&s->thin, e.u, e.v, place);

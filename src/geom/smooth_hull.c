@@ -34,12 +34,14 @@ done:
 
 static double facet_offset(const clx_hull_inc *inner, const clx_hull_facet *facet)
 {
+    CLAST_ASSERT(facet->vert[0] >= 0);
     return v3_dot(facet->normal, inner->vert[facet->vert[0]].point);
 }
 
 /// Looks from a facet at one body; keeps the farthest.
 static void look(clx_smooth_hull *hull, clx_hull_facet *facet, double offset, int32_t b)
 {
+    CLAST_ASSERT(b >= 0 && b < hull->body_room);
     clx_body *body = &hull->body[b];
     if (v3_dot(facet->normal, body->centre) + body->radius - offset > facet->excess) {
         const double excess = clx_body_support(body, facet->normal) - offset;
@@ -135,6 +137,7 @@ static clast_status push_wait(clx_smooth_hull *hull, int32_t f)
 
 static clx_hull_wait pop_wait(clx_smooth_hull *hull)
 {
+    CLAST_ASSERT(hull->n_wait > 0);
     const clx_hull_wait top = hull->wait[0];
     const clx_hull_wait last = hull->wait[--hull->n_wait];
     int64_t i = 0;
@@ -238,6 +241,7 @@ double clx_smooth_hull_support(const clx_smooth_hull *hull, const double u[3], i
 
 clast_status clx_smooth_hull_add_points(clx_smooth_hull *hull, int32_t n, const double (*point)[3])
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     if (n == 0) {
         return CLAST_OK; // and what is known of the facets stays known
@@ -309,6 +313,7 @@ void clx_smooth_hull_prune(clx_smooth_hull *hull)
 
 bool clx_smooth_hull_hides(const clx_smooth_hull *hull, const double centre[3], double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     const clx_hull_inc *inner = &hull->inner;
     for (int32_t f = 0; f < inner->facet_end; ++f) {
         const clx_hull_facet *facet = &inner->facet[f];
@@ -348,6 +353,7 @@ done:
 
 clast_status clx_smooth_hull_add_body(clx_smooth_hull *hull, const clx_body *body)
 {
+    CLAST_ASSERT(body->radius >= 0.0);
     clast_status status = CLAST_OK;
     const int32_t b = hull->n_body;
     bool shows = true;
@@ -407,6 +413,7 @@ done:
 
 clast_status clx_smooth_hull_refine(clx_smooth_hull *hull, double tolerance)
 {
+    CLAST_ASSERT(tolerance > 0.0);
     clast_status status = CLAST_OK;
     clx_hull_inc *inner = &hull->inner;
     CLX_CHECK(inner->is_solid || inner->n_pending == 0, CLAST_E_GEOMETRY,

@@ -83,6 +83,7 @@ done:
 
 static void body_of(const clx_smooth_hull *hull, int32_t vertex, clx_body *body)
 {
+    CLAST_ASSERT(vertex >= 0 && vertex < hull->inner.vert_end);
     const clx_hull_vertex *v = &hull->inner.vert[vertex];
     if (v->tag >= 0) {
         *body = hull->body[v->tag];
@@ -181,6 +182,7 @@ static bool solve_strip(clx_body *a, clx_body *b, double size, const double *alo
 
 static void pole_direction(int i, double p[3])
 {
+    CLAST_ASSERT(i >= 0 && i < N_POLE);
     if (i < 6) {
         v3_set(p, 0.0, 0.0, 0.0);
         p[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
@@ -206,6 +208,7 @@ static bool same_body(const clx_hull_inc *inner, int32_t v, int32_t w)
 /// Solid angle, on its body's unit ball, of a facet with all corners on one body.
 static double facet_angle(clx_smooth_hull *hull, const clx_hull_facet *facet)
 {
+    CLAST_ASSERT(hull->inner.vert[facet->vert[0]].tag >= 0);
     double y[3][3];
     clx_body *body = &hull->body[hull->inner.vert[facet->vert[0]].tag];
     for (int k = 0; k < 3; ++k) { // y = half^-1 (x - centre), by Cramer's rule

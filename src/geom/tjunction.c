@@ -154,6 +154,7 @@ done:
 /// Replaces the triangle of a half-edge a b by the fan (a, v1, c), (v1, v2, c), ... (vk, b, c).
 static void cut_triangle(clast_mesh *mesh, const cut *list, int64_t n)
 {
+    CLAST_ASSERT(n > 0);
     const int32_t half = list[0].half;
     const int32_t a = clx_half_from(mesh, half);
     const int32_t b = clx_half_to(mesh, half);
@@ -218,6 +219,7 @@ done:
 
 clast_status clx_split_tjunctions(clast_mesh *mesh, double tolerance, int32_t *n_split)
 {
+    CLAST_ASSERT(tolerance >= 0.0);
     clast_status status = CLAST_OK;
     bool changed = true;
     for (int pass = 0; pass < MAX_PASS && changed && status == CLAST_OK; ++pass) {

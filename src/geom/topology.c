@@ -152,6 +152,7 @@ void clx_topology_free(clx_topology *topology)
 
 int32_t clx_half_twin(const clx_topology *topology, int32_t half)
 {
+    CLAST_ASSERT(half >= 0);
     const int32_t e = topology->edge_of[half];
     if (e < 0 || clx_edge_use(topology, e) != 2) {
         return -1;
@@ -162,6 +163,7 @@ int32_t clx_half_twin(const clx_topology *topology, int32_t half)
 
 int32_t clx_edge_balance(const clast_mesh *mesh, const clx_topology *topology, int32_t edge)
 {
+    CLAST_ASSERT(edge >= 0 && edge < topology->n_edge);
     int32_t balance = 0;
     for (int32_t i = topology->begin[edge]; i < topology->begin[edge + 1]; ++i) {
         balance += clx_half_from(mesh, topology->half[i]) == topology->edge[edge][0] ? 1 : -1;

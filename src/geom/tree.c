@@ -91,6 +91,7 @@ static double middle(const clx_tree_box *box, int axis)
 
 static int32_t bin_of(const bin_grid *grid, const clx_tree_box *box, int axis)
 {
+    CLAST_ASSERT(grid->n == N_BIN || grid->n == N_BIN_SMALL);
     const double x = (middle(box, axis) - grid->origin[axis]) * grid->per_length[axis];
     const int32_t b = (int32_t)x;
     return b < grid->n ? b : grid->n - 1;
@@ -141,6 +142,7 @@ static void fill_bins(const clx_tree_box *box, int32_t n, const bin *middles, bi
 /// Parts the range in place by bin number; how many went left.
 static int32_t part(clx_tree_box *box, int32_t n, const bin_grid *grid, const split_choice *split)
 {
+    CLAST_ASSERT(split->axis >= 0 && split->bin < grid->n - 1);
     int32_t i = 0;
     int32_t j = n;
     while (i < j) {
@@ -166,6 +168,7 @@ static bool comes_before(const clx_tree_box *a, const clx_tree_box *b, int axis)
 /// Puts the `half` lowest items first (quickselect; the pivot is the middle item of the range).
 static void part_median(clx_tree_box *box, int32_t n, int32_t half, int axis)
 {
+    CLAST_ASSERT(half > 0 && half < n);
     int32_t low = 0;
     int32_t high = n - 1;
     while (low < high) {
@@ -253,11 +256,13 @@ static void measure(node_range *range)
 
 static void build_node(build_state *s, int32_t first, int32_t n, int depth)
 {
+    CLAST_ASSERT(n > 0 && depth <= CLX_TREE_DEPTH);
     const int32_t self = s->tree->n_node++;
     node_range range = {.box = s->box + first, .n = n, .depth = depth};
     int axis = 0;
     measure(&range);
     const int32_t n_left = n > 1 ? split(s, &range, &axis) : 0;
+    CLAST_ASSERT(n_left >= 0 && n_left < n);
     clx_tree_node *node = &s->tree->node[self];
     v3_copy(node->low, range.bounds.low);
     v3_copy(node->high, range.bounds.high);
@@ -274,6 +279,7 @@ static void build_node(build_state *s, int32_t first, int32_t n, int depth)
 
 clast_status clx_tree_build(clx_tree_box *box, int32_t n, int32_t leaf_size, clx_tree *tree)
 {
+    CLAST_ASSERT(leaf_size >= 1);
     clast_status status = CLAST_OK;
     clx_tree made = {.n_item = n};
     CLX_CHECK(n >= 1, CLAST_E_GEOMETRY, "a box tree over %d items; it needs at least one", n);

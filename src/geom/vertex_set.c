@@ -2,6 +2,7 @@
 #include "geom/vertex_set.h"
 
 #include "base/alloc.h"
+#include <math.h>
 #include <string.h>
 
 static uint64_t mix(uint64_t h, double x)
@@ -21,6 +22,7 @@ static int64_t home(const clx_vertex_set *set, const double p[3])
 
 static clast_status rehash(clx_vertex_set *set)
 {
+    CLAST_ASSERT(set->n <= set->n_slot);
     clast_status status = CLAST_OK;
     int32_t *slot = NULL;
     const int64_t n_slot = set->n_slot == 0 ? 64 : 2 * set->n_slot;
@@ -41,6 +43,7 @@ done:
 
 clast_status clx_vertex_set_add(clx_vertex_set *set, const double point[3], int32_t *index)
 {
+    CLAST_ASSERT(2 * set->n <= set->n_slot && !isnan(point[0] + point[1] + point[2]));
     clast_status status = CLAST_OK;
     const double p[3] = {point[0] + 0.0, point[1] + 0.0, point[2] + 0.0}; // -0 + 0 = +0
     if (2 * set->n >= set->n_slot) {

@@ -41,6 +41,7 @@ static uint64_t mix(uint64_t h)
 
 static uint64_t bucket_of(const weld_grid *grid, const int64_t cell[3])
 {
+    CLAST_ASSERT(((grid->mask + 1) & grid->mask) == 0);
     const uint64_t h =
         mix((uint64_t)cell[0]) + 3 * mix((uint64_t)cell[1] + 1) + 5 * mix((uint64_t)cell[2] + 2);
     return mix(h) & grid->mask;
@@ -98,6 +99,7 @@ static int32_t nearest_kept(const weld_grid *grid, int32_t v, const int64_t home
 
 clast_status clx_weld_map(const clast_mesh *mesh, const clx_weld_rule *rule, int32_t *map)
 {
+    CLAST_ASSERT(rule->n_order >= 0);
     clast_status status = CLAST_OK;
     double high[3];
     weld_grid grid = {.mesh = mesh, .reach = rule->reach, .cell = rule->tolerance, .mask = 63};

@@ -106,6 +106,7 @@ static json_t *means_by_envelope(const clast_aggregate_report *report, reader re
 
 static json_t *intervals(const clast_aggregate_report *report, double *value)
 {
+    CLAST_ASSERT(report->n >= 2);
     json_t *object = json_object();
     json_t *porosity = json_object();
     set(object, "confidence", report->confidence);

@@ -51,6 +51,7 @@ static clast_status append_f64(growing_text *t, double value)
 static clast_status append_value(growing_text *t, const clast_field *f, const void *config,
                                  int32_t index)
 {
+    CLAST_ASSERT(index >= 0);
     const char *slot = (const char *)config + f->offset;
     char text[64];
     int n = 0;

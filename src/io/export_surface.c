@@ -84,6 +84,7 @@ static void find_sizes(clx_export *e)
 /// Sizes differ by decades: the colour follows the logarithm.
 static double size_share(const clx_export *e, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < e->assembly->n_grain);
     const double span = log(e->largest / e->smallest);
     return span > 0.0 ? log(size_of(e->assembly, i) / e->smallest) / span : 0.5;
 }

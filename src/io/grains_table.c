@@ -194,6 +194,8 @@ clast_status clast_grains_table(const clast_grains *grains, clast_axes_kind axes
     clast_status status = CLAST_OK;
     clast_table made = {0};
     char prefix[32];
+    CLX_CHECK(clast_axes_name(axes) != NULL, CLAST_E_ARGUMENT, "%s: axes %d are of no kind",
+              __func__, (int)axes);
     CLX_TRY(clast_table_init(&made, "grains", grains->n));
     CLX_TRY(add_texts(grains, axes, &made));
     CLX_TRY(add_lengths(grains, axes, "", in_metres, &made));

@@ -12,6 +12,7 @@
 
 uint32_t clx_h5_crc(uint32_t crc, const char *bytes, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     const int64_t step = 1 << 30;
     uLong sum = crc;
     for (int64_t at = 0; at < n; at += step) {

@@ -42,6 +42,7 @@ done:
 
 clast_mesh clx_parts_place(clx_parts *parts, int32_t i)
 {
+    CLAST_ASSERT(i >= 0);
     const clast_assembly *a = parts->assembly;
     const clast_mesh *surface = &parts->surface[a->shape_id[i]];
     clast_mesh placed = {surface->n_vert, surface->n_tri, parts->vert, surface->tri};

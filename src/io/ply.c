@@ -156,6 +156,7 @@ static clast_status skip_numbers(body *b, clx_ply_type type, int64_t n)
 
 static clast_status list_length(body *b, const clx_ply_property *p, int64_t *n)
 {
+    CLAST_ASSERT(p->is_list);
     clast_status status = CLAST_OK;
     char text[PLACE_SIZE];
     CLX_TRY(next_integer(b, p->count_type, "list length", n));

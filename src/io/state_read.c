@@ -421,6 +421,7 @@ done:
 
 static clast_status take_column(clx_h5 *h5, const char *folder, int32_t c, clast_table *table)
 {
+    CLAST_ASSERT(c >= 0);
     clast_status status = CLAST_OK;
     char name[16];
     char begin[32];

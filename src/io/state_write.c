@@ -12,6 +12,7 @@
 static clast_status put(clx_place at, const char *name, clx_h5_type type, int64_t n, int64_t width,
                         const void *data)
 {
+    CLAST_ASSERT(n >= 0 && width >= 0);
     char path[CLX_H5_NAME_LIMIT];
     const int64_t shape[2] = {n, width};
     if (!clx_join(path, at.folder, name)) {

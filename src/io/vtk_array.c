@@ -87,6 +87,7 @@ done:
 
 clast_status clx_vtk_add(clx_vtk_array *array, const void *bytes, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     const char *from = bytes;
     while (n > 0) {
@@ -108,6 +109,7 @@ done:
 /// caller.
 static void put_base64(clx_file *file, const void *bytes, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const unsigned char *b = bytes;
     char out[1024];

@@ -48,6 +48,7 @@ static void value_order(const clast_assembly *a, int32_t i, datum *out)
 
 static void value_shape(const clast_assembly *a, int32_t i, datum *out)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     out->i32 = a->shape_id[i];
 }
 

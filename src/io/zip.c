@@ -49,6 +49,7 @@ done:
 /// Runs the packer until it wants no more room.
 static clast_status pack(clx_zip *zip, int flush)
 {
+    CLAST_ASSERT(zip->is_open);
     clast_status status = CLAST_OK;
     do {
         CLX_TRY(clx_grow(&zip->packed, &zip->capacity, zip->n_packed + CHUNK, 1));

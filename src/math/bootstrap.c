@@ -16,6 +16,7 @@ clast_bootstrap clast_bootstrap_default(void)
 
 void clx_bootstrap_rows(const clast_bootstrap *bootstrap, int64_t b, int64_t n, int64_t *row)
 {
+    CLAST_ASSERT(n > 0 && b >= 0);
     clx_rng rng = clx_rng_at(bootstrap->seed, CLX_STREAM_RESAMPLE, (uint64_t)b);
     for (int64_t i = 0; i < n; ++i) {
         row[i] = clx_rng_below(&rng, n);
@@ -32,6 +33,7 @@ clast_status clx_bootstrap_interval(const clast_bootstrap *bootstrap, double *va
         }
     }
     const clast_status status = clx_sort_doubles(value, n);
+    CLAST_ASSERT(status != CLAST_OK || clx_is_rising(value, n));
     if (status == CLAST_OK) {
         const double tail = 0.5 * (1.0 - bootstrap->level);
         *low = clx_sample_quantile(value, n, tail);
@@ -52,6 +54,7 @@ static void resample(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const work *w = context;
     (void)worker;
+    CLAST_ASSERT(w->n > 1 && end <= w->bootstrap->n_resample);
     for (int64_t b = begin; b < end; ++b) {
         clx_rng rng = clx_rng_at(w->bootstrap->seed, CLX_STREAM_RESAMPLE, (uint64_t)b);
         const double origin = w->x[0];

@@ -26,6 +26,7 @@ static double round_width(double rough)
 static void choose_bins(const double *sorted, int64_t n, const clx_moments *m, clast_histogram *h,
                         double *low, double *width)
 {
+    CLAST_ASSERT(n > 1);
     const double iqr = clx_sample_quantile(sorted, n, 0.75) - clx_sample_quantile(sorted, n, 0.25);
     const double spread = iqr > 0.0 ? iqr : m->deviation_ml;
     const double range = sorted[n - 1] - sorted[0];
@@ -33,10 +34,12 @@ static void choose_bins(const double *sorted, int64_t n, const clx_moments *m, c
     *width = round_width(rough);
     *low = *width * floor(sorted[0] / *width + 1e-9);
     h->n_bin = (int32_t)fmax(1.0, ceil((sorted[n - 1] - *low) / *width - 1e-9));
+    CLAST_ASSERT(h->n_bin >= 1);
 }
 
 static void count_all(const double *sorted, int64_t n, double low, double width, clast_histogram *h)
 {
+    CLAST_ASSERT(n > 0 && h->n_bin >= 1);
     for (int32_t k = 0; k <= h->n_bin; ++k) {
         h->edge[k] = low + k * width;
     }

@@ -44,6 +44,7 @@ done:
 
 static clast_status decompose(const double *x, int64_t n, int32_t p, scratch *w)
 {
+    CLAST_ASSERT(p > 0 && n >= p);
     clast_status status = CLAST_OK;
     double unused = 0.0;
     for (int32_t j = 0; j < p; ++j) {
@@ -72,6 +73,7 @@ done:
 /// Entry j of the unit-length coefficients' k-th direction.
 static double direction(const scratch *w, int32_t p, int32_t k, int32_t j)
 {
+    CLAST_ASSERT(k >= 0 && k < p && j >= 0 && j < p && w->s[k] > 0.0);
     return w->vt[(int64_t)j * p + k] / (w->s[k] * w->length[j]);
 }
 
@@ -174,6 +176,7 @@ typedef struct {
 static clast_status train(const clx_regression *d, const int32_t *fold, int32_t left_out,
                           training *t)
 {
+    CLAST_ASSERT(left_out >= 0);
     clast_status status = CLAST_OK;
     scratch w = {0};
     const int32_t p = d->p;
@@ -197,6 +200,7 @@ done:
 clast_status clx_cross_validate(const clx_regression *data, const int32_t *fold, int32_t n_fold,
                                 double *predicted)
 {
+    CLAST_ASSERT(n_fold > 0 && data->p > 0);
     clast_status status = CLAST_OK;
     training t = {0};
     CLX_TRY(clx_alloc(&t.x, data->n * data->p, sizeof *t.x));
@@ -235,6 +239,7 @@ static int by_draw(const void *a, const void *b)
 
 clast_status clx_folds(uint64_t seed, int32_t repeat, int64_t n, int32_t n_fold, int32_t *fold)
 {
+    CLAST_ASSERT(n_fold > 0 && n >= 0);
     clast_status status = CLAST_OK;
     ticket *t = NULL;
     CLX_TRY(clx_alloc(&t, n, sizeof *t));

@@ -7,6 +7,7 @@
 
 clast_status clx_legendre_create(int32_t degree, clx_legendre *legendre)
 {
+    CLAST_ASSERT(degree >= 0);
     clast_status status = CLAST_OK;
     const int64_t n_term = clx_nm(degree + 1, 0);
     clx_legendre made = {.degree = degree};
@@ -43,6 +44,7 @@ void clx_legendre_free(clx_legendre *legendre)
 
 void clx_legendre_values(const clx_legendre *legendre, double x, double sine, double *p)
 {
+    CLAST_ASSERT(fabs(x) <= 1.0 + 1e-12 && sine >= 0.0);
     p[0] = 0.5 / sqrt(CLAST_PI);
     for (int32_t n = 1; n <= legendre->degree; ++n) {
         const int32_t row = clx_nm(n, 0);
@@ -59,6 +61,7 @@ void clx_legendre_values(const clx_legendre *legendre, double x, double sine, do
 void clx_legendre_slopes(const clx_legendre *legendre, double x, double sine, const double *p,
                          double *slope)
 {
+    CLAST_ASSERT(fabs(x) < 1.0 + 1e-12 && sine > 0.0);
     slope[0] = 0.0;
     for (int32_t n = 1; n <= legendre->degree; ++n) {
         const int32_t row = clx_nm(n, 0);
@@ -73,6 +76,7 @@ void clx_legendre_slopes(const clx_legendre *legendre, double x, double sine, co
 void clx_gauss_legendre(int32_t n, double *node, double *weight)
 {
     enum { MOST_STEPS = 20 };
+    CLAST_ASSERT(n > 0);
     for (int32_t i = 0; i < n; ++i) {
         double x = -cos(CLAST_PI * (i + 0.75) / (n + 0.5)); // rising; Newton from there converges
         double slope = 1.0;

@@ -8,6 +8,7 @@
 
 static void orient(double *vector, int32_t n)
 {
+    CLAST_ASSERT(n > 0);
     int32_t most = 0;
     for (int32_t i = 1; i < n; ++i) { // a tie to rounding goes to the first
         most = fabs(vector[i]) > fabs(vector[most]) * (1.0 + 1e-9) ? i : most;
@@ -34,6 +35,7 @@ clast_status clx_symmetric_eigen(const double *matrix, int32_t n, double *value,
               n, (int)info);
     for (int32_t k = 0; k < n; ++k) {
         value[k] = w[n - 1 - k];
+        CLAST_ASSERT(k == 0 || value[k] <= value[k - 1]);
         memcpy(vector + (size_t)k * (size_t)n, a + (size_t)(n - 1 - k) * (size_t)n,
                (size_t)n * sizeof *a);
         orient(vector + (size_t)k * (size_t)n, n);

@@ -64,6 +64,7 @@ static mode bessel(double beta, double r, double y, double slope)
 /// exp(beta core), so that none is beyond a double.
 static void inner_modes(double beta, double core, double r, mode m[4])
 {
+    CLAST_ASSERT(core >= 0.0 && core <= r);
     const double x = beta * r;
     const double rise = exp(x - beta);
     const double sink = exp(-x - beta);

@@ -8,6 +8,8 @@
 // coordinates between 1e-90 and 1e90.
 #include "math/predicates.h"
 
+#include "base/status.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -108,6 +110,7 @@ static int scale(int n, const double *e, double b, double *out)
 /// out = e f for a factor f of at most two components; room for 4 n.
 static int multiply(int n, const double *e, int m, const double f[2], double *out)
 {
+    CLAST_ASSERT(n <= 16 && m <= 2);
     double part[2][32];
     int length[2] = {0, 0};
     for (int j = 0; j < m; ++j) {
@@ -148,6 +151,7 @@ typedef struct exact {
 /// out = p q - r s; room for 16.
 static int minor(const exact *p, const exact *q, const exact *r, const exact *s, double out[16])
 {
+    CLAST_ASSERT(p->n <= 2 && q->n <= 2 && r->n <= 2 && s->n <= 2);
     double a[8];
     double b[8];
     const int n = multiply(p->n, p->e, q->n, q->e, a);
@@ -176,6 +180,7 @@ static double orient3d_exact(const double a[3], const double b[3], const double 
         const int n_two = minor(&m[j][0], &m[k][1], &m[j][1], &m[k][0], two);
         const int n_term = multiply(n_two, two, m[i][2].n, m[i][2].e, term);
         n = add(n, total, n_term, term, total);
+        CLAST_ASSERT(n <= 192);
     }
     return n > 0 ? total[n - 1] : 0.0;
 }

@@ -2,6 +2,7 @@
 // needs.
 #include "math/rng.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 #include <Random123/philox.h>
 #include <clast/status.h>
@@ -13,6 +14,7 @@ clx_rng clx_rng_at(uint64_t seed, uint32_t stream, uint64_t index)
 
 uint32_t clx_rng_u32(clx_rng *rng)
 {
+    CLAST_ASSERT(rng->used <= 4);
     if (rng->used == 4) {
         const philox4x32_ctr_t counter = {
             {(uint32_t)rng->index, (uint32_t)(rng->index >> 32), rng->stream, rng->counter++}};
@@ -42,6 +44,7 @@ double clx_rng_normal(clx_rng *rng)
 
 int64_t clx_rng_below(clx_rng *rng, int64_t n)
 {
+    CLAST_ASSERT(n > 0);
     const uint64_t range = (uint64_t)n;
     const uint64_t limit = UINT64_MAX - UINT64_MAX % range;
     uint64_t draw = 0;
@@ -54,6 +57,7 @@ int64_t clx_rng_below(clx_rng *rng, int64_t n)
 
 int64_t clx_rng_poisson(clx_rng *rng, double mean)
 {
+    CLAST_ASSERT(!(mean < 0.0));
     static const double PART = 30.0; // exp(-PART) is far from underflow
     int64_t n = 0;
     while (mean > 0.0) { // a sum of Poisson numbers is one
@@ -79,6 +83,7 @@ void clx_rng_direction(clx_rng *rng, double direction[3])
 
 void clx_rng_cone(clx_rng *rng, const double axis[3], double half_angle, double direction[3])
 {
+    CLAST_ASSERT(v3_is_unit(axis, 1e-9) && half_angle >= 0.0);
     double a[3];
     double b[3];
     const double c = 1.0 - clx_rng_uniform(rng) * (1.0 - cos(half_angle));

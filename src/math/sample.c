@@ -47,6 +47,7 @@ clx_moments clx_sample_moments(const double *x, int64_t n)
 
 double clx_sample_quantile(const double *sorted, int64_t n, double p)
 {
+    CLAST_ASSERT(n < 1 || sorted[0] <= sorted[n - 1]);
     const double h = (double)(n - 1) * fmin(fmax(p, 0.0), 1.0);
     const int64_t i = (int64_t)floor(h);
     if (n < 1) {
@@ -76,6 +77,7 @@ double clx_sample_correlation(const double *x, const double *y, int64_t n, int64
         }
     }
     *n_used = count;
+    CLAST_ASSERT(count <= n);
     for (int64_t i = 0; i < n && count > 2; ++i) {
         if (is_used(x, y, i)) {
             const double dx = x[i] - mean[0] / (double)count;

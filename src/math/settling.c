@@ -92,6 +92,7 @@ double clast_drag_hindrance(double reynolds, double porosity)
 /// Root of C_D Re^2 = wanted by halving in log Re between bounds that hold it.
 static double solve_reynolds(double wanted, const clast_drag *drag)
 {
+    CLAST_ASSERT(wanted >= 0.0);
     double low = -300.0;
     double high = log(wanted / (24.0 * drag->stokes)); // Stokes drag alone is less: Re is less
     low = fmin(low, high - 1.0);

@@ -27,6 +27,7 @@ static double polynomial(const double *c, int n, double x)
 /// that the squares sum to 1.
 static void weights(int64_t n, double *a)
 {
+    CLAST_ASSERT(n >= 3);
     static const double c1[6] = {0.0, 0.221157, -0.147981, -2.071190, 4.434685, -2.706056};
     static const double c2[6] = {0.0, 0.042981, -0.293762, -1.752461, 5.682633, -3.582633};
     const int64_t half = n / 2;
@@ -60,6 +61,7 @@ static void weights(int64_t n, double *a)
 /// P(smaller W): ln(1 - W), transformed for small n, is nearly normal.
 static double p_value(double w, int64_t n)
 {
+    CLAST_ASSERT(n >= 3 && w >= 0.0 && w <= 1.0);
     const double x = (double)n;
     if (n == 3) { // exact
         const double p = 6.0 / CLAST_PI * (asin(sqrt(w)) - asin(sqrt(0.75)));

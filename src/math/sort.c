@@ -71,6 +71,7 @@ static void place_buckets(sorting *s)
         }
     }
     s->start[N_BUCKET] = before;
+    CLAST_ASSERT(before == s->n);
 }
 
 static void scatter(int64_t begin, int64_t end, int32_t worker, void *context)
@@ -93,6 +94,7 @@ static void scatter(int64_t begin, int64_t end, int32_t worker, void *context)
 
 static void insertion_sort(uint64_t *entry, int64_t n, int words)
 {
+    CLAST_ASSERT(n < FEW && (words == 1 || words == 2));
     for (int64_t i = 1; i < n; ++i) {
         const uint64_t key = entry[i * words];
         const uint64_t item = entry[i * words + words - 1];
@@ -117,6 +119,7 @@ typedef struct {
 /// One digit from `here` to `there`; false, and nothing done, when all entries have the same.
 static bool sort_digit(const bucket *b, int shift)
 {
+    CLAST_ASSERT(b->n > 0 && shift >= 0 && shift < 64);
     int64_t count[N_DIGIT] = {0};
     int64_t before = 0;
     const int words = b->words;
@@ -143,6 +146,7 @@ static bool sort_digit(const bucket *b, int shift)
 /// Sorts a bucket; the result ends in `home`, which is one of its two places.
 static void sort_bucket(bucket b, uint64_t *home)
 {
+    CLAST_ASSERT(home == b.here || home == b.there);
     if (b.n < FEW) {
         insertion_sort(b.here, b.n, b.words);
     }
@@ -163,6 +167,7 @@ static void sort_buckets(int64_t begin, int64_t end, int32_t worker, void *conte
     sorting *s = context;
     (void)worker;
     for (int64_t k = begin; k < end; ++k) {
+        CLAST_ASSERT(s->start[k] <= s->start[k + 1] && s->start[k + 1] <= s->n);
         const int64_t at = s->start[k] * s->words;
         const bucket b = {.here = s->scratch + at,
                           .there = s->entry + at,
@@ -196,6 +201,7 @@ static void sort_many(sorting *s)
     }
     const int bits = bits_of(most - s->low);
     s->shift = bits > BUCKET_BITS ? bits - BUCKET_BITS : 0;
+    CLAST_ASSERT((most - s->low) >> s->shift < N_BUCKET);
     clx_parallel_for(N_CHUNK, 1, count_buckets, s);
     place_buckets(s);
     clx_parallel_for(N_CHUNK, 1, scatter, s);
@@ -204,6 +210,7 @@ static void sort_many(sorting *s)
 
 static clast_status sort_entries(uint64_t *entry, int64_t n, int words)
 {
+    CLAST_ASSERT(n >= 2 && (words == 1 || words == 2));
     clast_status status = CLAST_OK;
     sorting s = {.entry = entry, .n = n, .words = words};
     CLX_TRY(clx_alloc(&s.scratch, n * words, sizeof *s.scratch));

@@ -15,3 +15,13 @@ CLX_SHARED clast_status clx_sort_doubles(double *value, int64_t n);
 
 /// Sorts by key, ascending and stable; O(n), one scratch array of n.
 clast_status clx_sort_keyed(clx_keyed *entry, int64_t n);
+
+/// Whether n doubles never fall.
+static inline bool clx_is_rising(const double *value, int64_t n)
+{
+    int64_t k = 1;
+    while (k < n && value[k - 1] <= value[k]) {
+        ++k;
+    }
+    return k >= n;
+}

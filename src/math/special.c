@@ -1,6 +1,8 @@
 // Normal, gamma, beta and the tail probabilities built on them.
 #include "math/special.h"
 
+#include "base/status.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -23,6 +25,7 @@ double clx_normal_sf(double z)
 /// triples the digits: after one below 1e-6 only rounding is left.
 static double upper_quantile(double p)
 {
+    CLAST_ASSERT(!(p > 0.5));
     const double t = sqrt(-2.0 * log(p));
     double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
                        (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
@@ -56,6 +59,7 @@ static double stirling_rest(double n)
 
 double clx_log_gamma(double x)
 {
+    CLAST_ASSERT(x > 0.0);
     double shift = 0.0;
     while (x < 16.0) {
         shift -= log(x);
@@ -104,6 +108,7 @@ static double gamma_fraction(double a, double x)
 
 double clx_gamma_p(double a, double x)
 {
+    CLAST_ASSERT(a > 0.0);
     if (x <= 0.0) {
         return 0.0;
     }
@@ -112,6 +117,7 @@ double clx_gamma_p(double a, double x)
 
 double clx_gamma_q(double a, double x)
 {
+    CLAST_ASSERT(a > 0.0);
     if (x <= 0.0) {
         return 1.0;
     }
@@ -148,6 +154,7 @@ static double beta_fraction(double x, double a, double b)
 
 double clx_beta_i(double x, double a, double b)
 {
+    CLAST_ASSERT(a > 0.0 && b > 0.0);
     if (x <= 0.0 || x >= 1.0) {
         return x <= 0.0 ? 0.0 : 1.0;
     }
@@ -170,6 +177,7 @@ double clx_student_two_sided(double t, double k)
 
 double clx_student_quantile_two_sided(double p, double k)
 {
+    CLAST_ASSERT(k > 0.0);
     double low = 0.0;
     double high = 1.0;
     if (p >= 1.0 || p <= 0.0) {
@@ -219,6 +227,7 @@ static double deviance(double x, double m)
 /// P(Bin(n, p) = v) for 0 <= v <= n. [Loader2000]
 static double binomial_mass(double n, double p, double v)
 {
+    CLAST_ASSERT(!(v < 0.0));
     if (v <= 0.0 || v >= n) {
         return v <= 0.0 ? exp(n * log1p(-p)) : exp(n * log(p));
     }

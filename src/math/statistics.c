@@ -37,6 +37,7 @@ static const clast_sample_summary EMPTY = {
 static clast_status summarise(double *x, int64_t n, const clast_bootstrap *bootstrap,
                               clast_sample_summary *s)
 {
+    CLAST_ASSERT(n > 0);
     clast_status status = CLAST_OK;
     const clx_moments m = clx_sample_moments(x, n);
     s->mean = m.mean;
@@ -132,6 +133,7 @@ static void correlate(const double *const *column, int64_t n_row, clast_statisti
 /// Components of the correlation matrix of the first n columns without gaps and with some spread.
 static clast_status components(int32_t n, clast_statistics *s)
 {
+    CLAST_ASSERT(n <= s->n);
     clast_status status = CLAST_OK;
     double *matrix = NULL;
     int32_t m = 0;

@@ -4,6 +4,7 @@
 // which is where grains of revolution and cubes live. Jacobi needs 4 to 6 sweeps and keeps all.
 #include "math/sym3.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { SWEEP_LIMIT = 50 };
@@ -14,6 +15,7 @@ enum { SWEEP_LIMIT = 50 };
 /// One rotation in the plane (p, q) that makes m[p][q] zero; v gathers the rotations in its rows.
 static void rotate(double m[3][3], double v[3][3], int p, int q)
 {
+    CLAST_ASSERT(p >= 0 && p < q && q < 3 && m[p][q] != 0.0);
     const int r = 3 - p - q;
     const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
     const double t = copysign(1.0, theta) / (fabs(theta) + hypot(1.0, theta));

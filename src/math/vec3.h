@@ -71,6 +71,17 @@ static inline double v3_distance(const double a[3], const double b[3])
     return sqrt(v3_distance2(a, b));
 }
 
+static inline bool v3_is_finite(const double a[3])
+{
+    return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
+}
+
+/// Length 1 within `tolerance`.
+static inline bool v3_is_unit(const double a[3], double tolerance)
+{
+    return fabs(v3_norm2(a) - 1.0) <= 2.0 * tolerance;
+}
+
 /// Scales to unit length; false (and out = 0) for a zero vector.
 static inline bool v3_unit(double out[3], const double a[3])
 {
@@ -185,6 +196,13 @@ static inline void q_mul(double out[4], const double a[4], const double b[4])
     out[1] = x;
     out[2] = y;
     out[3] = z;
+}
+
+/// Length 1 within `tolerance`.
+static inline bool q_is_unit(const double q[4], double tolerance)
+{
+    const double n2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    return fabs(n2 - 1.0) <= 2.0 * tolerance;
 }
 
 static inline void q_unit(double q[4])

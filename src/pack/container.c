@@ -66,6 +66,7 @@ done:
 
 bool clx_pack_holds(const clast_pack *p, const double x[3], double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     return p->inside == NULL || (clast_bvh_inside(p->inside, x) &&
                                  clast_bvh_closest(p->inside, x, radius, NULL, NULL) >= radius);
 }

@@ -8,6 +8,7 @@
 /// The configured one, or that of the shape's own parts.
 static double of_shape(const clast_pack *p, int32_t shape)
 {
+    CLAST_ASSERT(shape >= 0 && shape < p->input.n_shape);
     const clast_f64_list *d = &p->config.density;
     const double density = d->item[d->n > 1 ? shape : 0];
     return density > 0.0 ? density : p->input.shape[shape].own.density;
@@ -16,6 +17,7 @@ static double of_shape(const clast_pack *p, int32_t shape)
 /// The second number of the stream that the shape is drawn from.
 static double by_chance(const clast_pack *p, int64_t index)
 {
+    CLAST_ASSERT(index >= 0);
     const clast_f64_list *d = &p->config.density;
     const clast_f64_list *w = &p->config.density_weight;
     clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);

@@ -83,6 +83,7 @@ done:
 /// The k-th point of the lattice, layer by layer; false above the region.
 static bool lattice_point(const clast_pack *p, const filling *f, int64_t k, double x[3])
 {
+    CLAST_ASSERT(k >= 0);
     const double h = p->spacing;
     const bool is_hcp = p->config.generator == CLAST_PACK_HCP;
     double step[3];
@@ -122,6 +123,7 @@ static bool is_inside(const clast_pack *p, const double x[3], double radius)
 static bool is_clear_of(const clast_pack *p, const filling *f, int32_t i, const double x[3],
                         double radius)
 {
+    CLAST_ASSERT(i >= 0 && i < f->n && radius > 0.0);
     const clast_dem_config *d = &p->config.dem;
     const double period[2] = {d->width, d->depth > 0.0 ? d->depth : d->width};
     const double reach = radius + f->radius[i];
@@ -186,6 +188,7 @@ static bool is_full(const clast_pack *p, filling *f)
 /// those that follow.
 static bool place_on_lattice(const clast_pack *p, filling *f, double radius, double x[3])
 {
+    CLAST_ASSERT(radius > 0.0 && p->spacing > 0.0);
     const double room = fmax(radius, 0.5 * p->spacing);
     const bool may_overlap = 2.0 * radius > p->spacing || f->n_wide > 0 || f->n_old > 0;
     for (int64_t k = f->first; lattice_point(p, f, k, x); ++k) {
@@ -218,6 +221,7 @@ static bool place_on_lattice(const clast_pack *p, filling *f, double radius, dou
 /// Next place on the shelves: rows along x, rows side by side along y, layers above each other.
 static bool place_on_shelf(const clast_pack *p, filling *f, double radius, double x[3])
 {
+    CLAST_ASSERT(radius > 0.0);
     const clast_dem_config *d = &p->config.dem;
     const double low[2] = {p->middle[0] - 0.5 * d->width,
                            p->middle[1] - 0.5 * (d->depth > 0.0 ? d->depth : d->width)};
@@ -252,6 +256,7 @@ static bool place_on_shelf(const clast_pack *p, filling *f, double radius, doubl
 
 static clast_status keep(const clast_pack *p, filling *f, const clast_dem_grain *g, double radius)
 {
+    CLAST_ASSERT(radius > 0.0);
     clast_status status = CLAST_OK;
     if (2.0 * radius > p->spacing) {
         CLX_TRY(clx_grow(&f->wide, &f->wide_capacity, f->n_wide + 1, sizeof *f->wide));
@@ -322,6 +327,7 @@ done:
 /// Grains that wait come first, in their order.
 static clast_status place_waiting(clast_pack *p, filling *f)
 {
+    CLAST_ASSERT(p->n_waiting >= 0);
     clast_status status = CLAST_OK;
     int32_t kept = 0;
     for (int32_t i = 0; i < p->n_waiting; ++i) {

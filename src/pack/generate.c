@@ -11,6 +11,7 @@
 
 double clx_pack_size_of(const clast_shape *shape, int32_t meaning)
 {
+    CLAST_ASSERT(shape->volume > 0.0);
     const double *s = shape->semi_axes;
     return meaning == 0 ? sqrt(2.0 * (s[1] * s[1] + s[2] * s[2]))
                         : cbrt(6.0 * shape->volume / CLAST_PI);
@@ -147,6 +148,7 @@ static void draw_motion(const clast_pack *p, int64_t index, double size, clast_d
 
 clast_status clx_pack_draw(clast_pack *p, clx_pack_number *number, clast_dem_grain *g)
 {
+    CLAST_ASSERT(number->index >= 0);
     clast_status status = CLAST_OK;
     const int64_t index = number->index;
     clx_rng rng = clx_rng_at(p->config.seed, CLX_STREAM_PACK_SHAPE, (uint64_t)index);

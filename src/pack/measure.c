@@ -84,6 +84,7 @@ const clast_table *clast_pack_series(const clast_pack *pack)
 /// Ratio of neighbouring semi-axes k + 1 and k of grain i.
 static double ratio_of(const clast_assembly *a, int32_t i, int k)
 {
+    CLAST_ASSERT(k >= 0 && k < 2 && i >= 0 && i < a->n_grain);
     const double *s = a->shape[a->shape_id[i]].semi_axes;
     return s[k + 1] / s[k];
 }

@@ -126,6 +126,7 @@ void clast_pack_destroy(clast_pack *pack)
 
 static int64_t steps_of(const clast_pack *p, double time)
 {
+    CLAST_ASSERT(p->config.dem.time_step > 0.0);
     const double n = floor(time / p->config.dem.time_step + 0.5);
     return n < 1.0 ? 1 : (int64_t)n;
 }
@@ -144,6 +145,7 @@ void clx_pack_drive(clast_pack *p)
 
 static void begin_phase(clast_pack *p, clast_pack_phase phase)
 {
+    CLAST_ASSERT(phase >= p->phase);
     p->phase = phase;
     p->phase_step = clast_dem_n_step(p->dem);
     p->last_height = clast_dem_mean_height(p->dem, NULL);

@@ -62,6 +62,7 @@ static void make_surface(clx_canvas *canvas)
 clast_status clx_canvas_begin(clx_canvas *canvas, clx_canvas_format format, double width,
                               double height)
 {
+    CLAST_ASSERT(width > 0.0 && height > 0.0 && canvas->cr == NULL);
     *canvas = (clx_canvas){.format = format, .width = width, .height = height};
     make_surface(canvas);
     canvas->cr = cairo_create(canvas->surface);

@@ -47,6 +47,7 @@ static int group_of(uint8_t label)
 static clast_series points_of(const clast_cloud *cloud, const clast_cells *cells, int group,
                               double *x, double *y)
 {
+    CLAST_ASSERT(group >= 0);
     static const char *const legend[N_GROUP] = {"ambient", "cluster", "under", "void"};
     static const int32_t colour[N_GROUP] = {0, 1, 4, 2};
     const int64_t stride = cloud->n / MOST_POINTS + 1;

@@ -2,6 +2,7 @@
 #include "plot/ticks.h"
 
 #include "base/number.h"
+#include "base/status.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -47,6 +48,7 @@ static void linear(double low, double high, bool widen, int wanted, clx_ticks *t
 
 static void add_tick(clx_ticks *t, double value)
 {
+    CLAST_ASSERT(t->n >= 0 && t->n <= CLX_MAX_TICK);
     if (t->n == CLX_MAX_TICK) {
         return;
     }
@@ -115,6 +117,7 @@ static void logarithmic(double low, double high, bool widen, int wanted, clx_tic
 
 void clx_ticks_make(double low, double high, bool log, bool widen, int wanted, clx_ticks *ticks)
 {
+    CLAST_ASSERT(low < high && (!log || low > 0.0) && wanted > 0);
     memset(ticks, 0, sizeof *ticks);
     ticks->log = log;
     if (log) {

@@ -17,6 +17,7 @@ enum { POINTS = 512 };
 
 static double volume_of(const clast_assembly *a, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     const double s = a->scale[i];
     return s * s * s * a->shape[a->shape_id[i]].volume;
 }
@@ -106,6 +107,7 @@ static double mean_weight(const core_sum *c, const clx_touch_body *body, double 
 /// A grain that the core's side cuts, by points.
 static void add_cut(core_sum *c, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < c->assembly->n_grain);
     const clast_assembly *a = c->assembly;
     const double volume = volume_of(a, i);
     double variance = 0.0;

@@ -27,6 +27,7 @@ static double arc_area(const clx_disc *d, double a, double b)
 /// Adds the part of disc i's circle that disc j holds; true when that is all of it.
 static bool hidden(const clx_disc *disc, int32_t i, int32_t j, arc *held, int32_t *n_held)
 {
+    CLAST_ASSERT(i != j);
     const double two_pi = 2.0 * CLAST_PI;
     const double dx = disc[j].x - disc[i].x;
     const double dy = disc[j].y - disc[i].y;
@@ -56,6 +57,7 @@ static bool hidden(const clx_disc *disc, int32_t i, int32_t j, arc *held, int32_
 
 clast_status clx_discs_area(int32_t n, const clx_disc *disc, double *area)
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     arc *held = NULL;
     double sum = 0.0;

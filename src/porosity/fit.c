@@ -43,6 +43,7 @@ done:
 
 static void judge(clx_fit *f, int32_t j)
 {
+    CLAST_ASSERT(j >= 0 && j < f->m);
     int64_t n_used = 0;
     f->r[j] = clx_sample_correlation(f->candidate[j].number, f->y, f->n, &n_used);
     f->p[j] = clx_correlation_p(f->r[j], n_used);
@@ -102,6 +103,7 @@ done:
 
 int32_t clx_fit_design(clx_fit *fit, int32_t more)
 {
+    CLAST_ASSERT(more < fit->m && fit->n_chosen <= fit->m);
     const int32_t p = 1 + fit->n_chosen + (more >= 0 ? 1 : 0);
     for (int64_t i = 0; i < fit->n; ++i) {
         double *row = fit->x + i * p;
@@ -118,6 +120,7 @@ int32_t clx_fit_design(clx_fit *fit, int32_t more)
 
 clast_status clx_fit_score(clx_fit *fit, int32_t p, double *mean, double *median)
 {
+    CLAST_ASSERT(p >= 1 && p <= fit->m + 1);
     clast_status status = CLAST_OK;
     const clx_regression data = {fit->x, fit->y, fit->n, p};
     const int32_t n_repeat = fit->config->n_repeat;
@@ -186,6 +189,7 @@ static clast_status try_candidate(clx_fit *f, int32_t candidate, double *score)
 
 static void choose(clx_fit *f, int32_t candidate)
 {
+    CLAST_ASSERT(candidate >= 0 && candidate < f->m && f->n_chosen < f->m);
     f->chosen[f->n_chosen++] = candidate;
     f->state[candidate] = CLX_CANDIDATE_CHOSEN;
     for (int32_t j = 0; j < f->m; ++j) {

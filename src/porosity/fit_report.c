@@ -85,6 +85,7 @@ done:
 /// feature.
 static clast_status inflation(const clx_fit *f, int32_t p, int32_t j, double *vif)
 {
+    CLAST_ASSERT(j >= 1 && j < p);
     clast_status status = CLAST_OK;
     clx_least_squares ls = {0};
     double *x = NULL;
@@ -111,6 +112,7 @@ done:
 
 static void bounds(const double *x, int64_t n, double *low, double *high)
 {
+    CLAST_ASSERT(n > 0);
     *low = *high = x[0];
     for (int64_t i = 1; i < n; ++i) {
         *low = fmin(*low, x[i]);

@@ -32,6 +32,7 @@ static void free_part(part *p)
 /// Beds that `fold` does not hold out (-1: all of them).
 static clast_status gather_part(const clx_fit *fit, const int32_t *fold, int32_t held_out, part *p)
 {
+    CLAST_ASSERT((fold == NULL) == (held_out < 0));
     clast_status status = CLAST_OK;
     int64_t n = 0;
     int32_t m = 0;
@@ -125,6 +126,7 @@ done:
 /// Porosities in an order drawn from (seed, permutation).               [Durstenfeld1964]
 static void permute(double *y, int64_t n, uint64_t seed, int64_t permutation)
 {
+    CLAST_ASSERT(n > 0);
     clx_rng rng = clx_rng_at(seed, CLX_STREAM_PERMUTATION, (uint64_t)permutation);
     for (int64_t i = n - 1; i > 0; --i) {
         const int64_t j = clx_rng_below(&rng, i + 1);

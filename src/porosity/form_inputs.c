@@ -64,6 +64,7 @@ static void features_of(double flatness, double elongation, double feature[CLAST
 /// Sets mean and deviation of one of the 26 features, and their inverses where they have one.
 static void set_mixture(clast_form_inputs *in, int32_t feature, double mean, double deviation)
 {
+    CLAST_ASSERT(feature >= 0 && feature < CLAST_N_FORM_FEATURE);
     const double value[4] = {mean, deviation, mean != 0.0 ? 1.0 / mean : (double)NAN,
                              deviation > 0.0 ? 1.0 / deviation : (double)NAN};
     for (int32_t s = 0; s < 4; ++s) {
@@ -88,6 +89,7 @@ static clast_form_inputs unknown(void)
 static void moments(const double *row, const int64_t *pick, int64_t n, int32_t f, double *mean,
                     double *deviation)
 {
+    CLAST_ASSERT(n > 0);
     double sum = 0.0;
     double square = 0.0;
     for (int64_t i = 0; i < n; ++i) {
@@ -114,6 +116,7 @@ void clx_form_features_rows(const clast_form_set *set, double *row)
 void clx_form_inputs_from_rows(const double *row, const int64_t *pick, int64_t n,
                                clast_form_inputs *inputs)
 {
+    CLAST_ASSERT(n > 0);
     clast_form_inputs in = unknown();
     for (int32_t f = 0; f < CLAST_N_FORM_FEATURE; ++f) {
         double mean = 0.0;

@@ -104,12 +104,14 @@ static void extent(const diagram *d, double low[3], double high[3])
 
 static int32_t grid_index(const diagram *d, const double x[3], int axis)
 {
+    CLAST_ASSERT(axis >= 0 && axis < 3 && d->size[axis] > 0);
     const int32_t k = (int32_t)((x[axis] - d->low[axis]) / d->step[axis]);
     return k < 0 ? 0 : k >= d->size[axis] ? d->size[axis] - 1 : k;
 }
 
 static int64_t grid_cell(const diagram *d, int32_t i, int32_t j, int32_t k)
 {
+    CLAST_ASSERT(i >= 0 && i < d->size[0] && j >= 0 && j < d->size[1] && k >= 0 && k < d->size[2]);
     return ((int64_t)k * d->size[1] + j) * d->size[0] + i;
 }
 
@@ -252,6 +254,7 @@ done:
 /// Cuts by all spheres of the grid cells at `ring` cells' distance.
 static clast_status cut_ring(const diagram *d, int32_t i, int32_t ring, clx_cell *cell)
 {
+    CLAST_ASSERT(ring >= 0);
     clast_status status = CLAST_OK;
     int32_t home[3];
     for (int k = 0; k < 3; ++k) {

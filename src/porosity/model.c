@@ -79,6 +79,7 @@ void clast_porosity_model_free(clast_porosity_model *model)
 clast_status clx_model_room(const char *name, const char *source, int32_t n_term, int32_t n_range,
                             bool has_covariance, clast_porosity_model *model)
 {
+    CLAST_ASSERT(n_term >= 0 && n_range >= 0);
     clast_status status = CLAST_OK;
     clast_porosity_model m = {.n_term = n_term,
                               .n_range = n_range,

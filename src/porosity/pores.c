@@ -57,6 +57,7 @@ static bool visit(int32_t body, const clx_gap *gap, void *context)
 /// Distance of a point to the nearest grain or image of one within `reach`, or HUGE_VAL; -1 inside.
 static double nearest_within(const search *s, const double x[3], double reach, double dust)
 {
+    CLAST_ASSERT(dust >= 0.0 && reach >= 0.0);
     const double upright[4] = {1.0, 0.0, 0.0, 0.0};
     nearest_visit v = {.set = s->set, .nearest = HUGE_VAL};
     clx_touch_body probe = clx_touch_body_sphere(dust);

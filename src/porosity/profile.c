@@ -61,6 +61,7 @@ static int32_t slice_of(const gathering *g, double z)
 /// Slices [range[0], range[1]) that grain i, moved up by `shift`, can reach.
 static void range_of(const gathering *g, int32_t i, double shift, int32_t range[2])
 {
+    CLAST_ASSERT(i >= 0 && i < g->assembly->n_grain);
     const clast_shape *shape = &g->assembly->shape[g->assembly->shape_id[i]];
     const double equal = cbrt(0.75 / CLAST_PI * shape->volume); // radius of its volume's sphere
     const double z = g->assembly->position[i][2] + shift;
@@ -80,6 +81,7 @@ static int n_image(const gathering *g)
 /// An image sees the edges the other way: the grain stays.
 static double shift_of(const gathering *g, int image)
 {
+    CLAST_ASSERT(image >= 0 && image < 3);
     return g->period > 0.0 ? (image - 1) * g->period : 0.0;
 }
 
@@ -104,6 +106,7 @@ done:
 static clast_status collect(const gathering *g, int32_t from, int32_t to, const bench *at,
                             reached *block)
 {
+    CLAST_ASSERT(from <= to && to <= g->assembly->n_grain);
     clast_status status = CLAST_OK;
     int64_t most = 0;
     int32_t range[2];

@@ -51,6 +51,7 @@ static double share_below(double t)
 
 static void add_ellipsoid(const slices *s, double volume, double z, double half_height)
 {
+    CLAST_ASSERT(half_height >= 0.0 && volume >= 0.0);
     const int32_t begin = slice_of(s, z - half_height);
     if (begin >= s->n) {
         return;
@@ -204,6 +205,7 @@ enum { PAIR_LIMIT = 64 }; // spheres of a clump whose crossings get knots of the
 /// Heights where the circle in which two spheres cross begins and ends.
 static void add_crossing(world_clump *c, int32_t i, int32_t j)
 {
+    CLAST_ASSERT(i != j && i < c->n && j < c->n);
     double u[3];
     v3_sub(u, c->centre[j], c->centre[i]);
     const double d = v3_norm(u);
@@ -316,6 +318,7 @@ clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
                              clast_porosity_method method, int32_t n, const double *edge,
                              double *solid)
 {
+    CLAST_ASSERT(i >= 0 && i < assembly->n_grain && n >= 0);
     const clast_shape *shape = &assembly->shape[assembly->shape_id[i]];
     const double scale = assembly->scale[i];
     const double volume = scale * scale * scale * shape->volume;

@@ -49,6 +49,7 @@ static double share_between(double z, double length, double low, double high)
 /// Adds f_i l_j of the parts of branches between the heights; symmetric part xx yy zz xy xz yz.
 static void add_between(const contacts *c, int64_t k, double low, double high, double sum[6])
 {
+    CLAST_ASSERT(k >= 0 && k < c->n);
     static const int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
     const double share = share_between(c->z_a[k], c->branch[2][k], low, high);
     for (int e = 0; e < 6 && share > 0.0; ++e) {
@@ -127,6 +128,7 @@ done:
 
 static int64_t slice_at(const double *edge, int64_t n, double z)
 {
+    CLAST_ASSERT(n > 0);
     const double step = (edge[n] - edge[0]) / (double)n;
     const double k = floor((z - edge[0]) / step);
     return (int64_t)fmax(0.0, fmin((double)(n - 1), k));

@@ -27,6 +27,7 @@ void clx_camera_axes(const clast_render_config *config, double right[3], double 
 /// Extent of the scene along a unit vector.
 static void extent(const clx_scene *scene, const double axis[3], double *low, double *high)
 {
+    CLAST_ASSERT(v3_is_unit(axis, 1e-9));
     const double opposite[3] = {-axis[0], -axis[1], -axis[2]};
     *low = -clx_scene_support(scene, opposite);
     *high = clx_scene_support(scene, axis);

@@ -2,6 +2,7 @@
 // farthest from all that are set, measured by a sum of Gaussians on the torus.
 #include "render/dither.h"
 
+#include "base/status.h"
 #include "math/rng.h"
 #include <math.h>
 
@@ -24,6 +25,7 @@ static void find_emptiest(voids *v, int y)
 
 static void put(voids *v, int at, float value, clx_dither *dither)
 {
+    CLAST_ASSERT(at >= 0);
     const int x = at % CLX_DITHER;
     const int y = at / CLX_DITHER;
     dither->value[y][x] = value;

@@ -113,6 +113,7 @@ static double visit_ellipsoid(leg *l, double t_high)
 
 static double visit_grain(journey *j, int32_t g, double t_high)
 {
+    CLAST_ASSERT(g >= 0);
     const clx_scene_grain *grain = &j->scene->grain[g];
     leg l = {.journey = j, .shape = &j->scene->shape[grain->shape], .grain = g};
     double from[3];
@@ -185,6 +186,7 @@ bool clx_scene_blocked(const clx_scene *scene, const double origin[3], const dou
 static void triangle_normals(const clx_scene_shape *shape, const clx_scene_hit *hit, double at[3],
                              double face[3], double normal[3])
 {
+    CLAST_ASSERT(hit->item >= 0);
     double(*corner)[3] = shape->bvh->corner[hit->item];
     double u[3];
     double v[3];

@@ -49,6 +49,7 @@ static void set_albedo(clx_scene *scene, int32_t g, const double rgb[3])
 /// Diameter of the sphere of a grain's volume.
 static double size_of(const clast_assembly *assembly, int32_t g)
 {
+    CLAST_ASSERT(g >= 0 && g < assembly->n_grain);
     const double volume = assembly->shape[assembly->shape_id[g]].volume;
     return assembly->scale[g] * cbrt(6.0 * fmax(volume, 0.0) / CLAST_PI);
 }
@@ -65,6 +66,7 @@ static void size_range(const clast_assembly *assembly, double *low, double *high
 
 static void add_tick(clx_legend *legend, double value)
 {
+    CLAST_ASSERT(legend->n >= 0 && legend->n <= CLX_LEGEND_TICKS);
     const double a = legend->log ? log(legend->low) : legend->low;
     const double b = legend->log ? log(legend->high) : legend->high;
     const double v = legend->log ? log(value) : value;

@@ -33,6 +33,7 @@ static void face_normals(int64_t begin, int64_t end, int32_t worker, void *conte
 
 static double corner_angle(double corner[3][3], int k)
 {
+    CLAST_ASSERT(k >= 0 && k < 3);
     double u[3];
     double v[3];
     double cross[3];

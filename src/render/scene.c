@@ -134,6 +134,7 @@ static double grain_support(const clx_scene *scene, const clx_scene_grain *grain
 
 double clx_scene_support(const clx_scene *scene, const double direction[3])
 {
+    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
     double best = -INFINITY;
     for (int32_t g = 0; g < scene->n_grain; ++g) {
         best = fmax(best, grain_support(scene, &scene->grain[g], direction));
@@ -144,6 +145,7 @@ double clx_scene_support(const clx_scene *scene, const double direction[3])
 static clast_status place_grain(const clast_assembly *assembly, int32_t g, clx_scene *scene,
                                 clx_tree_box *box)
 {
+    CLAST_ASSERT(g >= 0 && g < assembly->n_grain);
     clast_status status = CLAST_OK;
     clx_scene_grain *grain = &scene->grain[g];
     grain->shape = assembly->shape_id[g];

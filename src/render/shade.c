@@ -91,6 +91,7 @@ static void sun_direction(const clx_shader *shader, double u, double v, double d
 /// Direction about a unit normal with density cosine / pi.
 static void cosine_direction(const double normal[3], double u, double v, double direction[3])
 {
+    CLAST_ASSERT(v3_is_unit(normal, 1e-6) && u >= 0.0 && u <= 1.0);
     double a[3];
     double b[3];
     const double r = sqrt(u);
@@ -242,6 +243,7 @@ static sighting shade_sample(const clx_shader *shader, const sample_numbers *sam
 /// Offset in [-1, 1] with the density of a tent: soft edges without a blur.
 static double tent(double u)
 {
+    CLAST_ASSERT(u >= 0.0 && u <= 1.0);
     return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u);
 }
 

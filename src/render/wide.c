@@ -27,6 +27,7 @@ static float round_up(double x)
 /// Up to four descendants of a binary node that cover it; their number.
 static int gather(const clx_tree *tree, int32_t at, int32_t child[CLX_WIDE])
 {
+    CLAST_ASSERT(at >= 0 && at < tree->n_node);
     int n = 1;
     child[0] = at;
     while (n < CLX_WIDE) {
@@ -50,6 +51,7 @@ static int gather(const clx_tree *tree, int32_t at, int32_t child[CLX_WIDE])
 
 static int32_t collapse(const clx_tree *tree, int32_t at, clx_wide *wide)
 {
+    CLAST_ASSERT(at >= 0 && at < tree->n_node);
     const int32_t self = wide->n_node++;
     int32_t child[CLX_WIDE];
     const int n = gather(tree, at, child);

@@ -79,6 +79,7 @@ void clx_page_href(clx_file *file, const char *path)
 
 static void encode3(const unsigned char *in, size_t n, char out[4])
 {
+    CLAST_ASSERT(n >= 1);
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const unsigned v = (unsigned)in[0] << 16 | (n > 1 ? (unsigned)in[1] << 8 : 0U) |
                        (n > 2 ? (unsigned)in[2] : 0U);

@@ -60,6 +60,7 @@ static void stem_of(const char *name, char stem[CLX_QUANTITY_SIZE])
 
 static double greatest(const clast_column *column, int64_t n)
 {
+    CLAST_ASSERT(n >= 0);
     double most = 0.0;
     for (int64_t i = 0; column->number != NULL && i < n; ++i) {
         most = isfinite(column->number[i]) ? fmax(most, fabs(column->number[i])) : most;
@@ -116,6 +117,7 @@ static void put_head(clx_file *file, const clast_table *table, const shown *s)
 
 static void put_number(clx_file *file, const shown *s, int64_t row)
 {
+    CLAST_ASSERT(row >= 0);
     char text[CLX_QUANTITY_SIZE];
     const double value = s->column->number[row];
     if (s->row_unit != NULL) {

@@ -69,6 +69,7 @@ static int by_cell(const void *a, const void *b)
 static clast_status join_vertices(const clast_mesh *mesh, int32_t n, clast_mesh *simple,
                                   int32_t *number)
 {
+    CLAST_ASSERT(n > 0);
     clast_status status = CLAST_OK;
     double low[3];
     double high[3];
@@ -144,6 +145,7 @@ done:
 /// Finest icosphere whose triangles are within the budget.
 static int level_for(int32_t n_ball, int32_t budget)
 {
+    CLAST_ASSERT(n_ball > 0);
     int level = MAX_LEVEL;
     while (level > 0 && (int64_t)n_ball * 20 * (1 << 2 * level) > budget) {
         --level;
@@ -200,6 +202,7 @@ done:
 /// Place, turn, scale and size (diameter of the sphere of equal volume) of grain i.
 static void store_pose(const view *v, int32_t i, unsigned char *at)
 {
+    CLAST_ASSERT(i >= 0 && i < v->assembly->n_grain);
     const clast_assembly *a = v->assembly;
     const double volume = a->shape[a->shape_id[i]].volume;
     for (int k = 0; k < 3; ++k) {

@@ -65,6 +65,7 @@ done:
 
 static clast_status path_of(const char *folder, int64_t step, char **path)
 {
+    CLAST_ASSERT(step >= 0);
     const size_t size = strlen(folder) + 1 + NAME_SIZE;
     const clast_status status = clx_alloc(path, (int64_t)size, 1);
     if (status == CLAST_OK) {
@@ -76,6 +77,7 @@ static clast_status path_of(const char *folder, int64_t step, char **path)
 /// Removes the checkpoints after the first `keep` newest.
 static clast_status prune(const char *folder, int64_t keep)
 {
+    CLAST_ASSERT(keep >= 0);
     clast_status status = CLAST_OK;
     listing list = {0};
     char *path = NULL;

@@ -320,6 +320,7 @@ static void put_inputs(clx_file *file, const clast_manifest *m)
 
 static void put_texts(clx_file *file, const char *key, int32_t n, char *const *text)
 {
+    CLAST_ASSERT(n >= 0);
     put_key(file, key);
     (void)clx_file_print(file, "[");
     for (int32_t i = 0; i < n; ++i) {

@@ -24,6 +24,7 @@ void clx_ball_set_free(clx_ball_set *set)
 
 clast_status clx_ball_set_add(clx_ball_set *set, const double centre[3], double radius)
 {
+    CLAST_ASSERT(set->n >= 0 && set->scale >= 0.0);
     clast_status status = CLAST_OK;
     const int64_t at = set->n / LANES;
     const int slot = set->n % LANES;
@@ -90,6 +91,7 @@ static int32_t next_group(const clx_ball_set *set, int32_t group, const float f[
 double clx_ball_set_distance(const clx_ball_set *set, int32_t first, const double point[3],
                              double limit, int32_t *nearest)
 {
+    CLAST_ASSERT(first >= 0 && first <= set->n);
     const float f[3] = {(float)((point[0] - set->middle[0]) * set->scale),
                         (float)((point[1] - set->middle[1]) * set->scale),
                         (float)((point[2] - set->middle[2]) * set->scale)};

@@ -90,6 +90,7 @@ static void mark_above(const clx_fill_node *node, const clx_fill_leaf *leaf, con
 
 static void corners_of(const clx_fill_field *field, int32_t i, double corner[3][3])
 {
+    CLAST_ASSERT(i >= 0);
     const int32_t *tri = field->mesh->tri[field->item[i]];
     for (int k = 0; k < 3; ++k) {
         v3_copy(corner[k], field->mesh->vert[tri[k]]);
@@ -129,6 +130,7 @@ static void try_triangle(const clx_fill_field *field, int32_t i, const double po
 double clx_fill_field_closest(const clx_fill_field *field, const double point[3],
                               double max_distance, double closest[3])
 {
+    CLAST_ASSERT(field->n_node > 0);
     int32_t stack[STACK];
     int32_t mark[LANES];
     double touch[3];

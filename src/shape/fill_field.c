@@ -208,6 +208,7 @@ static int32_t nearest_by_floats(const clx_fill_field *field, const float f[3], 
 double clx_fill_field_distance(const clx_fill_field *field, const double point[3],
                                double max_distance, double closest[3], int32_t *tri)
 {
+    CLAST_ASSERT(field->n_node > 0);
     float f[3];
     double p[3];
     double away[3];

@@ -81,6 +81,7 @@ static bool before(const entry *a, const entry *b)
 
 static clast_status heap_push(search *s, int32_t number)
 {
+    CLAST_ASSERT(number >= 0 && number < s->n_cube);
     clast_status status = CLAST_OK;
     const entry e = {s->cubes[number].upper, number};
     CLX_TRY(clx_grow(&s->heap, &s->heap_capacity, s->n_heap + 1, sizeof *s->heap));
@@ -116,6 +117,7 @@ static void heap_sink(search *s, entry e)
 
 static void heap_pop(search *s)
 {
+    CLAST_ASSERT(s->n_heap > 0);
     const entry last = s->heap[--s->n_heap];
     if (s->n_heap > 0) {
         heap_sink(s, last);
@@ -279,6 +281,7 @@ static void measure(search *s, const cube *c, clx_fill_sample *p)
 
 static void note_best(search *s, cube *c, int32_t number)
 {
+    CLAST_ASSERT(number >= 0 && number < s->n_sample);
     if (c->best < 0 || s->samples[number].value > s->samples[c->best].value) {
         c->best = number;
     }
@@ -378,6 +381,7 @@ static void witnesses_of(const search *s, const cube *c, const clx_fill_region *
 /// Bounds f by the witnesses of the cube and its relatives.
 static void bound_cube(search *s, int32_t number)
 {
+    CLAST_ASSERT(number >= 0 && number < s->n_cube);
     clx_fill_witnesses w;
     cube *c = &s->cubes[number];
     clx_fill_region region = {.half = s->half[c->level]};
@@ -401,6 +405,7 @@ static void bound_cube(search *s, int32_t number)
 
 static void make_child(search *s, int32_t parent, int i, cube *child)
 {
+    CLAST_ASSERT(i >= 0 && i < 8);
     const cube *c = &s->cubes[parent];
     const double h = s->half[c->level + 1];
     *child = (cube){.upper = c->upper,
@@ -423,6 +428,7 @@ static void make_child(search *s, int32_t parent, int i, cube *child)
 
 static clast_status divide(search *s, int32_t number)
 {
+    CLAST_ASSERT(number >= 0 && number < s->n_cube);
     clast_status status = CLAST_OK;
     CLX_CHECK(s->n_cube + 8 < CUBE_LIMIT, CLAST_E_LIMIT,
               "the search after %d spheres needs more than %d million cubes; raise --min-share or "
@@ -514,6 +520,7 @@ done:
 /// One step on the cube at the top of the heap.
 static clast_status advance(search *s)
 {
+    CLAST_ASSERT(s->n_heap > 0);
     clast_status status = CLAST_OK;
     const int32_t number = s->heap[0].cube;
     cube *c = &s->cubes[number];

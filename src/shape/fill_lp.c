@@ -260,6 +260,7 @@ CLX_INLINE double dual_value(const simplex *s, const clx_fill_planes *planes, do
 CLX_FOR_EACH_MACHINE
 double clx_fill_bound(clx_fill_planes *planes, double h, double step[3])
 {
+    CLAST_ASSERT(planes->n >= 1 && planes->n <= CLX_FILL_WITNESSES && h > 0.0);
     simplex s;
     for (int j = planes->n; j < (planes->n + 3) / 4 * 4; ++j) { // never the least
         planes->value[j] = INFINITY;

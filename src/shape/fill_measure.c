@@ -17,6 +17,7 @@ enum { SURFACE_POINTS = 4096 };
 
 void clx_fill_sums_add(clx_fill_sums *sums, const double centre[3], double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     const double volume = 4.0 / 3.0 * CLAST_PI * radius * radius * radius;
     double d[3];
     v3_sub(d, centre, sums->origin);
@@ -161,6 +162,7 @@ clast_status clx_fill_spread_create(const clast_mesh *mesh, clx_fill_spread *spr
 /// First triangle whose running area exceeds `at`.
 static int32_t triangle_at(const clx_fill_spread *spread, double at)
 {
+    CLAST_ASSERT(at >= 0.0);
     int32_t low = 0;
     int32_t high = spread->mesh->n_tri - 1;
     while (low < high) {
@@ -178,6 +180,7 @@ static int32_t triangle_at(const clx_fill_spread *spread, double at)
 // places the points in them [Roberts2018], folded into the triangle.
 int32_t clx_fill_spread_point(const clx_fill_spread *spread, int64_t i, int64_t n, double point[3])
 {
+    CLAST_ASSERT(i >= 0 && i < n);
     const clast_mesh *m = spread->mesh;
     const double total = spread->area[m->n_tri - 1];
     const int32_t t = triangle_at(spread, ((double)i + 0.5) / (double)n * total);

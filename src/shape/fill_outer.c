@@ -15,6 +15,7 @@
 
 static int32_t root_of(int32_t *root, int32_t i)
 {
+    CLAST_ASSERT(i >= 0);
     while (root[i] != i) {
         root[i] = root[root[i]];
         i = root[i];
@@ -51,6 +52,7 @@ static int32_t critical(const clx_delaunay *c, int32_t n, bool *is_met, int32_t 
 /// Number of tetrahedra in the alpha shape of the chosen radius.
 static int32_t choose(const clx_delaunay *c, int32_t n_critical, double shrink)
 {
+    CLAST_ASSERT(n_critical >= 0 && n_critical <= c->n_tet);
     // ranks of the distinct radii from the greatest (1) to the critical one (n_rank)
     int32_t n_rank = 1;
     for (int32_t i = c->n_tet - 1; i >= n_critical; --i) {
@@ -90,6 +92,7 @@ done:
 
 clast_status clx_fill_outer(const clast_spheres *spheres, double shrink, bool *keep)
 {
+    CLAST_ASSERT(shrink >= 0.0 && shrink <= 1.0);
     clast_status status = CLAST_OK;
     clx_delaunay c = {0};
     bool *is_met = NULL;

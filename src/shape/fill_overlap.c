@@ -148,6 +148,7 @@ static bool before(const candidate *a, const candidate *b)
 
 static void sink(work *w, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < w->n_heap);
     const candidate c = w->heap[i];
     for (;;) {
         int32_t child = 2 * i + 1;
@@ -166,6 +167,7 @@ static void sink(work *w, int32_t i)
 
 static void pop(work *w)
 {
+    CLAST_ASSERT(w->n_heap > 0);
     w->heap[0] = w->heap[--w->n_heap];
     if (w->n_heap > 0) {
         sink(w, 0);
@@ -214,6 +216,7 @@ done:
 /// Lattice points of one axis within `reach` of a coordinate.
 static void lattice_range(const work *w, int k, double x, double reach, int64_t range[2])
 {
+    CLAST_ASSERT(k >= 0 && k < 3 && w->step > 0.0);
     const double low = ceil((x - reach - w->first[k]) / w->step);
     const double high = floor((x + reach - w->first[k]) / w->step);
     range[0] = low > 0.0 ? (int64_t)low : 0;

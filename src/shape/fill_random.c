@@ -104,6 +104,7 @@ static double box_distance2(const clx_tree_node *node, const double point[3])
 /// Distance to the nearest wall point, or `limit` if none is nearer.
 static double wall_distance(const walls *wall, const double point[3], double limit)
 {
+    CLAST_ASSERT(limit >= 0.0);
     int32_t stack[CLX_TREE_DEPTH + 1];
     int n = 1;
     double best = limit * limit;

@@ -50,6 +50,7 @@ static void free_work(work *w)
 /// Turns counts [n] at first[1 ..] into bucket starts.
 static void running_sum(int64_t *first, int32_t n)
 {
+    CLAST_ASSERT(n >= 0);
     for (int32_t i = 0; i < n; ++i) {
         first[i + 1] += first[i];
     }
@@ -111,6 +112,7 @@ static int compare(const void *a, const void *b)
 /// Adds `net` edges against the direction low -> high (net < 0: along it).
 static clast_status add_open(work *w, int32_t low, int32_t high, int64_t net)
 {
+    CLAST_ASSERT(low < high && net != 0);
     clast_status status = CLAST_OK;
     const int64_t n = net > 0 ? net : -net;
     CLX_TRY(clx_grow(&w->edge, &w->edge_capacity, w->n_edge + n, sizeof *w->edge));
@@ -152,6 +154,7 @@ done:
 /// Caps the loop of edges path[begin, end): a fan about the middle of its vertices.
 static void cap(const work *w, int64_t begin, int64_t end, clx_fill_solid *solid)
 {
+    CLAST_ASSERT(begin >= 0 && begin < end && end <= w->n_edge);
     clast_mesh *mesh = &solid->capped;
     double *middle = mesh->vert[mesh->n_vert];
     double low[3] = {INFINITY, INFINITY, INFINITY};

@@ -122,6 +122,7 @@ static float cost_of(const bin *b)
 
 static void bin_add(bin *b, clx_float4 low, clx_float4 high, int32_t count)
 {
+    CLAST_ASSERT(count >= 0);
     b->low = least4(low, b->low);
     b->high = most4(high, b->high);
     b->count += count;
@@ -198,6 +199,7 @@ static int32_t sort_sides(const part *p, const bin_grid *grid, const choice *bes
 /// Divides a part: by the heuristic, or in halves where it finds no plane or the tree gets deep.
 static void divide(part *p, int depth, part *rest)
 {
+    CLAST_ASSERT(p->n > LANES && depth >= 0);
     choice best = {-1, 0, INFINITY};
     int32_t n_left = p->n / 2;
     if (depth < HEURISTIC_DEPTH) {
@@ -252,6 +254,7 @@ static double bounding_radius(double tri[3][3])
 /// Puts a triangle into a slot of a leaf and into the lists in leaf order.
 static void add_triangle(clx_fill_field *field, clx_fill_leaf *leaf, int slot, int32_t number)
 {
+    CLAST_ASSERT(slot >= 0 && slot < LANES);
     const clast_mesh *mesh = field->mesh;
     const int32_t at = leaf->first + slot;
     const double *a = mesh->vert[mesh->tri[number][0]];
@@ -271,6 +274,7 @@ static void add_triangle(clx_fill_field *field, clx_fill_leaf *leaf, int slot, i
 
 static clast_status add_leaf(const part *p, clx_fill_field *field, int32_t *child)
 {
+    CLAST_ASSERT(p->n >= 1 && p->n <= LANES);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_grow(&field->leaf, &field->leaf_capacity, field->n_leaf + 1, sizeof *field->leaf));
     clx_fill_leaf *leaf = &field->leaf[field->n_leaf];
@@ -288,6 +292,7 @@ done:
 
 static void set_box(const part *p, clx_fill_node *node, int slot)
 {
+    CLAST_ASSERT(slot >= 0 && slot < LANES);
     for (int k = 0; k < 3; ++k) {
         node->middle[k][slot] = 0.5F * (p->low[k] + p->high[k]);
         node->half[k][slot] = 0.5F * (p->high[k] - p->low[k]);
@@ -297,6 +302,7 @@ static void set_box(const part *p, clx_fill_node *node, int slot)
 /// Makes the node of a part, and all below it.
 static clast_status make_node(const part *whole, int depth, clx_fill_field *field, int32_t *number)
 {
+    CLAST_ASSERT(depth >= 0 && depth <= CLX_FILL_DEPTH && whole->n > 0);
     clast_status status = CLAST_OK;
     part p[LANES] = {*whole};
     int n = 1;

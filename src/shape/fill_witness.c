@@ -23,6 +23,7 @@ void clx_fill_witnesses_clear(clx_fill_witnesses *w)
 static void add_plane(clx_fill_planes *planes, const clx_fill_region *c, const double away[3],
                       double r)
 {
+    CLAST_ASSERT(planes->n >= 0 && planes->n <= CLX_FILL_WITNESSES && c->half > 0.0);
     const double h = c->half;
     const double d2 = v3_norm2(away);
     const double reach = c->upper + r + 1.7320508075688773 * h;
@@ -46,6 +47,7 @@ static void add_plane(clx_fill_planes *planes, const clx_fill_region *c, const d
 /// True, and noted, when a sphere or triangle is new and there is room for it.
 static bool is_new(clx_fill_witnesses *w, int32_t name)
 {
+    CLAST_ASSERT(w->n_known >= 0 && w->n_known <= CLX_FILL_WITNESSES);
     const uint64_t bit = (uint64_t)1 << ((uint32_t)name * 0x9e3779b1u >> 26);
     bool is_known = w->n_known == CLX_FILL_WITNESSES;
     for (int j = 0; (w->digest & bit) != 0 && j < w->n_known; ++j) { // few names share a bit
@@ -91,6 +93,7 @@ static void add_surface(const clx_fill *fill, clx_fill_witnesses *w, const clx_f
 static void add_ball(clx_fill_witnesses *w, const clx_fill_region *c, const double centre[3],
                      double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     double away[3];
     v3_sub(away, c->centre, centre);
     add_plane(&w->planes, c, away, radius);

@@ -76,6 +76,7 @@ done:
 /// Value below which this share of the cut law lies.
 static double cut_quantile(const cut_normal *x, double share)
 {
+    CLAST_ASSERT(share >= 0.0 && share <= 1.0);
     if (!(x->deviation > 0.0)) {
         return x->mean;
     }

@@ -62,6 +62,7 @@ static void plain_name(const clast_column *column, char plain[NAME_SIZE])
 
 static int32_t find_role(const clast_table *table, int role)
 {
+    CLAST_ASSERT(role >= 0 && role < N_ROLE);
     for (int k = 0; k < N_NAME && names[role][k] != NULL; ++k) {
         for (int32_t c = 0; c < table->n_column; ++c) {
             char plain[NAME_SIZE];
@@ -215,6 +216,7 @@ done:
 
 static clast_status alloc_set(int64_t n, bool has_size, clast_form_set *s)
 {
+    CLAST_ASSERT(n >= 0);
     clast_status status = CLAST_OK;
     CLX_TRY(clx_alloc(&s->row, n, sizeof *s->row));
     CLX_TRY(clx_alloc(&s->flatness, n, sizeof *s->flatness));

@@ -69,6 +69,7 @@ static double first_moment(double a, double t)
 /// Integral of (p + (q - p) s) e^(a s) over 0 .. t: the volume of a piece's grains up to t.
 static double piece_volume(const piece *x, double t)
 {
+    CLAST_ASSERT(t >= 0.0 && t <= 1.0);
     const double a = 3.0 * x->width;
     const double zeroth = a > 0.0 ? expm1(a * t) / a : t;
     return x->p * zeroth + (x->q - x->p) * first_moment(a, t);
@@ -83,6 +84,7 @@ static double piece_size(const piece *x, double t)
 /// cancellation.
 static double piece_share(const piece *x, double t)
 {
+    CLAST_ASSERT(t >= 0.0 && t <= 1.0);
     return t * (x->p + 0.5 * (x->q - x->p) * t);
 }
 
@@ -111,6 +113,7 @@ static double piece_volume_place(const piece *x, double share)
 
 static void set_piece(piece *x, double low, double high, double p, double q, double number)
 {
+    CLAST_ASSERT(low > 0.0 && low <= high && p >= 0.0 && q >= 0.0);
     const double mean = 0.5 * (p + q);
     *x = (piece){.low = low, .high = high, .width = log(high / low), .number = number};
     x->p = p / mean;
@@ -121,6 +124,7 @@ static void set_piece(piece *x, double low, double high, double p, double q, dou
 /// Shares and running sums of pieces whose `number` is in any unit.
 static clast_status sum_pieces(clast_grading *g)
 {
+    CLAST_ASSERT(g->n_piece > 0);
     clast_status status = CLAST_OK;
     const double top = g->item[g->n_piece - 1].high;
     double number = 0.0;
@@ -166,6 +170,7 @@ done:
 static double class_number(const clast_curve *curve, int32_t i, clast_grading_spread spread,
                            clast_grading_count count)
 {
+    CLAST_ASSERT(i >= 0 && i < curve->n_class);
     const double top = curve->sieve[curve->n_class];
     const double low = curve->sieve[i] / top;
     const double high = curve->sieve[i + 1] / top;
@@ -338,6 +343,7 @@ done:
 /// Standard normal place of a size under a log-normal law.
 static double normal_place(const clast_grading *g, double size)
 {
+    CLAST_ASSERT(size >= 0.0 && g->sigma > 0.0);
     return (log(size) - g->mu) / g->sigma;
 }
 
@@ -417,6 +423,7 @@ double clast_grading_mean_cube(const clast_grading *grading)
 /// First piece whose running share, by mass or by number, reaches `share`.
 static int64_t find_piece(const clast_grading *g, bool by_mass, double share)
 {
+    CLAST_ASSERT(g->n_piece > 0);
     int64_t low = 0;
     int64_t high = g->n_piece - 1;
     while (low < high) {

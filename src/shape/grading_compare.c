@@ -20,6 +20,7 @@ static int by_size(const void *a, const void *b)
 
 static double volume_of(const clast_grading_sample *sample, int64_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < sample->n);
     const double d = sample->size[i];
     return sample->volume != NULL ? sample->volume[i] : d * d * d;
 }

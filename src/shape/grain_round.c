@@ -11,6 +11,7 @@
 // Angularity has no closed form; triangles are quartered down to 0.01 sr.
 #include "shape/grain.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { MOST_DEPTH = 12 };
@@ -105,6 +106,7 @@ static void add_angular(const unit_map *m, const facet *f, double signed_angle, 
 /// The same for the four quarters.
 static void add_quarters(const unit_map *m, const facet *f, int depth, double sum[2])
 {
+    CLAST_ASSERT(depth >= 0 && depth <= MOST_DEPTH);
     facet middle;
     for (int k = 0; k < 3; ++k) {
         v3_add(middle.p[k], f->p[k], f->p[(k + 1) % 3]);

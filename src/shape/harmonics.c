@@ -186,6 +186,7 @@ typedef struct {
 
 static void add_direction(star_sums *sums, const double n[3], double r, double area, double weight)
 {
+    CLAST_ASSERT(r > 0.0 && v3_is_unit(n, 1e-9));
     const double r3 = weight * r * r * r;
     sums->volume += r3 / 3.0;
     sums->area += weight * area;

@@ -28,6 +28,7 @@ static double dot2(const double a[2], const double b[2])
 /// Lets the rays between the ends of an edge reach it.
 static void cast_edge(fan *f, int32_t edge, const double a[2], const double b[2])
 {
+    CLAST_ASSERT(edge >= 0);
     const double step = 2.0 * CLAST_PI / N_RAY;
     const double d[2] = {b[0] - a[0], b[1] - a[1]};
     const double from = atan2(a[1], a[0]);
@@ -154,6 +155,7 @@ static void cut(const fan *f, clx_outline *outline)
 clast_status clx_outline_cast(const clast_mesh *mesh, const double direction[3],
                               const double centre[3], clx_outline *outline)
 {
+    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
     clast_status status = CLAST_OK;
     fan *f = NULL;
     CLX_TRY(clx_alloc(&f, 1, sizeof *f));
@@ -173,6 +175,7 @@ done:
 
 void clx_outline_smooth(clx_outline *outline, double window)
 {
+    CLAST_ASSERT(window >= 0.0);
     double weight[N_POINT / 2] = {0};
     double keep[N_POINT][2];
     const double piece = outline->length / N_POINT;

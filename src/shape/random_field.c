@@ -48,6 +48,7 @@ void clx_random_field_free(clx_random_field *field)
 static double order_sum(const clx_random_field *field, int32_t m, bool is_sine, double cosine,
                         double start)
 {
+    CLAST_ASSERT(m >= 0 && m <= field->high);
     double before = 0.0;
     double now = start;
     double sum = 0.0;
@@ -69,6 +70,7 @@ static double order_sum(const clx_random_field *field, int32_t m, bool is_sine, 
 
 double clx_random_field_at(const clx_random_field *field, const double direction[3])
 {
+    CLAST_ASSERT(fabs(direction[2]) <= 1.0 + 1e-9);
     const double cosine = direction[2];
     const double sine = hypot(direction[0], direction[1]);
     const double cos_1 = sine > 0.0 ? direction[0] / sine : 1.0;

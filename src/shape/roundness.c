@@ -38,6 +38,7 @@ typedef struct {
 /// than the tolerance. `last` may be N_POINT, the first point again.
 static void mark_between(search *s, int32_t first, int32_t last, int32_t stack[2 * N_POINT])
 {
+    CLAST_ASSERT(first >= 0 && first <= last && last < 2 * N_POINT);
     int32_t n = 0;
     stack[n++] = first;
     stack[n++] = last;
@@ -144,6 +145,7 @@ static void keep_convex(search *s)
 /// Circle of least algebraic distance to n points [Kasa1976]; radius infinite for a line.
 static double fit_circle(int32_t n, const double (*p)[2], double centre[2])
 {
+    CLAST_ASSERT(n >= 3);
     double middle[2] = {0};
     double m[5] = {0}; // xx, xy, yy, x times square, y times square
     double mean_square = 0.0;
@@ -189,6 +191,7 @@ static bool stays_inside(const clx_outline *outline, const double centre[2], dou
 /// Key points from `first` on that share a corner, and its radius; 0 where no corner begins.
 static int32_t longest_corner(const search *s, int32_t first, double *radius)
 {
+    CLAST_ASSERT(first >= 0 && first < s->n);
     for (int32_t n = s->n - first; n >= LEAST_RUN; --n) {
         double centre[2] = {0};
         *radius = fit_circle(n, (const double(*)[2])s->key + first, centre);

@@ -117,6 +117,7 @@ static double add_piece(moments *m, const circle *c, double t, double span, cons
 static double add_arc(moments *m, const circle *c, double t, double span, const double first[3],
                       const double last[3])
 {
+    CLAST_ASSERT(span > 0.0);
     const int n_piece = (int)ceil(span / (0.5 * CLAST_PI));
     const double step = span / n_piece;
     double covered = 0.0;
@@ -296,6 +297,7 @@ static void exposed_moments(scratch *s, moments *m)
 /// Caps that the others cut from sphere i; false when one of them holds it whole.
 static bool find_caps(scratch *s, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < s->spheres->n);
     const double r = s->radius[i];
     s->n_cap = 0;
     for (int32_t j = 0; j < s->spheres->n; ++j) {
@@ -353,6 +355,7 @@ static void add_sphere(integrals *sum, const moments *m, const double c[3], doub
 
 static void mass_of(const integrals *sum, const double origin[3], clast_mass *mass)
 {
+    CLAST_ASSERT(sum->volume >= 0.0);
     double mean[3];
     double c[3][3];
     v3_scale(mean, 1.0 / sum->volume, sum->first);

@@ -134,6 +134,7 @@ done:
 static void flood(const clast_volume *volume, float threshold, int32_t label, int32_t first,
                   clast_voxels *voxels, int32_t *stack)
 {
+    CLAST_ASSERT(first >= 0 && label > 0);
     const int32_t *n = volume->n;
     const int64_t stride[3] = {1, n[0], (int64_t)n[0] * n[1]};
     int64_t n_stack = 0;
@@ -169,7 +170,6 @@ clast_status clast_volume_parts(clast_volume *volume, double threshold, clast_vo
     CLX_CHECK(isfinite(threshold), CLAST_E_USAGE, "a threshold of %g", threshold);
     CLX_TRY(begin_voxels(volume, &made));
     CLX_TRY(clx_alloc(&stack, n, sizeof *stack));
-    CLAST_ASSERT(made.label != NULL);
     for (int64_t i = 0; i < n; ++i) {
         if (made.label[i] == 0 && volume->value[i] > (float)threshold) {
             flood(volume, (float)threshold, ++n_part, (int32_t)i, &made, stack);

@@ -47,6 +47,7 @@ static int compare_labels(const void *a, const void *b)
 /// Open addressing: slot of a label in a table of `room` (a power of two) slots, 0 = free.
 static int64_t slot_of(const clast_voxel_label *slot, int64_t room, int32_t label)
 {
+    CLAST_ASSERT(room > 0 && (room & (room - 1)) == 0);
     uint64_t i = (uint32_t)label * UINT64_C(0x9E3779B97F4A7C15) >> 20;
     for (;; ++i) {
         i &= (uint64_t)room - 1;
@@ -145,6 +146,7 @@ static bool is_label(const clast_voxels *v, int64_t x, int64_t y, int64_t z, int
 /// Smooths the grid along one axis with weights 1, 2, 1; the border stays outside (1).
 static void smooth_axis(clx_grid *grid, int axis)
 {
+    CLAST_ASSERT(axis >= 0 && axis < 3);
     const int64_t stride =
         axis == 0 ? 1 : (axis == 1 ? grid->n[0] : (int64_t)grid->n[0] * grid->n[1]);
     const int64_t n_node = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
@@ -274,6 +276,7 @@ static bool is_outermost(const clast_voxels *v, int64_t x, int64_t y, int64_t z,
 static int32_t row_points(const clast_voxels *v, const clast_voxel_label *label, int32_t y,
                           int32_t z, double (*point)[3])
 {
+    CLAST_ASSERT(y >= 0 && y < v->n[1] && z >= 0 && z < v->n[2]);
     int32_t n = 0;
     for (int32_t x = label->low[0]; x <= label->high[0]; ++x) {
         if (is_label(v, x, y, z, label->label) && is_outermost(v, x, y, z, label->label)) {

@@ -1,6 +1,7 @@
 // Whether shapes and what they are made of, as a caller has filled them himself, hold together.
 #include "shape/whole.h"
 
+#include "math/vec3.h"
 #include <math.h>
 
 const char *clx_spheres_fault(const clast_spheres *spheres)
@@ -38,6 +39,17 @@ static const char *parts_fault(const clast_shape *shape)
     return NULL;
 }
 
+static const char *balls_fault(const clast_spheres *spheres)
+{
+    for (int32_t i = 0; i < spheres->n; ++i) {
+        if (!v3_is_finite(spheres->centre[i]) || !(spheres->radius[i] > 0.0) ||
+            !isfinite(spheres->radius[i])) {
+            return "a sphere is not finite, or its radius is not above 0";
+        }
+    }
+    return NULL;
+}
+
 const char *clx_shape_fault(const clast_shape *shape)
 {
     if (shape == NULL) {
@@ -55,6 +67,7 @@ const char *clx_shape_fault(const clast_shape *shape)
     const char *fault = clx_mesh_fault(&shape->mesh);
     fault = fault != NULL ? fault : clx_spheres_fault(&shape->spheres);
     fault = fault != NULL ? fault : parts_fault(shape);
+    fault = fault != NULL ? fault : balls_fault(&shape->spheres);
     if (fault != NULL) {
         return fault;
     }

@@ -38,6 +38,7 @@ done:
 
 clast_status clx_repeats_add(clx_repeats *repeats, int32_t index, clast_aggregate *aggregate)
 {
+    CLAST_ASSERT(index >= 0);
     clast_status status = CLAST_OK;
     clx_repeat made = {.index = index};
     CLX_TRY(clast_aggregate_measure(aggregate, &made.result));

@@ -15,6 +15,7 @@
 
 static clast_status state_path(const char *folder, int32_t repeat, char path[CLX_PATH_LIMIT])
 {
+    CLAST_ASSERT(repeat >= 0);
     char name[32] = "state.h5";
     if (repeat > 0) {
         (void)snprintf(name, sizeof name, "state-%04d.h5", repeat + 1);
@@ -84,6 +85,7 @@ bool clx_folder_has_state(const char *folder, int32_t repeat)
 /// Where the repeat's checkpoints lie.
 static clast_status checkpoint_folder(const char *folder, int32_t repeat, char path[CLX_PATH_LIMIT])
 {
+    CLAST_ASSERT(repeat >= 0);
     char name[32] = ".";
     (void)snprintf(name, sizeof name, "repeat-%04d", repeat + 1);
     if (repeat > 0) {

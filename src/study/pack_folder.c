@@ -113,6 +113,7 @@ done:
 /// Where grain i is and how it is turned, in columns `first` on.
 static void put_pose(const clast_assembly *a, int32_t i, clast_table *table, int32_t first)
 {
+    CLAST_ASSERT(i >= 0 && i < a->n_grain);
     for (int k = 0; k < 3; ++k) {
         table->column[first + k].number[i] = a->position[i][k];
     }
@@ -202,6 +203,7 @@ done:
 /// Path of frame `index` within its run.
 static void frame_name(char name[64], int64_t index)
 {
+    CLAST_ASSERT(index >= 0);
     (void)snprintf(name, 64, "frames/frame-%06lld.vtu", (long long)index);
 }
 

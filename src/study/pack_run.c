@@ -83,6 +83,7 @@ done:
 /// Steps of one round: to the next frame, at most about a fifth of a second.
 static int64_t round_steps(const run *r, int64_t aim, int64_t per_frame)
 {
+    CLAST_ASSERT(per_frame >= 0);
     const int64_t step = clast_dem_n_step(clast_pack_dem(r->pack));
     const int64_t left = per_frame > 0 ? per_frame - step % per_frame : aim;
     return left < aim ? left : aim;

@@ -15,6 +15,7 @@ enum { STUDY_LIMIT = 1 << 28 };
 clast_status clx_study_run_folder(const char *folder, int64_t row, const char *suffix,
                                   char path[CLX_STUDY_PATH])
 {
+    CLAST_ASSERT(row >= 0);
     clast_status status = CLAST_OK;
     const int n =
         snprintf(path, CLX_STUDY_PATH, "%s/runs/%06lld%s", folder, (long long)row + 1, suffix);

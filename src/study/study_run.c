@@ -109,6 +109,7 @@ static void give_row_back(scheduler *s, int64_t row)
 
 static clast_status start(scheduler *s, int64_t row)
 {
+    CLAST_ASSERT(row >= 0 && row < s->plan->n_row);
     clast_status status = CLAST_OK;
     char folder[CLX_STUDY_PATH];
     clast_text_list words = {0};
@@ -138,6 +139,7 @@ done:
 
 static int64_t row_of(const scheduler *s, int64_t item)
 {
+    CLAST_ASSERT(item >= 0);
     return s->shard + item * s->n_shard;
 }
 
@@ -207,6 +209,7 @@ static bool is_open(void *context, int64_t item)
 /// Begins runs while there are free workers and open rows for this rank.
 static clast_status start_some(scheduler *s, int32_t n_worker)
 {
+    CLAST_ASSERT(n_worker >= 1);
     clast_status status = CLAST_OK;
     int64_t item = 0;
     while (status == CLAST_OK && s->n_busy < n_worker && clx_queue_take(&s->queue, &item)) {

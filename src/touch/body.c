@@ -15,6 +15,7 @@ static clx_touch_body at_origin(clx_touch_body body)
 
 clx_touch_body clx_touch_body_sphere(double radius)
 {
+    CLAST_ASSERT(radius >= 0.0);
     return at_origin(
         (clx_touch_body){.kind = CLX_TOUCH_SPHERE, .semi_axes = {radius, radius, radius}});
 }
@@ -74,6 +75,7 @@ static void place_ellipsoid(clx_touch_body *body)
 void clx_touch_body_set(clx_touch_body *body, const double position[3], const double rotation[9],
                         double scale)
 {
+    CLAST_ASSERT(scale > 0.0 && v3_is_finite(position));
     v3_copy(body->position, position);
     memcpy(body->rotation, rotation, sizeof body->rotation);
     body->scale = scale;
@@ -87,6 +89,7 @@ void clx_touch_body_set(clx_touch_body *body, const double position[3], const do
 void clx_touch_body_place(clx_touch_body *body, const double position[3],
                           const double orientation[4], double scale)
 {
+    CLAST_ASSERT(q_is_unit(orientation, 1e-6));
     double m[3][3];
     double rotation[9];
     q_matrix(m, orientation);

@@ -12,12 +12,14 @@
 // at grazing touches, where that normal runs to infinity.
 #include "touch/ellipsoid.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { MAX_STEP = 100 };
 
 bool clx_sphere_entry(double radius_sum, const double c[3], clx_entry *entry)
 {
+    CLAST_ASSERT(radius_sum >= 0.0);
     const double under = radius_sum * radius_sum - c[0] * c[0] - c[1] * c[1];
     if (!(under >= 0.0)) {
         return false;
@@ -32,6 +34,7 @@ bool clx_sphere_entry(double radius_sum, const double c[3], clx_entry *entry)
 static bool entry_of_bound(const double a[6], const double b[6], const double c[3], double k,
                            double *t, double n[3])
 {
+    CLAST_ASSERT(k > 0.0 && k < 1.0);
     const double p = 1.0 / k;
     const double q = 1.0 / (1.0 - k);
     double m[6];

@@ -7,6 +7,7 @@
 
 clx_touch_path clx_touch_path_along(const double direction[3])
 {
+    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
     clx_touch_path path = {.t_low = -INFINITY, .t_high = INFINITY, .t_enough = -INFINITY};
     v3_copy(path.direction, direction);
     v3_frame(direction, path.side[0], path.side[1]);
@@ -47,6 +48,7 @@ static void surface_point(const clx_touch_body *body, const double normal[3], do
 static bool touch_convex(const clx_touch_body *moving, const clx_touch_body *lying,
                          const clx_touch_path *path, clx_touch *touch)
 {
+    CLAST_ASSERT(moving->tree == NULL && lying->tree == NULL);
     double difference[3];
     double c[3];
     clx_entry found;

@@ -117,6 +117,7 @@ static void first_normal(const clx_touch_body *a, const clx_touch_body *b, const
 static bool gap_of_round(const clx_touch_body *a, const clx_touch_body *b, double limit,
                          clx_gap *gap)
 {
+    CLAST_ASSERT(a->tree == NULL && b->tree == NULL);
     round_pair pair = {.a = a->matrix, .b = b->matrix};
     double n[3];
     v3_sub(pair.c, b->position, a->position);
@@ -158,6 +159,7 @@ static bool parts(const clx_touch_body *a, const clx_touch_body *b, double depth
 bool clx_touch_overlap(const clx_touch_body *a, const clx_touch_body *b, double depth,
                        const double approach[3])
 {
+    CLAST_ASSERT(depth >= 0.0);
     clx_gap gap;
     double direction[3];
     if (!clx_touch_gap(a, b, 0.0, &gap)) {
@@ -197,6 +199,7 @@ typedef struct {
 static bool visit_contact(int32_t body, void *context)
 {
     const contact_search *s = context;
+    CLAST_ASSERT(body >= 0 && body < clx_touch_scene_count(s->scene));
     const clx_touch_body *other = clx_touch_scene_body(s->scene, body);
     clx_gap gap; // the centres, where one body is inside the other and no closest points are set
     v3_copy(gap.point[0], s->body->position);
@@ -207,6 +210,7 @@ static bool visit_contact(int32_t body, void *context)
 bool clx_touch_scene_contacts(const clx_touch_scene *scene, const clx_touch_body *body,
                               double distance, clx_gap_visit visit, void *context)
 {
+    CLAST_ASSERT(distance >= 0.0);
     contact_search search = {scene, body, distance, visit, context};
     return clx_touch_scene_near(scene, body, distance, visit_contact, &search);
 }

@@ -90,6 +90,7 @@ static void keep_triangles(double a[3][3], double b[3][3], nearest *best)
 static void keep_ball(const double c[3], double radius, const double y[3], bool ball_first,
                       nearest *best)
 {
+    CLAST_ASSERT(radius >= 0.0);
     double out[3], x[3];
     v3_sub(out, y, c);
     const double d = v3_norm(out);
@@ -168,6 +169,7 @@ static double radius_of(const touch_view *view, int32_t slot)
 /// Opens the greater slot of a pair and pushes what comes of it, the nearest last; the new top.
 static int open_pair(const touch_view *a, const touch_view *b, job *stack, int top, job pair)
 {
+    CLAST_ASSERT(top >= 0 && top <= 2 * CLX_TOUCH_STACK - CLX_TOUCH_LANES);
     const int32_t below_a = clx_touch_child(a->tree, pair.a);
     const int32_t below_b = clx_touch_child(b->tree, pair.b);
     const bool open_a =
@@ -189,6 +191,7 @@ static int open_pair(const touch_view *a, const touch_view *b, job *stack, int t
 static bool finish(const clx_touch_body *a, const clx_touch_body *b, const nearest *best,
                    double limit, clx_gap *gap)
 {
+    CLAST_ASSERT(best->distance >= 0.0);
     if (best->distance > 0.0 && clx_touch_one_inside(a, b)) {
         gap->distance = 0.0;
         return true;
@@ -205,6 +208,7 @@ static bool finish(const clx_touch_body *a, const clx_touch_body *b, const neare
 
 bool clx_gap_trees(const clx_touch_body *a, const clx_touch_body *b, double limit, clx_gap *gap)
 {
+    CLAST_ASSERT(a->tree != NULL && b->tree != NULL);
     const double origin[3] = {0.0, 0.0, 0.0};
     double shift[3];
     job stack[2 * CLX_TOUCH_STACK];
@@ -247,6 +251,7 @@ bool clx_gap_trees(const clx_touch_body *a, const clx_touch_body *b, double limi
 /// function is convex and falling. [Eberly2013]
 static void project_on_ellipsoid(const double axes[3], const double y[3], double x[3])
 {
+    CLAST_ASSERT(axes[0] > 0.0 && axes[1] > 0.0 && axes[2] > 0.0);
     double t = 0.0;
     for (int step = 0; step < 100; ++step) {
         double value = -1.0;
@@ -395,6 +400,7 @@ static void keep_item(round_search *s, int32_t i)
 bool clx_gap_round_tree(const clx_touch_body *round, const clx_touch_body *tree, double limit,
                         clx_gap *gap, int first)
 {
+    CLAST_ASSERT(round->tree == NULL && tree->tree != NULL && (first == 0 || first == 1));
     clx_touch_path own; // the round body's frame
     double shift[3];
     double difference[3];

@@ -39,6 +39,7 @@ static int cross_triangle(const double *corner, const double origin[3], const do
 static bool may_cross(const clx_touch_node *node, int32_t lane, const double origin[3],
                       const double u[3])
 {
+    CLAST_ASSERT(lane >= 0 && lane < node->n);
     const double d[3] = {node->centre[0][lane] - origin[0], node->centre[1][lane] - origin[1],
                          node->centre[2][lane] - origin[2]};
     const double along = v3_dot(d, u);
@@ -77,6 +78,7 @@ static int count_crossings(const clx_touch_tree *tree, const double origin[3], c
 bool clx_touch_tree_inside(const clx_touch_tree *tree, const double point[3])
 {
     enum { TRIES = 16 };
+    CLAST_ASSERT(tree->kind == CLX_TOUCH_MESH);
     for (int k = 0; k < 3; ++k) {
         if (!(point[k] >= tree->low[k] && point[k] <= tree->high[k])) {
             return false;

@@ -124,6 +124,7 @@ static int rank_lanes(const double enter[CLX_TOUCH_LANES], int place[CLX_TOUCH_L
 /// new top.
 static int open_pair(const search *s, job *stack, int top, job pair)
 {
+    CLAST_ASSERT(top >= 0 && top <= 2 * CLX_TOUCH_STACK - CLX_TOUCH_LANES);
     const int32_t below_lying = clx_touch_child(s->lying.tree, pair.lying);
     const int32_t below_moving = clx_touch_child(s->moving.tree, pair.moving);
     const bool open_lying =
@@ -206,6 +207,7 @@ static void contact_of(const search *s, double point[3], double normal[3])
 bool clx_touch_trees(const clx_touch_body *moving, const clx_touch_body *lying,
                      const clx_touch_path *path, clx_touch *touch)
 {
+    CLAST_ASSERT(moving->tree != NULL && lying->tree != NULL);
     double difference[3];
     double c[3];
     clx_entry near;

@@ -200,6 +200,7 @@ static void contact_of(const search *s, double point[3], double normal[3])
 /// What depends on the round body alone.
 static void set_round(search *s, const clx_touch_body *round, const clx_touch_path *path)
 {
+    CLAST_ASSERT(round->tree == NULL && round->radius >= 0.0);
     s->is_sphere = round->kind == CLX_TOUCH_SPHERE;
     s->radius = round->radius;
     path_sym_to_local(s->matrix, path, round->matrix);
@@ -229,6 +230,7 @@ static clx_touch_path seen_from_tree(const clx_touch_path *path, bool tree_moves
 bool clx_touch_round(const clx_touch_body *moving, const clx_touch_body *lying,
                      const clx_touch_path *path, clx_touch *touch)
 {
+    CLAST_ASSERT((moving->tree == NULL) != (lying->tree == NULL));
     const bool tree_moves = moving->tree != NULL;
     const clx_touch_body *tree = tree_moves ? moving : lying;
     const clx_touch_body *round = tree_moves ? lying : moving;

@@ -70,6 +70,7 @@ int32_t clx_touch_scene_count(const clx_touch_scene *scene)
 
 const clx_touch_body *clx_touch_scene_body(const clx_touch_scene *scene, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < scene->n);
     return &scene->body[i];
 }
 
@@ -77,6 +78,7 @@ const clx_touch_body *clx_touch_scene_body(const clx_touch_scene *scene, int32_t
 static void box_of(const clx_touch_scene *scene, const clx_touch_body *body, double low[3],
                    double high[3])
 {
+    CLAST_ASSERT(body->radius >= 0.0);
     for (int k = 0; k < 3; ++k) {
         const double x = body->position[k] - scene->origin[k];
         const double pad =
@@ -168,6 +170,7 @@ done:
 /// makes a pair of it and the node it comes to. False, and nothing done, where that lies too deep.
 static bool attach(clx_touch_scene *scene, const scene_node *leaf)
 {
+    CLAST_ASSERT(leaf->body >= 0 && leaf->body <= scene->n);
     scene_node *nodes = scene->node;
     int32_t way[MAX_DEPTH];
     int depth = 0;
@@ -203,6 +206,7 @@ static bool attach(clx_touch_scene *scene, const scene_node *leaf)
 /// Node `to` and all below it as the built tree has them from `from` on.
 static void copy_node(clx_touch_scene *scene, const clx_tree *tree, int32_t from, int32_t to)
 {
+    CLAST_ASSERT(to >= 0 && to < scene->node_room);
     const clx_tree_node *source = &tree->node[from];
     scene_node *node = &scene->node[to];
     if (source->right == 0) {
@@ -321,6 +325,7 @@ static bool may_touch(const clx_touch_body *moving, const clx_touch_body *lying,
 static void try_body(const clx_touch_scene *scene, int32_t i, const clx_touch_body *moving,
                      clx_touch_path *rest, clx_touch *best)
 {
+    CLAST_ASSERT(i >= 0 && i < scene->n);
     clx_touch touch;
     if (may_touch(moving, &scene->body[i], rest) &&
         clx_first_touch(moving, &scene->body[i], rest, &touch) &&
@@ -364,6 +369,7 @@ bool clx_touch_scene_first_among(const clx_touch_scene *scene, int32_t n,
                                  const clx_touch_body *moving, const clx_touch_path *path,
                                  clx_touch *touch)
 {
+    CLAST_ASSERT(n >= 0 && n <= scene->n);
     waiting stack[MAX_DEPTH + 1];
     int top = 0;
     const swept_box box = sweep(scene, moving, path);
@@ -411,6 +417,7 @@ static bool boxes_near(const double low[3], const double high[3], const scene_no
 bool clx_touch_scene_near(const clx_touch_scene *scene, const clx_touch_body *body, double distance,
                           clx_touch_visit visit, void *context)
 {
+    CLAST_ASSERT(distance >= 0.0);
     int32_t stack[MAX_DEPTH + 1];
     int top = 0;
     double low[3];
@@ -463,6 +470,7 @@ static double leaf_distance(const clx_touch_scene *scene, const scene_node *leaf
 
 double clx_touch_scene_clearance(const clx_touch_scene *scene, const double x[3], double limit)
 {
+    CLAST_ASSERT(v3_is_finite(x));
     waiting stack[MAX_DEPTH + 1];
     int top = 0;
     double local[3];

@@ -31,6 +31,7 @@ typedef struct {
 
 static const double *at(const point_set *set, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && i < set->n);
     return set->point + (ptrdiff_t)i * set->stride;
 }
 
@@ -111,6 +112,7 @@ static void thin_direction(const point_set *set, double axis[3])
 /// Ball and slab about points.
 static void bound_points(const point_set *set, bound *node)
 {
+    CLAST_ASSERT(set->n > 0);
     double low = INFINITY;
     double high = -INFINITY;
     double box_low[3] = {INFINITY, INFINITY, INFINITY};
@@ -143,6 +145,7 @@ static void bound_points(const point_set *set, bound *node)
 /// Ball about balls; no slab.
 static void bound_balls(const point_set *set, bound *node)
 {
+    CLAST_ASSERT(set->n > 0 && set->radius != NULL);
     const double free[3] = {0.0, 0.0, 0.0};
     v3_set(node->axis, 0.0, 0.0, 1.0);
     v3_set(node->centre, 0.0, 0.0, 0.0);
@@ -183,6 +186,7 @@ static int32_t new_node(clx_touch_tree *tree)
 /// Puts a bound into the next lane of a node.
 static void add_lane(clx_touch_node *node, const bound *b)
 {
+    CLAST_ASSERT(node->n >= 0 && node->n < CLX_TOUCH_LANES);
     const int32_t lane = node->n++;
     for (int k = 0; k < 3; ++k) {
         node->centre[k][lane] = b->centre[k];
@@ -222,6 +226,7 @@ static int32_t choose_lanes(const clx_tree *from, const bound *bounds, int32_t p
 /// Writes the nodes over two-way node `parent` and below; what a lane that holds it has as child.
 static int32_t fold(clx_touch_tree *tree, const clx_tree *from, const bound *bounds, int32_t parent)
 {
+    CLAST_ASSERT(parent >= 0 && parent < from->n_node);
     int32_t lane[CLX_TOUCH_LANES];
     if (from->node[parent].right == 0) {
         return -from->node[parent].first;
@@ -299,6 +304,7 @@ static clx_tree_box empty_box(int32_t item)
 
 static int32_t root_of(int32_t *above, int32_t i)
 {
+    CLAST_ASSERT(i >= 0 && above[i] >= 0);
     while (above[i] != i) {
         above[i] = above[above[i]];
         i = above[i];

@@ -4,6 +4,7 @@
 // 18 signed areas, so that neighbouring tests agree on which side a corner lies.
 #include "touch/triangle.h"
 
+#include "base/status.h"
 #include "math/vec3.h"
 
 enum { CORNER_OF_B, CORNER_OF_A, EDGES, CORNER_OF_B_ON_EDGE, CORNER_OF_A_ON_EDGE };
@@ -121,6 +122,7 @@ static void pass_corners(const shadow *s, double q[3][3], double sign, int kind,
 /// Share of the way from the value `from` to `to` at which zero is crossed; false if it is not.
 static bool crossing(double from, double to, double tolerance, double *share)
 {
+    CLAST_ASSERT(tolerance >= 0.0);
     if ((from > tolerance && to > tolerance) || (from < -tolerance && to < -tolerance) ||
         from == to) {
         return false;
@@ -150,6 +152,7 @@ static void pass_edges(const shadow *a, const shadow *b, clx_pass *pass)
 
 bool clx_triangles_pass(double a[3][3], double b[3][3], double slack, clx_pass *pass)
 {
+    CLAST_ASSERT(slack >= 0.0);
     shadow sa;
     shadow sb;
     see(&sa, a, b, slack);
@@ -179,6 +182,7 @@ static void face_normal(double p[3][3], double normal[3])
 void clx_triangles_contact(double a[3][3], double b[3][3], const clx_pass *pass, double point[3],
                            double normal[3])
 {
+    CLAST_ASSERT(pass->i >= 0 && pass->i < 3 && pass->j >= 0 && pass->j < 3);
     if (pass->kind == EDGES) {
         const double *p = a[pass->i];
         const double *q = b[pass->j];
@@ -286,6 +290,7 @@ static void pass_edge(double a[3][3], int i, const double c[3], const double w[3
 bool clx_ball_triangle_pass(double a[3][3], const double c[3], const double w[3], double radius,
                             clx_pass *pass)
 {
+    CLAST_ASSERT(radius >= 0.0);
     *pass = (clx_pass){.first = INFINITY, .last = -INFINITY};
     pass_face(a, c, w, radius, pass);
     for (int i = 0; i < 3; ++i) {

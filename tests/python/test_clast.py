@@ -47,6 +47,9 @@ class Numbers(unittest.TestCase):
         for name in ("n", "n_cell", "score", "stop", "reject", "resolved", "pair_integral", "pair_integral_low", "pair_integral_high"):
             self.assertEqual(getattr(found, name), said[name], name)
         self.assertEqual(found.cells["count"].sum(), 500)
+        self.assertEqual([(t["name"], t["statistic"], t["p"], t["reject"]) for t in said["tests"]], [tuple(row) for row in found.tests.tolist()])
+        for name in ("ideal_score", "estimator", "n_repeated"):
+            self.assertEqual(getattr(found, name), said[name], name)
         self.assertTrue(np.array_equal(np.bincount(found.cell_of_point), found.cells["count"]))
 
     def test_keys_are_those_of_the_command(self):

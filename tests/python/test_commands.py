@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -64,6 +65,13 @@ class Commands(unittest.TestCase):
             else:
                 self.assertTrue(callable(getattr(clast, function, None)), f"clast {name} has no function")
                 self.assertIn(function, clast.__all__)
+
+    def test_the_page_of_the_documents_runs(self):
+        code = re.search(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(), re.S)[1]
+        (self.folder / "data").symlink_to(ROOT / "data")
+        done = subprocess.run([sys.executable, "-c", code], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater(len(done.stdout.split()), 8)
 
     def test_fit(self):
         path = self.write("beds.csv", form_beds())
@@ -159,12 +167,37 @@ class Commands(unittest.TestCase):
         self.assertTrue(told)
         self.assertEqual((self.folder / "one/results.csv").read_bytes(), (self.folder / "two/results.csv").read_bytes())
         self.assertEqual(list(found.results["spheres"]), [5, 5, 9, 9])
+        opened = clast.open(self.folder / "one")
+        self.assertEqual((opened.command, opened.summary), ("study", {"n_run": 4, "n_done": 4, "n_failed": 0}))
+        self.assertEqual(list(opened.table("results")["spheres"]), [5, 5, 9, 9])
+        self.assertIn("n_done", opened._repr_html_())
         again = clast.study(run="fill", argument=MENGER, vary=["spheres=5|9", "strategy=random|largest"], output=self.folder / "two")
         self.assertEqual((again.n_before, again.n_done), (4, 0))
         for keys, line in ((dict(run="fil"), "no command that a study can run; did you mean fill"), (dict(vary="sphere=5"), "did you mean spheres"),
                            (dict(fix="spheres"), "^fix: takes key=value"), (dict(run="mesh hull", seeds=2), "draws nothing at random")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.study(**{**dict(run="fill", output=self.folder / "x"), **keys})
+
+    def test_a_study_without_the_command_names_the_cure(self):
+        env = {**os.environ, "CLAST": "", "PATH": "/nowhere"}
+        code = "import clast; clast.study(run='fill', argument='x.stl', vary='spheres=1', output='x')"
+        done = subprocess.run([sys.executable, "-c", code], env=env, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        if not pathlib.Path(sys.executable).with_name("clast").exists():
+            self.assertRegex(done.stderr.splitlines()[-1], "processes of the command clast, which is not on the PATH; install clast")
+        other = self.folder / "clast"
+        other.write_text("#!/bin/sh\necho clast 9.9.9\n")
+        other.chmod(0o755)
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "CLAST": str(other)}, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        self.assertRegex(done.stderr.splitlines()[-1], "is version 9.9.9, this package is for")
+
+    def test_an_interrupted_study_goes_on(self):
+        keys = dict(run="pack", fix=["curve=4mm", "mass=40g", "width=30mm", "height=0.1m", "shaking_time=0s", "max_steps=60000"], seeds=3, jobs=1,
+                    output=self.folder / "out")
+        with self.assertRaises(KeyboardInterrupt):
+            clast.study(**keys, progress=lambda phase, done, total: os.kill(os.getpid(), 2) if done >= 1 else None)
+        first = clast.study(**keys)
+        self.assertGreaterEqual(first.n_before, 1)
+        self.assertEqual((first.n_before + first.n_done, first.n_failed), (3, 0))
 
     def test_a_run_that_fails_is_told(self):
         with self.assertWarnsRegex(UserWarning, "1 of 2 runs failed; the first says why in .*000002"):
@@ -222,6 +255,97 @@ class Commands(unittest.TestCase):
                            (lambda: clast.mesh_simplify(GRAIN, "few"), "few")):
             with self.assertRaisesRegex(clast.Error, line):
                 call()
+
+    def test_a_box_without_positions(self):
+        words = ("agglomerate", "--box-model", "--concentration", 2, "--constant", 1, "--duration", "1s", "--n-step", 2, "--repeats", 3, "--particles", 2000)
+        said = command(*words, "--seed", 5)
+        found = clast.box_model(concentration=2, constant=1, duration=1.0, n_step=2, repeats=3, particles=2000, seed=5)
+        self.assertEqual(list(found.history["M0"]), said["n_particle"])
+        self.assertEqual(list(found.history["M2_sd"]), said["moments_sd"]["M2"])
+        self.assertEqual((list(found.history["exact_M0"]), found.n_section), (said["exact"]["n_particle"], said["n_section"]))
+        self.assertEqual(found.spectrum.units["n"], "1/m^3")
+        sizes = {"size": [1.0, 2.0], "number": [1.0, 0.5]}
+        path = self.write("sizes.csv", sizes)
+        said = command(*words[:2], "--initial", "table", "--initial-file", path, "--constant", 1, "--n-step", 2)
+        self.assertEqual(list(clast.box_model(sizes=sizes, constant=1, n_step=2).history["M1"]), said["moments"]["M1"])
+        for keys, line in ((dict(solver="sectional", particles=3), "^particles: does nothing with solver 'sectional'"), (dict(initial="table"), "^sizes: and"),
+                           (dict(sizes={"size": [1.0]}), "columns size and number"), (dict(concentratio=1), "did you mean concentration")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.box_model(**keys)
+
+    def test_a_kernel_beyond_its_range_warns(self):
+        x = np.column_stack([[0.1, 0.5], [0.5, 0.5], [0.5, 0.5]])
+        keys = dict(domain="box:0,0,0,1,1,1", kernel="settling", radius=[5e-4, 5e-6], viscosity=1.8e-5, density=1.2, particle_density=2500,
+                    mean_free_path="66nm", efficiency=1, variant="test", n_step=1, duration=10.0, settling_law="stokes")
+        with self.assertRaisesRegex(clast.Error, "Reynolds number of settling by Stokes' law"):
+            clast.agglomerate(x, **keys)
+        with self.assertWarnsRegex(UserWarning, "^kernel settling: Reynolds number .*; beyond lie 50 % of the particles"):
+            clast.agglomerate(x, **keys, out_of_range="extrapolate")
+
+    def test_what_the_command_warns_of(self):
+        forms = {"flatness": [0.6, 0.7, -1.0, 0.65], "elongation": [0.7, 0.8, 0.7, 0.66]}
+        with self.assertWarnsRegex(UserWarning, "^1 of 4 rows left out: 1 not positive .row 3") as caught:
+            clast.predict(table=forms)
+        self.assertEqual(caught.filename, __file__)
+        with self.assertWarnsRegex(UserWarning, "^1 of 4 rows left out"):
+            self.assertEqual(len(clast.predict_beds(forms)), 3)
+        mesh = clast.Mesh.read(GRAIN)
+        with self.assertWarnsRegex(UserWarning, "^the surface has 3 open edges; their holes were capped"):
+            clast.fill(clast.Mesh(mesh.vertices, mesh.triangles[1:]), spheres=3, allow_open=True)
+        with self.assertWarnsRegex(UserWarning, "^the surface cuts itself at .* pairs"):
+            clast.fill(clast.Mesh(np.concatenate([mesh.vertices, mesh.vertices + 0.1]), np.concatenate([mesh.triangles, mesh.triangles + len(mesh.vertices)])),
+                       spheres=3)
+        with self.assertWarnsRegex(UserWarning, "points a bin .under 10.*compare mesh='tree'"):
+            clast.decompose(np.random.default_rng(1).random((300, 2)) ** 2, domain="box:0,0,1,1", mesh="boxes")
+        with self.assertLogs("clast", "INFO") as caught:
+            clast.aggregate(core="sphere", core_size="270um", coat="sphere", size="100um", replicate=2, printable=True, output=self.folder / "run")
+        self.assertIn("printable", caught.output[0])
+
+    def test_a_medium_is_one_number_or_one_a_particle(self):
+        x = np.random.default_rng(1).random((50, 3)) * 1e-4
+        keys = dict(domain="box:0,0,0,1e-4,1e-4,1e-4", kernel="brownian", radius=np.full(50, 1e-6), duration="100s", n_step=2)
+        made = [list(clast.agglomerate(x, **keys, temperature=t).history["n_particle"]) for t in (300, "300 K", np.full(50, 300.0))]
+        self.assertEqual(made[0], made[2])
+        self.assertEqual(made[0], made[1])
+        self.assertLess(made[0][-1], 50)
+
+    def test_shapes_of_many_files(self):
+        files = sorted((ROOT / "data/standin63").glob("*.ply"))[:12] + [ROOT / "README.md"]
+        words = ("shape", *files, "--axes", "box", "--unit", "mm", "--statistics", self.folder / "one", "--resamples", 100)
+        said = command(*words, "-o", self.folder / "one.csv", code=3)
+        found = clast.shapes(*files, axes="box", unit="mm")
+        self.assertEqual((len(found), found.unit), (12, said["unit"]))
+        self.assertEqual(list(found.faults), [one["text"] for one in said["faults"]])
+        found.table.write(self.folder / "two.csv")
+        self.assertEqual((self.folder / "one.csv").read_bytes(), (self.folder / "two.csv").read_bytes())
+        statistics, wanted = found.statistics(resamples=100), said["statistics"]
+        self.assertEqual((statistics.n, statistics.zingg), (wanted["n"], wanted["zingg"]))
+        for k, one in enumerate(wanted["columns"]):
+            row = statistics.columns[k]
+            self.assertEqual([row["name"], row["mean"], row["mean_low"], row["deviation_high"], row["q25"], row["shapiro_p"]],
+                             [one["name"], one["mean"]["value"], one["mean"]["low"], one["deviation"]["high"], one["quantiles"]["q25"], one["shapiro_p"]])
+        self.assertEqual(list(statistics.explained), [one["explained"] for one in wanted["pca"]])
+        self.assertEqual(statistics.correlation[0].tolist(), wanted["correlation"]["r"][0])
+        statistics.write(self.folder / "two")
+        self.assertEqual((self.folder / "one/pca.csv").read_bytes(), (self.folder / "two/pca.csv").read_bytes())
+        self.assertIn("data:image/svg", statistics._repr_html_())
+
+    def test_shapes_of_voxels(self):
+        x = np.mgrid[:20, :20, :20]
+        labels = np.zeros((20, 20, 20), ">u2")
+        labels[((x - 9.5) ** 2).sum(axis=0) < 64] = 3
+        path = self.folder / "labels.raw"
+        path.write_bytes(b"head" + labels.tobytes())
+        said = command("shape", path, "--kind", "voxels", "--voxels", "20,20,20", "--voxel-type", "u16", "--big-endian", "--skip", 4, "--voxel-edge", "2")
+        found = clast.shapes(path, kind="voxels", voxels=(20, 20, 20), voxel_type="u16", big_endian=True, skip=4, voxel_edge=2)
+        self.assertEqual([found.table["volume"][0], found.table["L"][0]], [said["grains"][0]["volume"], said["grains"][0]["L"]])
+        for keys, line in ((dict(voxels="20,20"), "^voxels: '20,20' is not 3 numbers"), (dict(voxels=(20, 20, 2.5)), "^voxels: .* are not sizes"),
+                           (dict(voxel_edge=-1), "^voxel_edge: "), (dict(kind="voxel"), "^kind: 'voxel' is none of .*did you mean voxels"),
+                           (dict(unit="miles"), "miles")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.shapes(path, **keys)
+        with self.assertRaisesRegex(clast.Error, "^files: none"):
+            clast.shapes()
 
     def test_grading(self):
         said, found = command("grading", "U3", "--mass", "1kg"), clast.Grading("U3")

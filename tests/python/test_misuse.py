@@ -28,6 +28,10 @@ FOLDER = tempfile.TemporaryDirectory()
 RUN = pathlib.Path(FOLDER.name, "run")
 clast.aggregate(**SMALL, output=RUN)
 
+FORMS = {"flatness": np.linspace(0.4, 0.8, 9), "elongation": np.linspace(0.7, 0.5, 9) ** 2 + 0.3}
+LATTICE = pathlib.Path(FOLDER.name, "lattice.csv")
+LATTICE.write_text("x_mm,y_mm,z_mm,d_mm\n" + "".join(f"{i},{j},{k + 0.5},1\n" for i in range(-3, 4) for j in range(-3, 4) for k in range(6)))
+
 
 def beds():
     k = np.arange(40.0)
@@ -48,6 +52,11 @@ MAKERS = {
     "Fit": (lambda: clast.fit(beds(), features="columns", n_term=1, n_permutation=0), lambda f: [f.terms["coefficient"], f.rows["fitted"]]),
     "Picture": (lambda: clast.render(RUN, width=64, height=64, colour_bar=False, scale_bar=False), lambda p: [p.rgba]),
     "Grading": (lambda: clast.Grading("U3"), lambda g: [g.draw(5), g.classes["mass"]]),
+    "Grains": (lambda: clast.shapes(GRAIN, GRAIN), lambda g: [g.table["volume"]]),
+    "GrainStatistics": (lambda: clast.grain_statistics(FORMS, resamples=10), lambda g: [g.columns["mean"], g.correlation, g.explained]),
+    "Spectrum": (lambda: clast.box_model(concentration=2, constant=1, particles=200, n_step=2), lambda s: [s.history["M0"], s.spectrum["n"]]),
+    "Porosity": (lambda: clast.porosity(LATTICE, bed="periodic:-3.5mm,-3.5mm,3.5mm,3.5mm", gap="1um"), lambda p: [p.profile["porosity"], p.fabric["value"]]),
+    "Model": (lambda: clast.Model("single_form_U1"), lambda m: [np.array(list(m.coefficients.values()))]),
     "SurfaceResult": (lambda: clast.mesh_hull(GRAIN), lambda s: [s.mesh.vertices]),
 }
 

@@ -5,6 +5,7 @@
 #include "aggregate/sizes.h"
 #include "base/alloc.h"
 #include <clast/aggregate_run.h>
+#include <string.h>
 
 static void default_config(clast_aggregate_config *config)
 {
@@ -63,6 +64,32 @@ static void histograms_are_drawn_by_number_or_mass(void **state)
         const double share = by_mass == 1 ? 8.0 / 9.0 : 0.5;
         CHECK_ABS(small / n, share, 5.0 * sqrt(share * (1.0 - share) / n));
         clx_free(size);
+    }
+    clast_sizes_free(&sizes);
+    clast_fields_free(clast_aggregate_fields, &c);
+}
+
+static void sizes_of_a_caller_must_be_above_0(void **state)
+{
+    (void)state;
+    const double bad[][3] = {{0.0, 1e-3, 1.0},         {-1e-3, 1e-3, 1.0},
+                             {2e-3, 1e-3, 1.0},        {1e-3, 1e-3, -1.0},
+                             {1e-3, (double)NAN, 1.0}, {1e-3, (double)INFINITY, 1.0}};
+    clast_aggregate_config c;
+    clast_sizes sizes = {0};
+    double *size = NULL;
+    int32_t n = 0;
+    default_config(&c);
+    CHECK_OK(clast_sizes_alloc(2, &sizes));
+    sizes.low[0] = sizes.high[0] = 1e-3;
+    sizes.count[0] = 1.0;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        sizes.low[1] = bad[k][0];
+        sizes.high[1] = bad[k][1];
+        sizes.count[1] = bad[k][2];
+        CHECK_STATUS(clx_sizes_plan(&c.params, &sizes, 1, &size, &n), CLAST_E_CONFIG);
+        assert_null(size);
+        assert_non_null(strstr(clast_error_detail(), "sizes: row 2"));
     }
     clast_sizes_free(&sizes);
     clast_fields_free(clast_aggregate_fields, &c);
@@ -257,6 +284,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_repeated_and_ordered),
         cmocka_unit_test(histograms_are_drawn_by_number_or_mass),
+        cmocka_unit_test(sizes_of_a_caller_must_be_above_0),
         cmocka_unit_test(laws_have_their_moments),
         cmocka_unit_test(classes_and_weights_choose_shapes),
         cmocka_unit_test(form_of_groups_is_exact),

@@ -161,6 +161,25 @@ static void wrong_grains_are_refused(void **state)
     clast_assembly_free(&a);
 }
 
+static void clump_with_a_sphere_of_no_size_is_refused(void **state)
+{
+    (void)state;
+    clast_assembly a = {0};
+    clast_shape clump = {0};
+    double centre[1][3] = {{0.0, 0.0, 0.0}};
+    double radius[1] = {1.0};
+    const clast_spheres spheres = {1, centre, radius};
+    CHECK_OK(clast_shape_clump("clump", &spheres, &clump));
+    clump.spheres.radius[0] = -1.0;
+    CHECK_STATUS(clast_assembly_add_shape(&a, &clump, NULL), CLAST_E_ARGUMENT);
+    clump.spheres.radius[0] = 1.0;
+    clump.spheres.centre[0][1] = NAN;
+    CHECK_STATUS(clast_assembly_add_shape(&a, &clump, NULL), CLAST_E_ARGUMENT);
+    assert_int_equal(a.n_shape, 0);
+    clast_shape_free(&clump);
+    clast_assembly_free(&a);
+}
+
 static clast_status make_many(void *context)
 {
     (void)context;
@@ -200,6 +219,7 @@ int main(void)
         cmocka_unit_test(ellipsoid_box_touches_its_surface),
         cmocka_unit_test(mesh_box_is_that_of_its_surface),
         cmocka_unit_test(wrong_grains_are_refused),
+        cmocka_unit_test(clump_with_a_sphere_of_no_size_is_refused),
         cmocka_unit_test(assembly_survives_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -123,6 +123,7 @@ static void the_table_has_nan_for_what_is_not_known(void **state)
     CHECK_REL(clast_table_numbers(&table, "inverse_equancy")[0], 3.0, 1e-12);
     assert_true(clast_table_numbers(&table, "L")[1] == clast_table_numbers(&table, "fitted_L")[1]);
     clast_table_free(&table);
+    CHECK_STATUS(clast_grains_table(&grains, CLAST_N_AXES, false, &table), CLAST_E_ARGUMENT);
     clast_grains_free(&grains);
 }
 

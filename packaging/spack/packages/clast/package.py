@@ -17,7 +17,7 @@ class Clast(CMakePackage):
 
     variant("view", default=True, description="libclast_view (charts, pictures, reports) and the command")
     variant("hdf5", default=True, description="states and checkpoints")
-    variant("openmp", default=True, description="threads")
+    variant("threads", default=True, description="work on several threads")
     variant("tiff", default=True, description="TIFF stacks of scanners")
     variant("sundials", default=True, description="the sectional solver of spectra")
     variant("mpi", default=False, description="libclast_mpi and clast-mpi")
@@ -45,7 +45,7 @@ class Clast(CMakePackage):
     generator("ninja")
 
     def cmake_args(self):
-        parts = ("view", "hdf5", "openmp", "tiff", "sundials", "mpi")
+        parts = ("view", "hdf5", "threads", "tiff", "sundials", "mpi")
         return [self.define_from_variant(f"CLAST_{part.upper()}", part) for part in parts] + [
             self.define("BUILD_TESTING", False),
             self.define("CLAST_BENCH", False),

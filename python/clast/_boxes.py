@@ -1,0 +1,89 @@
+"""Sizes in a well-mixed box, without positions; and what a kernel's range says of a run."""
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _bindings as c
+from ._core import Config, Error, Owner, call, check, html_table, nearest, numbers, refuse, warn
+from ._tables import Table, given_table, table_of
+
+_OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
+_IDLE = {"monte-carlo": ("tolerance", "breakage_exponent", "fragments", "fragment_exponent", "source_size"),
+         "sectional": ("particles", "collisions", "leap", "block")}
+
+
+def warn_of_range(report: Any) -> None:
+    """Warns where particles or collisions lie beyond the range of their kernel, as the command does."""
+    used = report.collisions if report.collisions.outside > 0 or not report.start.outside > 0 else report.start
+    if used.outside > 0:
+        words = ctypes.create_string_buffer(512)
+        call("clast_range_use_words")(ctypes.byref(used), len(words), ctypes.cast(words, ctypes.c_char_p))
+        shares = [100 * (one.outside / one.n if one.n > 0 else 0.0) for one in (report.start, report.collisions)]
+        warn(f"{words.value.decode()}; beyond lie {shares[0]:.3g} % of the particles at the start and {shares[1]:.3g} % of the collisions")
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """A box in time: `history` has numbers and moments [1/m3], `spectrum` a row a time and size; NaN: not, or not known."""
+
+    history: Table
+    spectrum: Table
+    n_section: int
+    gel_time: float
+    is_gelation: bool
+    exact_gel_time: float
+    mass_error: float
+
+    def _repr_html_(self) -> str:
+        last = self.history[-1]
+        return html_table({name: float(last[name]) for name in ("time_s", "M0", "M1", "M2", "exact_M0", "exact_M2")
+                           if name in self.history.columns})
+
+
+def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spectrum:
+    """Evolves the sizes of particles in a well-mixed box (`clast agglomerate --box-model`): box_model(concentration=1e12, kernel="constant").
+
+    Monte Carlo, or solver="sectional" for breakage, sources and settling too. `sizes` is a table of the start, columns size (monomers) and
+    number (1/m3): a file, a structured array, a DataFrame or a dictionary; it is initial="table".
+    """
+    solver = keys.get("solver") or "monte-carlo"
+    own = set(_FIELDS["clast_spectrum_fields"])
+    for name in keys:
+        if name in _OF_CLOUDS:
+            raise Error("CLAST_E_CONFIG", f"{name}: is a key of clouds; a box has no positions")
+        if name in _IDLE.get(solver, ()):
+            raise Error("CLAST_E_CONFIG", f"{name}: does nothing with solver '{solver}'")
+        if name not in own and name not in _FIELDS["clast_agglomerate_fields"]:
+            raise Error("CLAST_E_CONFIG", f"no keyword {name}{nearest(name, own | set(_FIELDS['clast_agglomerate_fields']))}")
+    if sizes is not None and keys.setdefault("initial", "table") != "table" or sizes is None and keys.get("initial") == "table":
+        raise refuse("sizes: and initial='table' go together")
+    start, held = c.clast_spectrum_start(), None
+    if sizes is not None:
+        held = table_of(given_table("sizes", sizes))
+        if not {"size", "number"} <= set(held.columns):
+            raise refuse("sizes: needs the columns size and number")
+        columns = [numbers(f"sizes: {name}", held[name], None) for name in ("size", "number")]
+        start.n, (start.size, start.number) = len(held), (ctypes.cast(x.ctypes.data, ctypes.POINTER(ctypes.c_double)) for x in columns)
+    result = Owner(c.clast_spectrum(), "clast_spectrum_free")
+    parts = [{name: value for name, value in keys.items() if (name in own) == is_own} for is_own in (True, False)]
+    with Config(c.clast_spectrum_config(), "clast_spectrum_fields", parts[0]) as box, \
+            Config(c.clast_agglomerate_config(), ("clast_agglomerate_fields", "clast_decompose_fields"), {**parts[1], "seed": seed}) as rest:
+        a, s = rest.struct, box.struct
+        kernel = ctypes.c_uint32()
+        check(call("clast_kernel_parse")(a.kernel, ctypes.byref(kernel)))
+        a.collide.kernel, a.collide.seed = kernel.value, a.decompose.seed
+        s.duration, s.n_step, s.repeats = a.duration, a.n_step, a.repeats
+        check(call("clast_spectrum_evolve")(ctypes.byref(s), ctypes.byref(a.collide), ctypes.byref(start) if held is not None else None,
+                                            ctypes.byref(result.struct)))
+    r = result.struct
+    warn_of_range(r.range)
+    history = table_of(result, r.history)
+    return Spectrum(history, table_of(result, r.spectrum), r.spectrum.n_row // max(1, len(np.atleast_1d(history))), r.gel_time, r.is_gelation,
+                    r.exact_gel_time, r.mass_error)
+
+
+_FIELDS = {table: tuple(c.TABLES[table]) for table in ("clast_spectrum_fields", "clast_agglomerate_fields")}
