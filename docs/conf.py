@@ -1,7 +1,6 @@
 """Sphinx configuration: Markdown pages, and the C headers through Doxygen and Breathe. Works offline."""
 import os
 import pathlib
-import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -10,7 +9,7 @@ os.environ.setdefault("CLAST_LIBRARY", str(ROOT / "build/release/libclast_view.s
 project = "clast"
 author = "the clast maintainers"
 copyright = "2026, the clast maintainers"  # noqa: A001 (Sphinx's name)
-release = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+release = (ROOT / "VERSION").read_text().split()[0]
 extensions = ["myst_parser", "breathe", "sphinx_inline_tabs", "sphinx_copybutton", "sphinx.ext.autodoc", "formulas", "mended_theme", "python_keys"]
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence"]
 myst_heading_anchors = 3

@@ -154,7 +154,7 @@ def main():
     parser.add_argument("--map", nargs="+", required=True)
     parser.add_argument("--carried", nargs="*", default=[])
     words = parser.parse_args()
-    version = re.search(r"^project\(clast VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M).group(1)
+    version = (ROOT / "VERSION").read_text().strip()
     every = parts(words.map, words.carried)
     write_licences(words.folder, every)
     text = json.dumps(document(every, words.files, version, int(os.environ.get("SOURCE_DATE_EPOCH", "0"))), indent=1)

@@ -1,4 +1,4 @@
-// A team of threads that outlives the work it is given. docs/adr/0012-threads.md
+// A team of threads that outlives the work it is given. docs/adr/0013-threads.md
 //
 // Idle threads spin for a bounded time, then sleep. Whoever has work opens it and begins at once;
 // threads that wake in time join, the others are not waited for. Where other processes take the
