@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a public header that changed since the last release is not named in CHANGELOG's Unreleased *Interface*.
 
-The last release is the commit that changed the file VERSION last; its section of CHANGELOG names every header when it is the first.
+The last release is the commit that brought CHANGELOG the section of the version in the file VERSION.
 """
 import pathlib
 import re
@@ -16,7 +16,10 @@ def git(*arguments):
 
 
 def changed_headers():
-    release = git("log", "-1", "--format=%H", "--", "VERSION").strip()
+    version = (ROOT / "VERSION").read_text().strip()
+    release = git("log", "--reverse", "--format=%H", f"-S## {version} (", "--", "CHANGELOG.md").partition("\n")[0]
+    if not release:
+        return []
     return [pathlib.PurePath(name).name for name in git("diff", "--name-only", release, "HEAD", "--", "include/clast").split()]
 
 

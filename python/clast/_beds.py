@@ -1,6 +1,7 @@
 """Spheres in a surface, and the porosity of a bed."""
 from __future__ import annotations
 
+import copy
 import ctypes
 import os
 from dataclasses import dataclass, field
@@ -53,7 +54,7 @@ _TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume
 
 def fill(mesh: Mesh | Path, *, progress: Progress = None, **keys: Any) -> Spheres:
     """Fills a closed surface, or that of a file, with spheres."""
-    surface = mesh if isinstance(mesh, Mesh) else Mesh.read(mesh)
+    surface = copy.copy(mesh) if isinstance(mesh, Mesh) else Mesh.read(mesh)  # of the same memory; the callback may close its own
     spheres, report, monitor = c.clast_spheres(), c.clast_fill_report(), Monitor(progress)
     with Config(c.clast_fill_config(), "clast_fill_fields", keys) as config:
         check(monitor.run(lambda m: call("clast_fill")(surface._struct(), ctypes.byref(config.struct), m, ctypes.byref(spheres),
