@@ -107,7 +107,7 @@ def run_document(name, environment):
                 faults += [f"{where}: {fault}" for fault in wrong]
             else:
                 n_run += 1
-                printed, wrong = run_block(["bash", "-uc", script(name, commands(start, lines))], folder, environment)
+                printed, wrong = run_block(where, ["bash", "-uc", script(name, commands(start, lines))], folder, environment)
                 faults += wrong
         if python:
             python.close()
@@ -155,12 +155,12 @@ def is_printed(line, printed):
     return any(re.search(pattern, " ".join(told.split())) for told in printed.splitlines())
 
 
-def run_block(program, folder, environment):
+def run_block(where, program, folder, environment):
     """(stdout, faults)"""
     try:
         done = subprocess.run(program, cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=600)
     except subprocess.TimeoutExpired:
-        return "", [f"a block took more than 600 s:\n{program[-1]}"]
+        return "", [f"{where}: the block took more than 600 s"]
     return done.stdout, [done.stderr[-2000:].rstrip()] if done.returncode else []
 
 
