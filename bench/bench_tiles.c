@@ -1,6 +1,7 @@
 // What does a grain-step of the same bed cost among more grains, and with more threads?
 //
 //     build/release/bench/bench_tiles [NX NY [THREADS]]      (without numbers: all, some minutes)
+//     build/release/bench/bench_tiles threads     (one and two, alone and beside a busy process)
 //
 // The bed of case P1 (4000 grains, shaken and settled) stands beside itself NX times NY times in
 // one periodic box, grain by grain of all copies in turn, as a fill would number them: so every
@@ -15,9 +16,13 @@
 
 #include <clast/dem.h>
 #include <clast/machine.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { N_FORM = 63, SETTLE = 155000, WARM = 50, WINDOW = 2000000, LEAST = 50, WINDOWS = 25 };
 
@@ -120,6 +125,34 @@ static void report(const char *name, double ns, double reference)
     printf("%s,%.4g,ns/grain-step,%.4g,%.3g\n", name, ns, reference, reference / ns);
 }
 
+/// What a second thread brings, by medians: alone, then while another process wants a core.
+static void compare_threads(const clast_dem *bed)
+{
+    static const char *const where[] = {"ALONE", "BESIDE_A_BUSY_PROCESS"};
+    for (int busy = 0; busy < 2; ++busy) {
+        pid_t other = busy == 1 ? fork() : 0;
+        if (busy == 1 && other == 0) {
+            for (volatile int i = 0;; ++i) {
+            }
+        }
+        tiles all[] = {{.nx = 1, .ny = 1, .threads = 1},
+                       {.nx = 1, .ny = 1, .threads = 2},
+                       {.nx = 5, .ny = 1, .threads = 1},
+                       {.nx = 5, .ny = 1, .threads = 2}};
+        time_in_turn(all, 4, bed);
+        for (int k = 1; k < 4; k += 2) {
+            char name[64];
+            (void)snprintf(name, sizeof name, "TILES_%d_2_THREADS_%s", 4000 * all[k].nx,
+                           where[busy]);
+            report(name, all[k].ns[WINDOWS / 2], all[k - 1].ns[WINDOWS / 2]);
+        }
+        if (other > 0) {
+            (void)kill(other, SIGKILL);
+            (void)waitpid(other, NULL, 0);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     clast_dem *bed = NULL;
@@ -127,7 +160,9 @@ int main(int argc, char **argv)
     CHECK_OK(clast_dem_scene_p1(&(clast_scene_bed){4000, 152, WIDTH, 0.0}, &bed));
     CHECK_OK(clast_dem_step(bed, SETTLE));
     printf("scene,value,unit,reference,ratio\n");
-    if (argc > 2) {
+    if (argc == 2 && strcmp(argv[1], "threads") == 0) {
+        compare_threads(bed);
+    } else if (argc > 2) {
         int number[3] = {1, 1, 1};
         for (int i = 0; i < 3 && i + 1 < argc; ++i) {
             number[i] = (int)strtol(argv[i + 1], NULL, 10);
