@@ -1,7 +1,7 @@
 """Python's docstrings as pages: keywords that are a command's keys lead to its page, where units and ranges stand in a table."""
 import inspect
 
-OTHER = {"predict_beds": "predict"}
+OTHER = {"predict_beds": "predict", "box_model": "agglomerate", "grain_statistics": "shape", "shapes": "shape"}  # functions named otherwise than their command
 OWN = ("output", "progress", "resume")  # keywords of Python's own, which stay in the signature
 
 
