@@ -9,9 +9,10 @@ version=$(cat VERSION)
 made=build/packages
 wanted=${*:-tarball wheel deb deb-dev sdist notebooks}
 install() { within "apt-get install -y -qq --no-install-recommends $*" > "$work/log" 2>&1 || fail "apt-get install $* failed"; }
-laid() { # the files of the root but apt's and the loader's own notes, and ours
+laid() { # the files of the root but ours, the notes of apt and the loader, and what groups that dependencies make and unmake leave (etc/gshadow-)
     find "$root" -xdev \( -path "$root/var/lib/apt" -o -path "$root/var/cache" -o -path "$root/var/log" -o -path "$root/var/lib/dpkg" \
-        -o -path "$root/given" -o -path "$root/etc/ld.so.cache" -o -path "$root/proc" -o -path "$root/dev" \) -prune -o -print | sort
+        -o -path "$root/given" -o -path "$root/etc/ld.so.cache" -o -path "$root/run" -o -path "$root/etc/*shadow-" -o -path "$root/etc/group-" -o -path "$root/etc/passwd-" \
+        -o -path "$root/proc" -o -path "$root/dev" \) -prune -o -print | sort
 }
 same_as_before() { # WHAT: the root holds the files that it held
     laid | diff "$work/before" - > "$work/log" || fail "$1 leaves files behind, or took some away"
