@@ -134,7 +134,7 @@ static double grain_support(const clx_scene *scene, const clx_scene_grain *grain
 
 double clx_scene_support(const clx_scene *scene, const double direction[3])
 {
-    CLAST_ASSERT(v3_is_unit(direction, 1e-9));
+    CLAST_ASSERT(v3_is_finite(direction));
     double best = -INFINITY;
     for (int32_t g = 0; g < scene->n_grain; ++g) {
         best = fmax(best, grain_support(scene, &scene->grain[g], direction));
