@@ -174,6 +174,7 @@ const clast_field clast_aggregate_fields[] = {
 
 clast_status clast_aggregate_params_default(clast_aggregate_params *params)
 {
+    CLX_ARGUMENTS(params);
     clast_aggregate_config config;
     CLX_GUARD(clast_fields_default(clast_aggregate_fields, &config));
     *params = config.params;
@@ -184,6 +185,9 @@ clast_status clast_aggregate_params_default(clast_aggregate_params *params)
 
 void clast_aggregate_params_free(clast_aggregate_params *params)
 {
+    if (params == NULL) {
+        return;
+    }
     clast_aggregate_config config = {.params = *params};
     clast_fields_free(clast_aggregate_fields, &config);
     *params = (clast_aggregate_params){0};

@@ -355,7 +355,6 @@ static void add_sphere(integrals *sum, const moments *m, const double c[3], doub
 
 static void mass_of(const integrals *sum, const double origin[3], clast_mass *mass)
 {
-    CLAST_ASSERT(sum->volume >= 0.0);
     double mean[3];
     double c[3][3];
     v3_scale(mean, 1.0 / sum->volume, sum->first);
