@@ -335,21 +335,6 @@ def table_matrix(_, share):
     return matrix_lines(rows, MATRIX_CSV if share >= 1 else pathlib.Path("build/d2sd_matrix.csv"))
 
 
-MATRIX_CAUSES = [
-    "Why rows are off, by more clouds of them (seeds 600000000, 700000000 and 900000000 on, 16 to 160 clouds a row):", "",
-    "- *The widths of the fit*, blob_half_05 3 box (+4.9 % +- 0.8 of 132 resolved clouds at n = 1000): the search missed the best one. Mended: +0.3 % +- 1.7, covered",
-    "  0.94 (0.88), intervals narrower by an eighth; at 3000 covered 0.94 (0.84).",
-    "- *Chosen by their own luck*: where the limit of what is called resolved lies among the widths of the intervals of one density's clouds, those below it are the ones",
-    "  that came out low. blob_third_12 3 surface at n = 1000: 17 % resolved, -9.2 %, of all clouds +1.2 %; with the limit at e^0.3 92 %, +1.7 %. A lower limit makes it worse",
-    "  (e^0.12: line_02 2 box at n = 300 -4 %, plume_02 3 box at n = 1000 -13 %).",
-    "- *Structure that the sample does not show*, cascades, poles, frame_half_07: all clouds of the row are low, resolved or not (cascade_3 3 box at n = 3000: -9.0 and -10.1 %),",
-    "  for the finest halvings add no more than their errors. Of the intervals 0.86 to 1 cover, but not at the poles x^-0.25 (n >= 3000) and x^-0.4. To ask that what the last",
-    "  halving adds and one standard error lie below 0.7 of the one before, or 5 %, halves the cascades that are resolved and moves their bias by nothing, at the price of",
-    "  frame_20 (0.83 -> 0.29 resolved) and plume_08 2 box at n = 300 (0.68 -> 0.30): not taken. The two families of the fit agree there, so their distance does not tell either.",
-    "- *Coverage* at n = 100000: 5 of 70 intervals exclude the truth, of power_25, power_40, cascade_6, line_20 and inertia_01 (3.5 are expected).",
-    "- *Still open*: blob_half_05 2 box at n = 300, low by 3 % beside the sample's own error, is now resolved more often."]
-
-
 def matrix_lines(rows, table):
     """The part's lines; all figures go to `table`, the page's own only where no share of the clouds was left out."""
     with open(table, "w", newline="") as f:
@@ -373,7 +358,7 @@ def matrix_lines(rows, table):
             cells = [matrix_cell(found[name, d, place, n]) if (name, d, place, n) in found else "" for n in sizes]
             if any(cells):
                 lines.append(f"| {name} | {d} {place} | " + " | ".join(cells) + " |")
-    lines += ["", *matrix_bad(rows), "", *MATRIX_CAUSES]
+    lines += ["", *matrix_bad(rows)]
     return lines + ["", "Names: blob, sheet, line: share of the points and standard deviation (tenth_03: a tenth in sd 0.03; no share: all), the rest",
                     "uniform; frame: within 0.20 of the walls, or half within 0.07; plume: sd^2 = 0.02^2 + 0.01 z; power: x^-0.25 along each axis;",
                     "cascade: halvings. The cylinder has diameter and length 1; the surface is the unit cube turned about all axes.", ""]

@@ -23,7 +23,7 @@ enum {
     N_NEWTON = 40,
     N_HALVING = 10,
     N_BISECT = 12,
-    N_STRETCH = 7,    ///< widths tried between two levels
+    N_STRETCH = 4,
     LEAST_PAIRS = 10, ///< within twice the narrowest width that is looked at
     FINER = 2         ///< levels narrower than the chosen one that the interval allows
 };
@@ -34,7 +34,7 @@ static const double step = 0.70710678118654752; ///< from one s to the next
 static const double gain_needed = 4.0;  ///< twice the gain in log-likelihood that a narrower s asks
 static const double stretch_loss = 0.5; ///< the same that a wider s between two levels may lose
 static const double kink = 2.0;         ///< length of exp(-r / L) over the s beside it
-static const double most_doubt = 0.3;   ///< half width of the profile's interval, as a logarithm,
+static const double most_doubt = 0.2;   ///< half width of the profile's interval, as a logarithm,
                                         ///< with which a cloud is resolved
 static const double most_size = 0.125;  ///< of the domain's: pairs closer than that and than the
                                         ///< narrowest s must be so many
@@ -531,15 +531,15 @@ static answer ask(fit *f)
     }
     const mixture narrow = m;
     double enough = 1.0;
-    // The widest that will do. Each is tried, for the likelihood does not fall steadily: a width
-    // between two levels is fitted best where one of them meets it.
-    for (int k = N_STRETCH; k > 0 && a.level > 0; --k) {
-        const double wider = pow(step, -(double)k / (N_STRETCH + 1));
-        prepare(f->in, f->has_kinks, wider, f);
+    double too_wide = 1.0 / step;
+    for (int b = 0; b < N_STRETCH && a.level > 0; ++b) { // the widest that will do
+        const double middle = sqrt(enough * too_wide);
+        prepare(f->in, f->has_kinks, middle, f);
         m = best(f, shapes(f, a.level), 0.0);
-        if (2.0 * (narrow.likelihood - m.likelihood) <= stretch_loss * factor) {
-            enough = wider;
-            break;
+        if (2.0 * (narrow.likelihood - m.likelihood) > stretch_loss * factor) {
+            too_wide = middle;
+        } else {
+            enough = middle;
         }
     }
     prepare(f->in, f->has_kinks, enough, f);
