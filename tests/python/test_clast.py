@@ -291,7 +291,12 @@ class Lives(unittest.TestCase):
         env = {k: v for k, v in os.environ.items() if k not in ("CLAST_LIBRARY", "LD_LIBRARY_PATH")}
         done = subprocess.run([sys.executable, "-c", "import clast"], env=env, stderr=subprocess.PIPE, text=True)
         if done.returncode:  # no library installed beside this build
-            self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*install clast")
+            self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*pip install.*libclast-view0")
+
+    def test_a_library_that_was_named_is_not_replaced(self):
+        done = subprocess.run([sys.executable, "-c", "import clast"], env={**os.environ, "CLAST_LIBRARY": "/no/such.so"}, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/no/such.so", done.stderr.splitlines()[-1])
 
 
 unittest.main()
