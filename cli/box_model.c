@@ -162,13 +162,16 @@ static void print_words(const cli_box *box, const char *kernel, int32_t repeats,
         (void)printf(" of %d particles, %s%d run%s\n\n", box->spectrum.particles,
                      repeats > 1 ? "mean of " : "", repeats, cli_plural(repeats));
     }
+    const double *value[N_COLUMN];
+    for (int k = 0; k < N_COLUMN; ++k) {
+        value[k] = is_told(h, column[k].name) ? clast_table_numbers(h, column[k].name) : NULL;
+    }
     for (int64_t i = -1; i < h->n_row; ++i) {
         for (int k = 0; k < N_COLUMN; ++k) {
-            if (is_told(h, column[k].name) && i < 0) {
+            if (value[k] != NULL && i < 0) {
                 (void)printf("%s%12s", k > 0 ? " " : "", column[k].title);
-            } else if (is_told(h, column[k].name)) {
-                (void)printf("%s%12.6g", k > 0 ? " " : "",
-                             clast_table_numbers(h, column[k].name)[i]);
+            } else if (value[k] != NULL) {
+                (void)printf("%s%12.6g", k > 0 ? " " : "", value[k][i]);
             }
         }
         (void)putchar('\n');

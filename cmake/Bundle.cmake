@@ -1,6 +1,6 @@
 # clast_bundled_cli and clast_bundled: the command, and both libraries as one, with all that they need inside but libc; what the tarball
 # and the wheel carry (tools/tarball.sh, tools/wheel.sh). Linked from the objects of this build and Debian's archives, which
-# packaging/bundle/bundled.txt lists. Built by name only; left out without a word where a part is missing: tools/bundle.sh tells which.
+# packaging/bundle/bundled.txt lists. Built by name only; left out without a word where a part is missing: tools/package.sh tells which.
 set(missing)
 if(NOT CMAKE_C_COMPILER_ID STREQUAL GNU)
   list(APPEND missing gcc)

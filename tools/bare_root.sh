@@ -11,7 +11,7 @@ if [ "${CLAST_IN_BARE:-}" != "$$" ]; then
     CLAST_IN_BARE=$$ exec unshare --mount "tools/$(basename "$0")" "$@" # what is mounted below is seen by nobody else and ends with it
 fi
 suite=bookworm
-sources=$(ls /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2>/dev/null | head -1 || true)
+sources=$(grep -lE '^(deb |URIs:)' /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2>/dev/null | head -1 || true) # one may hold a comment alone
 mirror=$(grep -ohE 'https?://[^ ]+/debian/?( |$)' ${sources:+"$sources"} /dev/null | head -1 | sed 's,/* *$,,')
 if [ -n "${BARE_SOURCES:-}" ]; then
     sources=$BARE_SOURCES

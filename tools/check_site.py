@@ -16,6 +16,7 @@ import os
 import pathlib
 import queue
 import re
+import select
 import shutil
 import subprocess
 import sys
@@ -46,7 +47,7 @@ class Browser:
             os.dup2(back, 4)
 
         self.process = subprocess.Popen(
-            ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-extensions", "--hide-scrollbars", "--no-first-run",
+            ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions", "--hide-scrollbars", "--no-first-run",
              "--disable-component-update", "--disable-background-networking", "--allow-file-access-from-files",
              f"--user-data-dir={self.profile.name}", "--remote-debugging-pipe", "about:blank"],
             preexec_fn=places, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -60,6 +61,8 @@ class Browser:
 
     def message(self):
         while b"\0" not in self.buffer:
+            if not select.select([self.inp], [], [], 120)[0]:
+                sys.exit("check_site: chromium does not answer")
             read = os.read(self.inp, 1 << 20)
             if not read:
                 sys.exit("check_site: chromium ended")

@@ -3,7 +3,7 @@
 set -euo pipefail
 . "$(dirname "$0")/package.sh"
 given=$(sed -n '1s/^clast (\([0-9.]*\)-.*/\1/p' packaging/debian/changelog)
-[ "$given" = "$version" ] || { echo "deb: packaging/debian/changelog is of $given, CMakeLists.txt of $version" >&2; exit 1; }
+[ "$given" = "$version" ] || { echo "deb: packaging/debian/changelog is of $given, VERSION of $version" >&2; exit 1; }
 work=$made/deb
 rm -rf "$work"
 mkdir -p "$work/clast-$version"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The source release build/clast-VERSION.tar.gz of the commit at hand, which pip takes too (PKG-INFO): the same bytes from the same commit.
-set -eu
+set -euo pipefail
 cd "$(dirname "$0")/.."
 [ -e .git ] || { echo "dist: this is no git clone; a release is made from a commit"; exit 1; }
 version=$(cat VERSION)

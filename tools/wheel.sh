@@ -12,8 +12,8 @@ mkdir -p "$stage/clast" "$info" "$stage/clast-$version.data/scripts"
 library=$stage/clast/libclast_view.so
 install -m 755 "$bundle/libclast_view.so" "$library"
 install -m 755 "$bundle/clast" "$stage/clast-$version.data/scripts/clast"
-# Two parts cannot be linked into a shared object (Debian's archives of them are for programs). They lie beside it, under names of their
-# own, so that those of another package in the same Python are not taken for them.
+# One part, pixman, cannot be linked into a shared object (Debian's archive of it is for programs). It lies beside it, under a name of its
+# own, so that that of another package in the same Python is not taken for it.
 carried=()
 for needed in $(needs "$library"); do
     file=$(realpath "$("${CC:-cc}" -print-file-name="$needed")")

@@ -84,6 +84,8 @@ class Decomposition:
 
     def _repr_html_(self) -> str:
         numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (bool, int, float, str))})
+        if not call("clast_decompose_chart_fits")(0, ctypes.byref(self._owner.struct)):  # points on a line, or none
+            return numbers
         return numbers + file_html(lambda path: self.chart("points", path), "svg", f"{self.n} points in {self.n_cell} cells")
 
 

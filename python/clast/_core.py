@@ -33,6 +33,9 @@ class Error(Exception):
         super().__init__(line)
         self.code = code
 
+    def __reduce__(self) -> tuple[type[Error], tuple[str, str]]:  # pools of processes send errors
+        return Error, (self.code, str(self))
+
 
 def _candidates() -> Iterator[str]:
     if os.environ.get("CLAST_LIBRARY"):  # who names a file wants that one or none

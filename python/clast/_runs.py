@@ -160,7 +160,8 @@ class Run:
             codes = self.table("results")["exit_code"]
             self.summary: dict[str, Any] = {"n_run": len(codes), "n_done": int((codes == 0).sum()), "n_failed": int((codes > 0).sum())}
         else:
-            self.manifest, self.summary = self._json("manifest.json"), self._json("summary.json")
+            self.manifest = self._json("manifest.json")
+            self.summary = self._json("summary.json") if self._has("summary.json") else {}
         self.command: str = self.manifest["command"]
 
     def _json(self, name: str) -> dict[str, Any]:

@@ -102,7 +102,7 @@ def given_table(name: str, value: Any) -> Owner:
         else:
             check(call("clast_table_add_text")(ctypes.byref(owner.struct), encoded("column", column)))
             for i, text in enumerate(values):
-                check(call("clast_table_set_text")(ctypes.byref(owner.struct), k, i, encoded(column, str(text))))
+                check(call("clast_table_set_text")(ctypes.byref(owner.struct), k, i, encoded(column, text.decode() if isinstance(text, bytes) else str(text))))
     return owner
 
 

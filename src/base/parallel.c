@@ -23,23 +23,29 @@ static void work_alone(int64_t n, int64_t block, clx_kernel kernel, void *contex
 }
 
 #if CLAST_HAVE_THREADS
+#include <math.h>
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
+#include <unistd.h>
 
 enum {
-    MOST = 1024,     // threads of a team
-    SPIN = 2000,     // looks before a thread sleeps, 40 to 100 us
-    REST_LEAST = 64, // works done alone after a team kept its caller waiting
-    REST_MOST = 8192
+    MOST = 1024, // threads of a team
+    SPIN = 2000  // looks before a thread sleeps, 40 to 100 us
 };
+static const double REST_LEAST = 0.02; // seconds of work alone after a team kept its caller waiting
+static const double REST_MOST = 2.0;
 
 // Work at hand: who is at it, whether it is open, which it is.
 static const uint64_t ONE = 1;                  // thread at it
 static const uint64_t OPEN = UINT64_C(1) << 31; // may be joined
 static const uint64_t NEXT = UINT64_C(1) << 32; // number of the work
-static const double LOST = 0.4;                 // of the time of recent works: the team rests
+// Part of the time of recent works, over that at which n threads are no faster than one, 1 - 1/n:
+// when so much is lost, the team rests.
+static const double LOST = 0.8;
 
+// What threads write stands in cache lines of its own.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
 static struct {
     _Alignas(64) _Atomic uint64_t state;
     _Alignas(64) _Atomic int64_t next; ///< block to be taken
@@ -50,32 +56,37 @@ static struct {
     int32_t n_thread, n_look; ///< that may join; looks before they sleep
     // of the caller that has the team
     _Alignas(64) atomic_flag taken;
-    int32_t n_made;         ///< threads, apart from callers
-    int32_t rest, rest_for; ///< works still to be done alone; how many after the next bad spell
-    double lost, spent;     ///< decaying sums over works [s]
-    _Atomic int64_t off_ns; ///< longest time that a thread at the work at hand had no core
+    int32_t n_made;              ///< threads, apart from callers
+    int32_t n_refused;           ///< so many the system would not make; 0: none refused
+    double rest_until, rest_for; ///< by clx_clock; how long after the next bad spell [s]
+    double lost, spent;          ///< decaying sums over works [s]
+    _Atomic int64_t off_ns;      ///< longest time that a thread at the work at hand had no core
     // for those that sleep
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
     _Atomic int32_t n_asleep;
     _Atomic bool is_awaited; ///< the caller sleeps until none is at it
 } team = {.taken = ATOMIC_FLAG_INIT,
-          .rest_for = REST_LEAST,
+          .rest_for = 0.02, // REST_LEAST
           .lock = PTHREAD_MUTEX_INITIALIZER,
           .wake = PTHREAD_COND_INITIALIZER,
           .done = PTHREAD_COND_INITIALIZER};
 
 static _Thread_local int32_t n_wanted; // of this thread; 0: as the machine has
 
-/// Cores that this process may use.
+/// Cores that this process may use, as it was started: a caller may be bound to one by others.
+static cpu_set_t cores;
+static int32_t n_cores;
+
+__attribute__((constructor)) static void note_cores(void)
+{
+    n_cores = sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores)
+                                                              : 0; // more than cpu_set_t holds
+}
+
 static int32_t n_core(void)
 {
-    static _Atomic int32_t known;
-    if (atomic_load(&known) == 0) {
-        cpu_set_t set;
-        atomic_store(&known, sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1);
-    }
-    return atomic_load(&known);
+    return n_cores > 0 ? n_cores : (int32_t)fmax(1.0, (double)sysconf(_SC_NPROCESSORS_ONLN));
 }
 
 /// Where nobody asks for a number: OMP_NUM_THREADS, as other programs of a job script, or cores.
@@ -188,6 +199,9 @@ static void work_along(int32_t worker)
 static void *be_worker(void *number_of_worker)
 {
     const int32_t worker = *(const int32_t *)number_of_worker;
+    if (n_cores > 0) {
+        (void)pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
+    }
     uint64_t number = number_of(atomic_load(&team.state));
     for (;;) {
         int n_look = 0;
@@ -211,7 +225,7 @@ static void forget_team(void)
     atomic_store(&team.state, 0);
     atomic_store(&team.n_asleep, 0);
     atomic_store(&team.is_awaited, false);
-    team.n_made = 0;
+    team.n_made = team.n_refused = 0;
     (void)pthread_mutex_init(&team.lock, NULL);
     (void)pthread_cond_init(&team.wake, NULL);
     (void)pthread_cond_init(&team.done, NULL);
@@ -223,27 +237,43 @@ static void watch_forks(void)
     (void)pthread_atfork(NULL, NULL, forget_team);
 }
 
-/// Makes threads until there are so many; signals are for the caller's. Fewer where the system
-/// gives none.
+/// Signals are for the caller's threads, but for those of a fault in the thread itself and of
+/// profilers.
+static void block_signals(sigset_t *before)
+{
+    static const int own[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGPROF};
+    sigset_t blocked;
+    (void)sigfillset(&blocked);
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; ++k) {
+        (void)sigdelset(&blocked, own[k]);
+    }
+    (void)pthread_sigmask(SIG_SETMASK, &blocked, before);
+}
+
+/// Makes threads until there are so many; fewer where the system gives none, which is not asked
+/// again.
 static void grow_team(int32_t n)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     static int32_t worker[MOST];
-    sigset_t all, before;
-    (void)sigfillset(&all);
-    (void)pthread_sigmask(SIG_SETMASK, &all, &before);
+    sigset_t before;
+    if (team.n_made >= n || (team.n_refused > 0 && team.n_made + 1 >= team.n_refused)) {
+        return;
+    }
+    (void)pthread_once(&once, watch_forks);
+    block_signals(&before);
     while (team.n_made < n) {
         pthread_t thread;
         int32_t *own = &worker[team.n_made];
         *own = team.n_made + 1;
         if (pthread_create(&thread, NULL, be_worker, own) != 0) {
+            team.n_refused = team.n_made + 1;
             break;
         }
         (void)pthread_detach(thread);
         ++team.n_made;
     }
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
-    (void)pthread_once(&once, watch_forks);
 }
 
 static void open_work(int64_t n, int64_t block, clx_kernel kernel, void *context)
@@ -284,20 +314,20 @@ static void close_work(void)
     (void)pthread_mutex_unlock(&team.lock);
 }
 
-/// Lets the team rest where its callers wait for threads that have no core: what they wait is lost,
-/// more than the threads bring once it is over LOST.
+/// Lets the team rest where its callers wait for threads that have no core.
 static void judge(double begun, double worked, double ended)
 {
     const double fade = 1.0 - 1.0 / 32;
     const double off = 1e-9 * (double)atomic_load(&team.off_ns);
     const double waited = ended - worked;
+    const double most = LOST * (1.0 - 1.0 / team.n_thread);
     team.lost = fade * team.lost + (off < waited ? off : waited);
     team.spent = fade * team.spent + (ended - begun);
-    if (team.lost > LOST * team.spent && team.spent > 1e-3) {
-        team.rest = team.rest_for;
-        team.rest_for = team.rest_for < REST_MOST ? 2 * team.rest_for : REST_MOST;
+    if (team.lost > most * team.spent && team.spent > 1e-3) {
+        team.rest_until = ended + team.rest_for;
+        team.rest_for = fmin(2.0 * team.rest_for, REST_MOST);
         team.lost = team.spent = 0.0;
-    } else if (team.lost < 0.25 * LOST * team.spent) {
+    } else if (team.lost < 0.25 * most * team.spent) {
         team.rest_for = REST_LEAST;
     }
 }
@@ -310,11 +340,10 @@ void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context
         work_alone(n, block, kernel, context); // the team is another caller's, or this is inside it
         return;
     }
-    if (team.rest > 0) {
-        --team.rest;
+    const double begun = clx_clock();
+    if (begun < team.rest_until) {
         work_alone(n, block, kernel, context);
     } else {
-        const double begun = clx_clock();
         grow_team(n_thread - 1);
         open_work(n, block, kernel, context);
         take_blocks(0);

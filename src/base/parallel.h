@@ -9,7 +9,8 @@ typedef void (*clx_kernel)(int64_t begin, int64_t end, int32_t worker, void *con
 /// Runs the kernel over [0, n) in fixed blocks of `block` items, blocks handed out dynamically.
 ///
 /// A block's bounds depend on n and block alone, so results that are kept per block and then added
-/// in block order are the same bytes for any thread count. Nested calls run in the calling thread.
+/// in block order are the same bytes for any thread count. Calls inside a work that has the team
+/// run in the calling thread.
 CLX_SHARED void clx_parallel_for(int64_t n, int64_t block, clx_kernel kernel, void *context);
 
 /// The same for work that can fail.

@@ -146,8 +146,12 @@ static bool reserve(clx_block *b, int64_t need, bool may_reuse)
             s->free_slot[s->n_free++] = i;
         }
     }
-    if (s->n_free < need || s->n_free < s->capacity / LEAST_SHARE) {
-        s->status = grow(s, s->capacity + s->capacity / 2 + need);
+    const int64_t used = p->n - s->n_free;
+    const bool fits = s->n_free + s->capacity - p->n >= need;
+    if (!fits || (s->n_free < s->capacity / LEAST_SHARE && s->capacity < MOST_PARTICLES)) {
+        const int64_t wanted = s->capacity + s->capacity / 2 + need;
+        s->status = grow(
+            s, wanted > MOST_PARTICLES && used + need <= MOST_PARTICLES ? MOST_PARTICLES : wanted);
         clx_box_fit(b);
     }
     return s->status == CLAST_OK;

@@ -7,6 +7,7 @@
 #include "math/rng.h"
 #include <math.h>
 
+static const double MOST_UNITS = 9007199254740992.0; ///< 2^53: sums are exact as double too
 static const double PLACES = 1e3; ///< units of a mean size where sizes are no whole numbers
 
 typedef struct {
@@ -41,6 +42,13 @@ static clast_status begin(const clast_collide_config *collide, sampling *s)
     box->config = s->start->config;
     box->unit = unit_of(s->start);
     box->volume = (double)n / s->start->concentration;
+    CLX_CHECK(
+        box->config->source * box->volume * box->config->duration <
+            MOST_UNITS / fmax(1.0, box->config->source_size / box->unit),
+        CLAST_E_CONFIG,
+        "source, source_size: what comes in by %g s is more than 2^53 units of %g monomers; take "
+        "fewer --particles, a shorter --duration or a larger --source-size or --size-min",
+        box->config->duration, box->unit);
     box->collide = *collide;
     box->collide.keep_positions = true;
     box->collide.out_of_range = CLAST_OUT_OF_RANGE_EXTRAPOLATE; // the run holds it against them
@@ -57,8 +65,9 @@ done:
 /// Sizes of one run: quantiles of the law at equal steps from a random place, so that the start
 /// hardly differs from run to run. A particle of N^(2/3) mean sizes is the gel of a sample of N: as
 /// large as the largest one is when an infinite system gels [Aldous1999].
-static void draw_sizes(sampling *s, int32_t run)
+static clast_status draw_sizes(sampling *s, int32_t run)
 {
+    clast_status status = CLAST_OK;
     clx_box *box = &s->box;
     clast_population *p = &box->population;
     double sum = 0.0;
@@ -67,12 +76,20 @@ static void draw_sizes(sampling *s, int32_t run)
     p->n = box->config->particles;
     for (int64_t i = 0; i < p->n; ++i) {
         const double x = clx_start_quantile(s->start, ((double)i + first) / (double)p->n);
-        clx_box_put(box, i, (int64_t)fmax(1.0, round(x / box->unit)));
-        sum += (double)p->monomers[i];
+        const double units = fmax(1.0, round(x / box->unit));
+        CLX_CHECK(
+            sum + units < MOST_UNITS, CLAST_E_CONFIG,
+            "size_min, source_size: the particles of the start are more than 2^53 units of %g "
+            "monomers; take fewer --particles or a larger --size-min or --source-size",
+            box->unit);
+        clx_box_put(box, i, (int64_t)units);
+        sum += units;
     }
     box->gel_size = fmin(s->grid->x[s->grid->n - 1] / box->unit,
                          sum / (double)p->n * pow((double)p->n, 2.0 / 3.0));
     clx_box_restart(box);
+done:
+    return status;
 }
 
 static void add(double value, double *sum, double *sum2)
@@ -150,7 +167,7 @@ static clast_status one_run(sampling *s, const clast_collide_config *collide, in
 {
     clast_status status = CLAST_OK;
     const clast_spectrum_config *config = s->start->config;
-    draw_sizes(s, run);
+    CLX_TRY(draw_sizes(s, run));
     CLX_TRY(look_at_start(s, collide, &made->range));
     count(s, 0, sums, made);
     for (int32_t row = 1; row < sums->n_row; ++row) {

@@ -1,6 +1,7 @@
 // One offline page for one or more run folders.
 #include <clast/report.h>
 
+#include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
@@ -245,9 +246,11 @@ clast_status clast_report_write_view(const clast_assembly *assembly,
                                      const clast_report_config *config, const char *path)
 {
     CLX_ARGUMENTS(assembly, path);
+    CLX_WHOLE(assembly, assembly);
     clast_status status = CLAST_OK;
     clast_report_config own = {0};
     if (config != NULL) {
+        CLX_GUARD(clast_fields_check(clast_report_fields, config));
         return write_view(assembly, config, path);
     }
     CLX_TRY(clast_fields_default(clast_report_fields, &own));

@@ -118,6 +118,8 @@ class BoxModel(Case):
                    "--fragment-exponent does nothing with --fragments halves"),
                   ((*BOX, "--source-size", "2"), "--source-size does nothing without --source"),
                   ((*BOX, "--source", "2", "--source-size", "1e9"), "source_size: 1e+09 monomers lies outside the grid"),
+                  ((*BOX, "--size-min", "1e-15"), "the particles of the start are more than 2^53 units of 1e-15 monomers"),
+                  ((*BOX, "--source", "1", "--source-size", "1e-20"), "more than 2^53 units of 1e-20 monomers"),
                   ((*BOX, "--initial-sd", "2"), "--initial-sd does nothing without --initial lognormal"),
                   ((*BOX, "--initial", "table", "--initial-file", UNIFORM, "--initial-mean", "2"),
                    "--initial-mean does nothing with --initial table"),

@@ -3,6 +3,7 @@ import gc
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -292,6 +293,18 @@ class Lives(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", "import clast"], env=env, stderr=subprocess.PIPE, text=True)
         if done.returncode:  # no library installed beside this build
             self.assertRegex(done.stderr.splitlines()[-1], "no libclast_view.so .*pip install.*libclast-view0")
+
+    def test_errors_go_between_processes(self):
+        error = pickle.loads(pickle.dumps(clast.Error("CLAST_E_IO", "no such file")))
+        self.assertEqual((error.code, str(error)), ("CLAST_E_IO", "no such file"))
+
+    def test_points_on_a_line_show_their_numbers(self):
+        cells = clast.decompose(np.random.default_rng(1).random((200, 1)), domain="box:0,1")
+        self.assertIn("n_cell", cells._repr_html_())
+
+    def test_texts_in_bytes_are_texts(self):
+        from clast._tables import given_table, table_of
+        self.assertEqual(list(table_of(given_table("t", {"g": np.array([b"a", b"b"]), "x": [1.0, 2.0]}))["g"]), ["a", "b"])
 
     def test_a_library_that_was_named_is_not_replaced(self):
         done = subprocess.run([sys.executable, "-c", "import clast"], env={**os.environ, "CLAST_LIBRARY": "/no/such.so"}, stderr=subprocess.PIPE, text=True)
