@@ -324,7 +324,7 @@ static int compare_pairs(const void *a, const void *b)
 clast_status clx_bvh_self_intersections(const clast_bvh *bvh, int64_t cap, int32_t (*pair)[2],
                                         int64_t *n_pair)
 {
-    CLAST_ASSERT(cap >= 0 && (pair != NULL || cap == 0));
+    CLAST_ASSERT(cap >= 0);
     clast_status status = CLAST_OK;
     const int64_t n_block = (bvh->tree.n_item + BLOCK - 1) / BLOCK;
     self_search search = {.bvh = bvh};
