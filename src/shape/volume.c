@@ -170,6 +170,7 @@ clast_status clast_volume_parts(clast_volume *volume, double threshold, clast_vo
     CLX_CHECK(isfinite(threshold), CLAST_E_USAGE, "a threshold of %g", threshold);
     CLX_TRY(begin_voxels(volume, &made));
     CLX_TRY(clx_alloc(&stack, n, sizeof *stack));
+    CLAST_ASSERT(n == 0 || made.label != NULL);
     for (int64_t i = 0; i < n; ++i) {
         if (made.label[i] == 0 && volume->value[i] > (float)threshold) {
             flood(volume, (float)threshold, ++n_part, (int32_t)i, &made, stack);
