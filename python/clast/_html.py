@@ -37,5 +37,6 @@ class View:
             file.write(self.page)
 
     def _repr_html_(self) -> str:
+        page = escape(self.page.decode("utf-8", "replace")).encode("ascii", "xmlcharrefreplace").decode()  # in a page of any encoding
         return (f'<iframe title="{escape(self.title)}" width="100%" height="500" style="border: 0" sandbox="allow-scripts" '
-                f'srcdoc="{escape(self.page.decode("utf-8", "replace"))}"></iframe>')
+                f'srcdoc="{page}"></iframe>')

@@ -17,6 +17,9 @@ from ._html import View, file_html, picture_html
 from ._tables import Path, Table, read_table, table_of
 
 
+SI = "Numbers are in SI units (m, kg, s, Pa, J) where their name has no unit."
+
+
 @dataclass(frozen=True)
 class Result:
     """A run's results under the names of its summary.json: `result.porosity`, `result["porosity"]`."""
@@ -40,7 +43,7 @@ class Result:
         return Run(self.folder)
 
     def _repr_html_(self) -> str:
-        numbers = html_table({k: v for k, v in self.values.items() if not isinstance(v, (list, dict))})
+        numbers = html_table({k: v for k, v in self.values.items() if not isinstance(v, (list, dict))}, foot=SI)
         return self.run._shown(numbers) if self.folder is not None and os.path.isdir(self.folder) else numbers
 
 
@@ -193,7 +196,7 @@ class Run:
         return os.path.isfile(os.path.join(self.folder, name))
 
     def _repr_html_(self) -> str:
-        return self._shown(html_table({k: v for k, v in self.summary.items() if not isinstance(v, (list, dict))}))
+        return self._shown(html_table({k: v for k, v in self.summary.items() if not isinstance(v, (list, dict))}, foot=SI))
 
 
 _open_file = open

@@ -386,6 +386,8 @@ class Notebooks(unittest.TestCase):
         result = clast.aggregate(core="sphere", core_size=270e-6, coat="sphere", size="30um", replicate=20, output=evil)
         for shown in (result._repr_html_(), clast.open(evil)._repr_html_()):
             self.assertIn("<th>density</th>", shown)
+            self.assertIn("SI units", shown)
+            self.assertTrue(re.search(r'srcdoc="([^"]*)"', shown)[1].isascii())  # a page of another encoding showed "Âµm"
             picture = re.search(r'src="data:image/png;base64,([^"]*)"', shown)[1]
             self.assertEqual(base64.b64decode(picture), (evil / "picture.png").read_bytes())
             page = self.frame_of(shown)
