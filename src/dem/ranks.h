@@ -22,6 +22,8 @@ typedef struct clx_rank_counts {
     int64_t list_bytes;       ///< sent for lists and migration
     int64_t n_step, n_ghost;  ///< steps; ghosts, summed over steps
     double imbalance, before; ///< greatest over mean cost, after and before the last partition
+    int32_t n_idle;           ///< ranks without a grain
+    bool is_zoltan;           ///< the last partition is Zoltan's
 } clx_rank_counts;
 
 /// A grain's state: position, velocity, omega, orientation, angular momentum, travel, stability
@@ -98,6 +100,15 @@ void clx_ranks_destroy(clx_ranks *ranks);
 /// rank. Called by all.
 clast_status clx_dem_gather_grains(clast_dem *dem);
 clast_status clx_dem_gather_all(clast_dem *dem);
+
+/// clast_dem_measure of them, the same on every rank. Called by all.
+clast_status clx_dem_gather_measures(clast_dem *dem, clast_dem_measures *measures);
+
+/// Whether a step ended well on every rank (clast_comm_agree).
+clast_status clx_dem_agree(const clast_dem *dem, clast_status status);
+
+/// Sums over ranks of what went between them; false on one rank. Called by all.
+bool clx_dem_rank_counts(const clast_dem *dem, clx_rank_counts *counts);
 
 /// Highest centre of a grain [m], without gathering; -INFINITY without grains. Called by all.
 double clx_dem_highest(const clast_dem *dem);

@@ -5,8 +5,8 @@
 #include "base/lines.h"
 #include <string.h>
 
-/// Writes the rank's own grains, and with_pairs the pairs whose a they are, as one message.
-static clast_status write_own(clast_dem *whole, bool with_pairs)
+/// Writes the rank's own grains, or the pairs whose a they are, as one message.
+static clast_status write_own(clast_dem *whole, bool are_pairs)
 {
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
@@ -16,13 +16,13 @@ static clast_status write_own(clast_dem *whole, bool with_pairs)
     int64_t n_pair = 0;
     r->wire.n = 0;
     CLX_TRY(clx_wire_begin(&r->wire, &at));
-    for (int32_t g = 0; g < local->n_grain; ++g) {
+    for (int32_t g = 0; !are_pairs && g < local->n_grain; ++g) {
         if (r->is_ghost[g] == 0) {
             CLX_TRY(clx_wire_add_grain(&r->wire, local, g, true));
             ++n_grain;
         }
     }
-    for (int64_t k = 0; with_pairs && k < local->list.n_pair; ++k) {
+    for (int64_t k = 0; are_pairs && k < local->list.n_pair; ++k) {
         if (r->is_ghost[clx_item_grain(local, local->list.pair[k].a)] == 0) {
             CLX_TRY(clx_wire_add_pair(&r->wire, whole, local, k));
             ++n_pair;
@@ -127,4 +127,46 @@ double clx_dem_highest(const clast_dem *dem)
         }
     }
     return is_spread ? -clx_comm_least(r->comm, -highest) : highest;
+}
+
+clast_status clx_dem_gather_measures(clast_dem *dem, clast_dem_measures *measures)
+{
+    clast_status status = CLAST_OK;
+    const clx_ranks *r = dem->ranks;
+    CLX_TRY(clx_dem_gather_all(dem));
+    if (r == NULL || r->comm->rank == 0) {
+        clast_dem_measure(dem, measures);
+    }
+    if (r != NULL) {
+        r->comm->broadcast(r->comm->context, 0, measures, (int64_t)sizeof *measures);
+    }
+done:
+    return status;
+}
+
+clast_status clx_dem_agree(const clast_dem *dem, clast_status status)
+{
+    return dem->ranks != NULL ? clast_comm_agree(dem->ranks->comm, status, NULL) : status;
+}
+
+bool clx_dem_rank_counts(const clast_dem *dem, clx_rank_counts *counts)
+{
+    if (dem->ranks == NULL) {
+        return false;
+    }
+    const clx_ranks *r = dem->ranks;
+    clx_rank_counts c = r->counts;
+    int64_t own = 0;
+    for (int32_t g = 0; g < r->local->n_grain; ++g) {
+        own += r->is_ghost[g] == 0 ? 1 : 0;
+    }
+    int64_t sum[5] = {c.n_migrated, c.step_bytes, c.list_bytes, c.n_ghost, own == 0 ? 1 : 0};
+    clx_comm_sum(r->comm, sum, 5);
+    c.n_migrated = sum[0];
+    c.step_bytes = sum[1];
+    c.list_bytes = sum[2];
+    c.n_ghost = sum[3];
+    c.n_idle = (int32_t)sum[4];
+    *counts = c;
+    return true;
 }
