@@ -290,8 +290,10 @@ static int move_group(const clx_moving *c, int64_t first, int n, const clx_force
     return flag | flag_of(dem, first, n);
 }
 
-/// The rank's own among them, in groups as large as they come.
-static int move_own(const clx_moving *c, int64_t first, int n, const clx_force_torque *total)
+/// The rank's own among them, in groups as large as they come. Never inlined: one rank must not pay
+/// for it.
+__attribute__((noinline)) static int move_own(const clx_moving *c, int64_t first, int n,
+                                              const clx_force_torque *total)
 {
     const uint8_t *is_ghost = c->dem->is_ghost;
     int flag = 0;

@@ -1,9 +1,9 @@
 // clast_comm over MPI 3.1.
 //
-// Ranks of clast wait for microseconds in the steps of a bed, and for minutes between whole runs, so
-// no call waits inside of MPI: everything is begun without blocking and asked after, first at once,
-// then with the processor yielded, at last with naps. So ranks may be more than cores, and a rank
-// that waits long costs no core. MPI's own errors end the job, as is MPI's default.
+// Ranks of clast wait for microseconds in the steps of a bed, and for minutes between whole runs,
+// so no call waits inside of MPI: everything is begun without blocking and asked after, first at
+// once, then with the processor yielded, at last with naps. So ranks may be more than cores, and a
+// rank that waits long costs no core. MPI's own errors end the job, as is MPI's default.
 #include <clast/mpi.h>
 
 #include <mpi.h>
