@@ -125,8 +125,7 @@ static void print_ranks(const clast_pack_ranks *r)
         return;
     }
     (void)printf("%-26s %d, by %s; cost of the most loaded %.3f of the mean\n", "ranks", r->n,
-                 r->is_zoltan ? "Zoltan" : "clast's own bisection (built without Zoltan)",
-                 r->imbalance);
+                 r->is_zoltan ? "Zoltan" : "clast's own bisection", r->imbalance);
     if (r->n_idle > 0) {
         (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
                      r->n_idle, r->n);

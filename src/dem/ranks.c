@@ -130,7 +130,7 @@ static clast_status balance(clast_dem *whole)
     clx_ranks *r = whole->ranks;
     CLX_TRY(clx_dem_gather_grains(whole));
     CLX_TRY(share_costs(whole));
-    CLX_TRY(clast_comm_agree(r->comm, clx_ranks_partition(whole), NULL));
+    CLX_TRY(clx_ranks_partition(whole));
     CLX_TRY(clx_ranks_migrate(whole, r->local));
     r->wants_balance = false;
 done:
@@ -144,7 +144,7 @@ static clast_status begin(clast_dem *whole)
     clx_ranks *r = whole->ranks;
     clast_dem *local = r->local;
     clx_inner_unpack(whole);
-    CLX_TRY(clast_comm_agree(r->comm, clx_ranks_partition(whole), NULL));
+    CLX_TRY(clx_ranks_partition(whole));
     CLX_TRY(clx_ranks_migrate(whole, r->comm->rank == 0 ? whole : NULL));
     local->list.n_refresh = whole->list.n_refresh;
     local->list.is_due = whole->list.is_due;
