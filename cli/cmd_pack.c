@@ -224,13 +224,11 @@ static const char details[] =
     "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
     "A folder that holds a run is refused: go on with it, or replace it with --force\n"
     "(the new run is made in RUN.new and takes its place when it has succeeded).\n\n"
-    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, -j "
-    "threads "
-    "on each,\n"
-    "by default one. State, checkpoints and all files are the bytes of one rank: any number of "
-    "ranks, "
-    "and\n"
-    "clast pack, may go on with them. hindrance runs on one rank alone.";
+    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, by "
+    "default\n"
+    "of one thread each. State, checkpoints and all files are the bytes of one rank: any number "
+    "of\n"
+    "ranks, and clast pack, may go on with them.";
 
 const cli_command cli_pack = {
     .name = "pack",

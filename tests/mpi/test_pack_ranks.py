@@ -141,11 +141,8 @@ class Beds(Case):
         self.assertEqual(code, 0, err)
         self.assertIn("of 4 ranks have no grain", out)
 
-    def test_what_works_on_one_rank_alone(self):
-        code, _, err = ranks(2, *SMALL, "--mass", "1g", "--height", "40mm", "--hindrance", "--fluid-viscosity", "1mPa*s")
-        self.assertEqual(code, 2, err)
-        self.assertEqual(len(own_lines(err)), 1, err)
-        self.assertIn("one rank", own_lines(err)[0])
+    def test_spheres_that_hinder_each_other(self):
+        self.same((3,), "--mass", "4g", "--height", "40mm", "--max-steps", 2500, "--hindrance", "--fluid-viscosity", "1mPa*s")
 
     def test_an_explosion_is_said_once(self):
         wild = (*SMALL, "--mass", "9g", "--height", "40mm", "--collision-time", "2ms", "--time-step", "50us", "--initial-speed",
