@@ -262,5 +262,7 @@ for (const source of sources) {
   }
 }
 
+window.addEventListener('beforeprint', () => open.forEach((view) => view.render()));
+
 /// For tests and for people at the browser's console: what the page shows, and what it can draw.
 window.clastViews = { open, drawPicture, grainAt, pick };
