@@ -3142,6 +3142,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
+    'clast_decompose_sizes': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), c_int32, c_int32, POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),

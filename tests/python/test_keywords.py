@@ -25,7 +25,7 @@ SKIPPED = {  # keys of the command that the function does not have, and why
     "predict": {"each", "force"},  # predict_beds
     "decompose": {"columns", "unit", "radius_column", "diameter_column", "mass_column", "velocity_columns", "weight_column", "variable_column",
                   "dataset", "frame", "domain_unit",  # Cloud.read
-                  "test_only", "charts", "sizes", "regular", "force"},
+                  "charts", "force"},
 }
 TYPES = {"number": {float}, "integer": {int}, "flag": {bool}}
 

@@ -105,6 +105,11 @@ class Others(unittest.TestCase):
             quad = np.roll(np.arange(4), turn)[None]
             cut = clast.Mesh.from_meshio(types.SimpleNamespace(points=arrow, cells=[("quad", quad)]))
             self.assertAlmostEqual(cut.area, 1.0, places=14)
+        for bad in ([0, 1, 2, 4], [0, 1, 2, -1]):
+            with self.assertRaisesRegex(clast.Error, "^quads: vertex numbers from .* where there are 4 vertices"):
+                clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE, cells=[("quad", np.array([bad]))]))
+        with self.assertRaisesRegex(clast.Error, "^quads: an array of shape"):
+            clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE, cells=[("quad", np.array([[0, 1, 2]]))]))
         flat = clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE[:, :2], cells=[("quad", np.array([[0, 1, 2, 3]]))]))
         self.assertEqual(flat.area, 1.0)
 
