@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._boxes import warn_of_range
+from ._boxes import check_used, warn_of_range
 from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, settled, view, warn, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
@@ -259,15 +259,18 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     clouds = (c.clast_cloud * len(made))(*(cloud._struct() for cloud in made))
     given, held = c.clast_agglomerate_input(), []
     given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
+    given_columns = []
     for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
         if value is not None and name != "monomers" and (isinstance(value, str) or np.ndim(value) == 0):
             keys[name] = value  # of all particles
         elif value is not None:
+            given_columns.append(name)
             held.append(_column(name, value, made[0].positions))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
     owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
+        check_used(config.struct, [*keys, *given_columns])
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
     warn_of_range(r.range)

@@ -271,6 +271,7 @@ class Commands(unittest.TestCase):
         said = command(*words[:2], "--initial", "table", "--initial-file", path, "--constant", 1, "--n-step", 2)
         self.assertEqual(list(clast.box_model(sizes=sizes, constant=1, n_step=2).history["M1"]), said["moments"]["M1"])
         for keys, line in ((dict(solver="sectional", particles=3), "^particles: does nothing with solver 'sectional'"), (dict(initial="table"), "^sizes: and"),
+                           (dict(concentration=1, shear=3), "^shear: does nothing with this kernel"),
                            (dict(sizes={"size": [1.0]}), "columns size and number"), (dict(concentratio=1), "did you mean concentration")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.box_model(**keys)
@@ -281,6 +282,10 @@ class Commands(unittest.TestCase):
                     mean_free_path="66nm", efficiency=1, variant="test", n_step=1, duration=10.0, settling_law="stokes")
         with self.assertRaisesRegex(clast.Error, "Reynolds number of settling by Stokes' law"):
             clast.agglomerate(x, **keys)
+        for idle, line in ((dict(shear=3), "^shear: does nothing with this kernel"), (dict(dissipation=np.ones(2)), "^dissipation: does nothing"),
+                           (dict(asperity=1e-6), "^asperity: does nothing with this sticking")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.agglomerate(x, **keys, **idle)
         with self.assertWarnsRegex(UserWarning, "^kernel settling: Reynolds number .*; beyond lie 50 % of the particles"):
             clast.agglomerate(x, **keys, out_of_range="extrapolate")
 
