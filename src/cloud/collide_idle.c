@@ -8,14 +8,13 @@
 #define KERNEL(name)   (1U << CLAST_KERNEL_##name)
 #define STICKING(name) (1U << CLAST_STICKING_##name)
 
-#define DIFFUSES   (KERNEL(BROWNIAN) | KERNEL(BROWNIAN_FREE) | KERNEL(BROWNIAN_TRANSITION))
-#define SHEARS     (KERNEL(SHEAR_LAMINAR) | KERNEL(SHEAR_TURBULENT))
-#define FALLS      (KERNEL(SETTLING) | KERNEL(CLOUD_TURBULENCE))
-#define SWIRLS     (KERNEL(INERTIAL) | KERNEL(CLOUD_TURBULENCE))
-#define RESPONDS   (SHEARS | FALLS | SWIRLS | KERNEL(BALLISTIC)) // by a response time
-#define CONTINUUM  (KERNEL(BROWNIAN) | KERNEL(BROWNIAN_TRANSITION))
-#define SLIP_RANGE (CONTINUUM | KERNEL(SETTLING)) // which ask for a mean free path in a gas
-#define LINES      (SHEARS | FALLS | SWIRLS)      // with a Reynolds number or Kolmogorov's scales
+// Kernels that do not overlap, so that sums of them name each once.
+#define CONTINUUM (KERNEL(BROWNIAN) | KERNEL(BROWNIAN_TRANSITION))
+#define DIFFUSES  (CONTINUUM | KERNEL(BROWNIAN_FREE))
+#define FALLS     (KERNEL(SETTLING) | KERNEL(CLOUD_TURBULENCE))
+#define SWIRLS    (KERNEL(INERTIAL) | KERNEL(CLOUD_TURBULENCE))
+#define FLOWS     (KERNEL(SHEAR_LAMINAR) | KERNEL(SHEAR_TURBULENT) | KERNEL(INERTIAL) | FALLS)
+#define RESPONDS  (FLOWS | KERNEL(BALLISTIC)) // by a response time
 
 /// By kernels, and by laws of sticking.
 static const struct {
@@ -25,9 +24,9 @@ static const struct {
     {"constant", KERNEL(CONSTANT), 0},
     {"additive", KERNEL(ADDITIVE), 0},
     {"product", KERNEL(PRODUCT), 0},
-    {"temperature", DIFFUSES | SLIP_RANGE, 0},
+    {"temperature", DIFFUSES | KERNEL(SETTLING), 0},
     {"viscosity", CONTINUUM | RESPONDS, 0},
-    {"density", SLIP_RANGE | LINES, 0},
+    {"density", CONTINUUM | FLOWS, 0},
     {"mean_free_path", DIFFUSES | RESPONDS, 0},
     {"shear", KERNEL(SHEAR_LAMINAR), 0},
     {"shear_constant", KERNEL(SHEAR_TURBULENT), 0},
