@@ -12,6 +12,7 @@ import unittest
 import numpy as np
 
 import clast
+import loud
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRAIN = ROOT / "data/standin63/grain00.ply"
@@ -87,7 +88,7 @@ class Others(unittest.TestCase):
         try:
             import meshio
         except ImportError:
-            self.skipTest("NOT TESTED: meshio is not installed (apt install python3-meshio)")
+            self.skipTest(loud.LEFT_OUT + "meshio is not installed (apt install python3-meshio)")
         self.same(clast.Mesh.from_meshio(self.grain.to_meshio()))
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "grain.vtu")
@@ -136,4 +137,4 @@ class Others(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    loud.main()
