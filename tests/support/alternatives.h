@@ -1,6 +1,6 @@
 #pragma once
-// Laws of points that a power table of a plain prototype tries the uniformity tests on, and the rates
-// at which the tests reject them.
+// Laws of points that a power table of a plain prototype tries the uniformity tests on, and the
+// rates at which the tests reject them.
 #include "math/rng.h"
 
 #include <clast/decompose.h>
