@@ -4,7 +4,7 @@
 Looked for on each page, at desktop width in light and dark and at 375 px: formulas left as TeX, messages on the console, anything that
 fails to load or is fetched from elsewhere, a page wider than the screen, links inside the site that lead nowhere, a search that finds nothing; and what a reader
 with a screen reader or weak eyes needs: language, one h1, headings in order, names of links, buttons, fields and pictures, ids that are
-unique, contrast (4.5, large text 3). Where axe-core is at hand (AXE=FILE, or npm and a registry) its serious and critical findings count
+unique, contrast (4.5, large text 3). Where axe-core is at hand (AXE=FILE, or npm, of tools/setup.sh site, and a registry) its serious and critical findings count
 too. --pictures writes what was seen as PNG. Needs chromium (tools/setup.sh site); it is spoken to over a pipe, Python's standard library suffices.
 """
 import argparse

@@ -5,6 +5,7 @@
 #include "base/whole.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
+#include "math/rng.h"
 #include "math/sort.h"
 #include <stdio.h>
 #include <string.h>
@@ -211,15 +212,6 @@ done:
     return status;
 }
 
-/// Mixes a number thoroughly. [Steele2014, splitmix64]
-static uint64_t mix(uint64_t x)
-{
-    x += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
-}
-
 static uint64_t hash_of(const double *x, int32_t d)
 {
     uint64_t hash = 0;
@@ -227,7 +219,7 @@ static uint64_t hash_of(const double *x, int32_t d)
         const double value = x[j] + 0.0; // -0 is 0
         uint64_t bits = 0;
         memcpy(&bits, &value, sizeof bits);
-        hash = mix(hash ^ bits);
+        hash = clx_mix(hash ^ bits);
     }
     return hash;
 }
