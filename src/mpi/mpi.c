@@ -118,6 +118,71 @@ static void gather(void *context, const void *bytes, int64_t n, const int64_t *c
     }
 }
 
+/// Integers that are added at once.
+enum { SUM_PIECE = 1 << 20 };
+
+static void sum(void *context, int64_t *value, int64_t n)
+{
+    const ranks *r = context;
+    for (int64_t at = 0; at < n; at += SUM_PIECE) {
+        const int here = (int)(n - at < SUM_PIECE ? n - at : SUM_PIECE);
+        MPI_Request request;
+        (void)MPI_Iallreduce(MPI_IN_PLACE, value + at, here, MPI_INT64_T, MPI_SUM, r->comm,
+                             &request);
+        await(&request);
+    }
+}
+
+/// Sends n bytes to one rank while m come from another, piece by piece.
+static void swap_bytes(const ranks *r, const int peer[2], const char *out, int64_t n, char *in,
+                       int64_t m)
+{
+    int64_t sent = 0;
+    int64_t come = 0;
+    while (sent < n || come < m) {
+        MPI_Request request[2] = {MPI_REQUEST_NULL, MPI_REQUEST_NULL};
+        const int out_piece = piece_at(n, sent);
+        const int in_piece = piece_at(m, come);
+        if (in_piece > 0) {
+            (void)MPI_Irecv(in + come, in_piece, MPI_BYTE, peer[1], TAG + 2, r->comm, &request[1]);
+        }
+        if (out_piece > 0) {
+            (void)MPI_Isend(out + sent, out_piece, MPI_BYTE, peer[0], TAG + 2, r->comm,
+                            &request[0]);
+        }
+        await(&request[0]);
+        await(&request[1]);
+        sent += out_piece;
+        come += in_piece;
+    }
+}
+
+static void exchange(void *context, const void *out, const int64_t *n_out, void *in,
+                     const int64_t *n_in)
+{
+    const ranks *r = context;
+    int rank = 0;
+    int n_rank = 1;
+    (void)MPI_Comm_rank(r->comm, &rank);
+    (void)MPI_Comm_size(r->comm, &n_rank);
+    for (int k = 0; k < n_rank; ++k) { // each rank meets one other a round
+        const int peer[2] = {(rank + k) % n_rank, (rank + n_rank - k) % n_rank};
+        const char *from = out;
+        char *to = in;
+        for (int i = 0; i < peer[0]; ++i) {
+            from += n_out[i];
+        }
+        for (int i = 0; i < peer[1]; ++i) {
+            to += n_in[i];
+        }
+        if (k == 0 && n_out[rank] > 0) {
+            memcpy(to, from, (size_t)n_out[rank]);
+        } else if (k > 0) {
+            swap_bytes(r, peer, from, n_out[peer[0]], to, n_in[peer[1]]);
+        }
+    }
+}
+
 // NOLINTEND(clang-analyzer-optin.mpi.MPI-Checker)
 
 clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
@@ -146,6 +211,8 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
                          .least = least,
                          .broadcast = broadcast,
                          .gather = gather,
+                         .sum = sum,
+                         .exchange = exchange,
                          .context = made};
     return CLAST_OK;
 }
