@@ -403,7 +403,7 @@ static clast_status find_shown(const count *n, clx_shown *cached, clx_shown *fou
         found->cells = scaled(cached->cells, all);
         return CLAST_OK;
     }
-    CLX_TRY(clx_ladder_count(n->sample, n->cloud->weight, &ladder));
+    CLX_TRY(clx_ladder_count(clast_comm_one(), n->sample, n->cloud->weight, &ladder));
     found->relative = found->cells = clx_resolution_of(&ladder);
     if (n->config->estimator == CLAST_ESTIMATOR_AUTO && !n->is_plain && n->cloud->weight == NULL &&
         !found->cells.resolved && !found->cells.is_repeated && r->n >= 2) {

@@ -249,7 +249,7 @@ static clast_status count_ladder(const job *w, clx_ladder *ladder)
     for (int64_t i = 0; i < w->n; ++i) {
         sample.number[i] = i;
     }
-    CLX_TRY(clx_ladder_count(&sample, NULL, ladder));
+    CLX_TRY(clx_ladder_count(clast_comm_one(), &sample, NULL, ladder));
 done:
     clx_free(sample.number);
     return status;
