@@ -125,8 +125,7 @@ static void print_ranks(const clast_pack_ranks *r)
         return;
     }
     (void)printf("%-26s %d, by %s; cost of the most loaded %.3f of the mean\n", "ranks", r->n,
-                 r->is_zoltan ? "Zoltan" : "clast's own bisection (built without Zoltan)",
-                 r->imbalance);
+                 r->is_zoltan ? "Zoltan" : "clast's own bisection", r->imbalance);
     if (r->n_idle > 0) {
         (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
                      r->n_idle, r->n);
@@ -225,13 +224,11 @@ static const char details[] =
     "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
     "A folder that holds a run is refused: go on with it, or replace it with --force\n"
     "(the new run is made in RUN.new and takes its place when it has succeeded).\n\n"
-    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, -j "
-    "threads "
-    "on each,\n"
-    "by default one. State, checkpoints and all files are the bytes of one rank: any number of "
-    "ranks, "
-    "and\n"
-    "clast pack, may go on with them. hindrance runs on one rank alone.";
+    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, by "
+    "default\n"
+    "of one thread each. State, checkpoints and all files are the bytes of one rank: any number "
+    "of\n"
+    "ranks, and clast pack, may go on with them.";
 
 const cli_command cli_pack = {
     .name = "pack",
