@@ -292,7 +292,10 @@ const cli_command cli_decompose = {
         "points.vtp for ParaView; charts points and events (pair_integral); with passes "
         "thresholds.csv and charts\ndensity and score; with --sizes K events_by_n.csv and its "
         "chart; with --pairs pairs.csv and the chart pairs. Tables begin with a line # of domain, "
-        "volume, beta_dt, seed.",
+        "volume, beta_dt, seed.\n"
+        "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
+        "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
+        "Tree cells and tests; -o without points.vtp and charts.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -352,12 +352,16 @@ static clast_status read_text(const clast_comm *comm, const char *path,
 {
     clast_status status = CLAST_OK;
     text t = {0};
+    clast_cloud first = {0};
     char *bytes = NULL;
     int64_t stretch[2] = {0, 0};
     int64_t n_line = 0;
     int64_t before = 0;
     int64_t total = 0;
     status = open_text(path, &t);
+    if (status == CLAST_OK) { // missing columns, and texts that the first rows show already
+        status = clast_cloud_from_table(&t.columns, columns, &first);
+    }
     if (status == CLAST_OK) {
         status = clx_alloc(&bytes, t.n_head + 2 * PIECE, 1);
     }
@@ -373,6 +377,7 @@ static clast_status read_text(const clast_comm *comm, const char *path,
     status = read_stretch(&t, stretch, t.head_line + before + 1, bytes, columns, s);
     CLX_TRY(clast_comm_agree(comm, status, NULL));
 done:
+    clast_cloud_free(&first);
     clx_free(bytes);
     close_text(&t);
     return status;
