@@ -47,7 +47,7 @@ static void print_text(const clast_evolve_result *r)
     }
     (void)printf("%-26s %lld grains\n", "largest aggregate", (long long)r->grains_most);
     if (isfinite(r->fractal_dimension)) {
-        (void)printf("%-26s %.3f +- %.3f (grains over radius of gyration, 5 grains or more)\n",
+        (void)printf("%-26s %.3f +- %.3f (radius of gyration over grains, 10 or more)\n",
                      "fractal dimension", r->fractal_dimension, r->fractal_error);
     }
     (void)printf("%-26s %.2g of the mass, %lld of the number, at the worst row\n", "balance off by",
@@ -109,7 +109,7 @@ static const char details[] =
 const cli_command cli_evolve = {
     .name = "evolve",
     .arguments = "",
-    .summary = "a cloud of true shapes in a fluid: fall, meet, join by first touch, deposit",
+    .summary = "true shapes in a fluid: fall, meet, join by first touch, deposit",
     .example = {"clast evolve --domain box:0,0,0,1cm,1cm,1cm --particles 200 --curve 20um "
                 "--duration 1s",
                 "clast evolve examples/evolve/flocs.yaml -o flocs/",

@@ -51,8 +51,11 @@ typedef enum {
 /// All of a run. Texts and lists are owned; start from clast_fields_default.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of the options
 typedef struct clast_evolve_config {
-    clast_collide_config collide; ///< medium, alpha, sticking, out_of_range; the rest follows
-    char *kernel;                 ///< "brownian+settling"
+    clast_medium medium; ///< but its particle_density, shear_constant and settling_law: not read
+    char *kernel;        ///< "brownian+settling"
+    double alpha;        ///< share of collisions that stick; a factor on what `sticking` says
+    clast_sticking sticking;
+    int32_t out_of_range; ///< clast_out_of_range
 
     clast_text_list shapes; ///< files, "sphere", "ellipsoid:a,b,c" or state.h5
     clast_f64_list shape_weight;
@@ -147,7 +150,7 @@ typedef struct clast_evolve_result {
     int64_t n_cut, n_test;  ///< times that cells were cut, that the tests were made
     int64_t grains_most;    ///< of one aggregate, wherever it is
     double deposit_diameter, deposit_porosity, deposit_speed, deposit_grains; ///< means by mass
-    double fractal_dimension, fractal_error; ///< of the cloud's and deposit's aggregates; NAN
+    double fractal_dimension, fractal_error; ///< of aggregates that events made; NAN
     clast_range_use range;                   ///< collisions against the kernels' ranges
     uint64_t hash;                           ///< of the whole state
     double wall_s;

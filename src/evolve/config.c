@@ -7,7 +7,7 @@
 
 #define FIELD(type, name) #name, .offset = offsetof(clast_evolve_config, name), CLAST_FIELD_##type
 #define DEEP(type, name, member)                                                                   \
-#name, .offset = offsetof(clast_evolve_config, collide.member), CLAST_FIELD_##type
+#name, .offset = offsetof(clast_evolve_config, member), CLAST_FIELD_##type
 #define TEXT(name, value, ...)                                                                     \
     {                                                                                              \
         FIELD(TEXT, name), 0, 0, 0, "-", .text = value, .help = __VA_ARGS__                        \
@@ -65,8 +65,7 @@ const clast_field clast_evolve_fields[] = {
          .common = true, .group = "space"),
     CHOICE(floor, 0, "deposit|reflect|periodic",
            "what is below: it stays there, comes back, or enters at the top", .common = true),
-    CHOICE(sides, 2, "deposit|reflect|periodic", "the same of the sides; periodic: a box alone",
-           .common = true),
+    CHOICE(sides, 2, "deposit|reflect|periodic", "the same of the sides; periodic: a box alone"),
     FLAG(open_top, 0, "what passes the top of a box is gone; else it comes back"),
 
     TEXT(wind, "0,0,0", "velocity x,y,z of the fluid at z = 0 [m/s]", .group = "fluid"),
@@ -132,7 +131,7 @@ const clast_field clast_evolve_fields[] = {
      "contact: Poisson's ratio of the particles"},
 
     FLAG(structure, 1, "aggregates keep their grains as they touch; no: drops that merge",
-         .common = true, .group = "aggregates"),
+         .group = "aggregates"),
     CHOICE(meeting, 0, "auto|ballistic|diffusive|central",
            "how the smaller of a pair comes: auto is diffusive for kernel brownian alone, else on "
            "lines over the cross-section"),
@@ -141,7 +140,7 @@ const clast_field clast_evolve_fields[] = {
     COUNT(max_tries, 100, 1, 1e6, "paths tried before a pair is given up, in thousands"),
 
     NUMBER(duration, 0, 0, 1e300, "s", "time that passes at most", .common = true, .group = "time"),
-    COUNT(rows, 50, 1, 1e6, "rows of the tables over it", .common = true),
+    COUNT(rows, 50, 1, 1e6, "rows of the tables over it"),
     NUMBER(step_error, 0.05, 1e-6, 0.5, "-",
            "share of a meeting, and of the height fallen, that a step may hold; and the most "
            "collisions of a pair's kind in a sub-step"),
@@ -169,7 +168,13 @@ clast_status clx_evolve_wind_read(const clast_evolve_config *c, double wind[3])
 clast_status clx_evolve_collide(const clast_evolve_config *c, clast_collide_config *collide)
 {
     clast_status status = CLAST_OK;
-    *collide = c->collide;
+    *collide = (clast_collide_config){.medium = c->medium,
+                                      .alpha = c->alpha,
+                                      .sticking = c->sticking,
+                                      .out_of_range = c->out_of_range,
+                                      .seed = c->seed};
+    collide->medium.particle_density = 0.0; // that of the particles, once they are there
+    collide->medium.shear_constant = 0.0;
     CLX_TRY(clast_kernel_parse(c->kernel, &collide->kernel));
     CLX_CHECK((clast_kernel_needs(collide->kernel) & CLAST_NEEDS_VELOCITY) == 0, CLAST_E_CONFIG,
               "kernel %s needs velocities of their own, which bodies that follow the fluid do not "
@@ -178,7 +183,6 @@ clast_status clx_evolve_collide(const clast_evolve_config *c, clast_collide_conf
     if (!(collide->medium.shear > 0.0)) {
         collide->medium.shear = fabs(c->wind_shear);
     }
-    collide->seed = c->seed;
     collide->medium.settling_law =
         c->fall == CLAST_FALL_STOKES ? CLAST_SETTLING_STOKES : CLAST_SETTLING_STANDARD;
 done:
@@ -188,8 +192,7 @@ done:
 /// Whether anything goes down at all.
 static bool can_reach_floor(const clast_evolve_config *c, const double wind[3])
 {
-    return c->collide.medium.gravity > 0.0 || c->eddy_diffusivity > 0.0 || c->brownian ||
-           wind[2] < 0.0;
+    return c->medium.gravity > 0.0 || c->eddy_diffusivity > 0.0 || c->brownian || wind[2] < 0.0;
 }
 
 static clast_status check_borders(const clast_evolve_config *c, const clast_domain *domain)
@@ -252,9 +255,9 @@ clast_status clx_evolve_config_check(const clast_evolve_config *c, const clast_e
     CLX_CHECK(c->weight == floor(c->weight), CLAST_E_CONFIG,
               "weight: %g is no whole number of particles", c->weight);
     CLX_CHECK(c->duration > 0.0, CLAST_E_CONFIG, "duration: give the time that passes, as 10s");
-    CLX_CHECK(c->collide.medium.viscosity > 0.0 && c->collide.medium.density > 0.0, CLAST_E_CONFIG,
+    CLX_CHECK(c->medium.viscosity > 0.0 && c->medium.density > 0.0, CLAST_E_CONFIG,
               "viscosity and fluid_density must be above 0");
-    CLX_CHECK(!c->brownian || c->collide.medium.temperature > 0.0, CLAST_E_CONFIG,
+    CLX_CHECK(!c->brownian || c->medium.temperature > 0.0, CLAST_E_CONFIG,
               "temperature: Brownian motion needs one above 0");
 done:
     return status;

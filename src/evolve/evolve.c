@@ -44,7 +44,6 @@ static clast_status prepare_encounters(clast_evolve *e)
 {
     clast_status status = CLAST_OK;
     const clast_evolve_config *c = e->config;
-    e->collide = c->collide;
     CLX_TRY(clx_evolve_collide(c, &e->collide));
     CLX_TRY(clx_evolve_wind_read(c, e->wind));
     e->ranges = clx_ranges_of(&e->collide);
@@ -187,7 +186,6 @@ static void weigh_all(clast_evolve *e)
         clx_sum_add(&total, kind->mass * s * s * s);
     }
     const double mass = clx_sum_of(&total);
-    e->mean_volume = volume / e->n_start;
     e->mass_start = mass * e->config->weight;
     e->collide.medium.particle_density = mass / volume;
     for (int32_t i = 0; i < e->n_start; ++i) {

@@ -72,29 +72,31 @@ static double mean(double sum, double by)
 
 void clx_evolve_fractal(const clast_evolve *e, double *dimension, double *error)
 {
-    enum { LEAST_GRAINS = 5, LEAST_BODIES = 10 };
+    enum { LEAST_GRAINS = 10, LEAST_EVENTS = 30 };
+    const double mean_mass = e->mass_start / e->config->weight / e->n_start;
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-    for (int32_t i = 0; i < e->n_start; ++i) {
-        const clx_evolve_body *b = &e->body[i];
-        if (b->state == CLX_BODY_MERGED || b->n < LEAST_GRAINS) {
+    for (int64_t k = 0; k < e->n_event; ++k) {
+        const clx_evolve_event *event = &e->event[k];
+        if (event->n < LEAST_GRAINS) {
             continue;
         }
-        const double radius = log(b->gyration);
-        const double count = log(b->volume / e->mean_volume);
+        const double count = log(event->mass / mean_mass);
+        const double radius = log(event->gyration);
         n += 1.0;
-        x += radius;
-        y += count;
-        xx += radius * radius;
-        xy += radius * count;
-        yy += count * count;
+        x += count;
+        y += radius;
+        xx += count * count;
+        xy += count * radius;
+        yy += radius * radius;
     }
     const double sxx = xx - x * x / n;
     const double sxy = xy - x * y / n;
     const double syy = yy - y * y / n;
     *dimension = *error = (double)NAN;
-    if (e->config->structure && n >= LEAST_BODIES && sxx > 0.0) {
-        *dimension = sxy / sxx;
-        *error = sqrt(fmax(0.0, syy - sxy * sxy / sxx) / (n - 2.0) / sxx);
+    if (e->config->structure && n >= LEAST_EVENTS && sxx > 0.0 && sxy > 0.0) {
+        const double slope_error = sqrt(fmax(0.0, syy - sxy * sxy / sxx) / (n - 2.0) / sxx);
+        *dimension = sxx / sxy;
+        *error = slope_error * *dimension * *dimension;
     }
 }
 

@@ -88,7 +88,6 @@ struct clast_evolve {
     clx_kit kit;
     clx_evolve_kind *kind; ///< [n_kind]
     int32_t n_kind;
-    double mean_volume; ///< of the particles at the start
 
     int32_t n_start;
     clx_evolve_grain *grain; ///< [n_start]
@@ -146,6 +145,6 @@ void clx_evolve_move(clast_evolve *e, double dt);
 clast_status clx_evolve_write_row(clast_evolve *e);
 clast_status clx_evolve_series_begin(clast_evolve *e);
 
-/// N = k (R_g / a)^D over aggregates of 5 grains or more, wherever they are: NAN with fewer
-/// than 10.
+/// D of ln R_g = ln(N) / D + c over the aggregates of 10 grains or more that events have made, N by
+/// mass; its error from their scatter. NAN with fewer than 30.
 void clx_evolve_fractal(const clast_evolve *e, double *dimension, double *error);

@@ -134,6 +134,36 @@ static void constant_kernel_is_exact(void **state)
     end(&c);
 }
 
+/* Additive kernel b (i + j), drops: N = N0 exp(-b N0 t / V) [Golovin1963]. */
+static void additive_kernel_is_exact(void **state)
+{
+    (void)state;
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=20000",
+                                         "curve=1mm",
+                                         "kernel=additive",
+                                         "additive=5e-5",
+                                         "structure=no",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=4",
+                                         "step_error=0.02",
+                                         NULL};
+    cloud c;
+    clast_table balance = {0};
+    begin(&c, option);
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_BALANCE, &balance));
+    for (int64_t i = 0; i < balance.n_row; ++i) {
+        const double exact = 20000.0 * exp(-clast_table_numbers(&balance, "time_s")[i]);
+        CHECK_ABS(clast_table_numbers(&balance, "n_particle")[i], exact, 5.0 * sqrt(exact / 3.0));
+    }
+    clast_table_free(&balance);
+    end(&c);
+}
+
 /* The kept moments of an aggregate are those of its grains, its grains touch and do not overlap. */
 static void check_aggregate(const clast_evolve *e, int64_t node, double gyration)
 {
@@ -355,6 +385,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(column_is_stokes),
                                        cmocka_unit_test(constant_kernel_is_exact),
+                                       cmocka_unit_test(additive_kernel_is_exact),
                                        cmocka_unit_test(aggregates_are_of_true_surfaces),
                                        cmocka_unit_test(goes_on_to_the_same_bits),
                                        cmocka_unit_test(events_are_a_tree),
