@@ -5,7 +5,7 @@ inlet that particles come from.
 """
 import math
 
-INLET, OUTLET, WALL, SYMMETRY, SOURCE = 1, 2, 3, 4, 5
+INLET, OUTLET, WALL, SYMMETRY, SOURCE, CELLS = 1, 2, 3, 4, 5, 10
 TRIANGLE, QUADRANGLE, HEXAHEDRON, PRISM = 2, 3, 5, 6
 
 
@@ -34,7 +34,7 @@ def write_duct(path, size, cells):
         for j in range(ny):
             for i in range(nx):
                 low = [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
-                elements.append((HEXAHEDRON, 10, low + [n + (nx + 1) * (ny + 1) for n in low]))
+                elements.append((HEXAHEDRON, CELLS, low + [n + (nx + 1) * (ny + 1) for n in low]))
     for k in range(nz):
         for j in range(ny):
             for i, group in ((0, SOURCE), (nx, OUTLET)):
@@ -98,7 +98,7 @@ def write_half_pipe(path, radius, length, source, fine, layers):
         for ring in range(n_ring):
             for j in range(n_angle):
                 low = section(ring, j, k)
-                elements.append((PRISM if ring == 0 else HEXAHEDRON, 10, low + [n + layer for n in low]))
+                elements.append((PRISM if ring == 0 else HEXAHEDRON, CELLS, low + [n + layer for n in low]))
     n_cell = len(elements)
     for ring in range(n_ring):
         for j in range(n_angle):

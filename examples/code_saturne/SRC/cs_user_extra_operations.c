@@ -1,6 +1,7 @@
-// clast in the solver's time loop: positions and weights are read where the solver keeps them, in
-// records of `extents` bytes, on one rank; on several each gathers all of them and decomposes the
-// same cloud, so that each can change its own parcels without a further message.
+// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
+// README.md) clast in the solver's time loop: positions and weights are read where the solver keeps
+// them, in records of `extents` bytes, on one rank; on several each gathers all of them and
+// decomposes the same cloud, so that each can change its own parcels without a further message.
 #include "balance.h"
 #include "cs_headers.h"
 #include "settings.h"
@@ -62,21 +63,6 @@ static void set_policy(void)
     check(clast_workspace_set_policy(workspace, &policy));
 }
 
-/// The solver's agglomeration appends parcels without asking whether there is room, and takes the
-/// size of a new one from what lies there: so room is made, and filled with primary particles. There
-/// are no parcels before the first step, so its kernel begins with the second.
-static void make_room(void)
-{
-    const run_settings *s = settings();
-    const cs_lnum_t n = parcels()->n_particles;
-    cs_glob_lagr_agglomeration_model->scalar_kernel = s->kernel;
-    cs_lagr_particle_set_resize(2 * (n + (cs_lnum_t)s->parcels[0]) + 1000);
-    for (cs_lnum_t k = n; k < parcels()->n_particles_max; ++k) {
-        *attribute(k, CS_LAGR_DIAMETER) = s->diameter;
-        *attribute(k, CS_LAGR_MASS) = s->particle_density * CLAST_PI / 6.0 * pow(s->diameter, 3);
-    }
-}
-
 void cs_user_extra_operations_initialize(cs_domain_t *unused)
 {
     CS_UNUSED(unused);
@@ -91,9 +77,10 @@ void cs_user_extra_operations_initialize(cs_domain_t *unused)
         if (table == NULL) {
             bft_error(__FILE__, __LINE__, errno, "events.csv");
         }
-        fputs("step,parcels,particles,events,events_low,events_high,n_cell,resolved,per_solver_cell,"
-              "own_events,stuck,mass_in,mass_out,mass_present,call_ms,step_ms\n",
-              table);
+        fputs(
+            "step,parcels,particles,events,events_low,events_high,n_cell,resolved,per_solver_cell,"
+            "own_events,stuck,mass_in,mass_out,mass_present,call_ms,step_ms\n",
+            table);
     }
     since = cs_timer_cpu_time();
 }
@@ -116,6 +103,20 @@ static int64_t count_parcels(int64_t *first)
     return sum;
 }
 
+/// Parcels without those that the solver's own agglomeration has just appended to the set, each at
+/// the very place of one that it was taken from.
+static cs_lnum_t count_originals(void)
+{
+    const double primary =
+        settings()->particle_density * CLAST_PI / 6.0 * pow(settings()->diameter, 3);
+    cs_lnum_t n = parcels()->n_particles;
+    while (settings()->task == TASK_OWN && n > 0 &&
+           *attribute(n - 1, CS_LAGR_MASS) > 1.5 * primary) {
+        --n;
+    }
+    return n;
+}
+
 /// The parcels as clast reads them: in place on one rank, gathered on several. *first: the first
 /// one of this rank.
 static clast_points points_of_all_ranks(int64_t *first)
@@ -126,7 +127,7 @@ static clast_points points_of_all_ranks(int64_t *first)
     if (cs_glob_n_ranks == 1 && settings()->task != TASK_GROW) {
         const double *x = attribute(0, CS_LAGR_COORDS);
         const double *weight = attribute(0, CS_LAGR_STAT_WEIGHT);
-        return (clast_points){set->n_particles, 3, x, stride, 1, weight, stride};
+        return (clast_points){count_originals(), 3, x, stride, 1, weight, stride};
     }
     const cs_lnum_t n = set->n_particles;
     const int64_t n_all = count_parcels(first);
@@ -161,7 +162,8 @@ static double events_per_solver_cell(void)
         weight[c] += *attribute(k, CS_LAGR_STAT_WEIGHT);
     }
     for (cs_lnum_t c = 0; c < n_cell; ++c) {
-        sum += config.beta_dt * weight[c] * weight[c] / (2.0 * cs_glob_mesh_quantities->cell_vol[c]);
+        sum +=
+            config.beta_dt * weight[c] * weight[c] / (2.0 * cs_glob_mesh_quantities->cell_vol[c]);
     }
     BFT_FREE(weight);
     cs_parall_sum(1, CS_DOUBLE, &sum);
@@ -177,7 +179,8 @@ static void remove_gone(void)
     for (cs_lnum_t k = 0; k < set->n_particles; ++k) {
         if (*attribute(k, CS_LAGR_STAT_WEIGHT) > 0.0) {
             if (n < k) {
-                memcpy(set->p_buffer + extents * (size_t)n, set->p_buffer + extents * (size_t)k, extents);
+                memcpy(set->p_buffer + extents * (size_t)n, set->p_buffer + extents * (size_t)k,
+                       extents);
             }
             ++n;
         }
@@ -252,8 +255,12 @@ static double grow(const clast_decomposition *cells, int64_t first)
 {
     const run_settings *s = settings();
     const int32_t n_cell = cells->cells.n;
-    clast_collide_config collide = {.alpha = 1.0, .medium.constant = s->kernel, .block = 1024,
-                                    .self_collisions = true, .keep_positions = true, .seed = 1};
+    clast_collide_config collide = {.alpha = 1.0,
+                                    .medium.constant = s->kernel,
+                                    .block = 1024,
+                                    .self_collisions = true,
+                                    .keep_positions = true,
+                                    .seed = 1};
     check(clast_kernel_parse("constant", &collide.kernel));
     clast_population p = population_of_records(cells->n);
     double *volume, *events, stuck = 0.0;
@@ -262,8 +269,8 @@ static double grow(const clast_decomposition *cells, int64_t first)
     for (int32_t c = 0; c < n_cell; ++c) {
         volume[c] = cells->cells.volume[c] * (1.0 + cells->smoothing_bias);
     }
-    const clast_collide_cells in = {.n = n_cell, .of_particle = cells->cells.of_point,
-                                    .volume = volume, .events = events};
+    const clast_collide_cells in = {
+        .n = n_cell, .of_particle = cells->cells.of_point, .volume = volume, .events = events};
     const clast_workspace_step step = {s->dt * s->every, (uint64_t)cs_glob_time_step->nt_cur};
     check(clast_workspace_collide(workspace, &p, &in, step, &collide, NULL));
     for (int32_t c = 0; c < n_cell; ++c) {
@@ -293,7 +300,8 @@ static double mass_that_left(void)
     return -mass;
 }
 
-/// Decomposes, counts or lets collide, and writes a row of events.csv. Times are of this rank's CPU.
+/// Decomposes, counts or lets collide, and writes a row of events.csv. Times are of this rank's
+/// CPU.
 static balance call_clast(double own, double step_time)
 {
     int64_t first;
@@ -310,10 +318,12 @@ static balance call_clast(double own, double step_time)
     call_time += took;
     n_call += 1;
     if (table != NULL) {
-        fprintf(table, "%d,%.0f,%.17g,%.17g,%.17g,%.17g,%d,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.3f,%.3f\n",
-                cs_glob_time_step->nt_cur, now.parcels, now.weight, cells->events, cells->events_low,
-                cells->events_high, cells->cells.n, cells->resolved, per_cell, own, stuck, in.mass,
-                balance_out, now.mass, 1e3 * took, 1e3 * step_time);
+        fprintf(
+            table,
+            "%d,%.0f,%.17g,%.17g,%.17g,%.17g,%d,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.3f,%.3f\n",
+            cs_glob_time_step->nt_cur, now.parcels, now.weight, cells->events, cells->events_low,
+            cells->events_high, cells->cells.n, cells->resolved, per_cell, own, stuck, in.mass,
+            balance_out, now.mass, 1e3 * took, 1e3 * step_time);
     }
     return now;
 }
@@ -331,9 +341,6 @@ void cs_user_extra_operations(cs_domain_t *unused)
         now = call_clast(own, begin - since);
     }
     before = now;
-    if (s->task == TASK_OWN) {
-        make_room();
-    }
     since = cs_timer_cpu_time();
 }
 
@@ -363,7 +370,8 @@ void cs_user_extra_operations_finalize(cs_domain_t *unused)
     if (table != NULL) {
         fclose(table);
     }
-    bft_printf("clast: %d calls, %.3f ms each\n", n_call, n_call > 0 ? 1e3 * call_time / n_call : 0.0);
+    bft_printf("clast: %d calls, %.3f ms each\n", n_call,
+               n_call > 0 ? 1e3 * call_time / n_call : 0.0);
     clast_workspace_destroy(workspace);
     clast_fields_free(clast_decompose_fields, &config);
     BFT_FREE(record);

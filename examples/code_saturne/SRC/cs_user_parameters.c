@@ -1,5 +1,6 @@
-// The flow: k-epsilon turbulence of one fluid in a mesh whose groups are 1 inlet, 2 outlet, 3 wall,
-// 4 symmetry, 5 the part of the inlet that particles come from.
+// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
+// README.md) The flow: k-epsilon turbulence of one fluid in a mesh whose groups are 1 inlet, 2
+// outlet, 3 wall, 4 symmetry, 5 the part of the inlet that particles come from.
 #include "cs_headers.h"
 #include "cs_turbulence_bc.h"
 #include "settings.h"
@@ -62,9 +63,7 @@ static void set_inlet(const char *name, int bc_type[], cs_real_t rcodcl[])
 /// Without a GUI file the solver stops in the empty Fortran routine of this name, which it calls
 /// before the one in C: this one takes its place.
 void cs_f_user_boundary_conditions_(void);
-void cs_f_user_boundary_conditions_(void)
-{
-}
+void cs_f_user_boundary_conditions_(void) {}
 
 /// cs_prototypes.h has the second and third argument the other way round; this is what is passed.
 void cs_user_boundary_conditions(int nvar, int bc_type[], int icodcl[], cs_real_t rcodcl[])

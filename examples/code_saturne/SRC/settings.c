@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
+// README.md)
 #include "settings.h"
 #include "cs_headers.h"
 #include <stdio.h>
@@ -24,7 +26,8 @@ static void read_task(const char *word, run_settings *s)
             return;
         }
     }
-    bft_error(__FILE__, __LINE__, 0, "settings.txt: no task %s: count, own, grow or snapshot", word);
+    bft_error(__FILE__, __LINE__, 0, "settings.txt: no task %s: count, own, grow or snapshot",
+              word);
 }
 
 static void read_integer(const char *text, int *number)

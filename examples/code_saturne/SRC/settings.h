@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
+// README.md)
 #pragma once
 // What a run is told: DATA/settings.txt, lines "name value..", which drive.py writes and the solver
 // finds in its working folder.
@@ -6,7 +8,7 @@ enum { MAX_SETS = 4 };
 
 typedef enum {
     TASK_COUNT,    ///< clast counts events of the solver's parcels, which it leaves as they are
-    TASK_OWN,      ///< beside the solver's own agglomeration, cell by cell
+    TASK_OWN,      ///< beside the solver's own agglomeration, cell by cell, in the last step
     TASK_GROW,     ///< clast's events make parcels grow
     TASK_SNAPSHOT, ///< the parcels of the last step go to a file
 } run_task;
@@ -14,14 +16,14 @@ typedef enum {
 typedef struct run_settings {
     run_task task;
     int n_step;
-    double dt;                 ///< [s]
-    double velocity[3];        ///< at the inlet and at the start [m/s]
-    double hydraulic_diameter; ///< of the inlet [m]
-    double density, viscosity; ///< of the fluid [kg/m3], [Pa s]
-    int n_set;                 ///< sets of parcels that are injected beside each other
-    double parcels[MAX_SETS];  ///< of each set at a time
-    double period[MAX_SETS];   ///< steps between these
-    double weight[MAX_SETS];   ///< real particles of a parcel
+    double dt;                         ///< [s]
+    double velocity[3];                ///< at the inlet and at the start [m/s]
+    double hydraulic_diameter;         ///< of the inlet [m]
+    double density, viscosity;         ///< of the fluid [kg/m3], [Pa s]
+    int n_set;                         ///< sets of parcels that are injected beside each other
+    double parcels[MAX_SETS];          ///< of each set at a time
+    double period[MAX_SETS];           ///< steps between these
+    double weight[MAX_SETS];           ///< real particles of a parcel
     double diameter, particle_density; ///< of a particle [m], [kg/m3]
     double kernel;                     ///< beta, the same for all pairs [m3/s]
     int every;                         ///< steps between two calls of clast
