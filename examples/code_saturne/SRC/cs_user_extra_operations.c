@@ -50,15 +50,21 @@ static balance present(void)
     return sum;
 }
 
-/// Tests and cuts are spared where the cloud has not changed; pairs are counted every 50th call.
+/// What calls are spared: nothing, tests and cuts where the cloud has not changed, or all but each
+/// 50th test and count of pairs and each 10th cut.
 static void set_policy(void)
 {
     clast_workspace_policy policy;
     check(clast_fields_default(clast_workspace_fields, &policy));
-    if (settings()->spare != 0) {
+    if (settings()->spare == SPARE_UNCHANGED) {
         policy.tests = CLAST_TESTS_MOVED;
         policy.cells = CLAST_CUT_CHANGED;
         policy.pairs_every = 50;
+    } else if (settings()->spare == SPARE_MOST) {
+        policy.tests = CLAST_TESTS_EVERY;
+        policy.cells = CLAST_CUT_EVERY;
+        policy.tests_every = policy.pairs_every = 50;
+        policy.cells_every = 10;
     }
     check(clast_workspace_set_policy(workspace, &policy));
 }

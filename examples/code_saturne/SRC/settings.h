@@ -13,6 +13,12 @@ typedef enum {
     TASK_SNAPSHOT, ///< the parcels of the last step go to a file
 } run_task;
 
+typedef enum {
+    SPARE_NOTHING,   ///< clast tests and cuts at each call
+    SPARE_UNCHANGED, ///< where the cloud has changed
+    SPARE_MOST       ///< tests and counts pairs at each 50th call, cuts at each 10th
+} run_spare;
+
 typedef struct run_settings {
     run_task task;
     int n_step;
@@ -27,7 +33,7 @@ typedef struct run_settings {
     double diameter, particle_density; ///< of a particle [m], [kg/m3]
     double kernel;                     ///< beta, the same for all pairs [m3/s]
     int every;                         ///< steps between two calls of clast
-    int spare;                         ///< 0: clast tests and cuts at each call
+    int spare;                         ///< run_spare
     char domain[128];                  ///< as clast_domain_parse reads it
 } run_settings;
 
