@@ -62,9 +62,10 @@ class Study:
         (case / "DATA" / "build.txt").write_text(f"mesh.msh\n{ROOT / 'include'}\n{self.build}\n")
         (case / "DATA" / "settings.txt").write_text("".join(
             f"{key} {' '.join(map(str, value)) if isinstance(value, tuple) else value}\n" for key, value in settings.items()))
-        environment = os.environ | {"USER": os.environ.get("USER", "user"), "OMP_NUM_THREADS": "1"}
+        environment = os.environ | {"USER": os.environ.get("USER", "user"), "OMP_NUM_THREADS": "1",
+                                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
         if os.geteuid() == 0:  # Open MPI asks twice
-            environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+            environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         begun = time.monotonic()
         done = subprocess.run(["code_saturne", "run", "--id", "run", "-n", str(ranks)], cwd=case, env=environment,
                               capture_output=True, text=True)
