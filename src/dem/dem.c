@@ -3,6 +3,7 @@
 
 #include "base/lines.h"
 #include "dem/dem.h"
+#include "dem/energy.h"
 #include "dem/fluid.h"
 #include <clast/settling.h>
 #include <math.h>
@@ -20,8 +21,11 @@ clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
     made->law = clx_law_make(config);
     made->all_round = true;
     clx_dem_build_walls(made);
+    CLX_TRY(clx_cell_make(made));
     *dem = made;
+    made = NULL;
 done:
+    clast_dem_destroy(made);
     return status;
 }
 
@@ -47,6 +51,8 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->item_turn);
     clx_free(dem->block_flag);
     clx_free(dem->slabs.solid);
+    clx_free(dem->cell);
+    clx_energy_destroy(dem->energy);
     clx_free(dem);
 }
 
@@ -67,8 +73,11 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     clast_status status = CLAST_OK;
     const clast_dem_config *c = &dem->config;
     const double depth = c->depth > 0.0 ? c->depth : c->width;
-    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width : fmin(c->width, depth);
-    if (c->domain == CLAST_DEM_PERIODIC) {
+    const bool is_cell = c->domain == CLAST_DEM_CELL;
+    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width
+                          : is_cell                       ? fmin(fmin(c->width, depth), c->height)
+                                                          : fmin(c->width, depth);
+    if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
         CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
                   "grain %lld reaches %g m across, %g m with its skin, more than half the period "
                   "of %g m",
@@ -193,10 +202,12 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
     }
     CLX_TRY(reserve(dem, (int64_t)dem->n_grain + n));
     CLX_TRY(clx_items_reserve(dem, n, grain));
+    const int32_t first = dem->n_grain;
     for (int32_t i = 0; i < n; ++i) {
         clx_dem_set_grain(dem, dem->n_grain, &grain[i]);
         clx_items_add(dem, dem->n_grain++);
     }
+    clx_energy_added(dem, first);
     dem->list.is_due = true;
 done:
     return status;
@@ -219,11 +230,20 @@ static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
     if (!inner->is_gathered) {
         CLX_TRY(clx_inner_gather(dem));
     }
+    if (dem->energy != NULL) {
+        CLX_TRY(clx_energy_before(dem));
+    }
     clx_contacts(dem);
     if (verifies) {
         clx_verify(dem);
     }
+    if (dem->energy != NULL) {
+        clx_energy_forces(dem);
+    }
     *is_fine = clx_move(dem);
+    if (dem->energy != NULL) {
+        clx_energy_after(dem);
+    }
 done:
     return status;
 }
@@ -231,7 +251,7 @@ done:
 static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
 {
     const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
-    return verifies || dem->item != NULL || dem->container != NULL
+    return verifies || dem->item != NULL || dem->container != NULL || dem->energy != NULL
                ? step_in_passes(dem, verifies, is_fine)
                : clx_sweep(dem, is_fine);
 }
@@ -244,13 +264,17 @@ static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
 //   5. contacts         gap and normal of each active pair, its contact law, force and torques
 //   6. motion           sums, then velocities, positions and orientations; who has used up what
 // 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
-// contacts share their stiffness, a container has triangles, or contacts are verified.
+// contacts share their stiffness, a container has triangles, contacts are verified, or their energy
+// is booked.
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
+        if (dem->cell != NULL) {
+            clx_cell_begin_step(dem);
+        }
         if (dem->list.is_due) {
             clx_inner_unpack(dem);
             CLX_TRY(clx_neighbour_list_refresh(dem));
@@ -263,6 +287,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
         CLX_TRY(contacts_and_motion(dem, &is_fine));
+        if (dem->cell != NULL) {
+            clx_cell_end_step(dem);
+        }
         ++dem->step;
         if (!is_fine) {
             clx_inner_unpack(dem);

@@ -70,6 +70,9 @@ static void set_anchor(clast_dem *dem, int32_t i)
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
     }
+    for (int c = 0; c < 3 && dem->cell != NULL; ++c) {
+        at->margin = fmin(at->margin, 0.25 * dem->cell->side[c] - radius);
+    }
     dem->list.limit[i] = dem->travel[g] + CLX_SURE * at->margin;
 }
 
@@ -78,14 +81,17 @@ static void mark_stale(clast_dem *dem)
 {
     clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
-        const bool is_within =
-            i < l->n_known && clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
+        const bool is_within = i < l->n_known && dem->cell == NULL &&
+                               clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
         l->is_stale[i] = is_within ? 0 : 1;
         if (l->is_stale[i] != 0) {
             set_anchor(dem, i);
         }
     }
     l->n_known = dem->n_item;
+    if (dem->cell != NULL) { // whose images move: all search anew
+        dem->cell->path = 0.0;
+    }
 }
 
 static clast_status add_found(clx_neighbour_list *l, clx_found found)
@@ -136,6 +142,9 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
             period[c] = (int16_t)(uint16_t)(int64_t)n;
             r[c] += n * dem->period[c];
         }
+    }
+    if (dem->cell != NULL) {
+        clx_cell_offset(dem->cell, r);
     }
     const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
     if (v3_norm2(r) >= cutoff * cutoff) {
@@ -374,6 +383,9 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
+    if (dem->cell != NULL) {
+        CLX_TRY(clx_cell_check_room(dem));
+    }
     mark_stale(dem);
     CLX_TRY(find(dem));
     CLX_TRY(sort_found(dem));
