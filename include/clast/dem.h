@@ -184,6 +184,26 @@ typedef struct clast_dem_cell {
     double shear_strain; ///< of the shift over the height
 } clast_dem_cell;
 
+/// What a bed carries. Tensors are xx, yy, zz, xy, xz, yz, pressure above 0. Stress, modulus and
+/// volume of domain cell alone; 0 in others (clast_stress).
+typedef struct clast_dem_load {
+    double volume, solid;     ///< of the cell, of its grains [m3]
+    double stress[6];         ///< of contacts: sum f l / V [Pa]
+    double kinetic_stress[6]; ///< sum m v v / V, v beside the cell's even motion [Pa]
+    double modulus[3]; ///< of the normal springs at even strain, sum k (l n)^2 / V: an upper bound
+                       ///< [Pa]
+    double fabric[6];  ///< mean n n of contacts between grains
+    int64_t n_contact; ///< pairs of grains
+    int64_t n_force;   ///< places where grains touch: more, where clumps do
+    double coordination; ///< 2 n_contact / n_grain
+    int32_t n_rattler;   ///< grains with fewer than 2 contacts (4 without friction), left out one
+                         ///< after another
+    double coordination_held; ///< of the others among themselves
+    double unbalanced;        ///< mean force on a grain over the mean force of a contact
+    double force_mean;        ///< of a contact [N]
+    double force_below[3];    ///< below which 50, 90, 99 % of the forces between grains lie [N]
+} clast_dem_load;
+
 /// A running simulation. Opaque; one thread at a time (it uses threads itself).
 typedef struct clast_dem clast_dem;
 
@@ -228,6 +248,9 @@ CLAST_API clast_status clast_dem_begin_energy(clast_dem *dem);
 
 /// Where the energy has gone; untouched when none was booked.
 CLAST_API void clast_dem_energy_measure(const clast_dem *dem, clast_dem_energy *energy);
+
+/// What the bed carries now. Memories are not renewed.
+CLAST_API clast_status clast_dem_load_measure(const clast_dem *dem, clast_dem_load *load);
 
 /// Speeds of the cell's three sides, and of the upper images along x, from the next step on [m/s].
 /// Grains get the change that belongs to their place, so that the bed is strained evenly.

@@ -344,6 +344,7 @@ static void book_pair(const clast_dem *dem, const clx_dem_pair *pair, const clx_
         // A dashpot that alone exceeds the limit stretches the spring against the force (xi . F >
         // 0): energy that the law makes and takes back, which is no friction.
         const bool is_stretched =
+            m.friction == 0.0 ||
             v3_dot(pair->slide, f->force) >
                 v3_dot(pair->slide, t.normal) * v3_dot(f->force, t.normal) ||
             v3_dot(before, f->force) > v3_dot(before, t.normal) * v3_dot(f->force, t.normal);

@@ -171,12 +171,242 @@ static void book_closes_on_every_scene(void **state)
     }
 }
 
+/* Domain cell without weight or fluid. */
+static clast_dem_config in_cell(double width, double depth, double height)
+{
+    clast_dem_config c = scene_space();
+    c.domain = CLAST_DEM_CELL;
+    c.width = width;
+    c.depth = depth;
+    c.height = height;
+    c.fluid_density = 0.0;
+    c.friction = 0.0;
+    return c;
+}
+
+enum { MOST_SITES = 64, MOST_LINKS = 12 };
+
+/* A lattice: its sites in a cell of three by three by three, and the ways to half of the
+ * neighbours. */
+typedef struct {
+    int n, n_link;
+    double side;
+    double site[MOST_SITES * 2][3];
+    double link[MOST_LINKS][3];
+} lattice;
+
+static lattice make_lattice(bool is_fcc, double diameter)
+{
+    static const double base[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    static const double fcc[6][3] = {{0.5, 0.5, 0},  {0.5, 0, 0.5},  {0, 0.5, 0.5},
+                                     {0.5, -0.5, 0}, {0.5, 0, -0.5}, {0, 0.5, -0.5}};
+    const double a = is_fcc ? sqrt(2.0) * diameter : diameter;
+    const int each = is_fcc ? 3 : 4;
+    lattice l = {.side = each * a, .n_link = is_fcc ? 6 : 3};
+    for (int i = 0; i < each * each * each; ++i) {
+        for (int b = 0; b < (is_fcc ? 4 : 1); ++b, ++l.n) {
+            const int at[3] = {i % each, i / each % each, i / each / each};
+            for (int k = 0; k < 3; ++k) {
+                l.site[l.n][k] = (at[k] + base[b][k] + 0.25) * a - (k < 2 ? 0.5 * l.side : 0.0);
+            }
+        }
+    }
+    for (int i = 0; i < l.n_link; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            l.link[i][k] = a * (is_fcc ? fcc[i][k] : k == i ? 1.0 : 0.0);
+        }
+    }
+    return l;
+}
+
+/* Stress of the strained lattice, by its definition: sum k (d - l) l_i l_j / l over half of the
+ * ways, N sites in V. */
+static void lattice_stress(const lattice *l, const clast_dem_cell *cell, double stiffness,
+                           double diameter, double s[6])
+{
+    static const int entry[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+    const double volume = cell->side[0] * cell->side[1] * cell->side[2];
+    for (int e = 0; e < 6; ++e) {
+        s[e] = 0.0;
+    }
+    for (int i = 0; i < l->n_link; ++i) {
+        double r[3];
+        for (int k = 0; k < 3; ++k) {
+            r[k] = l->link[i][k] * cell->side[k] / l->side;
+        }
+        r[0] += l->link[i][2] * cell->shift / l->side;
+        const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        const double force = stiffness * fmax(diameter - length, 0.0);
+        for (int e = 0; e < 6; ++e) {
+            s[e] += l->n * force * r[entry[e][0]] * r[entry[e][1]] / length / volume;
+        }
+    }
+}
+
+/* Simple cubic and face-centred cubic lattices, pressed by 1 % and sheared: the springs' exact
+ * stress; and at small strains the moduli sqrt(2) k / d (C11), half of that (C12, C44) of fcc, k /
+ * d of cubic. */
+static void lattices_have_their_stiffness(void **state)
+{
+    (void)state;
+    const double d = 2.0 * RADIUS;
+    const double ln = log(0.1);
+    const double mass = DENSITY * 4.0 / 3.0 * CLAST_PI * RADIUS * RADIUS * RADIUS;
+    const double k = 0.5 * mass * (CLAST_PI * CLAST_PI + ln * ln) / 4e-8;
+    for (int is_fcc = 0; is_fcc < 2; ++is_fcc) {
+        const lattice l = make_lattice(is_fcc != 0, d);
+        clast_dem_config c = in_cell(l.side, l.side, l.side);
+        clast_dem_grain grain[MOST_SITES * 2];
+        for (int i = 0; i < l.n; ++i) {
+            grain[i] = at(l.site[i][0], l.site[i][1], l.site[i][2]);
+        }
+        clast_dem *dem = balls(&c, l.n, grain);
+        const double rates[3][4] = {
+            {-0.2, -0.3, -0.4, 0.0}, {0.0, 0.0, 0.0, is_fcc ? 0.5 : 0.0}, {0}};
+        clast_dem_load load;
+        clast_dem_cell cell;
+        double wanted[6];
+        for (int stage = 0; stage < 3; ++stage) {
+            double rate[3];
+            for (int e = 0; e < 3; ++e) {
+                rate[e] = rates[stage][e] * l.side;
+            }
+            CHECK_OK(clast_dem_set_cell_rate(dem, rate, rates[stage][3] * l.side));
+            CHECK_OK(clast_dem_step(dem, stage == 2 ? 1 : 5000));
+        }
+        CHECK_OK(clast_dem_load_measure(dem, &load));
+        clast_dem_read_cell(dem, &cell);
+        CHECK_REL(cell.side[2], l.side * 0.99, 1e-12);
+        lattice_stress(&l, &cell, k, d, wanted);
+        for (int e = 0; e < 6; ++e) {
+            CHECK_ABS(load.stress[e], wanted[e], 1e-9 * wanted[2]);
+            CHECK_ABS(load.kinetic_stress[e], 0.0, 1e-9 * wanted[2]);
+        }
+        CHECK_REL(load.coordination, is_fcc ? 12.0 : 6.0, 1e-15);
+        assert_true(load.n_rattler == 0 && load.unbalanced < 1e-9);
+        /* moduli by a small further strain along z */
+        const double along[3] = {0.0, 0.0, -1e-3 * l.side};
+        const double still[3] = {0.0, 0.0, 0.0};
+        clast_dem_load more;
+        CHECK_OK(clast_dem_set_cell_rate(dem, along, 0.0));
+        CHECK_OK(clast_dem_step(dem, 2000));
+        CHECK_OK(clast_dem_set_cell_rate(dem, still, 0.0));
+        CHECK_OK(clast_dem_load_measure(dem, &more));
+        const double strain = 1e-5;
+        const double c11 = is_fcc ? sqrt(2.0) * k / d : k / d;
+        CHECK_REL((more.stress[2] - load.stress[2]) / strain, c11, 0.05);
+        CHECK_ABS((more.stress[0] - load.stress[0]) / strain, is_fcc ? 0.5 * c11 : 0.0, 0.05 * c11);
+        CHECK_REL(load.modulus[2], c11, 0.05);
+        clast_dem_destroy(dem);
+    }
+}
+
+/* Contacts by all pairs and all images around, beside those that the lists found. */
+static int64_t count_contacts(const clast_dem *dem, double deeper)
+{
+    clast_dem_cell cell;
+    int64_t n = 0;
+    clast_dem_read_cell(dem, &cell);
+    for (int32_t i = 0; i < clast_dem_n_grain(dem); ++i) {
+        for (int32_t j = 0; j < i; ++j) {
+            clast_dem_grain a;
+            clast_dem_grain b;
+            clast_dem_read_grain(dem, i, &a);
+            clast_dem_read_grain(dem, j, &b);
+            for (int m = 0; m < 75; ++m) {
+                const int at[3] = {m % 5 - 2, m / 5 % 5 - 2, m / 25 - 1};
+                double r[3];
+                for (int k = 0; k < 3; ++k) {
+                    r[k] = b.position[k] - a.position[k] + at[k] * cell.side[k];
+                }
+                r[0] += at[2] * cell.shift;
+                n += sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) < a.scale + b.scale - deeper ? 1
+                                                                                                : 0;
+            }
+        }
+    }
+    return n;
+}
+
+/* A bed pressed and sheared until its images have passed each other: no contact is missed, the book
+ * closes with the cell's work, and threads change nothing. */
+static void sheared_bed_misses_no_contact(void **state)
+{
+    (void)state;
+    enum { N = 125 };
+    clast_dem_config c = in_cell(0.04, 0.042, 0.044);
+    c.friction = 0.5;
+    c.restitution = 0.7;
+    clast_dem_grain grain[N];
+    for (int i = 0; i < N; ++i) {
+        clx_rng rng = clx_rng_at(7, CLX_STREAM_TEST, (uint64_t)i);
+        const int k[3] = {i % 5, i / 5 % 5, i / 25};
+        grain[i] = at(0.008 * k[0] - 0.016, 0.0084 * k[1] - 0.0168, 0.0088 * (k[2] + 0.5));
+        grain[i].scale = RADIUS * (0.7 + 0.4 * clx_rng_uniform(&rng));
+        for (int a = 0; a < 3; ++a) {
+            grain[i].velocity[a] = 0.2 * clx_rng_uniform(&rng) - 0.1;
+        }
+    }
+    clast_dem *dem = balls(&c, N, grain);
+    CHECK_OK(clast_dem_begin_energy(dem));
+    const double press[3] = {-0.1, -0.1, -0.1};
+    const double still[3] = {0.0, 0.0, 0.0};
+    CHECK_OK(clast_dem_set_cell_rate(dem, press, 0.0));
+    CHECK_OK(clast_dem_step(dem, 24000));
+    CHECK_OK(clast_dem_set_cell_rate(dem, still, 0.5));
+    double most = 0.0;
+    for (int k = 0; k < 20; ++k) {
+        clast_dem_load load;
+        CHECK_OK(clast_dem_step(dem, 1000));
+        CHECK_OK(clast_dem_load_measure(dem, &load));
+        /* what has come into touch by this step's motion alone is none yet */
+        assert_true(load.n_contact <= count_contacts(dem, 0.0) &&
+                    load.n_contact >= count_contacts(dem, 3e-6));
+        most = fmax(most, load.coordination);
+    }
+    clast_dem_cell cell;
+    clast_dem_energy e = {0};
+    clast_dem_read_cell(dem, &cell);
+    clast_dem_energy_measure(dem, &e);
+    assert_true(most > 3.0 && cell.shear_strain > 1.2 && fabs(cell.shift) <= 0.5 * cell.side[0]);
+    assert_true(e.cell > 0.0 && e.friction[0] > 0.0);
+    assert_true(fabs(e.rest) < 1e-10 * gross(&e));
+    clast_dem_destroy(dem);
+}
+
+/* What a cell cannot be is said. */
+static void cells_refuse_what_they_cannot(void **state)
+{
+    (void)state;
+    clast_dem *dem = NULL;
+    clast_dem_config c = in_cell(0.03, 0.03, 0.03);
+    const double rate[3] = {-0.1, -0.1, -0.1};
+    c.gravity = 9.81;
+    assert_int_equal(clast_dem_create(&c, &dem), CLAST_E_CONFIG);
+    c.gravity = 0.0;
+    c.floor = true;
+    assert_int_equal(clast_dem_create(&c, &dem), CLAST_E_CONFIG);
+    c.floor = false;
+    const clast_dem_grain grain = at(0.0, 0.0, 0.015);
+    dem = balls(&c, 1, &grain);
+    CHECK_OK(clast_dem_set_cell_rate(dem, rate, 0.0));
+    assert_int_equal(clast_dem_step(dem, 100000), CLAST_E_GEOMETRY);
+    clast_dem_destroy(dem);
+    c = scene_space();
+    CHECK_OK(clast_dem_create(&c, &dem));
+    assert_int_equal(clast_dem_set_cell_rate(dem, rate, 0.0), CLAST_E_USAGE);
+    clast_dem_destroy(dem);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(collision_loses_what_restitution_says),
         cmocka_unit_test(sliding_ball_loses_two_sevenths),
         cmocka_unit_test(book_closes_on_every_scene),
+        cmocka_unit_test(lattices_have_their_stiffness),
+        cmocka_unit_test(sheared_bed_misses_no_contact),
+        cmocka_unit_test(cells_refuse_what_they_cannot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
