@@ -195,20 +195,3 @@ void clx_cell_end_step(clast_dem *dem)
         wrap_grain(dem, i);
     }
 }
-
-clast_status clx_cell_check_room(const clast_dem *dem)
-{
-    clast_status status = CLAST_OK;
-    const clx_periodic_cell *cell = dem->cell;
-    double most = 0.0;
-    const double narrow = fmin(cell->side[0], fmin(cell->side[1], cell->side[2]));
-    for (int32_t i = 0; i < dem->n_item; ++i) {
-        most = fmax(most, clx_item_radius(dem, i));
-    }
-    CLX_CHECK(4.0 * most * (1.0 + dem->config.skin) <= narrow, CLAST_E_GEOMETRY,
-              "the cell's narrowest side has come down to %g m, less than two of its largest grain "
-              "(%g m across, %g m with its skin): take more grains in a larger cell",
-              narrow, 2.0 * most, 2.0 * most * (1.0 + dem->config.skin));
-done:
-    return status;
-}

@@ -379,12 +379,30 @@ done:
     return status;
 }
 
+/// Refuses a cell that has become too narrow for its grains.
+static clast_status check_room(const clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    const clx_periodic_cell *cell = dem->cell;
+    double most = 0.0;
+    const double narrow = fmin(cell->side[0], fmin(cell->side[1], cell->side[2]));
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        most = fmax(most, clx_item_radius(dem, i));
+    }
+    CLX_CHECK(4.0 * most * (1.0 + dem->config.skin) <= narrow, CLAST_E_GEOMETRY,
+              "the cell's narrowest side has come down to %g m, less than two of its largest grain "
+              "(%g m across, %g m with its skin): take more grains in a larger cell",
+              narrow, 2.0 * most, 2.0 * most * (1.0 + dem->config.skin));
+done:
+    return status;
+}
+
 clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
     if (dem->cell != NULL) {
-        CLX_TRY(clx_cell_check_room(dem));
+        CLX_TRY(check_room(dem));
     }
     mark_stale(dem);
     CLX_TRY(find(dem));

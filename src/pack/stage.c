@@ -1,7 +1,6 @@
 // Stages as text: "isotropic 10kPa until rest", "z=-0.1/s x=10kPa y=10kPa until strain 0.2".
 #include "pack/load.h"
 
-#include "base/number.h"
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
@@ -51,10 +50,8 @@ static clast_status read_drive(const clast_pack_config *c, int32_t number, const
 {
     const size_t n = strlen(text);
     if (n > 2 && strcmp(text + n - 2, "/s") == 0) {
-        char copy[WORD + 4];
-        (void)clx_number_print(copy, sizeof copy, "%.*s 1/s", (int)(n - 2), text);
         *kind = CLX_DRIVE_RATE;
-        return clast_unit_parse(copy, "1/s", aim) == CLAST_OK
+        return clast_unit_parse(text, "1/s", aim) == CLAST_OK
                    ? CLAST_OK
                    : fail(c, number, "this is no strain rate (0.1/s):", text);
     }

@@ -3,6 +3,7 @@
 
 #include "dem_scenes.h"
 #include "math/rng.h"
+#include <clast/pack.h>
 
 static const double RADIUS = 0.0035;
 static const double DENSITY = 2650.0;
@@ -398,6 +399,103 @@ static void cells_refuse_what_they_cannot(void **state)
     clast_dem_destroy(dem);
 }
 
+/* A packing of its defaults, in a cell of 20 mm, with these stages. */
+static clast_pack_config packing(int32_t n_stage, char **stage)
+{
+    clast_pack_config c = {0};
+    CHECK_OK(clast_fields_default(clast_pack_fields, &c));
+    c.dem.domain = CLAST_DEM_CELL;
+    c.dem.width = c.dem.height = 0.02;
+    c.dem.floor = false;
+    c.dem.gravity = c.dem.fluid_density = 0.0;
+    c.mass = 0.003;
+    c.load_rate = 4.0;
+    c.spacing = 0.0045;
+    c.stages = (clast_text_list){n_stage, stage};
+    return c;
+}
+
+static clast_pack *start(const clast_pack_config *c, const clast_grading *grading,
+                         const clast_shape *shape, clast_status wanted)
+{
+    clast_pack *pack = NULL;
+    const clast_pack_input input = {.grading = grading, .n_shape = 1, .shape = shape};
+    CHECK_STATUS(clast_pack_create(c, &input, &pack), wanted);
+    return pack;
+}
+
+/* The servo comes to its pressure and holds it in a triaxial test; rows end where stages do. */
+static void servo_holds_its_pressure(void **state)
+{
+    (void)state;
+    char *stages[] = {"isotropic 20kPa until rest", "triaxial 20kPa 1/s until strain 0.05",
+                      "hold until time 1ms"};
+    clast_pack_config c = packing(3, stages);
+    const double size = 0.004;
+    clast_grading *grading = NULL;
+    clast_shape sphere = {0};
+    CHECK_OK(clast_grading_uniform(size, size, &grading));
+    CHECK_OK(clast_shape_sphere("sphere", 0.5, &sphere));
+    clast_pack *pack = start(&c, grading, &sphere, CLAST_OK);
+    CHECK_OK(clast_pack_advance(pack, 1000000));
+    assert_true(clast_pack_is_over(pack));
+    const clast_table *t = clast_pack_load_table(pack);
+    const double *stage = clast_table_numbers(t, "stage");
+    int64_t end[3] = {0, 0, 0};
+    for (int64_t i = 0; i < t->n_row; ++i) {
+        end[(int)stage[i] - 1] = i;
+    }
+    for (int k = 0; k < 3; ++k) {
+        static const char *const name[3] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa"};
+        CHECK_REL(clast_table_numbers(t, name[k])[end[0]], 2e4, 0.01);
+        CHECK_REL(clast_table_numbers(t, name[k])[end[1]], 2e4, k < 2 ? 0.1 : 10.0);
+    }
+    assert_true(clast_table_numbers(t, "unbalanced")[end[0]] < 1e-3);
+    assert_true(clast_table_numbers(t, "stress_zz_Pa")[end[1]] > 3e4);
+    const double *strain = clast_table_numbers(t, "strain_z");
+    CHECK_ABS(strain[end[1]] - strain[end[0]], 0.05, 2e-4);
+    assert_true(clast_table_numbers(t, "porosity")[end[0]] < 0.45);
+    clast_pack_destroy(pack);
+    clast_grading_destroy(grading);
+    clast_shape_free(&sphere);
+    c.stages = (clast_text_list){0};
+    clast_fields_free(clast_pack_fields, &c);
+}
+
+/* Words that are no stage, and stages that cannot be. */
+static void stages_refuse_what_they_cannot(void **state)
+{
+    (void)state;
+    char *wrong[] = {"",
+                     "squeeze 10kPa",
+                     "isotropic",
+                     "isotropic 10",
+                     "isotropic -1kPa",
+                     "isotropic 1/s",
+                     "isotropic 10kPa until dawn",
+                     "isotropic 10kPa until strain",
+                     "triaxial 10kPa",
+                     "shear 10kPa until strain 1",
+                     "hold until strain 1",
+                     "hold until stress",
+                     "x=1/s xz=1kPa until time 1s",
+                     "isotropic 1000000/s until strain 0.1",
+                     "hold until time 1s until time 2s"};
+    const double size = 0.004;
+    clast_grading *grading = NULL;
+    clast_shape sphere = {0};
+    CHECK_OK(clast_grading_uniform(size, size, &grading));
+    CHECK_OK(clast_shape_sphere("sphere", 0.5, &sphere));
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
+        clast_pack_config c = packing(1, &wrong[k]);
+        assert_null(start(&c, grading, &sphere, CLAST_E_CONFIG));
+        c.stages = (clast_text_list){0};
+        clast_fields_free(clast_pack_fields, &c);
+    }
+    clast_grading_destroy(grading);
+    clast_shape_free(&sphere);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -407,6 +505,8 @@ int main(void)
         cmocka_unit_test(lattices_have_their_stiffness),
         cmocka_unit_test(sheared_bed_misses_no_contact),
         cmocka_unit_test(cells_refuse_what_they_cannot),
+        cmocka_unit_test(servo_holds_its_pressure),
+        cmocka_unit_test(stages_refuse_what_they_cannot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
