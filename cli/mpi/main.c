@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <clast/mpi.h>
+#include <signal.h>
 #include <stdio.h>
 
 int main(int argc, char **argv)
@@ -19,6 +20,8 @@ int main(int argc, char **argv)
         return clast_status_exit_code(status);
     }
     const int code = cli_main(argc, argv, &comm);
+    // All is said: where a rank ends with a failure, mpirun's SIGTERM to the others is no news.
+    (void)signal(SIGTERM, SIG_IGN);
     clast_mpi_end(&comm);
     return code;
 }

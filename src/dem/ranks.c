@@ -28,6 +28,9 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLAST_ASSERT(dem->ranks == NULL);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "%s: these ranks cannot exchange bytes",
               __func__);
+    CLX_CHECK(dem->cell == NULL && dem->energy == NULL, CLAST_E_CONFIG,
+              "a cell that repeats in three directions and the energy book are of one process: run "
+              "it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
