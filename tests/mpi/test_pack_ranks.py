@@ -145,6 +145,11 @@ class Beds(Case):
     def test_spheres_that_hinder_each_other(self):
         self.same((3,), "--mass", "4g", "--height", "40mm", "--max-steps", 2500, "--hindrance", "--fluid-viscosity", "1mPa*s")
 
+    def test_what_is_of_one_rank(self):
+        code, _, err = ranks(2, *SMALL, "--mass", "1g", "--height", "40mm", "--energy")
+        self.assertEqual((code, len(own_lines(err))), (2, 1), err)
+        self.assertIn("run it on one rank", own_lines(err)[0])
+
     def test_an_explosion_is_said_once(self):
         wild = (*SMALL, "--mass", "9g", "--height", "40mm", "--collision-time", "2ms", "--time-step", "50us", "--initial-speed",
                 "60m/s")
