@@ -1,4 +1,5 @@
 """MPI: one bed over ranks: the state, the files and the checkpoints of `clast-mpi pack` are those of `clast pack`."""
+import fcntl
 import json
 import math
 import os
@@ -41,6 +42,21 @@ def ranks(n, *arguments, seconds=120, partition="rcb"):
 def own_lines(err):
     """What clast said, without mpirun's own remarks."""
     return [line for line in err.splitlines() if line.startswith("clast")]
+
+
+def wait_until_free(run):
+    """Ranks outlive a killed one by a moment, and hold the folder's lock until then."""
+    until = time.time() + 60
+    folder = os.open(run, os.O_RDONLY)
+    try:
+        while time.time() < until:
+            try:
+                fcntl.flock(folder, fcntl.LOCK_SH | fcntl.LOCK_NB)
+                return
+            except BlockingIOError:
+                time.sleep(0.05)
+    finally:
+        os.close(folder)
 
 
 class Beds(Case):
@@ -110,16 +126,36 @@ class Beds(Case):
 
     def test_a_signal_leaves_a_checkpoint(self):
         run = self.folder / "run"
-        arguments = (*SMALL, "--mass", "9g", "--height", "40mm", "--max-steps", 20000)
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
         process = start(2, *arguments, "-o", run)
         until = time.time() + 60
         while time.time() < until and not list(run.glob("checkpoint*")):
             time.sleep(0.05)
-        time.sleep(0.5)
+        time.sleep(0.1)
         process.send_signal(signal.SIGTERM)
         _, err = process.communicate(timeout=60)
         self.assertNotEqual(process.returncode, 0, err)
-        code, out, err = ranks(3, "pack", "--resume", run, "--max-steps", 20000, "--json", "-q")
+        code, out, err = ranks(3, "pack", "--resume", run, "--json", "-q")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["state_hash"], clast(*arguments, "--json").json["state_hash"])
+
+    def test_a_killed_rank_ends_all(self):
+        run = self.folder / "run"
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
+        process = start(3, *arguments, "--checkpoint-time", 0, "-o", run)
+        until = time.time() + 60
+        while time.time() < until and len(list(run.glob("checkpoint*"))) < 2:
+            time.sleep(0.05)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        victim = [pid for pid in children if "clast-mpi" in pathlib.Path(f"/proc/{pid}/cmdline").read_text()][-1]
+        os.kill(int(victim), signal.SIGKILL)
+        begun = time.time()
+        _, err = process.communicate(timeout=60)
+        self.assertLess(time.time() - begun, 30)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertRegex(err, r"rank \d")  # mpiexec names rank and signal
+        wait_until_free(run)
+        code, out, err = ranks(2, "pack", "--resume", run, "--json", "-q")
         self.assertEqual(code, 0, err)
         self.assertEqual(json.loads(out)["state_hash"], clast(*arguments, "--json").json["state_hash"])
 
