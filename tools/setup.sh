@@ -6,7 +6,7 @@ group=${1:-build}
 build=(gcc make cmake ninja-build pkg-config libc6-dev libqhull-dev librandom123-dev liblapacke-dev liblapack-dev
        libblas-dev libhdf5-dev libyaml-dev libjansson-dev libcairo2-dev libpng-dev libtiff-dev zlib1g-dev fonts-dejavu-core)
 sundials=("${build[@]}" libsundials-dev)
-mpi=("${build[@]}" libopenmpi-dev openmpi-bin)
+mpi=("${build[@]}" libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 dev=("${build[@]}" libcmocka-dev python3 python3-numpy)
 clang=("${dev[@]}" clang-14 libclang-rt-14-dev)
 afl=("${build[@]}" afl++)
