@@ -295,7 +295,7 @@ const cli_command cli_decompose = {
         "volume, beta_dt, seed.\n"
         "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
         "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
-        "Tree cells and tests; -o without points.vtp and charts.",
+        "-o without points.vtp and charts.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -252,7 +252,7 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param cloud  the points of this rank
 /// @return on several ranks CLAST_E_CONFIG for what one process alone does: a mesh as domain,
-/// weights, a variable, cells of bins, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
+/// weights, a variable, ghost samples, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
 /// than 200,000 points. The status is the same on every rank, and an error names the rank
 /// @note some 80 bytes a point at most, cloud->x included
 CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
