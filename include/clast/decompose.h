@@ -243,6 +243,21 @@ CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clas
                                           const clast_decompose_config *config,
                                           clast_decomposition *result);
 
+/// Events against the number of points: random parts of n, n/2, n/4, ... points of a cloud without
+/// weights and variable, decomposed each by itself.
+///
+/// @param n_size   parts, 1 to 40; the smallest has 5 points at least
+/// @param regular  a regular mesh of so many cells an axis beside, to 200; 0: none
+/// @param table    out, a row a part, smallest first: n, events, events_low, events_high, n_cell,
+/// and the events scaled by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events
+/// and scaled_regular. Without beta dt they are pair_integral, ... [1/m^d]
+/// @return CLAST_E_CONFIG for counts out of range, weights or a variable, a regular mesh in a mesh
+/// domain; what clast_decompose_in returns
+CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
+                                             int32_t n_size, int32_t regular,
+                                             const clast_decompose_config *config,
+                                             clast_table *table);
+
 /// The same of one cloud of which each rank has a part; points stay where they are. Called by all
 /// ranks with the same domain and configuration. Cells, tests, events and all numbers are those of
 /// all points together, on every rank, and the same bytes for any number of ranks, any first

@@ -55,6 +55,7 @@ static void keep_bytes(void *context, const void *out, const int64_t *n_out, voi
                        const int64_t *n_in)
 {
     (void)context;
+    (void)n_in;
     CLAST_ASSERT(n_out[0] == n_in[0]);
     if (n_out[0] > 0) {
         memcpy(in, out, (size_t)n_out[0]);

@@ -21,25 +21,25 @@ CLX_SHARED const clast_comm *clx_comm_or_one(const clast_comm *comm);
 // Called by all ranks, and what fails on one fails on all.
 
 /// Whether the table can add and exchange; one rank always can.
-CLX_SHARED bool clx_comm_has_sums(const clast_comm *comm);
+bool clx_comm_has_sums(const clast_comm *comm);
 
 /// Adds the ranks' arrays element by element, in place.
-CLX_SHARED void clx_comm_sum(const clast_comm *comm, int64_t *value, int64_t n);
+void clx_comm_sum(const clast_comm *comm, int64_t *value, int64_t n);
 
 /// The sum of one number of each rank.
-CLX_SHARED int64_t clx_comm_total(const clast_comm *comm, int64_t value);
+int64_t clx_comm_total(const clast_comm *comm, int64_t value);
 
 /// Sum over the ranks before this one, and over all.
-CLX_SHARED clast_status clx_comm_before(const clast_comm *comm, int64_t value, int64_t *before,
-                                        int64_t *total);
+clast_status clx_comm_before(const clast_comm *comm, int64_t value, int64_t *before,
+                             int64_t *total);
 
 /// Least of all ranks' numbers, which are not NAN.
-CLX_SHARED double clx_comm_least(const clast_comm *comm, double value);
+double clx_comm_least(const clast_comm *comm, double value);
 
 /// Sends n_out [n_rank] bytes of `out`, one after another, to each rank; what comes, by rank.
-CLX_SHARED clast_status clx_comm_exchange(const clast_comm *comm, const void *out,
-                                          const int64_t *n_out, clx_gathered *in);
+clast_status clx_comm_exchange(const clast_comm *comm, const void *out, const int64_t *n_out,
+                               clx_gathered *in);
 
 /// The bytes of all ranks, on every rank.
-CLX_SHARED clast_status clx_comm_share(const clast_comm *comm, const void *bytes, int64_t n,
-                                       clx_gathered *all);
+clast_status clx_comm_share(const clast_comm *comm, const void *bytes, int64_t n,
+                            clx_gathered *all);

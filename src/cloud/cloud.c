@@ -5,6 +5,7 @@
 #include "base/whole.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
+#include "math/rng.h"
 #include "math/sort.h"
 #include <stdio.h>
 #include <string.h>
