@@ -157,6 +157,7 @@ static clast_status gather_cells(const cli_common *common, const clast_cloud *cl
         status = cli_fail(CLAST_E_MEMORY, "not enough memory for the cells of all points");
     }
     CLI_TRY(cli_agree(common, status));
+    CLI_TRY(count == NULL ? CLAST_E_MEMORY : CLAST_OK); // for the analyzer
     count[comm->rank] = n;
     comm->sum(comm->context, count, comm->n_rank);
     comm->gather(comm->context, result->cells.of_point, n, count, all);

@@ -555,6 +555,7 @@ static clast_status walk_grid(ladder_walk *w, ladder_cell *all)
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     w->next = 0;
     visit(w, all);
+    CLAST_ASSERT(bits != NULL);
     if (size > 0) {
         memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
     }
