@@ -551,21 +551,24 @@ static double gain_of(double share, double factor)
     return gain_needed * (1.0 + share * (factor - 1.0)) / (share * share);
 }
 
-/// The widest level that fits as well as all; where `fewer` points would stop is kept beside it.
+/// The widest level that fits as well as all, and how far from it `fewer` points would stop: all
+/// the way where they would show no structure at all.
 static mixture choose_level(const fit *f, answer *a)
 {
     const mixture all = best(f, f->n_shape, 0.0);
     mixture m = best(f, 1, 0.0);
-    bool do_fewer_see = true;
+    int32_t of_fewer = -1;
     for (*a = (answer){.level = 0};; m = best(f, shapes(f, ++a->level), 0.0)) {
         const double gain = 2.0 * (all.likelihood - m.likelihood);
         a->factor = overdispersion(f, &m, a->level);
-        do_fewer_see = do_fewer_see && gain > gain_of(fewer, a->factor);
+        of_fewer = of_fewer < 0 && gain <= gain_of(fewer, a->factor) ? a->level : of_fewer;
         if (a->level == f->n_level || gain <= gain_of(1.0, a->factor)) {
-            return m;
+            break;
         }
-        a->moved += do_fewer_see ? 0 : 1;
     }
+    of_fewer = of_fewer < 0 ? a->level : of_fewer;
+    a->moved = of_fewer == 0 && a->level > 0 ? f->n_level : a->level - of_fewer;
+    return m;
 }
 
 /// The k-th of the factors between two levels, 1 the first.
