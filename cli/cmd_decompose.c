@@ -2,7 +2,6 @@
 #include "command.h"
 #include "decompose_files.h"
 #include "decompose_pairs.h"
-#include "decompose_sizes.h"
 #include "decompose_words.h"
 #include "json.h"
 #include "points.h"
@@ -19,7 +18,7 @@ typedef struct {
     cli_points points;
     bool test_only;
     int32_t charts;
-    cli_sizes sizes;
+    int32_t n_size, regular;
     bool force;
 } config;
 
@@ -36,11 +35,11 @@ static const clast_field own[N_OWN] = {
      .group = "what is made"},
     {"charts", .offset = offsetof(config, charts), CLAST_FIELD_CHOICE, 0, 0, 0, "-",
      "format of charts", "svg|png|pdf"},
-    {"sizes", .offset = offsetof(config, sizes.n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
+    {"sizes", .offset = offsetof(config, n_size), CLAST_FIELD_I32, 0, 0, 40, "-",
      "events of random parts of n, n/2, n/4 .. points, so many "
      "sizes, as a table and a chart; 0: none",
      NULL},
-    {"regular", .offset = offsetof(config, sizes.regular), CLAST_FIELD_I32, 0, 0, 200, "-",
+    {"regular", .offset = offsetof(config, regular), CLAST_FIELD_I32, 0, 0, 200, "-",
      "with --sizes: a regular mesh of so many cells an axis "
      "beside; 0: none",
      NULL},
@@ -57,18 +56,6 @@ __attribute__((constructor)) static void join_fields(void)
     }
 }
 
-/// events_by_n.csv and its chart.
-static clast_status write_sizes(const cli_decompose_job *j, const char *folder)
-{
-    char path[4096];
-    char note[CLI_DECOMPOSE_NOTE];
-    cli_decompose_note(j, note);
-    (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
-    CLI_GUARD(clast_table_write_csv_note(j->sizes, note, path));
-    (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, j->chart_end);
-    return cli_decompose_sizes_chart(j->sizes, j->result->dimension, path);
-}
-
 static clast_status keep_results(const cli_common *common, const config *c,
                                  const cli_decompose_job *j, const json_t *summary,
                                  clast_run_folder *run)
@@ -79,9 +66,6 @@ static clast_status keep_results(const cli_common *common, const config *c,
     const char *folder = clast_run_folder_path(run);
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_open(run, fields, c, j->has_drawn ? &c->decompose.seed : NULL, inputs));
-    if (j->sizes->n_column > 0) {
-        CLI_TRY(write_sizes(j, folder));
-    }
     CLI_TRY(cli_decompose_files(j, folder));
     if (j->result->pairs.n > 0) {
         CLI_TRY(cli_decompose_pairs_write(j, folder));
@@ -155,15 +139,16 @@ static clast_status run(const cli_common *common, void *values)
     if (c->test_only) {
         c->decompose.variant = CLAST_VARIANT_TEST;
     }
-    if (c->sizes.n_size > 0 && common->output == NULL) {
+    if (c->n_size > 0 && common->output == NULL) {
         return cli_fail(CLAST_E_USAGE, "--sizes writes a table and a chart: name a folder with -o");
     }
     clast_status status = CLAST_OK;
     CLI_TRY(cli_results_begin(common, common->output, &c->force, &folder));
     CLI_TRY(read_input(common, c, &domain, &cloud, &f));
     CLI_TRY(decompose(c, &domain, &cloud, &result, &f));
-    if (c->sizes.n_size > 0) {
-        CLI_TRY(cli_decompose_sizes(&domain, &cloud, &c->decompose, &c->sizes, &sizes));
+    if (c->n_size > 0) {
+        CLI_TRY(
+            clast_decompose_sizes(&domain, &cloud, c->n_size, c->regular, &c->decompose, &sizes));
     }
     const cli_decompose_job j = {.domain = &domain,
                                  .cloud = &cloud,
@@ -171,7 +156,7 @@ static clast_status run(const cli_common *common, void *values)
                                  .sizes = &sizes,
                                  .name = f.domain,
                                  .chart_end = chart_end[c->charts],
-                                 .has_drawn = result.has_drawn || c->sizes.n_size > 0};
+                                 .has_drawn = result.has_drawn || c->n_size > 0};
     CLI_TRY(tell(common, c, &j, &f, folder));
 done:
     clast_run_folder_destroy(folder);

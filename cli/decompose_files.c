@@ -135,8 +135,55 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     return CLAST_OK;
 }
 
+/// Scaled events over n.
+static clast_status draw_sizes(const clast_table *table, int32_t dimension, const char *path)
+{
+    const double *events = clast_table_numbers(table, "scaled_events");
+    char label[64] = "events times (N / n)^2 (-)";
+    if (events == NULL) {
+        events = clast_table_numbers(table, "scaled_pair_integral");
+        (void)snprintf(label, sizeof label, "pair integral times (N / n)^2 (1/m^%d)", dimension);
+    }
+    const double *n = clast_table_numbers(table, "n");
+    const double *regular = clast_table_numbers(table, "scaled_regular");
+    const clast_series series[2] = {{.kind = CLAST_SERIES_POINTS,
+                                     .label = "cells of clast, 95 % interval",
+                                     .x = n,
+                                     .y = events,
+                                     .low = clast_table_numbers(table, "scaled_low"),
+                                     .high = clast_table_numbers(table, "scaled_high"),
+                                     .n = table->n_row},
+                                    {.kind = CLAST_SERIES_LINE,
+                                     .label = "regular mesh",
+                                     .x = n,
+                                     .y = regular,
+                                     .n = table->n_row,
+                                     .colour = 1,
+                                     .dashed = true}};
+    const clast_chart chart = {.x = {.label = "points used, n (-)", .log = true},
+                               .y = {.label = label},
+                               .series = series,
+                               .n_series = regular != NULL ? 2 : 1};
+    return clast_chart_write(&chart, path);
+}
+
+/// events_by_n.csv and its chart.
+static clast_status write_sizes(const cli_decompose_job *j, const char *folder)
+{
+    char path[4096];
+    char note[CLI_DECOMPOSE_NOTE];
+    cli_decompose_note(j, note);
+    (void)snprintf(path, sizeof path, "%s/events_by_n.csv", folder);
+    CLI_GUARD(clast_table_write_csv_note(j->sizes, note, path));
+    (void)snprintf(path, sizeof path, "%s/events_by_n.%s", folder, j->chart_end);
+    return draw_sizes(j->sizes, j->result->dimension, path);
+}
+
 clast_status cli_decompose_files(const cli_decompose_job *j, const char *folder)
 {
+    if (j->sizes->n_column > 0) {
+        CLI_GUARD(write_sizes(j, folder));
+    }
     CLI_GUARD(write_tables(j, folder));
     return write_pictures(j, folder);
 }

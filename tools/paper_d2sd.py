@@ -230,7 +230,7 @@ def pipe_row(folder, n, c, domain):
 def table_pipe(folder, _=None):
     printed = {955: ("10x37x9", .1031, 6.97, 2.91, 8.05, .800), 1920: ("12x48x12", .1134, 7.20, 2.50, 7.58, .787),
                3820: ("15x59x15", .1131, 6.95, 2.52, 7.62, .788), 9580: ("20x78x21", .1096, 6.84, 3.42, 7.49, .793)}
-    lines = ["## Half pipe by its map (Table 8), the specification's plume, sigma^2 = 1e-4 + c z; printed value in brackets", "",
+    lines = ["## Half pipe by its map (Table 8), for the CFD's points (not published) a plume of sigma^2 = 1e-4 + c z; printed value in brackets", "",
              "| c | n | bins | S0 | lambda | cluster cells / bins % | void cells / bins % | events at the cap, sum of floor(n_C / 2) / (n / 2) |",
              "| --- |" + " --- |" * 7]
     for c, n in itertools.product((.001, .0025), printed):
@@ -441,8 +441,9 @@ def main():
             print("\n".join(part_lines(name, argument.get(name))))
         return
     lines = ["# D2SD: paper and reference beside ours", "",
-             "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Reference: the prototype",
-             "whose numbers the specification lists. Paper: Martinez Rodriguez et al. 2021.", ""]
+             "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Paper: Martinez",
+             "Rodriguez et al., Appl. Math. Modelling 90 (2021) 582-614, whose equations and tables are meant. Reference: a plain prototype of",
+             "these equations in Python, not published.", ""]
     for name in parts:
         lines += part_lines(name, argument.get(name))
     pathlib.Path(args.output).write_text("\n".join(lines))

@@ -1,5 +1,6 @@
 #pragma once
 #include <clast/field.h>
+#include <clast/machine.h>
 #include <clast/table.h>
 
 CLAST_BEGIN
@@ -48,6 +49,12 @@ CLAST_API clast_status clast_cloud_from_table(const clast_table *table,
 
 /// Points that have the very coordinates of an earlier one; O(n).
 CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated);
+
+/// The same of the points that all ranks have together; called by all of them.
+///
+/// @param comm  NULL: the only rank
+CLAST_API clast_status clast_cloud_repeated_ranks(const clast_comm *comm, const clast_cloud *cloud,
+                                                  int64_t *n_repeated);
 
 // Particle positions from files, as tables of named columns.
 

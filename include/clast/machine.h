@@ -52,6 +52,13 @@ typedef struct clast_comm {
     /// each, and `all` matter there only.
     void (*gather)(void *context, const void *bytes, int64_t n, const int64_t *count, void *all);
     void *context;
+    /// Adds the ranks' arrays [n] element by element, in place, on every rank. Called by all ranks,
+    /// as the next. NULL, as `exchange`, in a table that only whole runs are shared by.
+    void (*sum)(void *context, int64_t *value, int64_t n);
+    /// Sends to each rank its part of `out`: the first n_out[0] bytes to rank 0, then n_out[1] to
+    /// rank 1 .. ; what comes lies in `in` in the order of ranks, n_in [n_rank] bytes of each.
+    void (*exchange)(void *context, const void *out, const int64_t *n_out, void *in,
+                     const int64_t *n_in);
 } clast_comm;
 
 /// The only rank of one.

@@ -3053,6 +3053,7 @@ VALUES: dict[str, int] = {
 # name: (result, arguments, what it does)
 PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
+    'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
     'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_spectrum_start), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
@@ -3142,6 +3143,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
+    'clast_decompose_sizes': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), c_int32, c_int32, POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),

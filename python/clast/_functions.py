@@ -489,6 +489,9 @@ def decompose(
         weight: Any = None,
         velocity: Any = None,
         variable: Any = None,
+        test_only: bool = False,
+        sizes: int = 0,
+        regular: int = 0,
         outside: Literal["error", "drop"] | None = None,
         variant: Literal["full", "first", "fast", "test"] | None = None,
         mesh: Literal["boxes", "components", "bins", "labels", "tree", "auto"] | None = None,
@@ -518,10 +521,14 @@ def decompose(
     """Splits a Cloud, or positions (n, 1 to 3) [m], into cells of uniform concentration and counts events.
 
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
-    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
+    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree"). `test_only` runs the
+    tests alone (`reject` says what they found); `sizes` gives the table of that name, what `clast decompose --sizes` writes.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
+        test_only: run the uniformity tests alone, exit code 1 when not uniform (default False)
+        sizes: events of random parts of n, n/2, n/4 .. points, so many sizes, as a table and a chart; 0: none (0 to 40; default 0)
+        regular: with --sizes: a regular mesh of so many cells an axis beside; 0: none (0 to 200; default 0)
         outside: points outside the domain: refuse the file, or leave them out (error, drop; default error)
         variant: how far to go: tests and passes, first test and one pass, one pass, tests alone (full, first, fast, test; default full)
         mesh: what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant, else boxes (boxes, components, bins, labels, tree, auto; default auto)

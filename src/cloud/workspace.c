@@ -331,7 +331,7 @@ static void forget(clast_workspace *w)
 static clast_status run_call(call *c, const clast_domain *domain)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_sample_map(&c->cloud, c->config, domain, &c->sample));
+    CLX_TRY(clx_sample_map(clast_comm_one(), &c->cloud, c->config, domain, &c->sample));
     c->is_test = is_test_due(c);
     CLX_TRY(find_cut_due(c));
     if (c->is_cut) {
