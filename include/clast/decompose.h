@@ -187,6 +187,7 @@ typedef struct clast_within_cells {
 
 typedef struct clast_decomposition {
     int64_t n, n_outside; ///< points used and left out
+    int64_t n_here; ///< of cells.of_point: n + n_outside, with several ranks the points of this one
     int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
                     ///< fill the box of a mesh domain
     int32_t dimension;

@@ -34,6 +34,13 @@ CLAST_API int32_t clast_parallel_threads(void);
 
 enum { CLAST_COMM_WORDS = 3 };
 
+/// A piece of work that lies somewhere, for a partition.
+typedef struct clast_site {
+    double position[3];
+    double cost;
+    int32_t number; ///< of all ranks' sites
+} clast_site;
+
 /// One rank's view of all. Functions are called from one thread of each rank. A failure between
 /// ranks is not reported here: as in MPI it ends all of them.
 typedef struct clast_comm {
@@ -59,6 +66,10 @@ typedef struct clast_comm {
     /// rank 1 .. ; what comes lies in `in` in the order of ranks, n_in [n_rank] bytes of each.
     void (*exchange)(void *context, const void *out, const int64_t *n_out, void *in,
                      const int64_t *n_in);
+    /// Divides all ranks' sites among them, near ones together, costs alike; each rank gives some
+    /// [n] and gets the rank of each. False on all ranks where it failed. NULL: there is none, and
+    /// the library bisects by itself.
+    bool (*partition)(void *context, int64_t n, const clast_site *site, int32_t *rank);
 } clast_comm;
 
 /// The only rank of one.

@@ -19,7 +19,8 @@ typedef enum {
     CLAST_PACK_GENERATE, ///< grains are made in the upper part and fall
     CLAST_PACK_SHAKE,    ///< all are made; shaken for shaking_time
     CLAST_PACK_DAMP,     ///< velocities are damped until the bed is still
-    CLAST_PACK_DONE
+    CLAST_PACK_DONE,
+    CLAST_PACK_LOAD ///< stages load the bed in a periodic cell; comes before done
 } clast_pack_phase;
 
 typedef enum {
@@ -83,6 +84,13 @@ typedef struct clast_pack_config {
     double still_speed;      ///< [m/s]
     int64_t max_steps;       ///< stop there, whatever the state; 0: never
     double max_damping_time; ///< of the damped phase before giving up [s]
+
+    clast_text_list stages; ///< of a load in domain cell, as text (docs/theory/load.md)
+    double load_rate;       ///< of strain by which a stress is approached, at most [1/s]
+    double load_tolerance;  ///< share of a stress within which it is reached
+    double load_rest;       ///< mean force on a grain over that of a contact, at rest
+    double max_load_time;   ///< of a stage before giving up [s]
+    bool energy;            ///< book the energy by kind
 
     double layer, cut, trim; ///< porosity profile [m], [-], [m]; trim below 0: as published
     double series_time;      ///< between rows of the time series [s]
@@ -179,11 +187,14 @@ typedef struct clast_pack_result {
     bool is_moving;     ///< some grain is as fast as still_speed or faster
     double sank; ///< how far the highest grain sank after the end of shaking; NAN: not over [m]
     bool fell;   ///< it was still falling then: it sank by more than two mean diameters
-    double flatness[2];     ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
-    double elongation[2];   ///< I/L, the same
-    int64_t n_frame;        ///< frames for ParaView of a run (clast_pack_run), in all its parts
-    double frame_interval;  ///< from one to the next: whole steps; 0: none asked for [s]
-    clast_pack_ranks ranks; ///< of a run (clast_pack_run)
+    double flatness[2];    ///< S/I: mean over the grains and standard deviation (n - 1); NAN: none
+    double elongation[2];  ///< I/L, the same
+    int64_t n_frame;       ///< frames for ParaView of a run (clast_pack_run), in all its parts
+    double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
+    clast_dem_cell cell;   ///< zeros in other domains
+    clast_dem_load load;
+    clast_dem_energy energy; ///< zeros where none is booked
+    clast_pack_ranks ranks;  ///< of a run (clast_pack_run)
 } clast_pack_result;
 
 /// The numbers of the bed as it lies, SI; free them with clast_pack_result_free.
@@ -198,6 +209,11 @@ CLAST_API clast_porosity_options clast_pack_porosity(const clast_pack_config *co
 /// Time series: step, time_s, phase, n_grain, mass_kg, mean_height_m, top_m, kinetic_energy_J,
 /// max_speed_m/s, n_contact, n_wall_contact, max_overlap_m. Borrowed.
 CLAST_API const clast_table *clast_pack_series(const clast_pack *pack);
+
+/// What the bed carries and where its energy goes, rows as of the series and at the end of each
+/// stage: the table load.csv of docs/theory/load.md. NULL without `energy` in other domains than a
+/// cell. Borrowed.
+CLAST_API const clast_table *clast_pack_load_table(const clast_pack *pack);
 
 /// Sieve curve achieved beside the wanted one (columns as clast_grading_compare).
 /// @return CLAST_E_USAGE when sizes follow no sieve curve

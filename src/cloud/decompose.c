@@ -529,6 +529,7 @@ clast_status clx_decompose_cells(const clast_cloud *cloud, const clx_sample *sam
     result->n = sample->n_real_all;
     result->n_test = clx_comm_total(sample->comm, sample->n_test);
     result->n_outside = sample->n_outside_all;
+    result->n_here = cloud->n;
     CLX_TRY(clast_comm_agree(sample->comm, clx_alloc(of_point, cloud->n, sizeof **of_point), NULL));
     memset(*of_point, 0xff, (size_t)cloud->n * sizeof **of_point);
     CLX_TRY(make_cells(cloud, sample, config, result));

@@ -8,10 +8,12 @@
 #include <clast/uniformity.h>
 
 #include "base/alloc.h"
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "cloud/contract.h"
 #include "cloud/part.h"
 #include "cloud/place_hash.h"
+#include "math/sort.h"
 #include "math/special.h"
 #include <float.h>
 #include <math.h>
@@ -104,7 +106,7 @@ static void build(tree *t, int64_t node, int64_t begin, int64_t end)
 }
 
 /// Squared distance to a box across periodic faces.
-static double box_distance(const tree *t, int64_t node, const double *x)
+CLX_INLINE double box_distance(const tree *t, int64_t node, const double *x)
 {
     double sum = 0.0;
     for (int k = 0; k < t->d; ++k) {
@@ -188,19 +190,42 @@ static int by_place(const void *a, const void *b)
     return 0;
 }
 
-/// Puts places in order and those that are one together; returns their number.
-static int64_t join(asked *query, int64_t n)
+/// Puts places in an order of their own and those that are one together; returns their number.
+static clast_status join(asked *query, int64_t *n)
 {
+    clast_status status = CLAST_OK;
+    clx_keyed *entry = NULL;
+    asked *ordered = NULL;
     int64_t kept = 0;
-    qsort(query, (size_t)n, sizeof *query, by_place);
-    for (int64_t i = 0; i < n; ++i) {
-        if (kept > 0 && by_place(&query[kept - 1], &query[i]) == 0) {
-            query[kept - 1].n += query[i].n;
-        } else {
-            query[kept++] = query[i];
+    CLX_TRY(clx_alloc(&entry, *n, sizeof *entry));
+    CLX_TRY(clx_alloc(&ordered, *n, sizeof *ordered));
+    for (int64_t i = 0; i < *n; ++i) {
+        entry[i] = (clx_keyed){clx_place_hash(query[i].x, 3), (uint64_t)i};
+    }
+    CLX_TRY(clx_sort_keyed(entry, *n));
+    for (int64_t i = 0; i < *n; ++i) {
+        ordered[i] = query[entry[i].item];
+    }
+    for (int64_t begin = 0, end = 0; begin < *n; begin = end) {
+        while (end < *n && entry[end].key == entry[begin].key) {
+            ++end;
+        }
+        if (end - begin > 1) { // one place, or places of one hash
+            qsort(ordered + begin, (size_t)(end - begin), sizeof *ordered, by_place);
         }
     }
-    return kept;
+    for (int64_t i = 0; i < *n; ++i) {
+        if (kept > 0 && by_place(&query[kept - 1], &ordered[i]) == 0) {
+            query[kept - 1].n += ordered[i].n;
+        } else {
+            query[kept++] = ordered[i];
+        }
+    }
+    *n = kept;
+done:
+    clx_free(entry);
+    clx_free(ordered);
+    return status;
 }
 
 /// Points here whose place has a hash that `stride` divides.
@@ -210,13 +235,14 @@ static clast_status choose_here(const clx_part *part, uint64_t stride, asked **q
     asked *made = NULL;
     int64_t capacity = 0;
     int64_t kept = 0;
+    CLX_TRY(clx_grow(&made, &capacity, part->n < QUERIES ? part->n + 1 : QUERIES, sizeof *made));
     for (int64_t i = 0; i < part->n; ++i) {
         const double *u = part->u + i * part->d;
         if (stride > 1 && clx_place_hash(u, part->d) % stride != 0) {
             continue;
         }
         if (kept == capacity) { // places that repeat take no room
-            kept = join(made, kept);
+            CLX_TRY(join(made, &kept));
         }
         CLX_TRY(clx_grow(&made, &capacity, kept + 1, sizeof *made));
         made[kept] = (asked){.n = 1};
@@ -225,7 +251,8 @@ static clast_status choose_here(const clx_part *part, uint64_t stride, asked **q
         }
         ++kept;
     }
-    *n = join(made, kept);
+    CLX_TRY(join(made, &kept));
+    *n = kept;
     *query = made;
     made = NULL;
 done:
@@ -243,7 +270,8 @@ static clast_status choose(const clx_part *part, uint64_t stride, asked **query,
     CLX_TRY(clast_comm_agree(part->comm, choose_here(part, stride, &own, &n_own), NULL));
     CLX_TRY(clx_comm_share(part->comm, own, n_own * (int64_t)sizeof *own, &all));
     *query = (void *)all.bytes;
-    *n = join(*query, all.n / (int64_t)sizeof **query);
+    *n = all.n / (int64_t)sizeof **query;
+    CLX_TRY(clast_comm_agree(part->comm, join(*query, n), NULL));
 done:
     clx_free(own);
     return status;

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "dem/dem.h"
+#include "dem/energy.h"
 #include "dem/fluid.h"
 #include "dem/ranks.h"
 #include <clast/settling.h>
@@ -21,8 +22,11 @@ clast_status clast_dem_create(const clast_dem_config *config, clast_dem **dem)
     made->law = clx_law_make(config);
     made->all_round = true;
     clx_dem_build_walls(made);
+    CLX_TRY(clx_cell_make(made));
     *dem = made;
+    made = NULL;
 done:
+    clast_dem_destroy(made);
     return status;
 }
 
@@ -49,6 +53,8 @@ void clast_dem_destroy(clast_dem *dem)
     clx_free(dem->item_turn);
     clx_free(dem->block_flag);
     clx_free(dem->slabs.solid);
+    clx_free(dem->cell);
+    clx_energy_destroy(dem->energy);
     clx_free(dem);
 }
 
@@ -69,8 +75,11 @@ static clast_status check_fit(const clast_dem *dem, const clast_dem_grain *g, do
     clast_status status = CLAST_OK;
     const clast_dem_config *c = &dem->config;
     const double depth = c->depth > 0.0 ? c->depth : c->width;
-    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width : fmin(c->width, depth);
-    if (c->domain == CLAST_DEM_PERIODIC) {
+    const bool is_cell = c->domain == CLAST_DEM_CELL;
+    const double narrow = c->domain == CLAST_DEM_CYLINDER ? c->width
+                          : is_cell                       ? fmin(fmin(c->width, depth), c->height)
+                                                          : fmin(c->width, depth);
+    if (c->domain == CLAST_DEM_PERIODIC || is_cell) {
         CLX_CHECK(4.0 * radius * (1.0 + c->skin) <= narrow, CLAST_E_GEOMETRY,
                   "grain %lld reaches %g m across, %g m with its skin, more than half the period "
                   "of %g m",
@@ -176,10 +185,12 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
     }
     CLX_TRY(clx_grains_reserve(dem, (int64_t)dem->n_grain + n));
     CLX_TRY(clx_items_reserve(dem, n, grain));
+    const int32_t first = dem->n_grain;
     for (int32_t i = 0; i < n; ++i) {
         clx_dem_set_grain(dem, dem->n_grain, &grain[i]);
         clx_items_add(dem, dem->n_grain++);
     }
+    clx_energy_added(dem, first);
     dem->list.is_due = true;
 done:
     return status;
@@ -201,7 +212,8 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
 //   5. contacts         gap and normal of each active pair, its contact law, force and torques
 //   6. motion           sums, then velocities, positions and orientations; who has used up what
 // 5 and 6 are one sweep over the grains (sweep.c), or two passes where a clump's or rigid grain's
-// contacts share their stiffness, a container has triangles, or contacts are verified.
+// contacts share their stiffness, a container has triangles, contacts are verified, or their energy
+// is booked.
 clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
@@ -211,6 +223,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
     }
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
+        if (dem->cell != NULL) {
+            clx_cell_begin_step(dem);
+        }
         if (dem->list.is_due) {
             clx_inner_unpack(dem);
             CLX_TRY(clx_neighbour_list_refresh(dem));
@@ -223,6 +238,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
         CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
+        if (dem->cell != NULL) {
+            clx_cell_end_step(dem);
+        }
         ++dem->step;
         if (!is_fine) {
             clx_inner_unpack(dem);

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "convex/wall_mesh.h"
 #include "dem/body.h"
+#include "dem/cell.h"
 #include "dem/inner_list.h"
 #include "dem/law.h"
 #include "dem/neighbour_list.h"
@@ -40,6 +41,7 @@ struct clast_dem {
     clx_wall wall[CLX_MAX_WALL];
     double period[2];         ///< widths of a periodic domain, else 0
     double inverse_period[2]; ///< 1 over them, else 0
+    clx_periodic_cell *cell;  ///< of a domain that is periodic in three directions, or NULL
     clx_wall_mesh *container; ///< or NULL; its triangle t is item -1 - n_wall - t
     int32_t n_body;
     clx_dem_body *body; ///< [n_body]
@@ -66,6 +68,7 @@ struct clast_dem {
     struct clx_ranks *ranks;         ///< steps its grains over several ranks, or NULL
     const uint8_t *is_ghost; ///< [n_grain] of a rank's own simulation: moved by another; else NULL
     const int32_t *number;   ///< [n_grain] of such a simulation: grains' numbers; else NULL
+    struct clx_energy *energy; ///< the energy book, or NULL
 };
 
 /// The number that a grain has for the user.
@@ -203,7 +206,8 @@ void clx_verify(clast_dem *dem);
 static inline double clx_item_moved(const clast_dem *dem, int32_t i)
 {
     const clx_anchor *at = &dem->list.anchor[i];
-    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position));
+    const double images = dem->cell != NULL ? 0.5 * dem->cell->path : 0.0;
+    const double shifted = sqrt(v3_distance2(clx_item_position(dem, i), at->position)) + images;
     if (clx_item_is_round(dem, i)) {
         return shifted;
     }

@@ -70,6 +70,9 @@ static void set_anchor(clast_dem *dem, int32_t i)
             at->margin = fmin(at->margin, 0.25 * dem->period[c] - radius);
         }
     }
+    for (int c = 0; c < 3 && dem->cell != NULL; ++c) {
+        at->margin = fmin(at->margin, 0.25 * dem->cell->side[c] - radius);
+    }
     dem->list.limit[i] = dem->travel[g] + CLX_SURE * at->margin;
 }
 
@@ -80,14 +83,17 @@ void clx_neighbour_list_mark(clast_dem *dem)
         if (clx_are_ghosts(dem, i, i)) {
             continue; // its rank marks it
         }
-        const bool is_within =
-            i < l->n_known && clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
+        const bool is_within = i < l->n_known && dem->cell == NULL &&
+                               clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
         l->is_stale[i] = is_within ? 0 : 1;
         if (l->is_stale[i] != 0) {
             set_anchor(dem, i);
         }
     }
     l->n_known = dem->n_item;
+    if (dem->cell != NULL) { // whose images move: all search anew
+        dem->cell->path = 0.0;
+    }
 }
 
 static clast_status add_found(clx_neighbour_list *l, clx_found found)
@@ -141,6 +147,9 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
             period[c] = (int16_t)(uint16_t)(int64_t)n;
             r[c] += n * dem->period[c];
         }
+    }
+    if (dem->cell != NULL) {
+        clx_cell_offset(dem->cell, r);
     }
     const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
     if (v3_norm2(r) >= cutoff * cutoff || clx_are_ghosts(dem, i, k)) {
@@ -375,6 +384,24 @@ done:
     return status;
 }
 
+/// Refuses a cell that has become too narrow for its grains.
+static clast_status check_room(const clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    const clx_periodic_cell *cell = dem->cell;
+    double most = 0.0;
+    const double narrow = fmin(cell->side[0], fmin(cell->side[1], cell->side[2]));
+    for (int32_t i = 0; i < dem->n_item; ++i) {
+        most = fmax(most, clx_item_radius(dem, i));
+    }
+    CLX_CHECK(4.0 * most * (1.0 + dem->config.skin) <= narrow, CLAST_E_GEOMETRY,
+              "the cell's narrowest side has come down to %g m, less than two of its largest grain "
+              "(%g m across, %g m with its skin): take more grains in a larger cell",
+              narrow, 2.0 * most, 2.0 * most * (1.0 + dem->config.skin));
+done:
+    return status;
+}
+
 clast_status clx_neighbour_list_search(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -394,6 +421,9 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
     CLX_TRY(clx_neighbour_list_reserve(&dem->list, dem->n_item));
+    if (dem->cell != NULL) {
+        CLX_TRY(check_room(dem));
+    }
     clx_neighbour_list_mark(dem);
     CLX_TRY(clx_neighbour_list_search(dem));
 done:

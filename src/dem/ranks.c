@@ -6,6 +6,7 @@
 #include "dem/ranks.h"
 
 #include "base/alloc.h"
+#include "dem/fluid.h"
 #include <string.h>
 
 /// Refreshes between looks at the balance, and the greatest over mean cost above which grains are
@@ -23,8 +24,9 @@ clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
     CLAST_ASSERT(dem->ranks == NULL);
     CLX_CHECK(clx_comm_has_sums(comm), CLAST_E_ARGUMENT, "%s: these ranks cannot exchange bytes",
               __func__);
-    CLX_CHECK(!dem->config.hindrance, CLAST_E_CONFIG,
-              "hindrance needs the solids of all grains in every step: run it on one rank");
+    CLX_CHECK(dem->cell == NULL && dem->energy == NULL, CLAST_E_CONFIG,
+              "a cell that repeats in three directions and the energy book are of one process: run "
+              "it on one rank");
     CLX_TRY(clx_alloc(&made, 1, sizeof *made));
     made->comm = comm;
     CLX_TRY(clast_dem_create(&dem->config, &made->local));
@@ -44,10 +46,11 @@ void clx_ranks_destroy(clx_ranks *r)
     if (r == NULL) {
         return;
     }
-    if (r->local != NULL) { // shapes and container are the whole's
+    if (r->local != NULL) { // shapes, container and slabs are the whole's
         r->local->body = NULL;
         r->local->n_body = 0;
         r->local->container = NULL;
+        r->local->slabs = (clx_slabs){0};
         clast_dem_destroy(r->local);
     }
     clx_free(r->owner);
@@ -65,6 +68,7 @@ void clx_ranks_destroy(clx_ranks *r)
     clx_free(r->n_wire);
     clx_free(r->n_asked);
     clx_free(r->wire.bytes);
+    clx_free(r->height);
     clx_free(r);
 }
 
@@ -130,9 +134,8 @@ static clast_status balance(clast_dem *whole)
     clx_ranks *r = whole->ranks;
     CLX_TRY(clx_dem_gather_grains(whole));
     CLX_TRY(share_costs(whole));
-    CLX_TRY(clast_comm_agree(r->comm, clx_ranks_partition(whole), NULL));
+    CLX_TRY(clx_ranks_partition(whole));
     CLX_TRY(clx_ranks_migrate(whole, r->local));
-    r->wants_balance = false;
 done:
     return status;
 }
@@ -144,7 +147,7 @@ static clast_status begin(clast_dem *whole)
     clx_ranks *r = whole->ranks;
     clast_dem *local = r->local;
     clx_inner_unpack(whole);
-    CLX_TRY(clast_comm_agree(r->comm, clx_ranks_partition(whole), NULL));
+    CLX_TRY(clx_ranks_partition(whole));
     CLX_TRY(clx_ranks_migrate(whole, r->comm->rank == 0 ? whole : NULL));
     local->list.n_refresh = whole->list.n_refresh;
     local->list.is_due = whole->list.is_due;
@@ -158,13 +161,18 @@ done:
     return status;
 }
 
-/// Grains that were added since go to their ranks.
+/// Grains that were added since go to their ranks; where none were, a shape was that is the first
+/// that is no sphere, and the grains are made anew.
 static clast_status bring_new(clast_dem *whole)
 {
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
     CLX_TRY(balance(whole));
     CLX_TRY(clast_comm_agree(r->comm, clx_ranks_append(whole, r->n_synced), NULL));
+    if (whole->n_grain == r->n_synced) {
+        CLX_TRY(clx_ranks_connect(whole));
+        return CLAST_OK;
+    }
     r->n_synced = whole->n_grain;
     r->local->list.is_due = true;
 done:
@@ -175,8 +183,9 @@ static clast_status synchronise(clast_dem *whole)
 {
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
+    const bool is_other_kind = r->local->all_round != whole->all_round;
     share_setting(whole);
-    if (r->has_begun && whole->n_grain == r->n_synced) {
+    if (r->has_begun && whole->n_grain == r->n_synced && !is_other_kind) {
         return CLAST_OK;
     }
     CLX_TRY(clast_comm_agree(r->comm, reserve(whole), NULL));
@@ -231,6 +240,34 @@ done:
     return status;
 }
 
+/// Solids by height, where they hinder each other's settling: a sum over all grains in order, so
+/// every rank needs all heights. They are added up as bits, to which others add 0.
+static clast_status share_slabs(clast_dem *whole)
+{
+    clast_status status = CLAST_OK;
+    clx_ranks *r = whole->ranks;
+    const clast_dem *local = r->local;
+    if (!whole->config.hindrance) {
+        return CLAST_OK;
+    }
+    status = clx_grow(&r->height, &r->height_capacity, whole->n_grain, sizeof *r->height);
+    CLX_TRY(clast_comm_agree(r->comm, status, NULL));
+    memset(r->height, 0, (size_t)whole->n_grain * sizeof *r->height);
+    for (int32_t g = 0; g < local->n_grain; ++g) {
+        if (r->is_ghost[g] == 0) {
+            memcpy(&r->height[r->number[g]], &local->grain[g].position[2], sizeof *r->height);
+        }
+    }
+    clx_comm_sum(r->comm, r->height, whole->n_grain);
+    for (int32_t i = 0; i < whole->n_grain; ++i) {
+        memcpy(&whole->grain[i].position[2], &r->height[i], sizeof *r->height);
+    }
+    CLX_TRY(clast_comm_agree(r->comm, clx_fluid_update_slabs(whole), NULL));
+    r->local->slabs = whole->slabs;
+done:
+    return status;
+}
+
 /// What exploded, as on one rank.
 static clast_status explain(clast_dem *whole)
 {
@@ -253,6 +290,7 @@ static clast_status step(clast_dem *whole)
     if (local->list.is_due) {
         CLX_TRY(refresh(whole));
     }
+    CLX_TRY(share_slabs(whole));
     status = work(local, &is_fine);
     whole->step = ++local->step;
     whole->n_started = whole->n_grain;

@@ -60,10 +60,8 @@ typedef struct clx_ranks {
     const clast_comm *comm;
     clast_dem *local; ///< the rank's own simulation
     bool has_begun, is_current;
-    bool wants_balance; ///< at the next refresh
-    int32_t n_synced;   ///< the whole's grains that have been distributed
-    double middle[2];   ///< of the rank's grains, in the period about the origin
-    double n_ghost_at;  ///< ghosts after the last partition
+    int32_t n_synced; ///< the whole's grains that have been distributed
+    double middle[2]; ///< of the rank's grains, in the period about the origin
     // [n_grain of the whole]
     int32_t *owner;    ///< rank that moves it
     int32_t *next;     ///< the same after the partition
@@ -82,14 +80,16 @@ typedef struct clx_ranks {
     int64_t *n_out, *n_in; ///< [n_rank] bytes
     clx_wire wire;         ///< what is being written for other ranks
     int64_t *n_wire;       ///< [n_rank] bytes of it for each
-    int64_t *n_asked;      ///< [n_rank] bytes of each rank's list of the grains that it reads
+    int64_t *height;       ///< [n_grain of the whole] bits of heights, with hindrance
+    int64_t height_capacity;
+    int64_t *n_asked; ///< [n_rank] bytes of each rank's list of the grains that it reads
     clx_rank_counts counts;
 } clx_ranks;
 
 /// Spreads a simulation over ranks from its next step on; nothing where there is one. Called by all
 /// ranks with the same simulation.
 ///
-/// @return CLAST_E_CONFIG for what works on one rank alone
+/// @return CLAST_E_ARGUMENT for ranks that cannot exchange bytes
 clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm);
 
 /// clast_dem_step of a simulation over ranks. Called by all.

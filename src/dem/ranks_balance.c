@@ -6,12 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A grain's place in the bisection.
-typedef struct {
-    double x[3], cost;
-    int32_t number;
-} site;
-
 /// Grains [begin, end) of the sites that ranks [first, last) share.
 typedef struct {
     int64_t begin, end;
@@ -40,26 +34,28 @@ void clx_ranks_weigh(clast_dem *whole)
 #define COMPARE(axis)                                                                              \
     static int by_##axis(const void *left, const void *right)                                      \
     {                                                                                              \
-        const site *a = left;                                                                      \
-        const site *b = right;                                                                     \
-        return a->x[axis] != b->x[axis] ? (a->x[axis] > b->x[axis]) - (a->x[axis] < b->x[axis])    \
-                                        : (a->number > b->number) - (a->number < b->number);       \
+        const clast_site *a = left;                                                                \
+        const clast_site *b = right;                                                               \
+        return a->position[axis] != b->position[axis]                                              \
+                   ? (a->position[axis] > b->position[axis]) -                                     \
+                         (a->position[axis] < b->position[axis])                                   \
+                   : (a->number > b->number) - (a->number < b->number);                            \
     }
 COMPARE(0)
 COMPARE(1)
 COMPARE(2)
 
-static int longest_axis(const site *s, int64_t n)
+static int longest_axis(const clast_site *s, int64_t n)
 {
     CLAST_ASSERT(n >= 1);
     int best = 0;
     double most = -1.0;
     for (int c = 0; c < 3; ++c) {
-        double low = s[0].x[c];
+        double low = s[0].position[c];
         double high = low;
         for (int64_t i = 1; i < n; ++i) {
-            low = s[i].x[c] < low ? s[i].x[c] : low;
-            high = s[i].x[c] > high ? s[i].x[c] : high;
+            low = s[i].position[c] < low ? s[i].position[c] : low;
+            high = s[i].position[c] > high ? s[i].position[c] : high;
         }
         if (high - low > most) {
             most = high - low;
@@ -70,7 +66,7 @@ static int longest_axis(const site *s, int64_t n)
 }
 
 /// Cuts a part in two across its longest axis; every rank gets a grain while there are enough.
-static int64_t cut(site *s, const part *p)
+static int64_t cut(clast_site *s, const part *p)
 {
     static int (*const order[3])(const void *, const void *) = {by_0, by_1, by_2};
     const int64_t n = p->end - p->begin;
@@ -93,7 +89,7 @@ static int64_t cut(site *s, const part *p)
 }
 
 /// Recursive coordinate bisection of all sites. [Berger1987]
-static void bisect(site *s, int64_t n, int32_t n_rank, int32_t *to)
+static void bisect(clast_site *s, int64_t n, int32_t n_rank, int32_t *to)
 {
     enum { DEPTH = 64 };
     part stack[DEPTH] = {{0, n, 0, n_rank}};
@@ -131,26 +127,70 @@ static double imbalance(const clast_dem *whole, const int32_t *owner, int32_t n,
     return all > 0.0 ? most * r->comm->n_rank / all : 1.0;
 }
 
+/// The partition of the ranks' table: each gives the sites of its own grains, the first rank those
+/// that nobody has yet.
+static clast_status partition_together(clast_dem *whole, const clast_site *all, bool *is_fine)
+{
+    clast_status status = CLAST_OK;
+    clx_ranks *r = whole->ranks;
+    const clast_comm *comm = r->comm;
+    clast_site *own = NULL;
+    int32_t *to = NULL;
+    int64_t *sum = NULL;
+    int64_t n = 0;
+    status = clx_alloc(&own, whole->n_grain, sizeof *own);
+    status = status == CLAST_OK ? clx_alloc(&to, whole->n_grain, sizeof *to) : status;
+    status = status == CLAST_OK ? clx_alloc(&sum, whole->n_grain, sizeof *sum) : status;
+    CLX_TRY(clast_comm_agree(comm, status, NULL));
+    for (int32_t i = 0; i < whole->n_grain; ++i) {
+        if (r->owner[i] == comm->rank) {
+            own[n++] = all[i];
+        }
+    }
+    *is_fine = comm->partition(comm->context, n, own, to);
+    for (int64_t i = 0; i < n; ++i) {
+        sum[own[i].number] = to[i];
+    }
+    clx_comm_sum(comm, sum, whole->n_grain);
+    for (int32_t i = 0; i < whole->n_grain; ++i) {
+        CLAST_ASSERT(!*is_fine || (sum[i] >= 0 && sum[i] < comm->n_rank));
+        r->next[i] = (int32_t)sum[i];
+    }
+done:
+    clx_free(own);
+    clx_free(to);
+    clx_free(sum);
+    return status;
+}
+
 clast_status clx_ranks_partition(clast_dem *whole)
 {
     clast_status status = CLAST_OK;
     clx_ranks *r = whole->ranks;
-    site *s = NULL;
+    clast_site *s = NULL;
     double *sum = NULL;
-    CLX_TRY(clx_alloc(&s, whole->n_grain, sizeof *s));
-    CLX_TRY(clx_alloc(&sum, r->comm->n_rank, sizeof *sum));
+    bool is_done = false;
+    status = clx_alloc(&s, whole->n_grain, sizeof *s);
+    status = status == CLAST_OK ? clx_alloc(&sum, r->comm->n_rank, sizeof *sum) : status;
+    CLX_TRY(clast_comm_agree(r->comm, status, NULL));
     for (int32_t i = 0; i < whole->n_grain; ++i) {
         const double *x = whole->grain[i].position;
-        s[i] = (site){.number = i};
+        s[i] = (clast_site){.number = i};
         r->cost[i] = r->cost[i] > 0.0 ? r->cost[i] : MOVE;
         s[i].cost = r->cost[i];
         for (int c = 0; c < 3; ++c) {
             const double period = c < 2 ? whole->period[c] : 0.0;
-            s[i].x[c] = period > 0.0 ? x[c] - period * floor(x[c] / period + 0.5) : x[c];
+            s[i].position[c] = period > 0.0 ? x[c] - period * floor(x[c] / period + 0.5) : x[c];
         }
     }
     r->counts.before = imbalance(whole, r->owner, r->n_synced, sum);
-    bisect(s, whole->n_grain, r->comm->n_rank, r->next);
+    if (r->comm->partition != NULL) {
+        CLX_TRY(partition_together(whole, s, &is_done));
+    }
+    if (!is_done) {
+        bisect(s, whole->n_grain, r->comm->n_rank, r->next);
+    }
+    r->counts.is_zoltan = is_done;
     r->counts.imbalance = imbalance(whole, r->next, whole->n_grain, sum);
     ++r->counts.n_balance;
 done:

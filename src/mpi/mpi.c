@@ -6,6 +6,8 @@
 // rank that waits long costs no core. MPI's own errors end the job, as is MPI's default.
 #include <clast/mpi.h>
 
+#include "mpi/zoltan.h"
+
 #include <mpi.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -25,7 +27,8 @@ typedef struct {
     MPI_Request request[SLOT];
     int64_t word[SLOT][CLAST_COMM_WORDS];
     int32_t rank, n_rank;
-    MPI_Request *each; ///< [2 n_rank] of an exchange
+    MPI_Request *each;  ///< [2 n_rank] of an exchange
+    const char *method; ///< of partitions, Zoltan's name
 } ranks;
 
 /// Seconds of a clock that only goes on.
@@ -246,6 +249,26 @@ static void exchange(void *context, const void *out, const int64_t *n_out, void 
     }
 }
 
+static bool partition(void *context, int64_t n, const clast_site *site, int32_t *rank)
+{
+    const ranks *r = context;
+    const bool is_fine = clx_zoltan_partition(r->comm, r->method, n, site, rank);
+    return least(context, is_fine ? 1 : 0) == 1;
+}
+
+/// Zoltan's name of the method that CLAST_PARTITION asks for: rcb (as when it is not set), hsfc, or
+/// own: clast's bisection. "": that, NULL: it is none of them.
+static const char *find_method(void)
+{
+    const char *word = getenv("CLAST_PARTITION"); // NOLINT(concurrency-mt-unsafe)
+    if (word == NULL || strcmp(word, "rcb") == 0) {
+        return clx_zoltan_is_there() ? "RCB" : "";
+    }
+    return strcmp(word, "own") == 0                             ? ""
+           : strcmp(word, "hsfc") == 0 && clx_zoltan_is_there() ? "HSFC"
+                                                                : NULL;
+}
+
 // NOLINTEND(clang-analyzer-optin.mpi.MPI-Checker)
 
 clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
@@ -253,9 +276,13 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
     int runs = 0;
     int rank = 0;
     int n_rank = 1;
+    const char *method = find_method();
     (void)MPI_Initialized(&runs);
     if (!runs) {
         return CLAST_E_USAGE;
+    }
+    if (method == NULL) {
+        return CLAST_E_CONFIG;
     }
     ranks *made = calloc(1, sizeof *made); // the other library's heap wrapper is hidden from here
     if (made == NULL) {
@@ -265,6 +292,7 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
     (void)MPI_Comm_rank(made->comm, &rank);
     (void)MPI_Comm_size(made->comm, &n_rank);
     made->rank = rank;
+    made->method = method;
     made->n_rank = n_rank;
     made->each = calloc(2 * (size_t)n_rank, sizeof *made->each);
     if (made->each == NULL) {
@@ -284,6 +312,7 @@ clast_status clast_mpi_create(int32_t communicator, clast_comm *comm)
                          .gather = gather,
                          .sum = sum,
                          .exchange = exchange,
+                         .partition = method[0] != '\0' ? partition : NULL,
                          .context = made};
     return CLAST_OK;
 }
@@ -314,7 +343,14 @@ clast_status clast_mpi_begin(clast_comm *comm)
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS) {
         return CLAST_E_IO;
     }
-    return clast_mpi_create(MPI_Comm_c2f(MPI_COMM_WORLD), comm);
+    const clast_status status = clast_mpi_create(MPI_Comm_c2f(MPI_COMM_WORLD), comm);
+    if (status != CLAST_OK) {
+        int rank = 0;
+        (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        (void)MPI_Finalize();
+        *comm = (clast_comm){.rank = rank};
+    }
+    return status;
 }
 
 void clast_mpi_end(clast_comm *comm)

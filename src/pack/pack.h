@@ -10,6 +10,16 @@ typedef struct clx_pack_number {
     int32_t form;  ///< shape of the simulation that was made for it, or -1
 } clx_pack_number;
 
+/// Where the stages of a load are.
+typedef struct clx_pack_loading {
+    clast_table table; ///< load.csv
+    int32_t stage;
+    int64_t begun;             ///< step at which the stage began
+    double strain[3], sheared; ///< of the cell then
+    double steady[3];          ///< strain rates that the servo has come to [1/s]
+    bool is_over;
+} clx_pack_loading;
+
 struct clast_pack {
     clast_pack_config config; ///< borrowed texts and lists
     clast_pack_input input;   ///< borrowed
@@ -39,6 +49,7 @@ struct clast_pack {
     bool converged;
     double grain_steps, clocked_steps;
     clast_table series;
+    clx_pack_loading load;
     double step_s, wall_s; ///< clocks, which no result depends on
 };
 

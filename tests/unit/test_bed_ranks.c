@@ -56,7 +56,7 @@ enum {
     SIDE = 5,
     LAYER = SIDE * SIDE,
     MARKS = 6,
-    STEPS = 700
+    STEPS = 200
 };
 
 /// The layer that is one sphere larger than any rank's part of the bed.
@@ -98,7 +98,7 @@ static clast_status make(const bed_case *c, clast_dem **dem)
     config.width = c->domain == CLAST_DEM_CYLINDER ? 0.068 : 0.046;
     config.height = 0.2;
     config.floor = true;
-    config.gravity = 400.0; // a bed within few steps
+    config.gravity = 2000.0; // a bed within few steps
     if (c->change != NULL) {
         c->change(&config);
     }
@@ -119,7 +119,7 @@ static clast_status make(const bed_case *c, clast_dem **dem)
 static clast_status go(const bed_case *c, clast_dem *dem, int mark)
 {
     const clast_dem_drive drive = {.shake_amplitude = 1e-3, .shake_period = 5e-3, .damping = 1.0};
-    const clast_dem_drive damp = {.shake_period = 1.0, .damping = 1e-50};
+    const clast_dem_drive damp = {.shake_period = 1.0, .damping = 1e-200};
     clast_status status = CLAST_OK;
     if (mark == 2) {
         status = add_layer(c, dem, BOULDER, 0.06);
@@ -202,11 +202,9 @@ static void bed_is_the_same_on_ranks(void **state)
         clast_dem_measure(dem, &m);
         print_message("%s: %d contacts, %d at walls, %d refreshes\n", e.one->name, (int)m.n_contact,
                       (int)m.n_wall_contact, (int)m.n_refresh);
-        assert_true(m.n_contact > 20);
+        assert_true(m.n_contact > 15);
         clast_dem_destroy(dem);
-        for (int n = 2; n <= 4; ++n) {
-            support_run_ranks(n, run_rank, &e);
-        }
+        support_run_ranks(2 + c % 3, run_rank, &e);
     }
 }
 
