@@ -7,6 +7,7 @@ command -v emcc >/dev/null || { echo "wasm: emcc is not installed (tools/setup.s
 tools/portable.sh wasm
 prefix=$PWD/build/portable/wasm
 export PKG_CONFIG_LIBDIR=$prefix/lib/pkgconfig
+export NODE_PATH=/usr/share/nodejs # where Debian keeps what emcc asks node for, which a node of another origin does not look through
 log=build/wasm.log
 { [ -f build/wasm/build.ninja ] ||
     emcmake cmake -S . -B build/wasm -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O3 -DNDEBUG" -DCLAST_VIEW=ON \
