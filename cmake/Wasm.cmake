@@ -4,3 +4,4 @@ set_target_properties(clast_cli PROPERTIES OUTPUT_NAME clast-core SUFFIX .js)
 target_link_options(clast_cli PRIVATE -sMODULARIZE=1 -sEXPORT_NAME=createClast -sENVIRONMENT=web -sINVOKE_RUN=0 -sEXIT_RUNTIME=1
   -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sINITIAL_MEMORY=32MB -sTOTAL_STACK=4MB -sFORCE_FILESYSTEM=1 -sEXPORTED_RUNTIME_METHODS=FS,callMain
   -sSTRICT=0)
+target_link_libraries(clast_cli PRIVATE glibc_math) # sin, cbrt and others to the bit

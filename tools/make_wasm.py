@@ -13,7 +13,7 @@ TYPES = {"number": "number", "integer": "number", "flag": "boolean", "text": "st
          "numbers": "Quantity | Quantity[]"}
 # What is linked in, with the file of its terms in its sources.
 LINKED = (("qhull", "COPYING.txt"), ("jansson", "LICENSE"), ("libyaml", "License"), ("zlib", "zlib.h"), ("libpng", "LICENSE"),
-          ("pixman", "COPYING"), ("cairo", "COPYING"), ("cairo", "COPYING-MPL-1.1"))
+          ("pixman", "COPYING"), ("cairo", "COPYING"), ("cairo", "COPYING-MPL-1.1"), ("glibc", "COPYING.LIB"))
 
 HEAD = """// Types of clast.mjs, from `clast describe --json` of clast {version} by tools/make_wasm.py.
 

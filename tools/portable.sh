@@ -12,10 +12,10 @@ wasm) configure=(emcmake cmake) flags="-O2" ;;
 i386) configure=(cmake) flags="-O1 -m32 -msse2 -mfpmath=sse" ;;
 *) echo "usage: tools/portable.sh wasm|i386" >&2; exit 2 ;;
 esac
-mark="$(cat tools/portable/* | sha256sum | cut -c1-16) $flags"
+mark="$(find tools/portable -type f -print0 | sort -z | xargs -0 cat | sha256sum | cut -c1-16) $flags"
 [ -f "$prefix/mark" ] && [ "$(cat "$prefix/mark")" = "$mark" ] && exit 0
 mkdir -p "$sources"
-while read -r name path digest; do
+while read -r name path digest members; do
     file=$sources/$(basename "$path")
     if ! echo "$digest  $file" | sha256sum -c --status 2>/dev/null; then
         curl -sSfL --retry 3 -o "$file.part" "$mirror/pool/$path" || { echo "portable: cannot fetch $mirror/pool/$path" >&2; exit 1; }
@@ -24,7 +24,8 @@ while read -r name path digest; do
     fi
     if [ ! -f "$sources/$name/.whole" ]; then
         rm -rf "${sources:?}/$name" && mkdir "$sources/$name"
-        tar -xf "$file" -C "$sources/$name" --strip-components=1
+        # shellcheck disable=SC2086
+        tar -xf "$file" -C "$sources/$name" --strip-components=1 $members
         : > "$sources/$name/.whole"
     fi
 done < tools/portable/sources.txt

@@ -92,7 +92,7 @@ class Live(unittest.TestCase):
             (folder / "cluster.csv").write_text(self.browser.value("state.text"))
             words = self.text("command").split()
             self.assertEqual(words[0], "clast")
-            subprocess.run([jobs.CLAST, *words[1:]], cwd=folder, check=True, capture_output=True)
+            subprocess.run([jobs.CLAST, *words[1:]], cwd=folder, check=True, capture_output=True, env=jobs.PLAIN)
             self.assertEqual(hashlib.sha256((folder / "cells/cells.csv").read_bytes()).hexdigest(), self.text("hash"))
         self.browser.value("pick(0)")
         self.assertIn("cell 0 of", self.text("picked"))

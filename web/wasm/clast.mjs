@@ -89,7 +89,7 @@ function readFiles(FS, folder, prefix, given, found) {
 function divert(FS, descriptor, take, isTerminal) {
   const stream = FS.streams[descriptor];
   const write = (_, buffer, offset, length) => { take(buffer.slice(offset, offset + length)); return length; };
-  stream.stream_ops = { ...stream.stream_ops, write };
+  stream.stream_ops = { write, close() {}, flush() {} };
   if (!isTerminal) stream.tty = undefined;
 }
 
