@@ -2,6 +2,9 @@
 #include "evolve/config.h"
 
 #include "aggregate/config.h"
+#include "assembly/whole.h"
+#include "base/whole.h"
+#include "cloud/contract.h"
 #include <float.h>
 #include <math.h>
 
@@ -218,6 +221,19 @@ done:
     return status;
 }
 
+/// Whether what the caller gave holds together.
+static clast_status check_input(const clast_evolve_input *input)
+{
+    CLX_ARGUMENTS(input->domain);
+    CLX_ARRAY(input->shape, input->n_shape);
+    for (int32_t i = 0; i < input->n_shape; ++i) {
+        CLX_WHOLE(assembly, &input->shape[i]);
+    }
+    CLX_GUARD(clx_domain_check(input->domain));
+    CLX_GUARD(input->release != NULL ? clx_domain_check(input->release) : CLAST_OK);
+    return input->points != NULL ? clx_cloud_check(input->points) : CLAST_OK;
+}
+
 static clast_status check_counts(const clast_evolve_config *c, const clast_evolve_input *input)
 {
     clast_status status = CLAST_OK;
@@ -244,7 +260,7 @@ clast_status clx_evolve_config_check(const clast_evolve_config *c, const clast_e
     clast_status status = CLAST_OK;
     double weights = 0.0;
     CLX_TRY(clast_fields_check(clast_evolve_fields, c));
-    CLX_NEED(input->domain);
+    CLX_TRY(check_input(input));
     CLX_TRY(check_counts(c, input));
     CLX_TRY(check_borders(c, input->domain));
     for (int32_t k = 0; k < c->shape_weight.n; ++k) {
