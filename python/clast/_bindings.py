@@ -308,6 +308,10 @@ class clast_impact(Structure):
     """Two particles that meet."""
 
 
+class clast_site(Structure):
+    """A piece of work that lies somewhere, for a partition."""
+
+
 class clast_comm(Structure):
     """One rank's view of all."""
 
@@ -366,6 +370,10 @@ class clast_pack_config(Structure):
 
 class clast_pack_input(Structure):
     """What a packing is made of, loaded."""
+
+
+class clast_pack_ranks(Structure):
+    """A bed over ranks: what went between them."""
 
 
 class clast_pack_hull(Structure):
@@ -1455,6 +1463,11 @@ clast_impact._fields_ = [
     ('mass', (c_double * 2)),
     ('curvature', (c_double * 2)),
 ]
+clast_site._fields_ = [
+    ('position', (c_double * 3)),
+    ('cost', c_double),
+    ('number', c_int32),
+]
 clast_comm._fields_ = [
     ('rank', c_int32),
     ('n_rank', c_int32),
@@ -1464,6 +1477,9 @@ clast_comm._fields_ = [
     ('broadcast', c_void_p),
     ('gather', c_void_p),
     ('context', c_void_p),
+    ('sum', c_void_p),
+    ('exchange', c_void_p),
+    ('partition', c_void_p),
 ]
 clast_mesh._fields_ = [
     ('n_vert', c_int32),
@@ -1676,6 +1692,17 @@ clast_pack_input._fields_ = [
     ('shape', POINTER(clast_shape)),
     ('container', POINTER(clast_mesh)),
     ('container_closed', POINTER(clast_mesh)),
+]
+clast_pack_ranks._fields_ = [
+    ('n', c_int32),
+    ('n_idle', c_int32),
+    ('n_balance', c_int64),
+    ('n_migrated', c_int64),
+    ('ghosts', c_double),
+    ('step_bytes', c_double),
+    ('list_bytes', c_double),
+    ('imbalance', c_double),
+    ('is_zoltan', c_bool),
 ]
 clast_pack_hull._fields_ = [
     ('shape', (c_char * 64)),
@@ -2522,6 +2549,7 @@ clast_pack_result._fields_ = [
     ('elongation', (c_double * 2)),
     ('n_frame', c_int64),
     ('frame_interval', c_double),
+    ('ranks', clast_pack_ranks),
 ]
 clast_pairs._fields_ = [
     ('n', c_int64),
@@ -2667,7 +2695,8 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_range_report': (88, {'start': (0, 40), 'collisions': (40, 40), 'time': (80, 8)}),
     'clast_sticking': (80, {'law': (0, 4), 'film_viscosity': (8, 8), 'film_thickness': (16, 8), 'asperity': (24, 8), 'restitution': (32, 8), 'critical_stokes': (40, 8), 'stokes_exponent': (48, 8), 'adhesion': (56, 8), 'young': (64, 8), 'poisson': (72, 8)}),
     'clast_impact': (56, {'speed': (0, 8), 'radius': (8, 16), 'mass': (24, 16), 'curvature': (40, 16)}),
-    'clast_comm': (56, {'rank': (0, 4), 'n_rank': (4, 4), 'send': (8, 8), 'take': (16, 8), 'least': (24, 8), 'broadcast': (32, 8), 'gather': (40, 8), 'context': (48, 8)}),
+    'clast_site': (40, {'position': (0, 24), 'cost': (24, 8), 'number': (32, 4)}),
+    'clast_comm': (80, {'rank': (0, 4), 'n_rank': (4, 4), 'send': (8, 8), 'take': (16, 8), 'least': (24, 8), 'broadcast': (32, 8), 'gather': (40, 8), 'context': (48, 8), 'sum': (56, 8), 'exchange': (64, 8), 'partition': (72, 8)}),
     'clast_mesh': (24, {'n_vert': (0, 4), 'n_tri': (4, 4), 'vert': (8, 8), 'tri': (16, 8)}),
     'clast_mass': (104, {'volume': (0, 8), 'centroid': (8, 24), 'inertia': (32, 72)}),
     'clast_hit': (40, {'t': (0, 8), 'tri': (8, 4), 'bary': (16, 24)}),
@@ -2682,6 +2711,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_mesh_simplify_report': (104, {'n_triangle_before': (0, 4), 'n_triangle_after': (4, 4), 'reached': (8, 1), 'volume_before': (16, 8), 'volume_after': (24, 8), 'volume_drift': (32, 8), 'correction': (40, 8), 'area_before': (48, 8), 'area_after': (56, 8), 'deviation': (64, 40)}),
     'clast_pack_config': (608, {'dem': (0, 208), 'curve': (208, 8), 'spread': (216, 4), 'count': (220, 4), 'size_meaning': (224, 4), 'shapes': (232, 16), 'shape_weight': (248, 16), 'unit': (264, 8), 'hull': (272, 1), 'faces': (276, 4), 'ellipsoids': (280, 1), 'form_law': (281, 1), 'flatness_mean': (288, 8), 'flatness_deviation': (296, 8), 'elongation_mean': (304, 8), 'elongation_deviation': (312, 8), 'density': (320, 16), 'density_of': (336, 4), 'density_weight': (344, 16), 'mass': (360, 8), 'seed': (368, 8), 'container': (376, 8), 'container_unit': (384, 8), 'generator': (392, 4), 'spacing': (400, 8), 'fill_low': (408, 8), 'fill_high': (416, 8), 'first_low': (424, 8), 'first_high': (432, 8), 'initial_speed': (440, 8), 'random_turn': (448, 1), 'shake_amplitude': (456, 8), 'shake_period': (464, 8), 'shaking_time': (472, 8), 'shake_from_start': (480, 1), 'damping': (488, 8), 'rule': (496, 4), 'height_change': (504, 8), 'check_time': (512, 8), 'still_speed': (520, 8), 'max_steps': (528, 8), 'max_damping_time': (536, 8), 'layer': (544, 8), 'cut': (552, 8), 'trim': (560, 8), 'series_time': (568, 8), 'frame_time': (576, 8), 'checkpoint_time': (584, 8), 'resume': (592, 8), 'force': (600, 1)}),
     'clast_pack_input': (48, {'grading': (0, 8), 'curve': (8, 8), 'n_shape': (16, 4), 'shape': (24, 8), 'container': (32, 8), 'container_closed': (40, 8)}),
+    'clast_pack_ranks': (64, {'n': (0, 4), 'n_idle': (4, 4), 'n_balance': (8, 8), 'n_migrated': (16, 8), 'ghosts': (24, 8), 'step_bytes': (32, 8), 'list_bytes': (40, 8), 'imbalance': (48, 8), 'is_zoltan': (56, 1)}),
     'clast_pack_hull': (80, {'shape': (0, 64), 'n_triangle': (64, 4), 'volume_added': (72, 8)}),
     'clast_pack_source': (160, {'curve': (0, 24), 'grading': (24, 8), 'n_shape': (32, 4), 'shape': (40, 8), 'n_hull': (48, 4), 'hull': (56, 8), 'container': (64, 24), 'container_closed': (88, 24), 'input': (112, 48)}),
     'clast_pairs_config': (16, {'radius': (0, 8), 'n_shell': (8, 4), 'outside': (12, 4)}),
@@ -2762,7 +2792,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_evolve_config': (496, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'wind_shear': (360, 8), 'eddy_diffusivity': (368, 8), 'brownian': (376, 1), 'fall': (380, 4), 'structure': (384, 1), 'collision_radius': (388, 4), 'meeting': (392, 4), 'walk_step': (400, 8), 'max_tries': (408, 4), 'even': (412, 4), 'change_level': (416, 8), 'duration': (424, 8), 'rows': (432, 4), 'step_error': (440, 8), 'time_step': (448, 8), 'seed': (456, 8), 'keep': (464, 4), 'frames': (468, 4), 'checkpoint_time': (472, 8), 'resume': (480, 8), 'force': (488, 1)}),
     'clast_evolve_result': (248, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_kept': (236, 4), 'folder': (240, 8)}),
     'clast_grains_options': (128, {'kind': (0, 4), 'hull': (4, 1), 'degree': (8, 4), 'level': (12, 4), 'spacing': (16, 8), 'volume': (24, 56), 'dataset': (80, 8), 'has_threshold': (88, 1), 'threshold': (96, 8), 'least_voxels': (104, 8), 'columns': (112, 8), 'folder': (120, 8)}),
-    'clast_pack_result': (432, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8)}),
+    'clast_pack_result': (496, {'n_hull': (0, 4), 'hull': (8, 8), 'dem': (16, 184), 'phase': (200, 4), 'converged': (204, 1), 'hash': (208, 8), 'n_fill': (216, 4), 'n_waited': (224, 8), 'wall_s': (232, 8), 'step_s': (240, 8), 'clocked_steps': (248, 8), 'grain_steps': (256, 8), 'n_outside': (264, 4), 'porosity': (272, 8), 'z_low': (280, 8), 'z_high': (288, 8), 'top': (296, 8), 'untrimmed': (304, 8), 'trim': (312, 8), 'walls': (320, 24), 'wall_share': (344, 8), 'mass_wanted': (352, 8), 'n_loose': (360, 4), 'is_moving': (364, 1), 'sank': (368, 8), 'fell': (376, 1), 'flatness': (384, 16), 'elongation': (400, 16), 'n_frame': (416, 8), 'frame_interval': (424, 8), 'ranks': (432, 64)}),
     'clast_pairs': (168, {'n': (0, 8), 'n_outside': (8, 8), 'dimension': (16, 4), 'n_shell': (20, 4), 'volume': (24, 8), 'radius': (32, 8), 'n_pair': (40, 8), 'n_repeated': (48, 8), 'edge_error': (56, 8), 'shells': (64, 32), 'integral': (96, 72)}),
     'clast_pores': (48, {'porosity': (0, 8), 'mean': (8, 8), 'sizes': (16, 32)}),
     'clast_fit_data': (72, {'kind': (0, 4), 'beds': (8, 32), 'left_out': (40, 32)}),
@@ -3186,6 +3216,7 @@ VALUES: dict[str, int] = {
 # name: (result, arguments, what it does)
 PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
+    'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
     'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_spectrum_start), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
@@ -3268,6 +3299,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cloud_column': (c_int, [POINTER(clast_table), c_char_p, POINTER(POINTER(c_double))], 'Numbers of the named column; *column is NULL for a name that is empty or NULL.'),
     'clast_cloud_from_table': (c_int, [POINTER(clast_table), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'A table\'s rows as a cloud, in SI: a column whose name tells a unit (x_mm, "r (um)") is converted.'),
     'clast_cloud_repeated': (c_int, [POINTER(clast_cloud), POINTER(c_int64)], 'Points that have the very coordinates of an earlier one; O(n).'),
+    'clast_cloud_repeated_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_cloud), POINTER(c_int64)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
     'clast_cloud_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_points_options), POINTER(clast_table)], 'The same from memory, HDF5 excepted; `name` stands for the path.'),
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
@@ -3275,6 +3307,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
     'clast_decompose': (c_int, [POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "Splits the cloud's domain into cells of uniform concentration and counts events."),
     'clast_decompose_in': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map."),
+    'clast_decompose_sizes': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), c_int32, c_int32, POINTER(clast_decompose_config), POINTER(clast_table)], 'Events against the number of points: random parts of n, n/2, n/4, .'),
+    'clast_decompose_ranks': (c_int, [POINTER(clast_comm), POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_decompose_config), POINTER(clast_decomposition)], 'The same of one cloud of which each rank has a part; points stay where they are.'),
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),
@@ -3495,8 +3529,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pack_achieved': (c_int, [c_void_p, POINTER(clast_table)], 'Sieve curve achieved beside the wanted one (columns as clast_grading_compare).'),
     'clast_pack_load': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_source)], "@return the reader's status, with the option and the file's name before its message."),
     'clast_pack_unload': (None, [POINTER(clast_pack_source)], 'may be called twice.'),
-    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, charts and frames into it, and checkpoints on the way.'),
-    'clast_pack_resume': (c_int, [c_char_p, c_int64, POINTER(clast_monitor), POINTER(clast_pack_result)], 'Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps had ended early.'),
+    'clast_pack_run': (c_int, [POINTER(clast_pack_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Runs a packing to its end; with a folder writes state.h5, series.csv, profile.csv, achieved.csv, summary.json, manifest.json, charts and frames into it, and checkpoints on the way.'),
+    'clast_pack_resume': (c_int, [c_char_p, c_int64, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_pack_result)], 'Goes on from the newest whole checkpoint of a folder, or from the end of a run that max_steps had ended early.'),
     'clast_pack_result_json': (c_int, [POINTER(clast_pack_result), c_bool, POINTER(c_char_p)], 'The result as one JSON object, names of DESIGN section 7.'),
     'clast_pairs_count': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_pairs_config), POINTER(clast_pairs)], 'Counts the pairs of a cloud by their distance in shells of equal ratio, compares them with those of a uniform cloud in the same domain, and estimates the integral of the squared density.'),
     'clast_pairs_free': (None, [POINTER(clast_pairs)], '.'),
@@ -3674,7 +3708,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_discrepancy_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_discrepancy)], 'All three discrepancies of n >= 2 points.'),
     'clast_henze_zirkler_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_henze_zirkler)], 'Scores are clamped to u in [2^-53, 1 - 2^-53].'),
     'clast_pearson_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_pearson)], '@return CLAST_E_ARGUMENT for n < 3.'),
-    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of every k-th are looked for.'),
+    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their places alone decide.'),
+    'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
     'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
     'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
     'clast_voxels_alloc': (c_int, [POINTER(c_int32), c_double, POINTER(clast_voxels)], 'Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.'),

@@ -489,6 +489,9 @@ def decompose(
         weight: Any = None,
         velocity: Any = None,
         variable: Any = None,
+        test_only: bool = False,
+        sizes: int = 0,
+        regular: int = 0,
         outside: Literal["error", "drop"] | None = None,
         variant: Literal["full", "first", "fast", "test"] | None = None,
         mesh: Literal["boxes", "components", "bins", "labels", "tree", "auto"] | None = None,
@@ -518,10 +521,14 @@ def decompose(
     """Splits a Cloud, or positions (n, 1 to 3) [m], into cells of uniform concentration and counts events.
 
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
-    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
+    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree"). `test_only` runs the
+    tests alone (`reject` says what they found); `sizes` gives the table of that name, what `clast decompose --sizes` writes.
 
     Keywords (None: the default; a number is SI, a text has its unit):
         domain: known domain: box:LOW..,HIGH.., cylinder:R,L or X,Y,Z,NX,NY,NZ,R,L (base, axis), half-pipe:R,L, sphere:R or X,Y,Z,R, mesh:FILE [m, or as 1mm] (no default)
+        test_only: run the uniformity tests alone, exit code 1 when not uniform (default False)
+        sizes: events of random parts of n, n/2, n/4 .. points, so many sizes, as a table and a chart; 0: none (0 to 40; default 0)
+        regular: with --sizes: a regular mesh of so many cells an axis beside; 0: none (0 to 200; default 0)
         outside: points outside the domain: refuse the file, or leave them out (error, drop; default error)
         variant: how far to go: tests and passes, first test and one pass, one pass, tests alone (full, first, fast, test; default full)
         mesh: what bins are joined into; tree splits by a chi-square test; auto: tree for the full variant, else boxes (boxes, components, bins, labels, tree, auto; default auto)
@@ -991,7 +998,7 @@ def pack(
         seed: int | None = None,
         container: Text | None = None,
         container_unit: Text | None = None,
-        domain: Literal["cylinder", "periodic", "box", "open"] | None = None,
+        domain: Literal["cylinder", "periodic", "box", "open", "cell"] | None = None,
         width: Quantity | None = None,
         depth: Quantity | None = None,
         height: Quantity | None = None,
@@ -1044,6 +1051,12 @@ def pack(
         still_speed: Quantity | None = None,
         max_steps: int | None = None,
         max_damping_time: Quantity | None = None,
+        stages: Texts | None = None,
+        load_rate: Quantity | None = None,
+        load_tolerance: float | None = None,
+        load_rest: float | None = None,
+        max_load_time: Quantity | None = None,
+        energy: bool | None = None,
         layer: Quantity | None = None,
         cut: float | None = None,
         trim: Quantity | None = None,
@@ -1078,7 +1091,7 @@ def pack(
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
         container_unit: length unit of its coordinates (no default)
-        domain: container, its sides (cylinder, periodic, box, open; default cylinder)
+        domain: container, its sides; cell: periodic in x, y and z (height) (cylinder, periodic, box, open, cell; default cylinder)
         width: inside diameter of the cylinder, or width in x (L) (m; 1e-09 to 1e+06; default 0.104)
         depth: width in y; 0: as width (m; 0 to 1e+06; default 0.0)
         height: height of the lid and of generation (H) (m; 1e-09 to 1e+06; default 1.0)
@@ -1131,6 +1144,12 @@ def pack(
         still_speed: of the fastest grain (m/s; 0 to 1e+06; default 0.001)
         max_steps: stop after so many time steps as it is; 0: never (at least 0; default 0)
         max_damping_time: give up when the bed is not still by then (s; 0 to 1e+09; default 20.0)
+        stages: stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, above 0 pressing); then until rest, strain E, stress P or time T (no default)
+        load_rate: rate of strain at which a pressure is approached, at most (1/s; 1e-09 to 1e+09; default 1.0)
+        load_tolerance: share of a pressure within which it is reached (1e-09 to 1; default 0.01)
+        load_rest: a loaded bed rests when the mean force on a grain over that of a contact is below this (1e-12 to 1; default 0.001)
+        max_load_time: give up when a stage has not come to its end by then (s; 0 to 1e+09; default 20.0)
+        energy: book the work of all forces by kind: load.csv, energy_book.svg (default False)
         layer: slices of the porosity profile (h_p) (m; 1e-12 to 1e+06; default 0.001)
         cut: the bed ends where the porosity is this (n cut-off) (0 to 1; default 0.5)
         trim: left out at both ends of the bed (h_pd); -1: 31.5 mm in the periodic box, else 0 (m; -1 to 1e+06; default -1.0)

@@ -62,8 +62,8 @@ def pack(*, output: Path | None = None, progress: Progress = None, **keys: Any) 
     try:
         with Config(c.clast_pack_config(), "clast_pack_fields", keys) as config:
             most = config.struct.max_steps
-            check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, m, ctypes.byref(result)) if resumed else
-                              call("clast_pack_run")(ctypes.byref(config.struct), folder, m, ctypes.byref(result))))
+            check(monitor.run(lambda m: call("clast_pack_resume")(encoded("resumed", resumed), most, None, m, ctypes.byref(result)) if resumed else
+                              call("clast_pack_run")(ctypes.byref(config.struct), folder, None, m, ctypes.byref(result))))
         values = json.loads(text_of(lambda text: call("clast_pack_result_json")(ctypes.byref(result), True, text)))
         return Result(values, resumed if output is None else os.fspath(output))
     finally:

@@ -82,3 +82,12 @@ void clx_rng_cone(clx_rng *rng, const double axis[3], double half_angle, double 
 
 /// Orientation uniform on SO(3), unit quaternion w, x, y, z. [Shoemake1992]
 void clx_rng_orientation(clx_rng *rng, double orientation[4]);
+
+/// Mixes the bits of a number thoroughly: a hash, one to one. [Steele2014, splitmix64]
+static inline uint64_t clx_mix(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
