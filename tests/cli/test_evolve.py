@@ -123,6 +123,10 @@ class Evolve(Case):
         outside = self.folder / "outside.csv"
         outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")
         self.assert_fails(3, *box, "--points", outside, says=("points", "row 2"))
+        uneven = self.folder / "uneven.csv"
+        uneven.write_text("x,y,z,u,v,w\n" + "".join(f"{x},0,0,1,0,0\n" for x in (0, 1, 3)))
+        self.assert_fails(3, *box, "--particles", 5, "--field", uneven, says=("field", "not even", "plane 2 of 3"))
+        self.assert_fails(3, *box, "--particles", 5, "--field", outside, says=("field", "u"))
         self.assert_fails(2, "evolve", "--domain", "sphere:1", "--particles", 5, "--duration", "1s", says=("only a box",))
         self.assert_fails(3, "evolve", "--resume", self.folder, says=("no checkpoint",))
 

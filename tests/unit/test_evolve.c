@@ -354,6 +354,65 @@ static void floor_takes_what_diffuses(void **state)
     end(&c);
 }
 
+/* Velocities of a turn about z with one turn in 10 s, on a grid in any order. */
+static const char *turning_field(int faulty)
+{
+    const char *path = support_scratch_file("turn.csv");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    const double omega = 2.0 * CLAST_PI / 10.0;
+    (void)fprintf(file, "x,y,z,u,v,w\n");
+    for (int i = 24 - faulty; i >= 0; --i) {
+        const double x = 0.5 * (i % 5) - 1.0;
+        const double y = 0.5 * (i / 5) - 1.0; // NOLINT(bugprone-integer-division): a row
+        (void)fprintf(file, "%.17g,%.17g,0,%.17g,%.17g,0\n", x, y, -omega * y, omega * x);
+    }
+    (void)fclose(file);
+    return path;
+}
+
+/* In a field that turns, bodies are back after a turn, whatever the step. */
+static void a_field_turns_the_cloud(void **state)
+{
+    (void)state;
+    char field[4096];
+    (void)snprintf(field, sizeof field, "field=%s", turning_field(0));
+    const char *const option[] = {"domain=box:-1,-1,0,1,1,1",
+                                  "release=cylinder:0,0,0,0,0,1,0.9,1",
+                                  "particles=50",
+                                  "curve=1um",
+                                  "kernel=constant",
+                                  "constant=0",
+                                  "gravity=0",
+                                  "brownian=no",
+                                  "sides=reflect",
+                                  "floor=reflect",
+                                  "duration=10s",
+                                  "rows=2",
+                                  field,
+                                  NULL};
+    cloud c;
+    clast_table before = {0};
+    clast_table after = {0};
+    begin(&c, option);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &before));
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &after));
+    assert_int_equal(after.n_row, 50);
+    for (int64_t i = 0; i < after.n_row; ++i) {
+        for (int k = 2; k < 5; ++k) { /* x, y, z */
+            CHECK_ABS(after.column[k].number[i], before.column[k].number[i], 1e-5);
+        }
+    }
+    clast_table_free(&before);
+    clast_table_free(&after);
+    end(&c);
+    (void)turning_field(1); /* a node is missing */
+    open_cloud(&c, option);
+    CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), CLAST_E_FORMAT);
+    end(&c);
+}
+
 static void refuses(const char *const *option, clast_status expected)
 {
     cloud c;
@@ -390,6 +449,7 @@ int main(void)
                                        cmocka_unit_test(goes_on_to_the_same_bits),
                                        cmocka_unit_test(events_are_a_tree),
                                        cmocka_unit_test(floor_takes_what_diffuses),
+                                       cmocka_unit_test(a_field_turns_the_cloud),
                                        cmocka_unit_test(bad_configurations_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
