@@ -413,6 +413,60 @@ static void a_field_turns_the_cloud(void **state)
     end(&c);
 }
 
+/* A small cloud from its options to an aggregate, or why not; nothing is left. */
+static clast_status make_small(void *context)
+{
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=6",
+                                         "curve=1mm",
+                                         "kernel=constant",
+                                         "constant=5",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=1",
+                                         NULL};
+    const clast_evolve_source *source = context;
+    clast_evolve_config config = {0};
+    clast_evolve *evolve = NULL;
+    clast_assembly assembly = {0};
+    clast_table saved[CLAST_N_EVOLVE_SAVED] = {{0}};
+    int64_t node = -1;
+    int32_t n = 1;
+    clast_status status = clast_fields_default(clast_evolve_fields, &config);
+    for (int k = 0; status == CLAST_OK && option[k] != NULL; ++k) {
+        char key[64];
+        const char *equal = strchr(option[k], '=');
+        (void)snprintf(key, sizeof key, "%.*s", (int)(equal - option[k]), option[k]);
+        status =
+            clast_field_set(clast_fields_find(clast_evolve_fields, key), &config, equal + 1, false);
+    }
+    status = status == CLAST_OK ? clast_evolve_create(&config, &source->input, &evolve) : status;
+    while (status == CLAST_OK && !clast_evolve_is_over(evolve)) {
+        status = clast_evolve_advance(evolve);
+    }
+    status = status == CLAST_OK ? clast_evolve_largest(evolve, &n, &node) : status;
+    status = status == CLAST_OK ? clast_evolve_aggregate(evolve, node, &assembly) : status;
+    status = status == CLAST_OK ? clast_evolve_save(evolve, saved) : status;
+    for (int k = 0; k < CLAST_N_EVOLVE_SAVED; ++k) {
+        clast_table_free(&saved[k]);
+    }
+    clast_assembly_free(&assembly);
+    clast_evolve_destroy(evolve);
+    clast_fields_free(clast_evolve_fields, &config);
+    return status;
+}
+
+static void each_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    cloud c;
+    open_cloud(&c, (const char *const[]){"domain=box:0,0,0,1,1,1", "curve=1mm", NULL});
+    support_refuse_each_allocation(make_small, &c.source);
+    end(&c);
+}
+
 static void refuses(const char *const *option, clast_status expected)
 {
     cloud c;
@@ -450,6 +504,7 @@ int main(void)
                                        cmocka_unit_test(events_are_a_tree),
                                        cmocka_unit_test(floor_takes_what_diffuses),
                                        cmocka_unit_test(a_field_turns_the_cloud),
+                                       cmocka_unit_test(each_refused_allocation_is_told),
                                        cmocka_unit_test(bad_configurations_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
