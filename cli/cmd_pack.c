@@ -9,11 +9,12 @@
 static clast_status resume(const cli_common *common, const clast_pack_config *config,
                            const clast_monitor *monitor, clast_pack_result *result)
 {
-    const clast_status status = cli_resume_check(common, config->resume, clast_pack_fields, config,
-                                                 sizeof *config, "max_steps");
-    return status != CLAST_OK
-               ? status
-               : clast_pack_resume(config->resume, config->max_steps, monitor, result);
+    const clast_status status =
+        cli_agree(common, cli_resume_check(common, config->resume, clast_pack_fields, config,
+                                           sizeof *config, "max_steps"));
+    return status != CLAST_OK ? status
+                              : clast_pack_resume(config->resume, config->max_steps, common->comm,
+                                                  monitor, result);
 }
 
 /// One line for the hull of a surface.
@@ -117,6 +118,24 @@ static void print_walls(const clast_pack_result *r)
     }
 }
 
+/// How the bed was divided among ranks, and what went between them.
+static void print_ranks(const clast_pack_ranks *r)
+{
+    if (r->n <= 1) {
+        return;
+    }
+    (void)printf("%-26s %d, by %s; cost of the most loaded %.3f of the mean\n", "ranks", r->n,
+                 r->is_zoltan ? "Zoltan" : "clast's own bisection", r->imbalance);
+    if (r->n_idle > 0) {
+        (void)printf("%-26s %d of %d ranks have no grain: too many for this bed\n", "warning",
+                     r->n_idle, r->n);
+    }
+    (void)printf("%-26s %.4g ghosts and %.4g bytes a step, %.4g bytes for lists; %lld grains moved "
+                 "in %lld partitions\n",
+                 "between ranks", r->ghosts, r->step_bytes, r->list_bytes, (long long)r->n_migrated,
+                 (long long)r->n_balance);
+}
+
 /// What a loaded bed carries; stresses of contacts and motion.
 static void print_load(const clast_pack_result *r)
 {
@@ -194,6 +213,7 @@ static void print_text(const clast_pack_result *r)
                      r->dem.verified.worst);
     }
     print_frames(r);
+    print_ranks(&r->ranks);
     (void)printf("%-26s %.4g s, %.4g ns a grain-step\n", "took", r->wall_s,
                  r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : 0.0);
     (void)printf("%-26s %016llx\n", "state hash", (unsigned long long)r->hash);
@@ -205,10 +225,11 @@ static clast_status run(const cli_common *common, void *context)
     clast_pack_result result = {0};
     const clast_monitor monitor = cli_monitor(common);
     char *text = NULL;
-    const clast_status status = config->resume[0] != '\0'
-                                    ? resume(common, config, &monitor, &result)
-                                    : clast_pack_run(config, common->output, &monitor, &result);
-    if (status != CLAST_OK) {
+    const clast_status status =
+        config->resume[0] != '\0'
+            ? resume(common, config, &monitor, &result)
+            : clast_pack_run(config, common->output, common->comm, &monitor, &result);
+    if (status != CLAST_OK || common->comm->rank > 0) {
         return status;
     }
     if (!common->json) {
@@ -248,7 +269,12 @@ static const char details[] =
     "checkpoints on the way: --resume RUN goes on from the newest and ends in the same bytes.\n"
     "A run that --max-steps ended goes on in the same way, to --max-steps N or to its end.\n"
     "A folder that holds a run is refused: go on with it, or replace it with --force\n"
-    "(the new run is made in RUN.new and takes its place when it has succeeded).";
+    "(the new run is made in RUN.new and takes its place when it has succeeded).\n\n"
+    "mpirun -n N clast-mpi pack ... (clast built with MPI) divides one bed among N ranks, by "
+    "default\n"
+    "of one thread each. State, checkpoints and all files are the bytes of one rank: any number "
+    "of\n"
+    "ranks, and clast pack, may go on with them.";
 
 const cli_command cli_pack = {
     .name = "pack",
@@ -262,5 +288,6 @@ const cli_command cli_pack = {
     .fields = clast_pack_fields,
     .config_size = sizeof(clast_pack_config),
     .writes_folder = true,
+    .shares_ranks = true,
     .run = run,
 };

@@ -1,10 +1,11 @@
 // A simulation: made, filled with grains, stepped.
 #include <clast/dem.h>
 
-#include "base/lines.h"
+#include "base/alloc.h"
 #include "dem/dem.h"
 #include "dem/energy.h"
 #include "dem/fluid.h"
+#include "dem/ranks.h"
 #include <clast/settling.h>
 #include <math.h>
 #include <string.h>
@@ -37,6 +38,7 @@ void clast_dem_destroy(clast_dem *dem)
     for (int32_t i = 0; i < dem->n_body; ++i) {
         clx_body_free(&dem->body[i]);
     }
+    clx_ranks_destroy(dem->ranks);
     clx_neighbour_list_free(&dem->list);
     clx_wall_mesh_destroy(dem->container);
     clx_inner_free(&dem->inner);
@@ -129,25 +131,6 @@ done:
     return status;
 }
 
-static clast_status reserve(clast_dem *dem, int64_t n)
-{
-    CLAST_ASSERT(n >= 0);
-    clast_status status = CLAST_OK;
-    if (n <= dem->grain_capacity) {
-        return CLAST_OK;
-    }
-    const int64_t capacity = n + n / 2 + 16;
-    const int64_t blocks = capacity / CLX_SWEEP_BLOCK + 1;
-    int64_t records[2] = {dem->grain_capacity, dem->grain_capacity};
-    CLX_TRY(clx_grow_lines(&dem->grain, &records[0], capacity, sizeof *dem->grain));
-    CLX_TRY(clx_grow_lines(&dem->motion, &records[1], capacity, sizeof *dem->motion));
-    CLX_TRY(clx_realloc(&dem->travel, capacity, sizeof *dem->travel));
-    CLX_TRY(clx_realloc(&dem->block_flag, blocks, sizeof *dem->block_flag));
-    dem->grain_capacity = capacity;
-done:
-    return status;
-}
-
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from)
 {
     CLAST_ASSERT(from->shape >= 0 && from->shape < dem->n_body);
@@ -200,7 +183,7 @@ clast_status clast_dem_add_grains(clast_dem *dem, int32_t n, const clast_dem_gra
     for (int32_t i = 0; i < n; ++i) {
         CLX_TRY(check_grain(dem, &grain[i], (int64_t)dem->n_grain + i));
     }
-    CLX_TRY(reserve(dem, (int64_t)dem->n_grain + n));
+    CLX_TRY(clx_grains_reserve(dem, (int64_t)dem->n_grain + n));
     CLX_TRY(clx_items_reserve(dem, n, grain));
     const int32_t first = dem->n_grain;
     for (int32_t i = 0; i < n; ++i) {
@@ -221,41 +204,6 @@ void clast_dem_set_drive(clast_dem *dem, const clast_dem_drive *drive)
     dem->drive = *drive;
 }
 
-/// Contacts, then motion, of all grains.
-static clast_status step_in_passes(clast_dem *dem, bool verifies, bool *is_fine)
-{
-    clast_status status = CLAST_OK;
-    clx_inner_list *inner = &dem->inner;
-    clx_inner_unpack(dem);
-    if (!inner->is_gathered) {
-        CLX_TRY(clx_inner_gather(dem));
-    }
-    if (dem->energy != NULL) {
-        CLX_TRY(clx_energy_before(dem));
-    }
-    clx_contacts(dem);
-    if (verifies) {
-        clx_verify(dem);
-    }
-    if (dem->energy != NULL) {
-        clx_energy_forces(dem);
-    }
-    *is_fine = clx_move(dem);
-    if (dem->energy != NULL) {
-        clx_energy_after(dem);
-    }
-done:
-    return status;
-}
-
-static clast_status contacts_and_motion(clast_dem *dem, bool *is_fine)
-{
-    const bool verifies = dem->config.verify > 0 && dem->step % dem->config.verify == 0;
-    return verifies || dem->item != NULL || dem->container != NULL || dem->energy != NULL
-               ? step_in_passes(dem, verifies, is_fine)
-               : clx_sweep(dem, is_fine);
-}
-
 // A step, in the order in which it happens:
 //   1. neighbour list   items that have used up their margin search their neighbours anew
 //   2. inner list       pairs of it that may touch before some grain's path is used up
@@ -270,6 +218,9 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
 {
     CLX_ARGUMENTS(dem);
     clast_status status = CLAST_OK;
+    if (dem->ranks != NULL) {
+        return clx_ranks_step(dem, n_step);
+    }
     for (int64_t k = 0; k < n_step; ++k) {
         bool is_fine = true;
         if (dem->cell != NULL) {
@@ -286,7 +237,7 @@ clast_status clast_dem_step(clast_dem *dem, int64_t n_step)
             CLX_TRY(clx_check_starts(dem));
         }
         CLX_TRY(clx_fluid_update_slabs(dem));
-        CLX_TRY(contacts_and_motion(dem, &is_fine));
+        CLX_TRY(clx_contacts_and_motion(dem, &is_fine));
         if (dem->cell != NULL) {
             clx_cell_end_step(dem);
         }

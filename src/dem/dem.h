@@ -65,8 +65,24 @@ struct clast_dem {
     clx_sweeping sweeping;
     clx_slabs slabs;                 ///< solids by height, with hindrance
     clast_dem_verification verified; ///< in all steps so far
+    struct clx_ranks *ranks;         ///< steps its grains over several ranks, or NULL
+    const uint8_t *is_ghost; ///< [n_grain] of a rank's own simulation: moved by another; else NULL
+    const int32_t *number;   ///< [n_grain] of such a simulation: grains' numbers; else NULL
     struct clx_energy *energy;       ///< the energy book, or NULL
 };
+
+/// The number that a grain has for the user.
+static inline int32_t clx_grain_number(const clast_dem *dem, int32_t g)
+{
+    return g >= 0 && dem->number != NULL ? dem->number[g] : g;
+}
+
+/// Whether the grains of both items are moved by other ranks.
+static inline bool clx_are_ghosts(const clast_dem *dem, int32_t a, int32_t b)
+{
+    return dem->is_ghost != NULL && dem->is_ghost[dem->item != NULL ? dem->item[a].grain : a] &&
+           dem->is_ghost[dem->item != NULL ? dem->item[b].grain : b];
+}
 
 static inline int32_t clx_item_grain(const clast_dem *dem, int32_t i)
 {
@@ -145,6 +161,13 @@ clast_status clx_dem_check_step(const clx_law *law, double time_step, double mas
 
 /// Grain i anew, as given; its slot exists.
 void clx_dem_set_grain(clast_dem *dem, int32_t i, const clast_dem_grain *from);
+
+/// Contacts, then motion, of all grains: a step's work. *is_fine as clx_move.
+clast_status clx_contacts_and_motion(clast_dem *dem, bool *is_fine);
+
+/// Capacity for n grains; for n items, where those are not grains or have convex shapes too.
+clast_status clx_grains_reserve(clast_dem *dem, int64_t n);
+clast_status clx_items_reserve_all(clast_dem *dem, int64_t n);
 
 /// Capacity for the items of n more grains; then items of the grain g, which is set.
 clast_status clx_items_reserve(clast_dem *dem, int32_t n, const clast_dem_grain *grain);

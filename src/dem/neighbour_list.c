@@ -76,11 +76,13 @@ static void set_anchor(clast_dem *dem, int32_t i)
     dem->list.limit[i] = dem->travel[g] + CLX_SURE * at->margin;
 }
 
-/// All items that have used half of their margin.
-static void mark_stale(clast_dem *dem)
+void clx_neighbour_list_mark(clast_dem *dem)
 {
     clx_neighbour_list *l = &dem->list;
     for (int32_t i = 0; i < dem->n_item; ++i) {
+        if (clx_are_ghosts(dem, i, i)) {
+            continue; // its rank marks it
+        }
         const bool is_within = i < l->n_known && dem->cell == NULL &&
                                clx_item_moved(dem, i) <= 0.5 * l->anchor[i].margin;
         l->is_stale[i] = is_within ? 0 : 1;
@@ -108,6 +110,9 @@ static clast_status find_walls(clast_dem *dem, int32_t i)
 {
     clast_status status = CLAST_OK;
     const clx_anchor *at = &dem->list.anchor[i];
+    if (clx_are_ghosts(dem, i, i)) {
+        return CLAST_OK;
+    }
     for (int32_t w = dem->n_wall - 1; w >= 0; --w) {
         double normal[3];
         const double d = clx_wall_distance(&dem->wall[w], at->position, normal);
@@ -147,7 +152,7 @@ static clast_status consider(clast_dem *dem, int32_t i, int32_t k)
         clx_cell_offset(dem->cell, r);
     }
     const double cutoff = clx_item_radius(dem, i) + clx_item_radius(dem, k) + a->margin + b->margin;
-    if (v3_norm2(r) >= cutoff * cutoff) {
+    if (v3_norm2(r) >= cutoff * cutoff || clx_are_ghosts(dem, i, k)) {
         return CLAST_OK;
     }
     const clx_found found =
@@ -397,6 +402,21 @@ done:
     return status;
 }
 
+clast_status clx_neighbour_list_search(clast_dem *dem)
+{
+    clast_status status = CLAST_OK;
+    if (dem->n_item > 0) { // a rank may have none
+        CLX_TRY(find(dem));
+        CLX_TRY(sort_found(dem));
+        CLX_TRY(merge(dem));
+    }
+    dem->list.is_due = false;
+    dem->inner.is_due = true;
+    ++dem->list.n_refresh;
+done:
+    return status;
+}
+
 clast_status clx_neighbour_list_refresh(clast_dem *dem)
 {
     clast_status status = CLAST_OK;
@@ -404,13 +424,8 @@ clast_status clx_neighbour_list_refresh(clast_dem *dem)
     if (dem->cell != NULL) {
         CLX_TRY(check_room(dem));
     }
-    mark_stale(dem);
-    CLX_TRY(find(dem));
-    CLX_TRY(sort_found(dem));
-    CLX_TRY(merge(dem));
-    dem->list.is_due = false;
-    dem->inner.is_due = true;
-    ++dem->list.n_refresh;
+    clx_neighbour_list_mark(dem);
+    CLX_TRY(clx_neighbour_list_search(dem));
 done:
     return status;
 }

@@ -44,6 +44,22 @@ static json_t *verified(const clast_dem_verification *v)
     return o;
 }
 
+/// What went between ranks.
+static json_t *ranks(const clast_pack_ranks *r)
+{
+    json_t *o = json_object();
+    put_count(o, "n", r->n);
+    put_count(o, "n_idle", r->n_idle);
+    put_count(o, "n_balance", r->n_balance);
+    put_count(o, "n_migrated", r->n_migrated);
+    put(o, "ghosts", r->ghosts);
+    put(o, "step_bytes", r->step_bytes);
+    put(o, "list_bytes", r->list_bytes);
+    put(o, "imbalance", r->imbalance);
+    (void)json_object_set_new(o, "is_zoltan", json_boolean(r->is_zoltan));
+    return o;
+}
+
 static json_t *tensor(const double x[6])
 {
     static const char *const name[6] = {"xx", "yy", "zz", "xy", "xz", "yz"};
@@ -158,6 +174,9 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
         put(o, "wall_s", r->wall_s);
         put(o, "ns_per_grain_step",
             r->clocked_steps > 0.0 ? 1e9 * r->step_s / r->clocked_steps : (double)NAN);
+    }
+    if (times && r->ranks.n > 1) { // like the clocks, no property of the bed
+        (void)json_object_set_new(o, "ranks", ranks(&r->ranks));
     }
     dumped = json_dumps(o, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
     CLX_CHECK(dumped != NULL, CLAST_E_MEMORY, "no memory for the result");

@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "dem/body.h"
 #include "dem/dem.h"
+#include "dem/ranks.h"
 #include "pack/pack.h"
 #include <math.h>
 #include <string.h>
@@ -49,7 +50,7 @@ clast_status clx_pack_series_row(clast_pack *p)
                         "shorter collision_time and time_step",
                         lost, (long long)clast_dem_n_step(p->dem));
     }
-    clast_dem_measure(p->dem, &m);
+    CLX_TRY(clx_dem_gather_measures(p->dem, &m));
     const bool is_empty = m.n_grain == 0;
     const double value[N_COLUMN] = {(double)m.step,
                                     m.time,

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "dem/dem.h"
+#include "dem/ranks.h"
 #include "pack/load.h"
 #include "pack/start.h"
 #include <clast/settling.h>
@@ -133,6 +134,35 @@ done:
     return status;
 }
 
+clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm)
+{
+    return clx_dem_share(pack->dem, comm);
+}
+
+clast_status clx_pack_gather(clast_pack *pack)
+{
+    return clx_dem_gather_all(pack->dem);
+}
+
+void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks)
+{
+    clx_rank_counts c = {0};
+    *ranks = (clast_pack_ranks){.n = 1};
+    if (!clx_dem_rank_counts(pack->dem, &c)) {
+        return;
+    }
+    const double steps = c.n_step > 0 ? (double)c.n_step : 1.0;
+    *ranks = (clast_pack_ranks){.n = pack->dem->ranks->comm->n_rank,
+                                .n_idle = c.n_idle,
+                                .n_balance = c.n_balance,
+                                .n_migrated = c.n_migrated,
+                                .ghosts = (double)c.n_ghost / steps,
+                                .step_bytes = (double)c.step_bytes / steps,
+                                .list_bytes = (double)c.list_bytes / steps,
+                                .imbalance = c.imbalance,
+                                .is_zoltan = c.is_zoltan};
+}
+
 void clast_pack_destroy(clast_pack *pack)
 {
     if (pack == NULL) {
@@ -167,13 +197,17 @@ void clx_pack_drive(clast_pack *p)
     clast_dem_set_drive(p->dem, &d);
 }
 
-static void begin_phase(clast_pack *p, clast_pack_phase phase)
+static clast_status begin_phase(clast_pack *p, clast_pack_phase phase)
 {
     CLAST_ASSERT(phase >= p->phase || p->phase == CLAST_PACK_LOAD);
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     p->phase = phase;
     p->phase_step = clast_dem_n_step(p->dem);
     p->last_height = clast_dem_mean_height(p->dem, NULL);
     clx_pack_drive(p);
+done:
+    return status;
 }
 
 /// Longest time in which a grain that reaches above `low` sinks through the whole height [s]: its
@@ -209,7 +243,7 @@ static double sinking_time(const clast_pack *p, double low)
 static const double PATIENCE = 50.0;
 
 /// A bed that grew into the place of generation would wait for ever.
-static clast_status check_waiting(const clast_pack *p, double low)
+static clast_status check_waiting(clast_pack *p, double low)
 {
     clast_status status = CLAST_OK;
     const double waited =
@@ -218,6 +252,7 @@ static clast_status check_waiting(const clast_pack *p, double low)
     if (waited == 0.0 || (gravity > 0.0 && waited <= PATIENCE * sqrt(2.0 * p->tall / gravity))) {
         return CLAST_OK;
     }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     const double sinking = sinking_time(p, low);
     CLX_CHECK(isfinite(sinking), CLAST_E_CONFIG,
               "nothing draws the grains of fill %d down from above %g m (gravity %g m/s2, "
@@ -242,7 +277,7 @@ static clast_status generate_in_cell(clast_pack *p)
               "(width, depth, height), or another generator or spacing: its stages press it "
               "together",
               p->mass, p->config.mass);
-    begin_phase(p, CLAST_PACK_LOAD);
+    CLX_TRY(begin_phase(p, CLAST_PACK_LOAD));
     CLX_TRY(clx_pack_load_begin(p));
 done:
     return status;
@@ -252,22 +287,18 @@ done:
 static clast_status generate(clast_pack *p)
 {
     clast_status status = CLAST_OK;
-    double top = -INFINITY;
+    const double top = p->n_fill > 0 ? clx_dem_highest(p->dem) : -(double)INFINITY;
     if (p->input.start != NULL) {
         CLX_TRY(clx_pack_start_place(p));
-        begin_phase(p, CLAST_PACK_SHAKE);
-        return CLAST_OK;
-    }
-    if (p->n_fill > 0) {
-        (void)clast_dem_mean_height(p->dem, &top);
+        return begin_phase(p, CLAST_PACK_SHAKE);
     }
     if (p->drawn_mass >= p->config.mass && p->n_waiting == 0) {
-        begin_phase(p, CLAST_PACK_SHAKE);
-        return CLAST_OK;
+        return begin_phase(p, CLAST_PACK_SHAKE);
     }
     const double low = clx_pack_fill_low(p);
     if (p->n_fill == 0 || top < low) {
-        CLX_TRY(clx_pack_fill(p));
+        CLX_TRY(clx_dem_gather_grains(p->dem));
+        CLX_TRY(clx_dem_agree(p->dem, clx_pack_fill(p)));
         clx_pack_drive(p);
     }
     CLX_TRY(check_waiting(p, low));
@@ -284,6 +315,7 @@ static clast_status look(clast_pack *p)
     if (since == 0 || since % steps_of(p, c->check_time) != 0) {
         return CLAST_OK;
     }
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     const double height = clast_dem_mean_height(p->dem, NULL);
     const bool is_level = fabs(height - p->last_height) < c->height_change;
     const bool is_slow = clast_dem_max_speed(p->dem) < c->still_speed;
@@ -292,8 +324,7 @@ static clast_status look(clast_pack *p)
                    : c->rule == CLAST_PACK_BY_SPEED ? is_slow
                                                     : is_level || is_slow;
     if (p->converged) {
-        begin_phase(p, CLAST_PACK_DONE);
-        return CLAST_OK;
+        return begin_phase(p, CLAST_PACK_DONE);
     }
     CLX_CHECK((double)since * c->dem.time_step < c->max_damping_time, CLAST_E_CONVERGE,
               "the bed is not still after %g s of damping: its mean height moves by more than %g m "
@@ -312,8 +343,11 @@ static clast_status series_row_due(clast_pack *p)
     if (!is_due) {
         return CLAST_OK;
     }
-    const clast_status status = clx_pack_series_row(p);
-    return status == CLAST_OK ? clx_pack_load_row(p) : status;
+    clast_status status = clx_pack_series_row(p);
+    if (status == CLAST_OK) {
+        status = clx_pack_load_row(p);
+    }
+    return clx_dem_agree(p->dem, status);
 }
 
 /// What is due at this step, before it is taken.
@@ -336,7 +370,7 @@ static clast_status decide(clast_pack *p)
     if (p->phase == CLAST_PACK_SHAKE &&
         (p->config.shaking_time == 0.0 ||
          step - p->phase_step >= steps_of(p, p->config.shaking_time))) {
-        begin_phase(p, CLAST_PACK_DAMP);
+        CLX_TRY(begin_phase(p, CLAST_PACK_DAMP));
     }
     if (p->phase == CLAST_PACK_DAMP) {
         CLX_TRY(look(p));

@@ -101,3 +101,11 @@ void clx_pack_drive(clast_pack *pack);
 
 clast_status clx_pack_series_begin(clast_pack *pack);
 clast_status clx_pack_series_row(clast_pack *pack);
+
+/// Spreads its grains over ranks from the next step on; called by all, as all of its functions then
+/// are. Before the state is read or written, clx_pack_gather brings it to rank 0.
+CLX_SHARED clast_status clx_pack_share(clast_pack *pack, const clast_comm *comm);
+CLX_SHARED clast_status clx_pack_gather(clast_pack *pack);
+
+/// What went between ranks so far.
+CLX_SHARED void clx_pack_count_ranks(const clast_pack *pack, clast_pack_ranks *ranks);

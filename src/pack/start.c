@@ -61,6 +61,8 @@ clast_status clx_pack_start_place(clast_pack *p)
     clast_status status = CLAST_OK;
     const clast_assembly *a = p->input.start;
     clast_dem_grain *grain = NULL;
+    CLX_CHECK(p->dem->ranks == NULL, CLAST_E_CONFIG,
+              "a bed from elsewhere (start) is brought by one process: run it on one rank");
     CLX_TRY(clx_alloc(&grain, a->n_grain, sizeof *grain));
     for (int32_t i = 0; i < a->n_grain; ++i) {
         clast_dem_grain *g = &grain[i];
