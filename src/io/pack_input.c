@@ -301,18 +301,56 @@ done:
     return status;
 }
 
+static clast_status load_shapes(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    CLX_TRY(clx_alloc(&made->shape, config->shapes.n, sizeof *made->shape));
+    CLX_TRY(clx_alloc(&made->hull, config->shapes.n, sizeof *made->hull));
+    for (int32_t i = 0; i < config->shapes.n; ++i) {
+        status = take_shape(config, i, &made->shape[i], &made->hull[made->n_hull]);
+        if (status != CLAST_OK) {
+            clx_fail_prefix("shapes");
+            goto done;
+        }
+        ++made->n_shape;
+        made->n_hull += made->hull[made->n_hull].n_triangle > 0 ? 1 : 0;
+    }
+done:
+    return status;
+}
+
+/// Grains of a start: rows with poses name the configuration's shapes, other files have their own.
+static clast_status read_start(const clast_pack_config *config, clast_pack_source *made)
+{
+    clast_status status = CLAST_OK;
+    clast_table poses = {0};
+    CLX_TRY(clx_start_poses(config, &poses));
+    if (poses.n_column > 0) {
+        CLX_TRY(load_shapes(config, made));
+        CLX_TRY(clx_start_of_poses(config, &poses, made->n_shape, made->shape, &made->start));
+    } else {
+        CLX_CHECK(config->shapes.n == 1 && strcmp(config->shapes.item[0], "sphere") == 0,
+                  CLAST_E_CONFIG, "start brings its shapes: leave out shapes");
+        CLX_TRY(clx_start_read(config, &made->start));
+        const clast_assembly *a = &made->start;
+        CLX_TRY(clx_alloc(&made->shape, a->n_shape, sizeof *made->shape));
+        for (; made->n_shape < a->n_shape; ++made->n_shape) {
+            CLX_TRY(clast_shape_copy(&a->shape[made->n_shape], &made->shape[made->n_shape]));
+        }
+    }
+done:
+    clast_table_free(&poses);
+    return status;
+}
+
 /// A bed from elsewhere: its shapes, and sizes between the least and the greatest of its grains.
 static clast_status load_start(const clast_pack_config *config, clast_pack_source *made)
 {
     clast_status status = CLAST_OK;
     double low = INFINITY;
     double high = 0.0;
-    CLX_TRY(clx_start_read(config, &made->start));
+    CLX_TRY(read_start(config, made));
     const clast_assembly *a = &made->start;
-    CLX_TRY(clx_alloc(&made->shape, a->n_shape, sizeof *made->shape));
-    for (; made->n_shape < a->n_shape; ++made->n_shape) {
-        CLX_TRY(clast_shape_copy(&a->shape[made->n_shape], &made->shape[made->n_shape]));
-    }
     for (int32_t i = 0; i < a->n_grain; ++i) {
         const double size = 2.0 * a->scale[i] * a->shape[a->shape_id[i]].semi_axes[1];
         low = fmin(low, size);
@@ -330,17 +368,7 @@ static clast_status load_grains(const clast_pack_config *config, clast_pack_sour
 {
     clast_status status = CLAST_OK;
     CLX_TRY(load_sizes(config, made));
-    CLX_TRY(clx_alloc(&made->shape, config->shapes.n, sizeof *made->shape));
-    CLX_TRY(clx_alloc(&made->hull, config->shapes.n, sizeof *made->hull));
-    for (int32_t i = 0; i < config->shapes.n; ++i) {
-        status = take_shape(config, i, &made->shape[i], &made->hull[made->n_hull]);
-        if (status != CLAST_OK) {
-            clx_fail_prefix("shapes");
-            goto done;
-        }
-        ++made->n_shape;
-        made->n_hull += made->hull[made->n_hull].n_triangle > 0 ? 1 : 0;
-    }
+    CLX_TRY(load_shapes(config, made));
     made->input = (clast_pack_input){
         .grading = made->grading, .n_shape = made->n_shape, .shape = made->shape};
 done:

@@ -5,6 +5,7 @@
 #include "base/path.h"
 #include <clast/field.h>
 #include <clast/state.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -64,6 +65,121 @@ static clast_status read_spheres(const clast_pack_config *c, clast_assembly *a)
         a->density[i] = c->density.item[0];
     }
 done:
+    return status;
+}
+
+clast_status clx_start_poses(const clast_pack_config *config, clast_table *table)
+{
+    clast_status status = CLAST_OK;
+    clast_table made = {0};
+    if (!clx_path_is(config->start, "csv")) {
+        return CLAST_OK;
+    }
+    CLX_TRY(clast_table_read_csv(config->start, NULL, &made, NULL));
+    if (clast_table_numbers(&made, "qw") != NULL && clast_table_numbers(&made, "scale") != NULL) {
+        *table = made;
+        made = (clast_table){0};
+    }
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_table_free(&made);
+    return status;
+}
+
+/// The three columns x, y, z, whose names may end in a unit; and that unit, or "model".
+static clast_status find_places(const clast_table *t, const double *x[3], char unit[16])
+{
+    clast_status status = CLAST_OK;
+    static const char *const name[3] = {"x", "y", "z"};
+    for (int k = 0; k < 3; ++k) {
+        x[k] = NULL;
+        for (int32_t c = 0; c < t->n_column; ++c) {
+            const char *at = t->column[c].name;
+            const char *end = at[0] != '\0' && at[1] == '_' ? at + 2 : "model";
+            if (at[0] == name[k][0] && (at[1] == '\0' || at[1] == '_') && strlen(end) < 16 &&
+                t->column[c].number != NULL && x[k] == NULL) {
+                CLX_CHECK(k == 0 || strcmp(unit, end) == 0, CLAST_E_FORMAT,
+                          "columns x, y and z are in different units");
+                (void)snprintf(unit, 16, "%s", end);
+                x[k] = t->column[c].number;
+            }
+        }
+        CLX_CHECK(x[k] != NULL, CLAST_E_FORMAT, "there is no column %s", name[k]);
+    }
+done:
+    return status;
+}
+
+static const char *const *text_column(const clast_table *t, const char *name)
+{
+    for (int32_t c = 0; c < t->n_column; ++c) {
+        if (strcmp(t->column[c].name, name) == 0 && t->column[c].text != NULL) {
+            return (const char *const *)t->column[c].text;
+        }
+    }
+    return NULL;
+}
+
+static clast_status add_row(const clast_table *t, int64_t i, const char *const *name,
+                            const double *const x[3], clast_assembly *a)
+{
+    clast_status status = CLAST_OK;
+    static const char *const part[4] = {"qw", "qx", "qy", "qz"};
+    const double *density = clast_table_numbers(t, "density_kg/m^3");
+    const double place[3] = {x[0][i], x[1][i], x[2][i]};
+    double q[4];
+    int32_t shape = 0;
+    while (shape < a->n_shape && strcmp(a->shape[shape].name, name[i]) != 0) {
+        ++shape;
+    }
+    CLX_CHECK(shape < a->n_shape, CLAST_E_FORMAT,
+              "row %lld: shape '%s' is none of shapes, whose names are their numbers and files "
+              "(1-sphere)",
+              (long long)i + 1, name[i]);
+    for (int k = 0; k < 4; ++k) {
+        const double *column = clast_table_numbers(t, part[k]);
+        CLX_CHECK(column != NULL, CLAST_E_FORMAT, "there is no column %s", part[k]);
+        q[k] = column[i];
+    }
+    CLX_CHECK(density != NULL, CLAST_E_FORMAT, "there is no column density_kg/m^3");
+    status = clast_assembly_add_grain(a, shape, place, q, clast_table_numbers(t, "scale")[i],
+                                      density[i]);
+    if (status == CLAST_E_USAGE) {
+        clx_fail_prefix("row %lld", (long long)i + 1);
+        status = CLAST_E_FORMAT;
+    }
+done:
+    return status;
+}
+
+clast_status clx_start_of_poses(const clast_pack_config *config, const clast_table *table,
+                                int32_t n_shape, const clast_shape *shape, clast_assembly *assembly)
+{
+    clast_status status = CLAST_OK;
+    clast_assembly made = {0};
+    const double *x[3];
+    const char *const *name = text_column(table, "shape");
+    CLX_CHECK(name != NULL, CLAST_E_FORMAT, "there is no column shape");
+    CLX_CHECK(config->density.n == 1 && config->density.item[0] == 2650.0, CLAST_E_CONFIG,
+              "density is the table's own; leave it out");
+    CLX_TRY(find_places(table, x, made.unit));
+    for (int32_t i = 0; i < n_shape; ++i) {
+        CLX_TRY(clast_assembly_add_shape(&made, &shape[i], NULL));
+    }
+    for (int64_t i = 0; i < table->n_row; ++i) {
+        CLX_TRY(add_row(table, i, name, x, &made));
+    }
+    CLX_CHECK(made.n_grain > 0, CLAST_E_GEOMETRY, "%s holds no grain", config->start);
+    CLX_TRY(to_metres(config, &made));
+    *assembly = made;
+    made = (clast_assembly){0};
+done:
+    if (status != CLAST_OK) {
+        clx_fail_prefix("start");
+    }
+    clast_assembly_free(&made);
     return status;
 }
 

@@ -45,14 +45,12 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
               CLAST_E_CONFIG, "container_unit %s without a container", c->container_unit);
     const bool has_start = c->start != NULL && c->start[0] != '\0';
     CLX_CHECK(!has_start ||
-                  (strcmp(c->curve, usual->curve) == 0 && c->shapes.n == 1 &&
-                   strcmp(c->shapes.item[0], usual->shapes.item[0]) == 0 &&
-                   c->shape_weight.n == 0 && c->mass == usual->mass && !c->form_law &&
-                   !c->ellipsoids && c->spacing == usual->spacing &&
-                   c->generator == usual->generator && c->density_of == usual->density_of &&
-                   c->initial_speed == usual->initial_speed),
+                  (strcmp(c->curve, usual->curve) == 0 && c->shape_weight.n == 0 &&
+                   c->mass == usual->mass && !c->form_law && !c->ellipsoids &&
+                   c->spacing == usual->spacing && c->generator == usual->generator &&
+                   c->density_of == usual->density_of && c->initial_speed == usual->initial_speed),
               CLAST_E_CONFIG,
-              "start brings the grains: leave out curve, shapes, shape_weight, mass, form_law, "
+              "start brings the grains: leave out curve, shape_weight, mass, form_law, "
               "ellipsoids, spacing, generator, density_of and initial_speed");
     CLX_CHECK(has_start || ((c->start_unit == NULL || c->start_unit[0] == '\0') &&
                             (c->start_columns == NULL || c->start_columns[0] == '\0') &&

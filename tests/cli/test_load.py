@@ -109,6 +109,26 @@ class Load(Case):
         self.assert_fails(3, *hold, "--start", text, "--start-unit", "m", "--start-columns", "x,y,z,r",
                           says=("grains 0 and 1 begin inside of each other",))
 
+    def test_own_tables_of_shapes_and_poses_come_back(self):
+        """What clast export writes of any bodies is a start: the same places and turns."""
+        shapes = ["--shapes", "ellipsoid:1.3,1,0.8", "--shapes", "data/standin63/grain00.ply"]
+        lone = ["--domain", "cell", "--width", "40mm", "--height", "40mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
+                "--stages", "hold until time 1s", "--max-steps", "1", "--quiet"]
+        first = self.folder / "first"
+        again = self.folder / "again"
+        table = self.folder / "bed.csv"
+        made = clast("pack", "--curve", "4mm", "--mass", "2g", "--initial-speed", "0", *shapes, *lone, "-o", first)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertEqual(clast("export", first, "-o", table).code, 0)
+        back = clast("pack", "--start", table, *shapes, *lone, "-o", again)
+        self.assertEqual(back.code, 0, back.err)
+        with open(first / "grains.csv", encoding="utf-8") as a, open(again / "grains.csv", encoding="utf-8") as b:
+            for old, new in zip(csv.DictReader(a), csv.DictReader(b), strict=True):
+                self.assertEqual(old["shape"], new["shape"])
+                for key in old.keys() - {"shape"}:
+                    self.assertAlmostEqual(float(old[key]), float(new[key]), 14, key)
+        self.assert_fails(3, "pack", "--start", table, *shapes[:2], *lone, says=("row", "none of shapes"))
+
     def test_bad_loads_are_said(self):
         self.assert_fails(2, *CELL, says=("without stages",))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10", says=("stage 1", "no pressure"))
