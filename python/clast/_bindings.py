@@ -4041,7 +4041,7 @@ KEYS: dict[str, dict[str, tuple[str, Any, str, float | None, float | None, str |
         'density_weight': ('numbers', '', '-', 0.0, 1.7976931348623157e+308, None, 'chance of each density (by number of grains) with density_of: chance; none: all equal'),
         'mass': ('number', 1.0, 'kg', 1e-15, 1000000000000000.0, None, 'mass of the packing (m_tot)'),
         'seed': ('integer', 1.0, '-', 0.0, 1.8446744073709552e+19, None, 'seed of sizes, forms, turns, velocities'),
-        'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
+        'start': ('text', '', '-', None, None, None, "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)"),
         'start_unit': ('text', '', '-', None, None, None, 'length unit of the start, where it does not say'),
         'start_columns': ('text', '', '-', None, None, None, 'columns of its spheres in their order: id,x,y,z,d'),
         'start_diameter': ('number', 0.0, 'm', 0.0, 1000000.0, None, 'of all its spheres; 0: as the file says'),

@@ -1093,7 +1093,7 @@ def pack(
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
-        start: packing to begin with, in place of grains that are made: a run of clast (state.h5), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
+        start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
         start_unit: length unit of the start, where it does not say (no default)
         start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
         start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)

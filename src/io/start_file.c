@@ -127,6 +127,7 @@ static clast_status add_row(const clast_table *t, int64_t i, const char *const *
 {
     clast_status status = CLAST_OK;
     static const char *const part[4] = {"qw", "qx", "qy", "qz"};
+    CLAST_ASSERT(x[0] != NULL && x[1] != NULL && x[2] != NULL);
     const double *density = clast_table_numbers(t, "density_kg/m^3");
     const double place[3] = {x[0][i], x[1][i], x[2][i]};
     double q[4];
