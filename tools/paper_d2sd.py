@@ -472,8 +472,9 @@ def main():
             print("\n".join(part_lines(name, argument.get(name))))
         return
     lines = ["# D2SD: paper and reference beside ours", "",
-             "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Reference: the prototype",
-             "whose numbers the specification lists. Paper: Martinez Rodriguez et al. 2021.", ""]
+             "Made by `tools/paper_d2sd.py` (deviations are shown as they are; nothing was tuned). Paper: Martinez",
+             "Rodriguez et al., Appl. Math. Modelling 90 (2021) 582-614, whose equations and tables are meant. Reference: a plain prototype of",
+             "these equations in Python, not published.", ""]
     for name in parts:
         lines += part_lines(name, argument.get(name))
     pathlib.Path(args.output).write_text("\n".join(lines))

@@ -348,7 +348,8 @@ static clast_status iterate(work *w, clast_decomposition *result)
         }
         result->pass[result->n_pass++] = pass;
         if (again) {
-            CLX_TRY(clx_uniformity_decide(w->u, w->n, w->passes->bins.d, &w->vote, &reject));
+            const clx_part part = clx_part_whole(w->u, w->n, w->passes->bins.d);
+            CLX_TRY(clx_uniformity_decide(&part, &w->vote, &reject));
             if (!reject) {
                 result->stop = CLAST_STOP_UNIFORM;
                 break;

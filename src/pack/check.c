@@ -42,6 +42,20 @@ static clast_status check_unused(const clast_pack_config *c, const clast_pack_co
               "out");
     CLX_CHECK(has_container || c->container_unit == NULL || c->container_unit[0] == '\0',
               CLAST_E_CONFIG, "container_unit %s without a container", c->container_unit);
+    const bool is_cell = d->domain == CLAST_DEM_CELL;
+    CLX_CHECK(!is_cell || (c->shaking_time == usual->shaking_time &&
+                           c->shake_amplitude == usual->shake_amplitude &&
+                           c->damping == usual->damping && c->fill_low == usual->fill_low &&
+                           c->fill_high == usual->fill_high && c->first_low == usual->first_low &&
+                           c->first_high == usual->first_high && c->trim == usual->trim),
+              CLAST_E_CONFIG,
+              "domain cell is filled whole, and loaded by its stages: leave out shaking_time, "
+              "shake_amplitude, damping, fill_low, fill_high, first_low, first_high and trim");
+    CLX_CHECK(is_cell ||
+                  (c->load_rate == usual->load_rate && c->load_tolerance == usual->load_tolerance &&
+                   c->load_rest == usual->load_rest && c->max_load_time == usual->max_load_time),
+              CLAST_E_CONFIG,
+              "load_rate, load_tolerance, load_rest and max_load_time act in domain cell alone");
     CLX_CHECK(d->domain != CLAST_DEM_CYLINDER || d->depth == 0.0, CLAST_E_CONFIG,
               "depth %g m: a cylinder has a width alone", d->depth);
     CLX_CHECK(d->law == CLAST_DEM_HERTZ || d->young == u->young, CLAST_E_CONFIG,

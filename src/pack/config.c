@@ -100,6 +100,20 @@ const clast_field clast_pack_fields[] = {
      NULL, .common = true},
     NUMBER(max_damping_time, 20, 0, 1e9, "s", "give up when the bed is not still by then"),
 
+    {FIELD(TEXT_LIST, stages), 0, 0, 0, "-",
+     "stages that load a bed in domain cell, one after the other: isotropic P, oedometer P, "
+     "triaxial P RATE, shear RATE [P], hold, or x=, y=, z=, xz= (10kPa a pressure, 0.1/s a rate, "
+     "above 0 pressing); then until rest, strain E, stress P or time T",
+     "", .group = "load"},
+    NUMBER(load_rate, 1, 1e-9, 1e9, "1/s",
+           "rate of strain at which a pressure is approached, at most"),
+    NUMBER(load_tolerance, 0.01, 1e-9, 1, "-", "share of a pressure within which it is reached"),
+    NUMBER(
+        load_rest, 1e-3, 1e-12, 1, "-",
+        "a loaded bed rests when the mean force on a grain over that of a contact is below this"),
+    NUMBER(max_load_time, 20, 0, 1e9, "s", "give up when a stage has not come to its end by then"),
+    FLAG(energy, 0, "book the work of all forces by kind: load.csv, energy_book.svg"),
+
     NUMBER(layer, 1e-3, 1e-12, 1e6, "m", "slices of the porosity profile (h_p)",
            .group = "measures"),
     NUMBER(cut, 0.5, 0, 1, "-", "the bed ends where the porosity is this (n cut-off)"),

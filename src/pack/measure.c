@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "dem/body.h"
 #include "dem/dem.h"
+#include "dem/ranks.h"
 #include "pack/pack.h"
 #include <math.h>
 #include <string.h>
@@ -49,7 +50,7 @@ clast_status clx_pack_series_row(clast_pack *p)
                         "shorter collision_time and time_step",
                         lost, (long long)clast_dem_n_step(p->dem));
     }
-    clast_dem_measure(p->dem, &m);
+    CLX_TRY(clx_dem_gather_measures(p->dem, &m));
     const bool is_empty = m.n_grain == 0;
     const double value[N_COLUMN] = {(double)m.step,
                                     m.time,
@@ -143,6 +144,14 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     r->walls = clast_bed_side_walls(&bed, &a);
     measure_ratio(&a, 1, r->flatness);
     measure_ratio(&a, 0, r->elongation);
+    if (p->dem->cell != NULL) { // all of it, without a floor or a top
+        const double *side = p->dem->cell->side;
+        r->porosity = 1.0 - r->load.solid / r->load.volume;
+        r->z_low = 0.0;
+        r->z_high = r->top = side[2];
+        r->untrimmed = r->porosity;
+        goto done;
+    }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     whole.trim = 0.0;
     if (clast_porosity_measure(&a, &bed, &whole, &profile, &bulk) == CLAST_OK) {
@@ -224,6 +233,9 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .grain_steps = pack->grain_steps};
     int32_t first = -1;
     clast_dem_measure(pack->dem, &r.dem);
+    clast_dem_read_cell(pack->dem, &r.cell);
+    CLX_TRY(clast_dem_load_measure(pack->dem, &r.load));
+    clast_dem_energy_measure(pack->dem, &r.energy);
     r.n_outside = clx_pack_n_outside(pack, &first);
     measure_motion(pack, &r);
     CLX_TRY(count_loose(pack, &r));
