@@ -5,7 +5,6 @@
 #include "study_grains.h"
 
 #include <clast/chart.h>
-#include <clast/porosity_fit.h>
 #include <clast/porosity_model.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>

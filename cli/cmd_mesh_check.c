@@ -2,7 +2,8 @@
 #include "command.h"
 #include "mesh_words.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 
 #include <stdio.h>
 

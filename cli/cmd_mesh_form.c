@@ -3,7 +3,8 @@
 #include "mesh_words.h"
 
 #include <clast/form.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 #include "mesh_words.h"
 
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <math.h>
 

@@ -6,7 +6,7 @@
 
 #include <clast/form.h>
 #include <clast/harmonics.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/table.h>
 
 #include <math.h>

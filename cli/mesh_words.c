@@ -1,7 +1,8 @@
 // Words and JSON of a surface check.
 #include "mesh_words.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <math.h>
 #include <stdio.h>
 

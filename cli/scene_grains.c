@@ -2,7 +2,7 @@
 #include "scene.h"
 
 #include <clast/grain.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>

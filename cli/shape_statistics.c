@@ -3,6 +3,7 @@
 
 #include "json.h"
 
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 

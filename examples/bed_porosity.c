@@ -1,7 +1,9 @@
 // Porosity of a bed of one's own: spheres on a cubic lattice in a box, against 1 - pi/6.
 //
 //     cc bed_porosity.c $(pkg-config --cflags --libs clast) && ./a.out
+#include <clast/assembly.h>
 #include <clast/porosity.h>
+#include <clast/shape.h>
 #include <stdio.h>
 
 enum { N = 10 }; // spheres along an edge, 1 mm in radius

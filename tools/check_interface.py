@@ -53,7 +53,7 @@ def problems():
     names, n_declared = called(), 0
     for path in sorted((ROOT / "include/clast").glob("*.h")):
         here = {f"clast_{noun}" for noun in [path.stem, path.stem.split("_")[0], *NOUNS.get(path.stem, "").split()]}
-        here |= set(re.findall(r"\b(clast_\w+);", path.read_text()))  # its types
+        here |= {one for pair in re.findall(r"\b(clast_\w+);|^struct (clast_\w+) [{]", path.read_text(), flags=re.M) for one in pair if one}  # its types
         for name, line, has_comment, types in declarations(path):
             n_declared += 1
             where = f"{path.relative_to(ROOT)}:{line}: {name}"

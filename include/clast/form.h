@@ -1,7 +1,5 @@
 #pragma once
-#include <clast/mesh.h>
 #include <clast/status.h>
-#include <clast/table.h>
 #include <math.h>
 
 CLAST_BEGIN

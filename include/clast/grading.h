@@ -1,6 +1,5 @@
 #pragma once
 #include <clast/status.h>
-#include <clast/table.h>
 
 // Sizes of grains: sieve curves by mass, what they mean by number, and draws from them.
 //                                     [docs/theory/grading.md; Rettinger et al. 2022, section 3.2]

@@ -36,7 +36,7 @@ enum { CLAST_COMM_WORDS = 3 };
 
 /// One rank's view of all. Functions are called from one thread of each rank. A failure between
 /// ranks is not reported here: as in MPI it ends all of them.
-typedef struct clast_comm {
+struct clast_comm {
     int32_t rank; ///< of this process, 0 .. n_rank - 1
     int32_t n_rank;
     /// Sends a message to another rank and returns at once; messages between two ranks keep their
@@ -52,7 +52,7 @@ typedef struct clast_comm {
     /// each, and `all` matter there only.
     void (*gather)(void *context, const void *bytes, int64_t n, const int64_t *count, void *all);
     void *context;
-} clast_comm;
+};
 
 /// The only rank of one.
 CLAST_API const clast_comm *clast_comm_one(void);

@@ -1,6 +1,5 @@
 #pragma once
-#include <clast/cloud.h>
-#include <clast/domain.h>
+#include <clast/field.h>
 #include <clast/table.h>
 
 CLAST_BEGIN

@@ -1,5 +1,4 @@
 #pragma once
-#include <clast/assembly.h>
 #include <clast/table.h>
 
 // Porosity of a bed: its profile with height, its bulk value, and where the bed lies.

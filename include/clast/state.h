@@ -1,6 +1,6 @@
 #pragma once
-#include <clast/assembly.h>
-#include <clast/table.h>
+#include <clast/shape.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 

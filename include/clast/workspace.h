@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/agglomerate.h>
 #include <clast/decompose.h>
+#include <clast/field.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 

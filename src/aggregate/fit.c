@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include <clast/structure.h>
+#include <clast/assembly.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include <clast/assembly.h>
-#include <clast/structure.h>
 #include <math.h>
 #include <stdio.h>
 

@@ -10,6 +10,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
 #include <clast/form.h>

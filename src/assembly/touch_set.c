@@ -6,6 +6,7 @@
 #include "math/vec3.h"
 #include "touch/gap.h"
 #include "touch/tree.h"
+#include <clast/shape.h>
 #include <stdlib.h>
 
 void clx_touch_set_free(clx_touch_set *set)

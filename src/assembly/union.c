@@ -15,10 +15,13 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
 #include "touch/gap.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 
 enum { N_SHIFT = 8, FIRST_POINTS = 256, BISECTIONS = 24, PAIR_BLOCK = 64 };
 static const double touching = 1e-9; // depth by radius that counts as a touch, not an overlap

@@ -1,8 +1,11 @@
 #pragma once
 // The union's volume where the grains lie in a scene of contact already.
-#include "assembly/touch_set.h"
 #include "touch/scene.h"
-#include <clast/assembly.h>
+
+typedef struct clast_union clast_union;
+typedef struct clast_union_options clast_union_options;
+typedef struct clx_pairs clx_pairs;
+typedef struct clx_touch_set clx_touch_set;
 
 /// clast_assembly_union of grains whose true solids are the scene's bodies: body i is grain i. It
 /// spares the trees of the shapes, which for a small aggregate cost as much as the rest.

@@ -3,7 +3,7 @@
 //
 // Faces are periodic, so that no point lacks neighbours and the mean is exact. Neighbours are found
 // in a balanced tree of medians whatever the density.
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 #include "base/alloc.h"
 #include "base/parallel.h"

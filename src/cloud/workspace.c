@@ -6,6 +6,7 @@
 #include "cloud/decompose_steps.h"
 #include "cloud/reuse.h"
 #include "math/special.h"
+#include <clast/agglomerate.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 // A simulation: made, filled with grains, stepped.
 #include <clast/dem.h>
 
+#include "base/alloc.h"
 #include "base/lines.h"
 #include "dem/dem.h"
 #include "dem/fluid.h"

@@ -7,7 +7,7 @@
 #include "io/config_files.h"
 #include "io/shape_word.h"
 #include <clast/fill.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
 #include <clast/state.h>

@@ -2,6 +2,8 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
+#include "base/whole.h"
 #include "cloud/contract.h"
 #include "cloud/surface.h"
 #include "cloud/whole.h"

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "io/json.h"
+#include <clast/field.h>
 #include <math.h>
 #include <string.h>
 

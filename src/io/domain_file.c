@@ -1,9 +1,10 @@
 // Domains named on the command line; those bounded by a surface are read from its file.
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 #include "base/status.h"
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -4,8 +4,10 @@
 #include "assembly/whole.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/state.h>
 #include <clast/table.h>
 #include <string.h>
 

@@ -4,9 +4,13 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <clast/field.h>
+#include <clast/shape.h>
+#include <clast/state.h>
+#include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -14,7 +14,6 @@
 #include <clast/form.h>
 #include <clast/harmonics.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/volume.h>
 #include <stdio.h>

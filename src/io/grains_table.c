@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include <clast/field.h>
 #include <clast/form.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,9 +1,11 @@
 // Surfaces from files and to files: which format, and the way there and back.
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "io/mesh_io.h"
 #include <clast/field.h>

@@ -12,7 +12,6 @@
 #include <clast/form.h>
 #include <clast/grading.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
 #include <clast/state.h>

@@ -1,6 +1,6 @@
 #pragma once
 // One reader for each format of clast_cloud_read: the whole file to a table.
-#include <clast/cloud.h>
+#include <clast/status.h>
 
 clast_status clx_points_vtk(const char *name, const void *bytes, size_t n, clast_table *table);
 clast_status clx_points_vtx(const char *name, const void *bytes, size_t n, clast_table *table);

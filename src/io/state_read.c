@@ -4,6 +4,8 @@
 
 #include "base/alloc.h"
 #include "io/state_path.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

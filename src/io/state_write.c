@@ -6,6 +6,8 @@
 #include "base/whole.h"
 #include "io/state_path.h"
 #include "shape/whole.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <string.h>
 
 /// One array under a folder.

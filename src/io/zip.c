@@ -2,6 +2,7 @@
 #include "io/zip.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
 #include "io/bytes.h"
 #include <stdarg.h>

@@ -5,6 +5,7 @@
 // the job, as is MPI's default.
 #include <clast/mpi.h>
 
+#include <clast/machine.h>
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "math/rng.h"
 #include "pack/pack.h"
 #include "shape/curve.h"
+#include <clast/shape.h>
 #include <math.h>
 
 /// The configured one, or that of the shape's own parts.

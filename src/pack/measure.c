@@ -3,6 +3,7 @@
 #include "dem/body.h"
 #include "dem/dem.h"
 #include "pack/pack.h"
+#include <clast/assembly.h>
 #include <math.h>
 #include <string.h>
 

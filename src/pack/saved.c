@@ -2,6 +2,7 @@
 #include "pack/saved.h"
 
 #include "base/alloc.h"
+#include <clast/shape.h>
 #include <math.h>
 #include <string.h>
 

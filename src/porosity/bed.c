@@ -6,7 +6,9 @@
 #include "base/status.h"
 #include "base/whole.h"
 #include "porosity/whole.h"
+#include <clast/assembly.h>
 #include <clast/field.h>
+#include <clast/mesh.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // Beds with their candidate features, from tables.
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 
 #include "base/alloc.h"
 #include "base/number.h"

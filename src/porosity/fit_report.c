@@ -7,6 +7,9 @@
 #include "math/least_squares.h"
 #include "math/special.h"
 #include "porosity/model.h"
+#include <clast/field.h>
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,12 +3,14 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/bootstrap.h"
 #include "math/sample.h"
 #include "porosity/form_inputs.h"
 #include "porosity/model.h"
 #include "porosity/whole.h"
 #include "shape/whole.h"
+#include <clast/statistics.h>
 #include <math.h>
 #include <string.h>
 

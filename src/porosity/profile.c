@@ -8,6 +8,9 @@
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
+#include <clast/assembly.h>
+#include <clast/mesh.h>
+#include <clast/shape.h>
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
 

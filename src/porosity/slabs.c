@@ -11,11 +11,15 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "math/quadrature.h"
 #include "math/vec3.h"
 #include "porosity/discs.h"
 #include "porosity/slabs.h"
 #include "shape/whole.h"
+#include <clast/assembly.h>
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <stdlib.h>
 #include <string.h>
 

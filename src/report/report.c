@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include "report/figures.h"
 #include "report/page.h"
 #include "report/provenance.h"

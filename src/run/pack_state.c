@@ -7,6 +7,7 @@
 #include "io/state.h"
 #include "pack/saved.h"
 #include "run/checkpoint.h"
+#include <clast/assembly.h>
 #include <string.h>
 
 enum { N_ARRAY = 12 };

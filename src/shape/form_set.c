@@ -7,6 +7,7 @@
 #include "base/whole.h"
 #include "shape/whole.h"
 #include <clast/field.h>
+#include <clast/table.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>

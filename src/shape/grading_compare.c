@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "shape/curve.h"
+#include <clast/table.h>
 #include <math.h>
 #include <stdlib.h>
 

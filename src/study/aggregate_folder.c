@@ -5,9 +5,9 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/state.h"
-#include <clast/mesh_file.h>
+#include <clast/assembly.h>
+#include <clast/mesh.h>
 #include <clast/run_folder.h>
-#include <clast/structure.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>

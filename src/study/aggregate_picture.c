@@ -8,9 +8,10 @@
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/chart.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/render.h>
+#include <clast/table.h>
 
 enum { PICTURE_WIDTH = 960, PICTURE_HEIGHT = 720 };
 

@@ -5,6 +5,8 @@
 #include "study/aggregate_repeats.h"
 
 #include "base/alloc.h"
+#include <clast/machine.h>
+#include <clast/table.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,6 +3,7 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

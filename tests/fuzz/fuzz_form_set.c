@@ -1,5 +1,6 @@
 // Fuzz: tables of grains, from text to a prediction.
 #include <clast/porosity_model.h>
+#include <clast/statistics.h>
 #include <clast/table.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

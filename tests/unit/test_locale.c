@@ -5,7 +5,7 @@
 #include <clast/aggregate_run.h>
 #include <clast/chart.h>
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/porosity.h>
 #include <clast/state.h>
 #include <clast/table.h>

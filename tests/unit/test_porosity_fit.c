@@ -8,7 +8,7 @@
 #include "support.h"
 
 #include "math/rng.h"
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
