@@ -18,7 +18,7 @@ clast_status cli_shape_statistics(const char *command, const clast_table *grains
     if (status != CLAST_OK) {
         return status;
     }
-    clast_form_set_complaint(&statistics->set, complaint, sizeof complaint);
+    clast_form_set_complaint(&statistics->set, sizeof complaint, complaint);
     if (complaint[0] != '\0') {
         (void)fprintf(stderr, "clast %s: statistics: %s\n", command, complaint);
     }

@@ -41,7 +41,7 @@ int main(void)
         status = clast_porosity_profile(&assembly, &bed, &options, &profile);
     }
     if (status == CLAST_OK) {
-        status = clast_porosity_measure(&assembly, &bed, &options, &profile, &bulk);
+        status = clast_porosity_measure(&assembly, &bed, &profile, &options, &bulk);
     }
     if (status == CLAST_OK) {
         const double *porosity = clast_table_numbers(&profile, "porosity");

@@ -369,13 +369,14 @@ CLAST_API void clast_decomposition_free(clast_decomposition *result);
 /// every 10 degrees.
 ///
 /// @return CLAST_E_LIMIT beyond 2^31 corners; CLAST_E_DISK
-CLAST_API clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *result,
-                                             const clast_domain *domain);
+CLAST_API clast_status clast_cells_write_vtu(const clast_decomposition *result,
+                                             const clast_domain *domain, const char *path);
 
 /// Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass,
 /// weight and velocity where the cloud has them; -1 and 0 for points left out.
-CLAST_API clast_status clast_decomposition_write_points(const char *path, const clast_cloud *cloud,
-                                                        const clast_decomposition *result,
-                                                        const clast_domain *domain);
+CLAST_API clast_status clast_decomposition_write_points(const clast_decomposition *result,
+                                                        const clast_cloud *cloud,
+                                                        const clast_domain *domain,
+                                                        const char *path);
 
 CLAST_END

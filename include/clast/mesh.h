@@ -203,7 +203,7 @@ typedef struct clast_mesh_write_options {
 /// @param options  may be NULL
 /// @return CLAST_E_USAGE for an unknown extension or 3MF without unit; CLAST_E_GEOMETRY for
 ///         coordinates that are not finite or do not fit the format; CLAST_E_DISK (nothing is left)
-CLAST_API clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
+CLAST_API clast_status clast_mesh_write(const clast_mesh *mesh, const char *path,
                                         const clast_mesh_write_options *options);
 
 CLAST_END

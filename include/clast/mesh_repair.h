@@ -227,14 +227,14 @@ CLAST_API clast_status clast_mesh_read_welded(const char *path, clast_mesh *mesh
 /// @param otherwise  what else the caller's user can do, for the message; NULL: nothing
 /// @return CLAST_E_GEOMETRY with the counts that `clast mesh check` gives and the command that
 ///         closes this file (clast_mesh_cure)
-CLAST_API clast_status clast_mesh_require_solid(const char *path, const clast_mesh *mesh,
+CLAST_API clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
                                                 const char *otherwise);
 
 /// The shell command that makes a file's surface closed and outward, tried here in memory:
 /// "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.
 ///
 /// @param command  [size]; "" when repair does not help
-CLAST_API clast_status clast_mesh_cure(const char *path, const clast_mesh *mesh, char *command,
-                                       size_t size);
+CLAST_API clast_status clast_mesh_cure(const clast_mesh *mesh, const char *path, size_t size,
+                                       char *command);
 
 CLAST_END

@@ -88,8 +88,8 @@ typedef enum {
 ///
 /// @param disagree  whether both are resolved and their intervals have no number in common, or
 /// NULL
-CLAST_API clast_estimate clast_estimate_choose(clast_estimator estimator,
-                                               const clast_estimate *cells,
-                                               const clast_estimate *pairs, bool *disagree);
+CLAST_API clast_estimate clast_estimate_choose(const clast_estimate *cells,
+                                               const clast_estimate *pairs,
+                                               clast_estimator estimator, bool *disagree);
 
 CLAST_END

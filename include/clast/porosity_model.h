@@ -26,7 +26,7 @@ enum { CLAST_N_MIXTURE_FEATURE = 4 * CLAST_N_FORM_FEATURE };
 
 /// Name of feature 0 .. 103 into text: "mean_equancy", "deviation_inverse_equancy",
 /// "inverse_mean_equancy", "inverse_deviation_elongation"; false beyond.
-CLAST_API bool clast_mixture_feature_name(int32_t feature, char *text, size_t size);
+CLAST_API bool clast_mixture_feature_name(int32_t feature, size_t size, char *text);
 
 /// Number of the named feature, or -1.
 CLAST_API int32_t clast_mixture_feature_find(const char *name);
@@ -270,9 +270,9 @@ typedef struct clast_porosity_fit {
 /// features
 /// @note n_term m (n_fold n_repeat + 1) small regressions for m candidates, as often again as there
 /// are folds, repeats and permutations; threads share those, the bytes do not depend on them
-CLAST_API clast_status clast_porosity_fit_data(const clast_fit_data *data,
+CLAST_API clast_status clast_porosity_fit_data(const clast_fit_data *data, const char *name,
+                                               const char *source,
                                                const clast_porosity_fit_config *config,
-                                               const char *name, const char *source,
                                                clast_porosity_fit *fit);
 CLAST_API void clast_porosity_fit_free(clast_porosity_fit *fit);
 

@@ -112,7 +112,7 @@ CLAST_API clast_status clast_spheres_read(const char *path, const char *name,
 /// @param unit  of the coordinates ("um"), or NULL: model units
 /// @return CLAST_E_USAGE for another extension, or a state file in another unit; CLAST_E_DISK;
 ///         CLAST_E_FORMAT when the existing state file is damaged (it is left as it is)
-CLAST_API clast_status clast_spheres_write(const char *path, const char *name,
-                                           const clast_spheres *spheres, const char *unit);
+CLAST_API clast_status clast_spheres_write(const clast_spheres *spheres, const char *path,
+                                           const char *name, const char *unit);
 
 CLAST_END

@@ -367,6 +367,19 @@ done:
     return status;
 }
 
+void clx_contacts_replace(clast_assembly *assembly, clast_assembly *made)
+{
+    CLAST_ASSERT(assembly->n_grain == made->n_grain);
+    clx_free(assembly->contact);
+    clx_free(assembly->contact_point);
+    assembly->contact = made->contact;
+    assembly->contact_point = made->contact_point;
+    assembly->n_contact = made->n_contact;
+    assembly->contact_capacity = made->contact_capacity;
+    made->contact = NULL;
+    made->contact_point = NULL;
+}
+
 clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
 {
     CLX_ARGUMENTS(assembly);
@@ -388,14 +401,7 @@ clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
         CLX_TRY(clx_alloc(&made.contact_point, 1, sizeof *made.contact_point));
         made.contact_capacity = 1;
     }
-    clx_free(assembly->contact);
-    clx_free(assembly->contact_point);
-    assembly->contact = made.contact;
-    assembly->contact_point = made.contact_point;
-    assembly->n_contact = made.n_contact;
-    assembly->contact_capacity = made.contact_capacity;
-    made.contact = NULL;
-    made.contact_point = NULL;
+    clx_contacts_replace(assembly, &made);
 done:
     clx_free(made.contact);
     clx_free(made.contact_point);

@@ -12,6 +12,9 @@ typedef struct clx_touch_set clx_touch_set;
 clast_status clx_union_of_scene(const clast_assembly *assembly, clx_touch_scene *scene,
                                 const clast_union_options *options, clast_union *out);
 
+/// Puts the contacts that `made` carries in place of the assembly's; `made` has none then.
+void clx_contacts_replace(clast_assembly *assembly, clast_assembly *made);
+
 /// Keeps the pairs that overlap: n_overlap, max_overlap and max_overlap_share of `out`.
 ///
 /// @param find_depth  false: the depths are NaN

@@ -15,7 +15,7 @@ static clast_status read_mesh(const char *path, double scale, clast_domain *doma
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
-    CLX_TRY(clast_mesh_require_solid(path, &mesh, NULL));
+    CLX_TRY(clast_mesh_require_solid(&mesh, path, NULL));
     status = clast_domain_of_mesh(&mesh, scale, domain);
     if (status != CLAST_OK) {
         char why[512];

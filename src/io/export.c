@@ -120,7 +120,7 @@ static clast_status write_threemf(const clast_assembly *assembly, int level, con
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &all));
     }
-    CLX_TRY(clast_mesh_write(path, &all, &options));
+    CLX_TRY(clast_mesh_write(&all, path, &options));
     report->n_vertex = all.n_vert;
     report->n_triangle = all.n_tri;
 done:

@@ -164,7 +164,7 @@ static clast_status write_format(clast_mesh_format format, const clast_mesh *mes
     }
 }
 
-clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
+clast_status clast_mesh_write(const clast_mesh *mesh, const char *path,
                               const clast_mesh_write_options *options)
 {
     CLX_ARGUMENTS(path, mesh);

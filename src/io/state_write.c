@@ -289,7 +289,7 @@ done:
     return status;
 }
 
-clast_status clast_state_write_assembly(const char *path, const clast_assembly *assembly,
+clast_status clast_state_write_assembly(const clast_assembly *assembly, const char *path,
                                         const char *config)
 {
     CLX_ARGUMENTS(path, assembly);
@@ -316,8 +316,8 @@ done:
     return status;
 }
 
-clast_status clast_state_write_spheres(const char *path, const char *name,
-                                       const clast_spheres *spheres, const char *unit)
+clast_status clast_state_write_spheres(const clast_spheres *spheres, const char *path,
+                                       const char *name, const char *unit)
 {
     CLX_ARGUMENTS(path, name, spheres, unit);
     CLX_WHOLE(spheres, spheres);

@@ -167,8 +167,8 @@ static double core_area(const clast_bed *bed, double depth, double ramp)
 }
 
 clast_status clast_porosity_core_measure(const clast_assembly *assembly, const clast_bed *bed,
-                                         const clast_porosity_options *options,
                                          const clast_porosity_bulk *bulk, double n_size,
+                                         const clast_porosity_options *options,
                                          clast_porosity_core *core)
 {
     CLX_ARGUMENTS(assembly, bed, options, bulk, core);

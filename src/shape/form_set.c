@@ -334,7 +334,7 @@ static void put_rows(const clast_form_set *set, char *text, size_t size, size_t 
     }
 }
 
-void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
+void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text)
 {
     if (clx_form_set_fault(set) != NULL || text == NULL || size == 0) {
         return;

@@ -15,7 +15,7 @@ static void use(const clast_table *table)
     if (clast_form_set_of(table, NULL, &set) != CLAST_OK) {
         return;
     }
-    clast_form_set_complaint(&set, text, sizeof text);
+    clast_form_set_complaint(&set, sizeof text, text);
     if (clast_form_set_factors(&set, &factors) == CLAST_OK &&
         clast_statistics_of(&factors, &few, &statistics) == CLAST_OK) {
         clast_statistics_free(&statistics);
