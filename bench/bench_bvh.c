@@ -6,7 +6,7 @@
 #include "support.h"
 
 #include <clast/machine.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <stdio.h>
 #include <time.h>
 

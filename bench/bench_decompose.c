@@ -3,6 +3,7 @@
 // `bench_decompose 1e7` runs one size alone.
 #include "math/rng.h"
 
+#include <clast/cloud.h>
 #include <clast/decompose.h>
 #include <clast/machine.h>
 #include <math.h>

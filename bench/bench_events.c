@@ -10,6 +10,7 @@
 // square, for n is known.
 #include "math/rng.h"
 
+#include <clast/cloud.h>
 #include <clast/decompose.h>
 #include <math.h>
 #include <stdio.h>

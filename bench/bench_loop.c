@@ -11,7 +11,10 @@
 //                                   not resolve the cloud
 #include "drifting.h"
 
+#include <clast/cloud.h>
+#include <clast/decompose.h>
 #include <clast/machine.h>
+#include <clast/pairs.h>
 #include <clast/workspace.h>
 #include <math.h>
 #include <stdio.h>

@@ -83,7 +83,7 @@ int main(void)
     failed += write_ascii(path, &mesh) + measure("stl_ascii", path);
     for (int i = 0; i < 4; ++i) {
         (void)snprintf(path, sizeof path, "%s/scan.%s", support_scratch(), names[i]);
-        failed += clast_mesh_write(path, &mesh, NULL) != CLAST_OK || measure(names[i], path) != 0;
+        failed += clast_mesh_write(&mesh, path, NULL) != CLAST_OK || measure(names[i], path) != 0;
     }
     clast_mesh_free(&mesh);
     return failed != 0;

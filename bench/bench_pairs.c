@@ -9,6 +9,7 @@
 // holds.
 #include "math/rng.h"
 
+#include <clast/cloud.h>
 #include <clast/machine.h>
 #include <clast/pairs.h>
 #include <math.h>

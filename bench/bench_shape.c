@@ -28,7 +28,7 @@ static int bench_mass(void)
     double mass_time = 1e30;
     (void)snprintf(path, sizeof path, "%s/bench_shape.stl", support_scratch());
     if (clast_mesh_ellipsoid((double[3]){1.1, 2.3, 3.7}, 6, &scan) != CLAST_OK ||
-        clast_mesh_write(path, &scan, NULL) != CLAST_OK) {
+        clast_mesh_write(&scan, path, NULL) != CLAST_OK) {
         return 1;
     }
     for (int r = 0; r < N_REPEAT; ++r) {

@@ -13,7 +13,7 @@
 #include "touch/scene.h"
 #include "touch/tree.h"
 #include "touch_bodies.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -244,7 +244,7 @@ static clast_status evolve(const cli_box *box, const clast_agglomerate_config *a
     if (c.initial == CLAST_INITIAL_TABLE) {
         CLI_TRY(read_start(box, &table, &start));
     }
-    status = clast_spectrum_evolve(&c, &collide, &start, result);
+    status = clast_spectrum_evolve(&start, &c, &collide, result);
     if (status == CLAST_E_FORMAT && start.n > 0) {
         char words[1024];
         (void)snprintf(words, sizeof words, "%s", clast_error_detail());

@@ -48,8 +48,8 @@ static bool is_default(const clast_field *fields, const clast_field *field, cons
     }
     is_same = clast_field_count(field, config) == clast_field_count(field, plain);
     for (int32_t k = 0; k < clast_field_count(field, config) && is_same; ++k) {
-        (void)clast_field_format(field, config, k, value, sizeof value);
-        (void)clast_field_format(field, plain, k, usual, sizeof usual);
+        (void)clast_field_format(field, config, k, sizeof value, value);
+        (void)clast_field_format(field, plain, k, sizeof usual, usual);
         is_same = strcmp(value, usual) == 0;
     }
     clast_fields_free(fields, plain);
@@ -138,7 +138,7 @@ static clast_status check_used(const options *o, const char *option, const char 
         return CLAST_OK;
     }
     (void)clast_field_format(clast_fields_find(clast_agglomerate_fields, by), &o->agglomerate, 0,
-                             word, sizeof word);
+                             sizeof word, word);
     return cli_fail(CLAST_E_USAGE, "--%s does nothing with --%s %s", option,
                     strcmp(by, "radius_law") == 0 ? "radius-law" : by, word);
 }

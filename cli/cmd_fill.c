@@ -92,7 +92,7 @@ static clast_status save(const cli_common *common, const clast_fill_config *conf
     clast_table history = {0};
     clast_status status = CLAST_OK;
     if (common->output != NULL) {
-        CLI_TRY(clast_spheres_write(common->output, name, spheres, NULL));
+        CLI_TRY(clast_spheres_write(spheres, common->output, name, NULL));
     }
     if (config->history[0] != '\0') {
         CLI_TRY(clast_fill_history(mesh, spheres, &history));

@@ -5,7 +5,6 @@
 #include "study_grains.h"
 
 #include <clast/chart.h>
-#include <clast/porosity_fit.h>
 #include <clast/porosity_model.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>
@@ -281,7 +280,7 @@ static clast_status run(const cli_common *common, void *values)
     CLI_TRY(gather(c, common->argument[0], &j));
     tell_left_out(&j);
     (void)snprintf(source, sizeof source, "fitted by clast %s to %s", clast_version(), j.beds.name);
-    CLI_TRY(clast_porosity_fit_data(&j.data, &c->fit, c->name, source, &j.fit));
+    CLI_TRY(clast_porosity_fit_data(&j.data, c->name, source, &c->fit, &j.fit));
     if (folder != NULL) {
         CLI_TRY(keep_results(common, c, &j, folder));
     }

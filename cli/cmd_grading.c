@@ -99,7 +99,7 @@ static clast_status take_sizes(answer *a)
     CLI_GUARD(a->config->compare[0] != '\0' ? read_sizes(a) : draw_sizes(a));
     if (a->curve.n_class > 0 && a->sizes.n_row > 0) {
         const clast_grading_sample sample = {a->sizes.n_row, a->sizes.column[0].number, NULL};
-        CLI_GUARD(clast_grading_compare(&a->curve, a->grading, &sample, &a->classes, &a->match));
+        CLI_GUARD(clast_grading_compare(a->grading, &a->curve, &sample, &a->classes, &a->match));
     }
     return CLAST_OK;
 }

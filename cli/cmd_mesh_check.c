@@ -2,7 +2,8 @@
 #include "command.h"
 #include "mesh_words.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 
 #include <stdio.h>
 
@@ -89,7 +90,7 @@ static clast_status tell(const cli_common *common, const config *c, const clast_
     char cure[400] = "";
     const bool solid = result->closed && result->oriented;
     if (!solid) {
-        CLI_GUARD(clast_mesh_cure(common->argument[0], mesh, cure, sizeof cure));
+        CLI_GUARD(clast_mesh_cure(mesh, common->argument[0], sizeof cure, cure));
     }
     if (common->json) {
         json_t *object = cli_check_json(common->argument[0], result);

@@ -203,7 +203,7 @@ static clast_status run(const cli_common *common, void *context)
     }
     warn_of_loss(&j);
     CLI_TRY(clast_mesh_write(
-        j.output, &j.mesh,
+        &j.mesh, j.output,
         &(clast_mesh_write_options){.unit = j.out_unit,
                                     .name = config->name[0] != '\0' ? config->name : NULL}));
     warn_of_folded(&j);

@@ -3,7 +3,8 @@
 #include "mesh_words.h"
 
 #include <clast/form.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -83,7 +84,7 @@ done:
 }
 
 /// What the written mesh measures, not what was asked for.
-static clast_status measure(const clast_mesh *out, form_report *r)
+static clast_status measure_written(const clast_mesh *out, form_report *r)
 {
     clast_mesh turned = {0};
     const clast_status status = clast_reform_principal(out, &turned, r->after);
@@ -148,11 +149,11 @@ static clast_status run(const cli_common *common, void *config_bytes)
     CLI_TRY(cli_mesh_welded(common, &mesh));
     if (config->hull == 0) {
         CLI_TRY(
-            clast_mesh_require_solid(common->argument[0], &mesh, "take its hull with --hull N"));
+            clast_mesh_require_solid(&mesh, common->argument[0], "take its hull with --hull N"));
     }
     CLI_TRY(reform(config, &mesh, &out, &report));
-    CLI_TRY(measure(&out, &report));
-    CLI_TRY(clast_mesh_write(common->output, &out, NULL));
+    CLI_TRY(measure_written(&out, &report));
+    CLI_TRY(clast_mesh_write(&out, common->output, NULL));
     if (common->json) {
         CLI_TRY(cli_print_json(report_json(common, &report)));
     } else {

@@ -2,7 +2,7 @@
 #include "command.h"
 #include "mesh_words.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 
 #include <stdio.h>
@@ -109,7 +109,7 @@ static clast_status run(const cli_common *common, void *config)
     CLI_TRY(cli_mesh_output(common));
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(clast_mesh_repair(&mesh, config, &repaired, &report));
-    CLI_TRY(clast_mesh_write(common->output, &repaired, NULL));
+    CLI_TRY(clast_mesh_write(&repaired, common->output, NULL));
     CLI_TRY(clast_mesh_check(&repaired, &check));
     warn_format(common, &report);
     CLI_TRY(tell(common, &report, &check));

@@ -4,7 +4,6 @@
 #include "mesh_words.h"
 
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <math.h>
 
@@ -71,7 +70,7 @@ static clast_status run_simplify(const cli_common *common, void *config_bytes)
         CLI_TRY(clast_mesh_round_float(&out));
         report.volume_after = clast_mesh_volume(&out);
     }
-    CLI_TRY(clast_mesh_write(common->output, &out, NULL));
+    CLI_TRY(clast_mesh_write(&out, common->output, NULL));
     if (common->json) {
         CLI_TRY(cli_print_json(simplify_json(common, &report)));
     } else {
@@ -154,7 +153,7 @@ static clast_status run_hull(const cli_common *common, void *config)
     CLI_TRY(cli_mesh_input(common, &mesh));
     CLI_TRY(clast_mesh_hull(&mesh, &hull));
     CLI_TRY(solid_volume(&mesh, &volume));
-    CLI_TRY(clast_mesh_write(common->output, &hull, NULL));
+    CLI_TRY(clast_mesh_write(&hull, common->output, NULL));
     if (common->json) {
         CLI_TRY(cli_print_json(hull_json(common, &mesh, &hull, volume)));
     } else {

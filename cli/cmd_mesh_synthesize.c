@@ -6,7 +6,7 @@
 
 #include <clast/form.h>
 #include <clast/harmonics.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/table.h>
 
 #include <math.h>
@@ -93,7 +93,7 @@ static clast_status make_one(const cli_common *common, const synthesize_config *
     if (folder != NULL) {
         CLI_TRY(clast_run_folder_file(folder, file, path));
     }
-    CLI_TRY(clast_mesh_write(folder != NULL ? path : common->output, &mesh, NULL));
+    CLI_TRY(clast_mesh_write(&mesh, folder != NULL ? path : common->output, NULL));
     CLI_TRY(save_row(table, i, folder != NULL ? file : common->output, &report));
 done:
     clast_mesh_free(&mesh);

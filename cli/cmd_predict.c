@@ -78,7 +78,7 @@ static clast_status predict_table(const config *c, cli_prediction *j)
     if (status != CLAST_OK) {
         return status;
     }
-    clast_form_set_complaint(&j->set, complaint, sizeof complaint);
+    clast_form_set_complaint(&j->set, sizeof complaint, complaint);
     if (complaint[0] != '\0') {
         (void)fprintf(stderr, "clast predict: %s: %s\n", j->table.name, complaint);
     }

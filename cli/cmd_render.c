@@ -3,7 +3,7 @@
 #include "json.h"
 #include "study_grains.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/render.h>
 #include <clast/state.h>
 

@@ -28,8 +28,8 @@ static clast_status run(const cli_common *common, void *context)
     const clast_report_config *config = context;
     char path[PATH_SIZE];
     CLI_GUARD(find_output(common, path));
-    CLI_GUARD(clast_report_write((const char *const *)common->argument, common->n_argument, config,
-                                 path));
+    CLI_GUARD(clast_report_write((const char *const *)common->argument, common->n_argument, path,
+                                 config));
     if (common->json) {
         json_t *o = json_object();
         cli_json_count(o, "n_run", common->n_argument);

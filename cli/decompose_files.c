@@ -122,12 +122,12 @@ static clast_status write_pictures(const cli_decompose_job *j, const char *folde
     const clast_decomposition *r = j->result;
     char path[4096];
     (void)snprintf(path, sizeof path, "%s/cells.vtu", folder);
-    CLI_GUARD(clast_cells_write_vtu(path, r, j->domain));
+    CLI_GUARD(clast_cells_write_vtu(r, j->domain, path));
     if (j->is_part) {
         return CLAST_OK; // the others show points
     }
     (void)snprintf(path, sizeof path, "%s/points.vtp", folder);
-    CLI_GUARD(clast_decomposition_write_points(path, j->cloud, r, j->domain));
+    CLI_GUARD(clast_decomposition_write_points(r, j->cloud, j->domain, path));
     for (int k = 0; k < CLAST_N_DECOMPOSE_CHART; ++k) {
         if (clast_decompose_chart_fits((clast_decompose_chart)k, r)) {
             (void)snprintf(path, sizeof path, "%s/%s.%s", folder,

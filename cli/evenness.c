@@ -10,8 +10,8 @@
 /// One cloud in 10,000 uniform ones is called uneven by its spacing alone.
 static const double level = 1e-4;
 
-static clast_status measure(const clast_comm *comm, const clast_domain *domain,
-                            const clast_cloud *cloud, cli_evenness *evenness)
+static clast_status measure_spacing(const clast_comm *comm, const clast_domain *domain,
+                                    const clast_cloud *cloud, cli_evenness *evenness)
 {
     const int32_t d = cloud->dimension;
     int64_t n = 0;
@@ -38,7 +38,7 @@ clast_status cli_decompose_evenness(const clast_comm *comm, const clast_domain *
     clast_status status = CLAST_OK;
     *evenness = (cli_evenness){.is_tested = result->before.n_test > 0};
     if (evenness->is_tested && result->n >= 5 && domain->kind != CLAST_DOMAIN_MESH) {
-        status = measure(comm, domain, cloud, evenness);
+        status = measure_spacing(comm, domain, cloud, evenness);
     }
     const bool is_far = evenness->has_spacing && evenness->spacing.p < level;
     if (result->before.reject || (is_far && evenness->spacing.ratio < 1.0)) {

@@ -64,7 +64,7 @@ static void default_text(const clast_field *f, char *text, size_t size)
         const int32_t index = (int32_t)f->value;
         clast_field one = *f;
         one.offset = 0;
-        (void)clast_field_format(&one, &index, 0, text, size);
+        (void)clast_field_format(&one, &index, 0, size, text);
     } else if (f->type == CLAST_FIELD_F64) {
         quantity_text(f->value, unit, text, size);
     } else if (is_list && f->text[0] != '\0' && strchr(f->text, ',') == NULL) {

@@ -1,7 +1,8 @@
 // Words and JSON of a surface check.
 #include "mesh_words.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -153,7 +154,7 @@ clast_status cli_mesh_refused(const char *path, const clast_mesh *mesh, const ch
     if (status != CLAST_E_GEOMETRY) {
         return status;
     }
-    const clast_status solid = clast_mesh_require_solid(path, mesh, otherwise);
+    const clast_status solid = clast_mesh_require_solid(mesh, path, otherwise);
     return solid != CLAST_OK ? solid : status;
 }
 

@@ -59,12 +59,12 @@ clast_status cli_porosity_measure(cli_porosity_bed *s, const cli_porosity_wanted
     f->core_depth = wanted->core;
     clast_bed_wrap(bed, assembly);
     CLI_GUARD(clast_porosity_profile(assembly, bed, options, &f->profile));
-    CLI_GUARD(clast_porosity_measure(assembly, bed, options, &f->profile, &f->bulk));
+    CLI_GUARD(clast_porosity_measure(assembly, bed, &f->profile, options, &f->bulk));
     CLI_GUARD(check_bed(&f->bulk));
     f->walls = clast_bed_side_walls(bed, assembly);
     if (wanted->core > 0.0) {
         CLI_GUARD(
-            clast_porosity_core_measure(assembly, bed, options, &f->bulk, wanted->core, &f->core));
+            clast_porosity_core_measure(assembly, bed, &f->bulk, wanted->core, options, &f->core));
     }
     CLI_GUARD(measure_contacts(s, wanted->gap, f));
     if (wanted->local) {

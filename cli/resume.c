@@ -11,8 +11,8 @@ static bool differs(const clast_field *field, const void *a, const void *b)
     bool is_other = n != clast_field_count(field, b);
     for (int32_t i = 0; i < n && !is_other; ++i) {
         char text[2][512] = {"", ""};
-        (void)clast_field_format(field, a, i, text[0], sizeof text[0]);
-        (void)clast_field_format(field, b, i, text[1], sizeof text[1]);
+        (void)clast_field_format(field, a, i, sizeof text[0], text[0]);
+        (void)clast_field_format(field, b, i, sizeof text[1], text[1]);
         is_other = strcmp(text[0], text[1]) != 0;
     }
     return is_other;

@@ -2,7 +2,7 @@
 #include "scene.h"
 
 #include <clast/aggregate_run.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "scene.h"
 
 #include <clast/grain.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
@@ -36,7 +36,7 @@ static clast_status write_grain(int32_t i, const char *path)
     clast_mesh mesh = {0};
     clast_status status = CLAST_OK;
     CLI_TRY(make_grain(i, &mesh));
-    CLI_TRY(clast_mesh_write(path, &mesh, NULL));
+    CLI_TRY(clast_mesh_write(&mesh, path, NULL));
 done:
     clast_mesh_free(&mesh);
     return status;
@@ -52,7 +52,7 @@ static clast_status write_grains(const char *folder, char *const path[])
 }
 
 /// What `clast shape *.ply -o table.csv` does.
-static clast_status measure(char *const path[], const char *table_path)
+static clast_status measure_grains(char *const path[], const char *table_path)
 {
     const clast_grains_options options = {.level = 5, .degree = -1};
     clast_grains grains = {0};
@@ -77,7 +77,7 @@ static clast_status measure_in(cli_lap *b, const char *folder, char *const path[
     CLI_TRY(write_grains(folder, path));
     while (cli_lap_again(b)) {
         cli_lap_start(b);
-        CLI_TRY(measure(path, table));
+        CLI_TRY(measure_grains(path, table));
         cli_lap_stop(b);
     }
 done:

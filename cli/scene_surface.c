@@ -2,7 +2,7 @@
 #include "scene.h"
 
 #include <clast/fill.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/render.h>
 #include <math.h>
 #include <stdio.h>

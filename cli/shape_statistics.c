@@ -3,6 +3,7 @@
 
 #include "json.h"
 
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -17,7 +18,7 @@ clast_status cli_shape_statistics(const char *command, const clast_table *grains
     if (status != CLAST_OK) {
         return status;
     }
-    clast_form_set_complaint(&statistics->set, complaint, sizeof complaint);
+    clast_form_set_complaint(&statistics->set, sizeof complaint, complaint);
     if (complaint[0] != '\0') {
         (void)fprintf(stderr, "clast %s: statistics: %s\n", command, complaint);
     }

@@ -1,4 +1,4 @@
-# What libclast exports: its interface, and under a name of this release what it shares with its view (src/base/shared.h):
+# What libclast exports: its interface, and under a name of this release what it shares with its view (src/base/status.h):
 # cmake -DOUT=libclast.map -DVERSION=0.1.0 -DHEADERS="a;b" -P Exports.cmake
 set(shared)
 foreach(header ${HEADERS})

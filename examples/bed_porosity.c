@@ -1,7 +1,9 @@
 // Porosity of a bed of one's own: spheres on a cubic lattice in a box, against 1 - pi/6.
 //
 //     cc bed_porosity.c $(pkg-config --cflags --libs clast) && ./a.out
+#include <clast/assembly.h>
 #include <clast/porosity.h>
+#include <clast/shape.h>
 #include <stdio.h>
 
 enum { N = 10 }; // spheres along an edge, 1 mm in radius
@@ -39,7 +41,7 @@ int main(void)
         status = clast_porosity_profile(&assembly, &bed, &options, &profile);
     }
     if (status == CLAST_OK) {
-        status = clast_porosity_measure(&assembly, &bed, &options, &profile, &bulk);
+        status = clast_porosity_measure(&assembly, &bed, &profile, &options, &bulk);
     }
     if (status == CLAST_OK) {
         const double *porosity = clast_table_numbers(&profile, "porosity");

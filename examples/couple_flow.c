@@ -4,6 +4,10 @@
 // cells follow: points are tested when their moments move, cut anew when their density changes.
 //
 //     cc couple_flow.c $(pkg-config --cflags --libs clast) -lm && ./a.out
+#include <clast/agglomerate.h>
+#include <clast/cloud.h>
+#include <clast/decompose.h>
+#include <clast/kernel.h>
 #include <clast/workspace.h>
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,10 @@
 //     c++ -std=c++17 -ffp-contract=off couple_flow.cpp $(pkg-config --cflags --libs clast) &&
 //     ./a.out
 #include <clast/workspace.h>
+#include <clast/agglomerate.h>
+#include <clast/cloud.h>
+#include <clast/decompose.h>
+#include <clast/kernel.h>
 
 #include <cmath>
 #include <cstdint>

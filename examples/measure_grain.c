@@ -2,7 +2,8 @@
 //
 //     cc measure_grain.c $(pkg-config --cflags --libs clast) && ./a.out grain.stl
 #include <clast/grain.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdio.h>
 
 int main(int argc, char **argv)

@@ -9,10 +9,12 @@ It also fails when headers include each other in a circle, or when more than two
 Only io, plot, render, base/file.c and base/lock.c may open files. Only base/number*.c may read or print a double by the C
 library, which obeys the host's locale.
 
-Fewer than LEAST_ASSERTS invariants (CLAST_ASSERT) in 1000 lines of src fail too.
+Fewer than LEAST_ASSERTS invariants (CLAST_ASSERT) in 1000 lines of src fail too, and more than MOST_BEHIND headers of ours behind a
+median .c: include what a file uses, and in a header only what it needs complete (a pointer needs the name alone).
 """
 import pathlib
 import re
+import statistics
 import sys
 
 LAYER = {"base": 0, "math": 1, "geom": 2, "shape": 3, "convex": 3, "touch": 3, "cloud": 3, "assembly": 4, "aggregate": 5,
@@ -25,6 +27,7 @@ PRINTERS = re.compile(r"\b(?:vs|s|f|vf)n?printf\s*\((?:[^;\"]|\"(?:[^\"\\]|\\.)*
 DOUBLE = re.compile(r"%[-+ #0]*[\d*]*(?:\.[\d*]*)?l?[efgaEFGA]")
 INVARIANT = re.compile(r"(?<!define )\bCLAST_ASSERT\(")
 LEAST_ASSERTS = 5  # in 1000 lines of src
+MOST_BEHIND = 10
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -89,6 +92,20 @@ def call_graph():
     return {name: {owner[w] for w in used if w in owner} - {name} for name, used in words.items()}
 
 
+def header_problems():
+    graph, counts = include_graph(), []
+    for source in (name for name in graph if name.endswith(".c")):
+        seen, left = set(), [source]
+        while left:
+            new = graph[left.pop()] - seen
+            seen |= new
+            left += new
+        counts.append(len(seen))
+    median = statistics.median(counts)
+    if median > MOST_BEHIND:
+        yield f"src: {median:g} headers behind a median .c (at most {MOST_BEHIND}), {max(counts)} behind the worst"
+
+
 def circle_problems():
     for circle in circles(include_graph()):
         yield f"headers include each other in a circle: {', '.join(circle)}"
@@ -142,6 +159,7 @@ def assert_problems():
 
 def problems():
     yield from circle_problems()
+    yield from header_problems()
     yield from view_problems()
     yield from assert_problems()
     defined = definers()

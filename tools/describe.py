@@ -20,8 +20,8 @@ def main():
     h = Headers(ROOT / "include")
     structs, members, functions, arguments = [], [], [], []
     for name, fields in h.structs.items():
-        docs = h.member_docs(name)
-        structs.append(f'"{name}", {quoted(h.doc("typedef struct " + name + r" .{0}"))}, sizeof({name}), {len(members)}, {len(fields)}')
+        docs, above = h.member_docs(name), h.doc("(?:typedef )?struct " + name + r" (?=\{)")
+        structs.append(f'"{name}", {quoted(above)}, sizeof({name}), {len(members)}, {len(fields)}')
         members += [f'"{d.name}", {quoted(d.text)}, {quoted(docs.get(d.name, ""))}, offsetof({name}, {d.name}), sizeof((({name} *)0)->{d.name})'
                     for d in fields]
     for result, name, given in h.functions:

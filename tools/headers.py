@@ -50,9 +50,9 @@ class Headers:
         text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
         self.enums = set(re.findall(r"typedef enum\s*\w*\s*\{[^}]*\}\s*(clast_\w+);", text))
         self.structs = {}
-        for name, body in re.findall(r"typedef struct (clast_\w+) \{(.*?)^\} clast_\w+;", text, flags=re.S | re.M):
+        for name, body in re.findall(r"^(?:typedef )?struct (clast_\w+) \{(.*?)^\}(?: clast_\w+)?;", text, flags=re.S | re.M):
             self.structs[name] = list(members(body))
-        self.opaque = set(re.findall(r"typedef struct (clast_\w+) clast_\w+;", text))
+        self.opaque = set(re.findall(r"typedef struct (clast_\w+) clast_\w+;", text)) - set(self.structs)
         self.functions = []
         for result, name, arguments in re.findall(r"CLAST_API\s+([^;{()]*?)\b(clast_\w+)\s*\(([^;]*?)\)\s*;", text, flags=re.S):
             arguments = [] if arguments.strip() == "void" else [Declared(a) for a in split(arguments)]
@@ -71,7 +71,7 @@ class Headers:
 
     def member_docs(self, name):
         """{member: text of its ///<} of a struct."""
-        body = re.search(r"typedef struct " + name + r" \{(.*?)^\} " + name + ";", self.raw, flags=re.S | re.M)
+        body = re.search(r"^(?:typedef )?struct " + name + r" \{(.*?)^\}(?: " + name + ")?;", self.raw, flags=re.S | re.M)
         docs, names = {}, []
         for line in body.group(1).splitlines() if body else []:
             code, mark, text = line.partition("///<")

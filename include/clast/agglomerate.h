@@ -178,9 +178,9 @@ CLAST_API bool clast_spectrum_has_sectional(void);
 /// @return CLAST_E_CONFIG for what does not go together (Monte Carlo breaks particles into a whole
 /// number of fragments alone; a kernel of velocities has no spectrum; no sectional solver in this
 /// build), CLAST_E_LIMIT where breakage and sources make over 2e7 particles of a run
-CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
+CLAST_API clast_status clast_spectrum_evolve(const clast_spectrum_start *start,
+                                             const clast_spectrum_config *config,
                                              const clast_collide_config *collide,
-                                             const clast_spectrum_start *start,
                                              clast_spectrum *result);
 CLAST_API void clast_spectrum_free(clast_spectrum *result);
 

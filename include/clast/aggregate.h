@@ -6,8 +6,6 @@
 #include <clast/field.h>
 #include <clast/grading.h>
 #include <clast/status.h>
-#include <clast/structure.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 

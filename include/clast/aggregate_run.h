@@ -1,12 +1,9 @@
 #pragma once
-#include <clast/aggregate.h>
-#include <clast/grading.h>
-#include <clast/machine.h>
-
 // What an aggregation reads: sizes, surfaces and composites named in its configuration.
-
 // A whole run of an aggregation: all repeats, their folder, checkpoints and going on
 // (clast_aggregate_run and clast_aggregate_resume are of libclast_view).
+#include <clast/aggregate.h>
+#include <clast/grading.h>
 
 CLAST_BEGIN
 
@@ -28,7 +25,7 @@ typedef struct clast_aggregate_config {
     char *size_column;
     char *size_unit;
 
-    bool fit; ///< find packing and N_A that explain what was observed (aggregate_fit.h)
+    bool fit; ///< find packing and N_A that explain what was observed (clast_aggregate_fit_run)
     double observed_size, observed_size_error; ///< D_agg [m]; 0: not observed
     double observed_density, observed_density_error;
     double observed_velocity, observed_velocity_error; ///< terminal, in air
@@ -109,5 +106,93 @@ CLAST_API clast_status clast_aggregate_run(const clast_aggregate_config *config,
 CLAST_API clast_status clast_aggregate_resume(const char *folder, const clast_comm *comm,
                                               const clast_monitor *monitor,
                                               clast_aggregate_report *report);
+
+/// What may be observed of an aggregate.
+enum { CLAST_FIT_SIZE, CLAST_FIT_DENSITY, CLAST_FIT_VELOCITY, CLAST_FIT_N_OBSERVABLE };
+
+/// "size", "density", "settling_velocity" and their SI units.
+CLAST_API const char *clast_aggregate_fit_observable_name(int32_t observable);
+CLAST_API const char *clast_aggregate_fit_observable_unit(int32_t observable);
+
+/// Whether the best choice explains the observation.
+typedef enum clast_fit_verdict {
+    CLAST_FIT_INSIDE, ///< every observed quantity is met within its error (|pull| <= 1)
+    CLAST_FIT_EDGE,   ///< it is not, and the best choice lies on the border of what was tried
+    CLAST_FIT_NO      ///< it is not, and the best choice lies between others that were tried
+} clast_fit_verdict;
+
+/// "inside", "edge", "no".
+CLAST_API const char *clast_fit_verdict_name(clast_fit_verdict verdict);
+
+/// A quantity under the posterior weights.
+typedef struct clast_fit_estimate {
+    double best;            ///< at the best node
+    double mean, deviation; ///< over all nodes by weight
+    double low, high;       ///< between which the middle 68 % of the weight lies
+} clast_fit_estimate;
+
+/// What packing and how many times the list of sizes explain an observation.
+typedef struct clast_aggregate_fit {
+    double cone; ///< of the best node
+    int32_t rays, orientations, replicate;
+    clast_fit_estimate trials;    ///< rays x orientations; its mean is geometric, deviation of ln
+    clast_fit_estimate n_replica; ///< N_A
+    clast_fit_estimate model[CLAST_FIT_N_OBSERVABLE];
+    clast_fit_estimate porosity;             ///< by the first envelope
+    double observed[CLAST_FIT_N_OBSERVABLE]; ///< NAN where not observed
+    double error[CLAST_FIT_N_OBSERVABLE];
+    double pull[CLAST_FIT_N_OBSERVABLE]; ///< (model - observed) / total error at the best node
+    double least[CLAST_FIT_N_OBSERVABLE], most[CLAST_FIT_N_OBSERVABLE]; ///< over all runs' means
+    double chi2;
+    int32_t n_observed;
+    int32_t n_choice;  ///< fitted: the packing where there are several, N_A where it may exceed 1
+    int32_t n_freedom; ///< degrees of freedom: n_observed - n_choice, at least 0
+    double p_value;    ///< of chi2 with n_freedom degrees of freedom; NAN where none is left
+    clast_fit_verdict verdict;
+    int32_t
+        packing_edge; ///< the best packing is -1: the loosest tried, 1: the tightest, 0: neither
+    int32_t replicate_edge; ///< the best N_A is -1: 1, 1: config->fit_replicate_max, 0: neither
+    int32_t n_level;        ///< packings tried
+    bool cut_short;         ///< tighter packings were left out: chi2 had risen by 50 twice
+    int32_t n_run;          ///< aggregates grown
+    int32_t at_level;       ///< of the best node; 0: the loosest
+    char words[1024];       ///< the outcome in sentences
+} clast_aggregate_fit;
+
+/// Finds (cone, rays, orientations, N_A) that explain config->observed_size, observed_density,
+/// observed_velocity (0: not observed), each within its error.
+///
+/// Packings run from loose to tight along config->fit_packing; at each one N_A is bracketed by
+/// doubling and halving, and aggregates are grown in config->fit_repeats repeats with the same
+/// random numbers at every node. Between the N_A grown, means are interpolated in ln N_A. A node
+/// has chi2 = sum ((model - observed) / s)^2, s^2 = error^2 + the pooled scatter of repeats, and
+/// the weight exp(-chi2 / 2) under even chances for packings and for ln N_A.
+///                                                               [docs/theory/aggregate-fit.md]
+///
+/// @param nodes  empty; one row per packing and N_A: cone_rad, rays, orientations, replicate, n_run
+///               (0: interpolated), means and deviations, chi2, inside (1: within the errors),
+///               weight
+/// @return CLAST_E_CONFIG when nothing is observed, an observation has no error, or options are set
+///         that the fit is to find; CLAST_E_STOPPED when the monitor asks. An observation that is
+///         not explained is not an error: fit->verdict and fit->words say so
+/// @note the same bytes for any thread count
+CLAST_API clast_status clast_aggregate_fit_run(const clast_aggregate_config *config,
+                                               const clast_aggregate_input *input,
+                                               const clast_monitor *monitor,
+                                               clast_aggregate_fit *fit, clast_table *nodes);
+
+// Fits from files and to files. Of libclast_view.
+
+/// The outcome as one JSON object; free the text with clast_text_free.
+CLAST_API clast_status clast_aggregate_fit_json(const clast_aggregate_fit *fit, char **text);
+
+/// Loads what the configuration names and fits; with a folder writes fit.csv, fit.svg, summary.json
+/// and manifest.json into it (all but the last are the same bytes for equal runs).
+///
+/// @param folder  NULL for no files; made if missing; refused when it holds a run, unless
+/// config->force
+CLAST_API clast_status clast_aggregate_fit_study(const clast_aggregate_config *config,
+                                                 const char *folder, const clast_monitor *monitor,
+                                                 clast_aggregate_fit *fit);
 
 CLAST_END

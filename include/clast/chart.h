@@ -1,13 +1,11 @@
 #pragma once
 #include <clast/decompose.h>
 #include <clast/form.h>
-#include <clast/grading.h>
 #include <clast/pairs.h>
 #include <clast/porosity.h>
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 #include <clast/statistics.h>
 #include <clast/status.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 

@@ -2,14 +2,12 @@
 // All public headers.
 #include <clast/agglomerate.h>
 #include <clast/aggregate.h>
-#include <clast/aggregate_fit.h>
 #include <clast/aggregate_run.h>
 #include <clast/assembly.h>
 #include <clast/chart.h>
 #include <clast/cloud.h>
 #include <clast/decompose.h>
 #include <clast/dem.h>
-#include <clast/domain.h>
 #include <clast/evolve.h>
 #include <clast/field.h>
 #include <clast/fill.h>
@@ -20,12 +18,10 @@
 #include <clast/kernel.h>
 #include <clast/machine.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/pack.h>
 #include <clast/pairs.h>
 #include <clast/porosity.h>
-#include <clast/porosity_fit.h>
 #include <clast/porosity_model.h>
 #include <clast/render.h>
 #include <clast/report.h>
@@ -35,9 +31,7 @@
 #include <clast/state.h>
 #include <clast/statistics.h>
 #include <clast/status.h>
-#include <clast/structure.h>
 #include <clast/study.h>
 #include <clast/table.h>
-#include <clast/uniformity.h>
 #include <clast/volume.h>
 #include <clast/workspace.h>

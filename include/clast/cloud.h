@@ -1,13 +1,11 @@
 #pragma once
 #include <clast/field.h>
-#include <clast/machine.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 
 /// Points in one, two or three dimensions, with optional properties; arrays may be borrowed by the
 /// functions that read them.
-typedef struct clast_cloud {
+struct clast_cloud {
     int64_t n;
     int32_t dimension; ///< 1, 2 or 3
     double *x;         ///< [n][dimension] m
@@ -16,7 +14,7 @@ typedef struct clast_cloud {
     double *weight;    ///< [n] real particles a parcel stands for, or NULL (1)
     double *velocity;  ///< [n][dimension] m/s, or NULL
     double *variable;  ///< [n] temperature or the like: cells shall be uniform in it too; or NULL
-} clast_cloud;
+};
 
 /// Room for n points, zeroed; `cloud` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_cloud_alloc(int64_t n, int32_t dimension, clast_cloud *cloud);
@@ -97,5 +95,96 @@ CLAST_API clast_status clast_cloud_read_ranks(const clast_comm *comm, const char
 /// clast_cloud_read from memory, HDF5 excepted; `name` stands for the path.
 CLAST_API clast_status clast_cloud_parse(const char *name, const void *bytes, size_t n,
                                          const clast_points_options *options, clast_table *table);
+
+// Domains whose volume a map with constant Jacobian carries to the unit cube, so that uniform
+// points stay uniform; and domains inside a closed surface, by extension to its bounding box.
+// [Martinez2021 sec. 3.3; docs/theory/decompose.md]
+
+typedef enum {
+    CLAST_DOMAIN_BOX,
+    CLAST_DOMAIN_CYLINDER,  ///< its own axis z: (rho^2/R^2, (theta + pi)/(2 pi), z/L)
+    CLAST_DOMAIN_HALF_PIPE, ///< y >= 0: (rho^2/R^2, theta/pi, z/L)
+    CLAST_DOMAIN_SPHERE,    ///< (r^3/R^3, (1 + cos polar)/2, (azimuth + pi)/(2 pi))
+    CLAST_DOMAIN_MAP,       ///< the caller's map: clast_domain_of_map
+    CLAST_DOMAIN_MESH       ///< inside a closed surface: clast_domain_of_mesh
+} clast_domain_kind;
+
+/// A caller's map of a domain onto the unit cube. Uniform points must stay uniform: |det dx/du|
+/// has one value everywhere, the domain's volume. Called from several threads at once.
+typedef struct clast_domain_map_functions {
+    int32_t dimension; ///< 1..3
+    double volume;     ///< > 0 [m^d]
+    /// True when x [dimension] is in the closed domain; u [dimension] is then in [0, 1]^d.
+    bool (*map)(const void *context, const double *x, double *u);
+    void (*unmap)(const void *context, const double *u, double *x); ///< the inverse
+    const void *context;                                            ///< borrowed
+} clast_domain_map_functions;
+
+/// A closed surface made ready for inside tests and cut cells. Opaque.
+typedef struct clast_domain_surface clast_domain_surface;
+
+/// A known domain; never taken from the sample's own least and greatest coordinates.
+struct clast_domain {
+    clast_domain_kind kind;
+    int32_t dimension;      ///< 1..3 for a box, else 3
+    double low[3], high[3]; ///< box, and bounding box of a mesh
+    double radius, length;  ///< R and L [m]; centre of the base (sphere: centre) at the origin
+    bool is_placed;         ///< or at `centre`, with the unit vectors `axes` as its own x, y, z
+    double centre[3], axes[3][3];
+    clast_domain_map_functions user;
+    clast_domain_surface *surface; ///< of a mesh, owned; copies of the struct borrow it
+};
+
+/// Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L" (base centre at the origin,
+/// along z), "cylinder:X,Y,Z,NX,NY,NZ,R,L" (base centre, direction of the axis, of any length),
+/// "half-pipe:R,L", "sphere:R" or "sphere:X,Y,Z,R". Lengths are in m, or carry a unit ("1mm").
+///
+/// @return CLAST_E_CONFIG with what was found; every size must be > 0 and finite. "mesh:FILE" is
+/// read by clast_domain_read
+CLAST_API clast_status clast_domain_parse(const char *text, clast_domain *domain);
+
+/// The same where a bare length is in units of `factor` m.
+CLAST_API clast_status clast_domain_parse_in(const char *text, double factor, clast_domain *domain);
+
+enum { CLAST_DOMAIN_TEXT = 256 };
+
+/// The domain as clast_domain_parse reads it, in m; "no domain" of another, "map" for a map,
+/// "mesh:" and the bounding box of a surface.
+CLAST_API void clast_domain_format(const clast_domain *domain, char text[CLAST_DOMAIN_TEXT]);
+
+/// A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the
+/// volume of the map's small cells is constant (1e-3).
+///
+/// @return CLAST_E_CONFIG tells where a map fails
+CLAST_API clast_status clast_domain_of_map(const clast_domain_map_functions *functions,
+                                           clast_domain *domain);
+
+/// The inside of a closed surface, which is copied, its coordinates times `scale`. The sample is
+/// extended by ghosts to the bounding box, cells hold real points alone and the volume of their
+/// part inside.
+///
+/// @return CLAST_E_GEOMETRY for a surface that is open, not oriented, cuts itself, or whose parts
+/// overlap
+CLAST_API clast_status clast_domain_of_mesh(const clast_mesh *mesh, double scale,
+                                            clast_domain *domain);
+CLAST_API void clast_domain_free(clast_domain *domain); ///< only a mesh holds memory
+
+/// Volume [m^d].
+CLAST_API double clast_domain_volume(const clast_domain *domain);
+
+/// True when the point [dimension] is in the closed domain; u [dimension] is then its image in the
+/// unit cube.
+CLAST_API bool clast_domain_map(const clast_domain *domain, const double *x, double *u);
+
+/// The inverse map: the point x [dimension] whose image in the unit cube is u [dimension]. A mesh:
+/// in its bounding box, inside or not.
+CLAST_API void clast_domain_unmap(const clast_domain *domain, const double *u, double *x);
+
+/// As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).
+///
+/// @param unit  of bare lengths and of the file's coordinates ("mm"); NULL or "": metres
+/// @return as clast_mesh_read and clast_domain_of_mesh, with the file's name; CLAST_E_CONFIG for an
+/// unknown unit
+CLAST_API clast_status clast_domain_read(const char *text, const char *unit, clast_domain *domain);
 
 CLAST_END

@@ -1,7 +1,5 @@
 #pragma once
-#include <clast/assembly.h>
 #include <clast/field.h>
-#include <clast/table.h>
 
 // Grains that fall, collide, slide and come to rest: the discrete element method.
 //

@@ -8,7 +8,6 @@
 #include <clast/agglomerate.h>
 #include <clast/assembly.h>
 #include <clast/cloud.h>
-#include <clast/domain.h>
 #include <clast/field.h>
 #include <clast/grading.h>
 #include <clast/status.h>

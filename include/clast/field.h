@@ -83,7 +83,7 @@ CLAST_API void clast_field_clear(const clast_field *field, void *config);
 /// Value as text, as clast_field_set_si reads it (17 digits, SI, no unit). Lists: item `index`;
 /// returns length or -1.
 CLAST_API int clast_field_format(const clast_field *field, const void *config, int32_t index,
-                                 char *text, size_t size);
+                                 size_t size, char *text);
 
 /// Number of items: lists their length, all others 1.
 CLAST_API int32_t clast_field_count(const clast_field *field, const void *config);

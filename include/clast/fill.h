@@ -1,9 +1,6 @@
 #pragma once
 #include <clast/field.h>
-#include <clast/mesh.h>
-#include <clast/shape.h>
 #include <clast/status.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 

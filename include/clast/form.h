@@ -1,7 +1,5 @@
 #pragma once
-#include <clast/mesh.h>
 #include <clast/status.h>
-#include <clast/table.h>
 #include <math.h>
 
 CLAST_BEGIN
@@ -192,7 +190,7 @@ CLAST_API void clast_form_set_free(clast_form_set *set);
 
 /// One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty
 /// if none was. Rows count from 1 after the header.
-CLAST_API void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size);
+CLAST_API void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text);
 
 /// The 13 form factors of every grain, in Table 1's order, and its size if known: what
 /// clast_statistics_of takes.

@@ -1,6 +1,5 @@
 #pragma once
 #include <clast/status.h>
-#include <clast/table.h>
 
 // Sizes of grains: sieve curves by mass, what they mean by number, and draws from them.
 //                                     [docs/theory/grading.md; Rettinger et al. 2022, section 3.2]
@@ -162,7 +161,7 @@ typedef struct clast_grading_match {
 /// @param table    empty; low_m, high_m, wanted_mass, achieved_mass (shares), wanted_number,
 ///                 achieved_number (shares), count
 /// @return CLAST_E_CONFIG for no grains, or sizes and volumes that are not finite and above 0
-CLAST_API clast_status clast_grading_compare(const clast_curve *curve, const clast_grading *grading,
+CLAST_API clast_status clast_grading_compare(const clast_grading *grading, const clast_curve *curve,
                                              const clast_grading_sample *sample, clast_table *table,
                                              clast_grading_match *match);
 

@@ -1,8 +1,5 @@
 #pragma once
-#include <clast/form.h>
-#include <clast/mesh.h>
-#include <clast/shape.h>
-#include <clast/table.h>
+#include <clast/status.h>
 #include <clast/volume.h>
 
 CLAST_BEGIN

@@ -43,7 +43,7 @@ typedef struct clast_site {
 
 /// One rank's view of all. Functions are called from one thread of each rank. A failure between
 /// ranks is not reported here: as in MPI it ends all of them.
-typedef struct clast_comm {
+struct clast_comm {
     int32_t rank; ///< of this process, 0 .. n_rank - 1
     int32_t n_rank;
     /// Sends a message to another rank and returns at once; messages between two ranks keep their
@@ -70,7 +70,7 @@ typedef struct clast_comm {
     /// [n] and gets the rank of each. False on all ranks where it failed. NULL: there is none, and
     /// the library bisects by itself.
     bool (*partition)(void *context, int64_t n, const clast_site *site, int32_t *rank);
-} clast_comm;
+};
 
 /// The only rank of one.
 CLAST_API const clast_comm *clast_comm_one(void);

@@ -1,6 +1,5 @@
 #pragma once
 #include <clast/field.h>
-#include <clast/mesh.h>
 
 CLAST_BEGIN
 
@@ -212,5 +211,30 @@ CLAST_API clast_status clast_mesh_simplify(const clast_mesh *mesh, int32_t n_fac
 ///
 /// @return CLAST_E_GEOMETRY if a coordinate does not fit a float; the mesh is then unchanged
 CLAST_API clast_status clast_mesh_round_float(clast_mesh *mesh);
+
+// Of surfaces in files.
+
+/// Reads a surface as every command does that needs a solid: clast_mesh_read, then
+/// clast_mesh_weld_auto.
+///
+/// @param weld  what was merged; may be NULL
+CLAST_API clast_status clast_mesh_read_welded(const char *path, clast_mesh *mesh,
+                                              clast_mesh_repair_report *weld);
+
+/// Whether a surface that was read from a file bounds a solid: closed and outward.
+///
+/// @param path       the file's name, for the message
+/// @param otherwise  what else the caller's user can do, for the message; NULL: nothing
+/// @return CLAST_E_GEOMETRY with the counts that `clast mesh check` gives and the command that
+///         closes this file (clast_mesh_cure)
+CLAST_API clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
+                                                const char *otherwise);
+
+/// The shell command that makes a file's surface closed and outward, tried here in memory:
+/// "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.
+///
+/// @param command  [size]; "" when repair does not help
+CLAST_API clast_status clast_mesh_cure(const clast_mesh *mesh, const char *path, size_t size,
+                                       char *command);
 
 CLAST_END

@@ -1,7 +1,7 @@
 #pragma once
 // Ranks of an MPI job. This header belongs to a library of its own, libclast_mpi; it needs neither
 // <mpi.h> nor MPI's compiler wrapper.
-#include <clast/machine.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <clast/dem.h>
 #include <clast/grading.h>
-#include <clast/machine.h>
+#include <clast/mesh.h>
 #include <clast/porosity.h>
 #include <clast/status.h>
 

@@ -1,6 +1,5 @@
 #pragma once
-#include <clast/cloud.h>
-#include <clast/domain.h>
+#include <clast/field.h>
 #include <clast/table.h>
 
 CLAST_BEGIN
@@ -89,8 +88,8 @@ typedef enum {
 ///
 /// @param disagree  whether both are resolved and their intervals have no number in common, or
 /// NULL
-CLAST_API clast_estimate clast_estimate_choose(clast_estimator estimator,
-                                               const clast_estimate *cells,
-                                               const clast_estimate *pairs, bool *disagree);
+CLAST_API clast_estimate clast_estimate_choose(const clast_estimate *cells,
+                                               const clast_estimate *pairs,
+                                               clast_estimator estimator, bool *disagree);
 
 CLAST_END

@@ -1,5 +1,4 @@
 #pragma once
-#include <clast/assembly.h>
 #include <clast/table.h>
 
 // Porosity of a bed: its profile with height, its bulk value, and where the bed lies.
@@ -52,7 +51,7 @@ CLAST_API void clast_bed_volumes(const clast_bed *bed, int32_t n, const double *
 CLAST_API clast_status clast_bed_parse(const char *text, clast_bed *bed);
 
 /// The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.
-CLAST_API int clast_bed_format(const clast_bed *bed, char *text, size_t size);
+CLAST_API int clast_bed_format(const clast_bed *bed, size_t size, char *text);
 
 /// Periods in x, y and z [m], 0 for none; false for a bed that has none. The first image begins at
 /// (low[0], low[1], floor).
@@ -130,8 +129,8 @@ typedef struct clast_porosity_bulk {
 /// @param profile  of clast_porosity_profile with the same options
 /// @return CLAST_E_GEOMETRY when no slice is denser than the cut, or trimming leaves nothing
 CLAST_API clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_bed *bed,
-                                              const clast_porosity_options *options,
                                               const clast_table *profile,
+                                              const clast_porosity_options *options,
                                               clast_porosity_bulk *bulk);
 
 /// Side walls beside the size of the grains: grains cannot lie as close at a wall, so a narrow bed
@@ -169,8 +168,8 @@ typedef struct clast_porosity_core {
 ///         when nothing is as far from the walls
 CLAST_API clast_status clast_porosity_core_measure(const clast_assembly *assembly,
                                                    const clast_bed *bed,
-                                                   const clast_porosity_options *options,
                                                    const clast_porosity_bulk *bulk, double n_size,
+                                                   const clast_porosity_options *options,
                                                    clast_porosity_core *core);
 
 /// The bed that a run's state file keeps. One within a surface gets that surface, which the caller

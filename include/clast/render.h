@@ -1,5 +1,4 @@
 #pragma once
-#include <clast/assembly.h>
 #include <clast/field.h>
 #include <clast/status.h>
 

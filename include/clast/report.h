@@ -1,5 +1,4 @@
 #pragma once
-#include <clast/assembly.h>
 #include <clast/field.h>
 
 CLAST_BEGIN
@@ -28,8 +27,8 @@ CLAST_API extern const clast_field clast_report_fields[];
 /// @param config  NULL: the defaults
 /// @return CLAST_E_IO for a folder with none of them, CLAST_E_FORMAT for a malformed file,
 ///         CLAST_E_DISK
-CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run,
-                                          const clast_report_config *config, const char *path);
+CLAST_API clast_status clast_report_write(const char *const *runs, int32_t n_run, const char *path,
+                                          const clast_report_config *config);
 
 /// FOLDER/report.html of one run, as a command does at its end.
 ///
@@ -42,7 +41,7 @@ CLAST_API clast_status clast_report_write_run(const char *folder, const char *pl
 ///
 /// @param config  title and triangles; NULL: the defaults
 /// @return CLAST_E_GEOMETRY for no grains, CLAST_E_DISK
-CLAST_API clast_status clast_report_write_view(const clast_assembly *assembly,
-                                               const clast_report_config *config, const char *path);
+CLAST_API clast_status clast_report_write_view(const clast_assembly *assembly, const char *path,
+                                               const clast_report_config *config);
 
 CLAST_END

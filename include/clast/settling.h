@@ -39,7 +39,7 @@ CLAST_API clast_status clast_drag_of_form(double length, double intermediate, do
 ///     C_D = 24 k_S / Re (1 + 0.125 (Re k_N / k_S)^(2/3)) + 0.46 k_N / (1 + 5330 / (Re k_N / k_S))
 ///
 /// fitted for Re < 3e5. Orientation is averaged over.                            [Bagheri2016]
-CLAST_API double clast_drag_coefficient(double reynolds, const clast_drag *drag);
+CLAST_API double clast_drag_coefficient(const clast_drag *drag, double reynolds);
 
 /// Drag coefficient of a sphere: the standard curve of Clift and Gauvin, for Re < 3e5.
 ///

@@ -4,11 +4,11 @@
 CLAST_BEGIN
 
 /// Spheres in a shape's frame: a filling, a clump, or a sphere composite.
-typedef struct clast_spheres {
+struct clast_spheres {
     int32_t n;
     double (*centre)[3]; ///< [n][3] m
     double *radius;      ///< [n] m
-} clast_spheres;
+};
 
 /// Room for n spheres, zeroed; `spheres` must be empty. CLAST_E_MEMORY.
 CLAST_API clast_status clast_spheres_alloc(int32_t n, clast_spheres *spheres);
@@ -50,7 +50,7 @@ typedef struct clast_material {
 ///
 /// A sphere or ellipsoid may carry a mesh too (for pictures and files); a mesh may carry spheres
 /// (its composite). A rigid body of parts (clast_assembly_rigid) is a mesh: the parts' surfaces.
-typedef struct clast_shape {
+struct clast_shape {
     clast_shape_kind kind;
     char *name;          ///< unique within an assembly, never NULL once made
     double semi_axes[3]; ///< sphere and ellipsoid exactly; else of the mass-equivalent ellipsoid, a
@@ -65,7 +65,7 @@ typedef struct clast_shape {
     clast_material own;      ///< of an aggregate that has densities of its own; or empty
     double source_origin[3]; ///< centroid in the source file's coordinates (point x of the file is
                              ///< x - source_origin here)
-} clast_shape;
+};
 
 /// Frees all that a shape owns; may be called twice.
 CLAST_API void clast_shape_free(clast_shape *shape);
@@ -112,7 +112,7 @@ CLAST_API clast_status clast_spheres_read(const char *path, const char *name,
 /// @param unit  of the coordinates ("um"), or NULL: model units
 /// @return CLAST_E_USAGE for another extension, or a state file in another unit; CLAST_E_DISK;
 ///         CLAST_E_FORMAT when the existing state file is damaged (it is left as it is)
-CLAST_API clast_status clast_spheres_write(const char *path, const char *name,
-                                           const clast_spheres *spheres, const char *unit);
+CLAST_API clast_status clast_spheres_write(const clast_spheres *spheres, const char *path,
+                                           const char *name, const char *unit);
 
 CLAST_END

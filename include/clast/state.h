@@ -1,6 +1,6 @@
 #pragma once
-#include <clast/assembly.h>
-#include <clast/table.h>
+#include <clast/shape.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 
@@ -43,15 +43,15 @@ CLAST_API const clast_table *clast_state_table(const clast_state *state, const c
 CLAST_API void clast_state_free(clast_state *state);
 
 /// An assembly alone. `config` may be NULL.
-CLAST_API clast_status clast_state_write_assembly(const char *path, const clast_assembly *assembly,
+CLAST_API clast_status clast_state_write_assembly(const clast_assembly *assembly, const char *path,
                                                   const char *config);
 
 /// The assembly of a state file; CLAST_E_FORMAT if it has none.
 CLAST_API clast_status clast_state_read_assembly(const char *path, clast_assembly *assembly);
 
 /// One set of spheres alone.
-CLAST_API clast_status clast_state_write_spheres(const char *path, const char *name,
-                                                 const clast_spheres *spheres, const char *unit);
+CLAST_API clast_status clast_state_write_spheres(const clast_spheres *spheres, const char *path,
+                                                 const char *name, const char *unit);
 
 /// The named spheres of a state file; `name` NULL: the only ones. CLAST_E_FORMAT lists what is
 /// there.

@@ -1,6 +1,5 @@
 #pragma once
 #include <clast/form.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 

@@ -38,6 +38,16 @@
 
 CLAST_BEGIN
 
+// What the stages hand on to one another; the header of each name defines it.
+typedef struct clast_assembly clast_assembly;
+typedef struct clast_cloud clast_cloud;
+typedef struct clast_comm clast_comm;
+typedef struct clast_domain clast_domain;
+typedef struct clast_mesh clast_mesh;
+typedef struct clast_shape clast_shape;
+typedef struct clast_spheres clast_spheres;
+typedef struct clast_table clast_table;
+
 #define CLAST_STATUS_ENUM(name, code, text) CLAST_##name,
 typedef enum { CLAST_STATUS_LIST(CLAST_STATUS_ENUM) CLAST_N_STATUS } clast_status;
 #undef CLAST_STATUS_ENUM

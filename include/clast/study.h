@@ -1,9 +1,7 @@
 #pragma once
 // Many runs of one command: what varies, who has been run, one table of results. Of libclast_view.
 #include <clast/field.h>
-#include <clast/machine.h>
 #include <clast/status.h>
-#include <clast/table.h>
 
 CLAST_BEGIN
 

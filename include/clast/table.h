@@ -12,12 +12,12 @@ typedef struct clast_column {
 } clast_column;
 
 /// Named columns of one length: what every analysis returns, and what io, plot and fit take.
-typedef struct clast_table {
+struct clast_table {
     char *name;
     int32_t n_column;
     int64_t n_row;
     clast_column *column; ///< [n_column]
-} clast_table;
+};
 
 /// Empty table of n_row rows with a name. `table` must be {0} or freed.
 CLAST_API clast_status clast_table_init(clast_table *table, const char *name, int64_t n_row);

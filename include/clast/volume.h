@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 

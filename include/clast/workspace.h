@@ -1,6 +1,8 @@
 #pragma once
 #include <clast/agglomerate.h>
 #include <clast/decompose.h>
+#include <clast/field.h>
+#include <clast/status.h>
 
 CLAST_BEGIN
 
@@ -123,16 +125,16 @@ CLAST_API clast_status clast_workspace_decompose_in(clast_workspace *workspace,
 /// Cell of each point of the last decomposition, -1 for points left out, into cell[i * stride].
 ///
 /// @return CLAST_E_USAGE before the first decomposition
-CLAST_API clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *cell,
-                                             int64_t stride);
+CLAST_API clast_status clast_workspace_cells(const clast_workspace *workspace, int64_t stride,
+                                             int32_t *cell);
 
 /// Expected events of the cell of each point, shared evenly among its points, into
 /// events[i * stride]: what a solver that keeps its own cells adds up. Without beta_dt its share of
 /// the pair integral [1/m^d]. 0 for points left out.
 ///
 /// @return CLAST_E_USAGE before the first decomposition
-CLAST_API clast_status clast_workspace_events(const clast_workspace *workspace, double *events,
-                                              int64_t stride);
+CLAST_API clast_status clast_workspace_events(const clast_workspace *workspace, int64_t stride,
+                                              double *events);
 
 /// What one time step of collisions needs beside particles and cells.
 typedef struct clast_workspace_step {

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_table, refuse, settled, view, warn
+from ._core import Config, Error, Floats, Monitor, Owner, Progress, Quantity, call, check, encoded, html_members, html_table, refuse, settled, view, warn
 from ._html import file_html
 from ._mesh import Mesh
 from ._runs import Assembly
@@ -43,10 +43,10 @@ class Spheres:
 
     def write(self, path: Path, name: str = "clump") -> None:
         """Writes the spheres as `clast fill -o` does, by the name's end."""
-        check(call("clast_spheres_write")(encoded("path", path), encoded("name", name), ctypes.byref(self._owner.struct), None))
+        check(call("clast_spheres_write")(ctypes.byref(self._owner.struct), encoded("path", path), encoded("name", name), None))
 
     def _repr_html_(self) -> str:
-        return html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
+        return html_members(self, int, float)
 
 
 _TOLD = ("n_sphere", "solid_volume", "sphere_volume", "filled_fraction", "volume_error", "centroid_error", "inertia_error", "max_protrusion")
@@ -175,13 +175,13 @@ def porosity(run: Path | Assembly, *, bed: str = "", floor: Quantity = 0.0, meth
     call("clast_bed_wrap")(held, placed)
     profile, bulk, away = Owner(c.clast_table(), "clast_table_free"), c.clast_porosity_bulk(), c.clast_porosity_core(*[float("nan")] * 4)
     check(call("clast_porosity_profile")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct)))
-    check(call("clast_porosity_measure")(placed, held, ctypes.byref(options), ctypes.byref(profile.struct), ctypes.byref(bulk)))
+    check(call("clast_porosity_measure")(placed, held, ctypes.byref(profile.struct), ctypes.byref(options), ctypes.byref(bulk)))
     if bulk.porosity < -1e-2:
         raise Error("CLAST_E_GEOMETRY", f"bed: grains take {1 - bulk.porosity:.4g} times the room of this bed between z = {bulk.z_low:g} and "
                     f"{bulk.z_high:g}: it is smaller than what holds them, or in another unit")
     walls = call("clast_bed_side_walls")(held, placed)
     if given["core"] > 0:
-        check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(options), ctypes.byref(bulk), given["core"], ctypes.byref(away)))
+        check(call("clast_porosity_core_measure")(placed, held, ctypes.byref(bulk), given["core"], ctypes.byref(options), ctypes.byref(away)))
     touching = _contacts(b, b.length("gap", gap))
     tables: dict[str, Any] = _more(b, given, options, profile, bulk)
     return Porosity(bulk.porosity, bulk.z_low, bulk.z_high, bulk.solid, bulk.top, b.grains.unit, len(b.grains), walls.size, walls.ratio,

@@ -8,7 +8,7 @@ from typing import Any, Iterable
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, html_table, nearest, numbers, refuse, warn
+from ._core import Config, Error, Owner, call, check, html_last, nearest, numbers, refuse, warn
 from ._tables import Table, given_table, table_of
 
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
@@ -51,9 +51,7 @@ class Spectrum:
     mass_error: float
 
     def _repr_html_(self) -> str:
-        last = self.history[-1]
-        return html_table({name: float(last[name]) for name in ("time_s", "M0", "M1", "M2", "exact_M0", "exact_M2")
-                           if name in self.history.columns})
+        return html_last(self.history, "time_s", "M0", "M1", "M2", "exact_M0", "exact_M2")
 
 
 def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spectrum:
@@ -88,7 +86,7 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
         check_used(a, parts[1], s.settling_depth > 0)
         a.collide.seed = a.decompose.seed
         s.duration, s.n_step, s.repeats = a.duration, a.n_step, a.repeats
-        check(call("clast_spectrum_evolve")(ctypes.byref(s), ctypes.byref(a.collide), ctypes.byref(start) if held is not None else None,
+        check(call("clast_spectrum_evolve")(ctypes.byref(start) if held is not None else None, ctypes.byref(s), ctypes.byref(a.collide),
                                             ctypes.byref(result.struct)))
     r = result.struct
     warn_of_range(r.range)

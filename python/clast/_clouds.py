@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _bindings as c
 from ._boxes import check_used, warn_of_range
-from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, settled, view, warn, whole
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_last, html_members, html_table, numbers, refuse, settled, view, warn, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -84,7 +84,7 @@ class Decomposition:
                                                   encoded("path", path)))
 
     def _repr_html_(self) -> str:
-        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (bool, int, float, str))})
+        numbers = html_members(self, int, float, str)
         if not call("clast_decompose_chart_fits")(0, ctypes.byref(self._owner.struct)):  # points on a line, or none
             return numbers
         return numbers + file_html(lambda path: self.chart("points", path), "svg", f"{self.n} points in {self.n_cell} cells")
@@ -239,8 +239,7 @@ class Agglomeration:
     n_cell: int
 
     def _repr_html_(self) -> str:
-        last = self.history[-1]
-        return html_table({name: float(last[name]) for name in ("time_s", "n_particle", "M1", "M2", "events") if name in last.dtype.names})
+        return html_last(self.history, "time_s", "n_particle", "M1", "M2", "events")
 
 
 def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,

@@ -343,6 +343,16 @@ def html_table(rows: dict[str, Any] | Sequence[Sequence[Any]], head: Sequence[st
     return f"<table>{top}{''.join(pairs)}</table>{f'<p>{escape(foot)}</p>' if foot else ''}"
 
 
+def html_members(made: Any, *kinds: type) -> str:
+    """The members of these kinds (int, float), as an HTML table."""
+    return html_table({name: value for name, value in vars(made).items() if isinstance(value, kinds)})
+
+
+def html_last(history: Any, *names: str) -> str:
+    """Columns of a history's last row, those that it has, as an HTML table."""
+    return html_table({name: float(history[-1][name]) for name in names if name in history.dtype.names})
+
+
 def _cell(value: Any) -> str:
     from html import escape
     return f"<td>{escape(f'{value:.6g}' if isinstance(value, (float, np.floating)) else str(value))}</td>"

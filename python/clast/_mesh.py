@@ -229,7 +229,7 @@ class Mesh:
 
     def write(self, path: Path) -> None:
         """Writes STL, OBJ, PLY or OFF by the name's end."""
-        check(call("clast_mesh_write")(encoded("path", path), self._struct(), None))
+        check(call("clast_mesh_write")(self._struct(), encoded("path", path), None))
 
     def check(self) -> MeshCheck:
         """What is this surface, and can it be trusted?"""

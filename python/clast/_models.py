@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _bindings as c
-from ._core import Config, Error, Owner, call, check, choice, encoded, html_table, keys, refuse, settled, warn
+from ._core import Config, Error, Owner, call, check, choice, encoded, html_members, html_table, keys, refuse, settled, warn
 from ._html import file_html
 from ._tables import Path, Table, given_table, read_table, table_of
 
@@ -137,7 +137,7 @@ def predict(flatness: Moments | None = None, elongation: Moments | None = None, 
 def _complain(forms: Owner) -> None:
     """Warns of the rows of a table that were left out."""
     words = ctypes.create_string_buffer(512)
-    call("clast_form_set_complaint")(ctypes.byref(forms.struct), ctypes.cast(words, ctypes.c_char_p), len(words))
+    call("clast_form_set_complaint")(ctypes.byref(forms.struct), len(words), ctypes.cast(words, ctypes.c_char_p))
     if words.value:
         warn(words.value.decode("utf-8", "replace"))
 
@@ -208,8 +208,7 @@ class Fit:
         check(call("clast_chart_fit")(number, ctypes.byref(self._data.struct), ctypes.byref(self._fit.struct), encoded("path", path)))
 
     def _repr_html_(self) -> str:
-        numbers = html_table({k: v for k, v in vars(self).items() if isinstance(v, (int, float))})
-        return numbers + self.model._repr_html_() + file_html(lambda path: self.chart("predicted", path), "svg", "predicted and measured")
+        return html_members(self, int, float) + self.model._repr_html_() + file_html(lambda path: self.chart("predicted", path), "svg", "predicted and measured")
 
 
 def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "fitted", **keys: Any) -> Fit:
@@ -234,8 +233,8 @@ def fit(table: Any, *, features: str = "auto", grains: Any = None, name: str = "
         else:
             check(call("clast_fit_data_single" if what == "form" else "clast_fit_data_columns")(ctypes.byref(beds.struct), *ends))
         source = f"fitted by clast {c.VERSION} to {(beds.struct.name or b'').decode()}"
-        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), ctypes.byref(config.struct), encoded("name", name),
-                                              encoded("source", source), ctypes.byref(made.struct)))
+        check(call("clast_porosity_fit_data")(ctypes.byref(data.struct), encoded("name", name), encoded("source", source),
+                                              ctypes.byref(config.struct), ctypes.byref(made.struct)))
     return _fit(data, made)
 
 

@@ -102,7 +102,7 @@ class Assembly:
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "view.html")
             with Config(c.clast_report_config(), "clast_report_fields", {"title": title, "triangles": triangles}) as config:
-                check(call("clast_report_write_view")(ctypes.byref(self._owner.struct), ctypes.byref(config.struct), encoded("path", path)))
+                check(call("clast_report_write_view")(ctypes.byref(self._owner.struct), encoded("path", path), ctypes.byref(config.struct)))
             with _open_file(path, "rb") as file:
                 return View(file.read(), title)
 

@@ -143,7 +143,7 @@ def mesh_convert(surface: Surface, output: Path, *, unit: str = "", out_unit: st
     if factor != 1.0:
         mesh = Mesh(np.asarray(mesh.vertices) * factor, mesh.triangles)
     options = c.clast_mesh_write_options(unit=encoded("out_unit", out_unit) or None, name=encoded("name", name) or None)
-    check(call("clast_mesh_write")(encoded("output", output), mesh._struct(), ctypes.byref(options)))
+    check(call("clast_mesh_write")(mesh._struct(), encoded("output", output), ctypes.byref(options)))
     return SurfaceResult(mesh, {"n_vertex": len(mesh.vertices), "n_triangle": len(mesh.triangles), "factor": factor})
 
 

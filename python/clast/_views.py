@@ -54,4 +54,4 @@ def report(*runs: Path, output: Path, **keys: Any) -> None:
         raise refuse("runs: none is given")
     names = (ctypes.c_char_p * len(runs))(*(encoded("run", run) for run in runs))
     with Config(c.clast_report_config(), "clast_report_fields", keys) as config:
-        check(call("clast_report_write")(names, len(runs), ctypes.byref(config.struct), encoded("output", output)))
+        check(call("clast_report_write")(names, len(runs), encoded("output", output), ctypes.byref(config.struct)))

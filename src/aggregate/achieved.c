@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "base/whole.h"
 #include "shape/whole.h"
+#include <clast/table.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 #include <math.h>
 #include <string.h>
 

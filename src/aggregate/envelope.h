@@ -1,6 +1,6 @@
 #pragma once
 // Envelopes of an aggregate while it grows.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 /// Volumes of chosen kinds, kept up to date grain by grain. Opaque; one thread at a time.
 ///

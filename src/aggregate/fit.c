@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
-#include <clast/structure.h>
+#include <clast/assembly.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ typedef struct job {
     double (*value)[CLX_FIT_N_MODEL]; ///< [n]
 } job;
 
-static clast_status measure(const clast_aggregate *aggregate, double value[CLX_FIT_N_MODEL])
+static clast_status measure_grown(const clast_aggregate *aggregate, double value[CLX_FIT_N_MODEL])
 {
     clast_status status = CLAST_OK;
     const clast_fluid air = clast_fluid_air();
@@ -59,7 +59,7 @@ static clast_status grow_one(const job *j, int32_t repeat, double value[CLX_FIT_
     while (!clast_aggregate_is_done(aggregate)) {
         CLX_TRY(clast_aggregate_grow(aggregate, 1 << 20, NULL));
     }
-    CLX_TRY(measure(aggregate, value));
+    CLX_TRY(measure_grown(aggregate, value));
 done:
     clast_aggregate_destroy(aggregate);
     return status;

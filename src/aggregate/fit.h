@@ -1,6 +1,6 @@
 #pragma once
 // Parts of a fit: packings, grown nodes, weights.
-#include <clast/aggregate_fit.h>
+#include <clast/aggregate_run.h>
 
 enum { CLX_FIT_N_MODEL = CLAST_FIT_N_OBSERVABLE + 1, CLX_FIT_POROSITY = CLAST_FIT_N_OBSERVABLE };
 

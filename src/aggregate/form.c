@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
+#include <clast/shape.h>
 
 enum { POINT_LEVEL = 4, RAISE_LIMIT = 100 };
 

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "math/rng.h"
+#include <clast/shape.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

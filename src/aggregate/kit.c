@@ -8,6 +8,7 @@
 #include "math/vec3.h"
 #include "touch/inside.h"
 #include "touch/tree.h"
+#include <clast/shape.h>
 #include <string.h>
 
 void clx_kit_free(clx_kit *kit)

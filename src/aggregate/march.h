@@ -3,6 +3,7 @@
 // do it, faults included, so that results can be compared with print.  [docs/theory/aggregation.md]
 #include "aggregate/aim.h"
 #include "aggregate/kit.h"
+#include <clast/shape.h>
 
 /// A composite as the engines see it: about the r^3-weighted centroid of its spheres.
 typedef struct clx_march_shape {

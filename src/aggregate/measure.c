@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include <clast/assembly.h>
-#include <clast/structure.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -151,8 +150,8 @@ static void free_view(clast_assembly *grains)
     clast_assembly_free(grains);
 }
 
-static clast_status measure(const clast_aggregate *a, const clast_assembly *grains,
-                            double tolerance, clast_envelope *envelope)
+static clast_status measure_envelope(const clast_aggregate *a, const clast_assembly *grains,
+                                     double tolerance, clast_envelope *envelope)
 {
     clast_status status = CLAST_OK;
     const clast_envelope_options options = options_of(a, tolerance);
@@ -172,7 +171,7 @@ clast_status clx_aggregate_measure_cluster(clast_aggregate *a, const clx_cluster
     const double begun = clx_clock();
     if (is_measured(a, row)) {
         CLX_TRY(view(a, cluster, &grains));
-        CLX_TRY(measure(a, &grains, ROW_TOLERANCE, envelope));
+        CLX_TRY(measure_envelope(a, &grains, ROW_TOLERANCE, envelope));
         fill_row(a, cluster->mass, cluster->volume, envelope, row);
     }
 done:
@@ -219,7 +218,7 @@ typedef struct {
 static clast_status measure_one(end_measures *m, int64_t which)
 {
     return which == 0 ? clast_assembly_extent(m->grains, &m->extent)
-                      : measure(m->a, m->grains, END_TOLERANCE, m->result->envelope);
+                      : measure_envelope(m->a, m->grains, END_TOLERANCE, m->result->envelope);
 }
 
 static clast_status measure_some(int64_t begin, int64_t end, int32_t worker, void *context)

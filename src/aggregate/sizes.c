@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "math/rng.h"
+#include <clast/grading.h>
 #include <math.h>
 #include <stdlib.h>
 

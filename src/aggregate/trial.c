@@ -266,7 +266,7 @@ static bool is_better(const clx_landing *a, const clx_landing *b)
 }
 
 /// Keeps the better of two landings; a total order, so the last one standing is always the same.
-static void keep(race *all, const clx_landing *landing)
+static void keep_landing(race *all, const clx_landing *landing)
 {
     while (atomic_flag_test_and_set_explicit(&all->lock, memory_order_acquire)) {
     }
@@ -286,7 +286,7 @@ static void run_trial(race *all, int64_t i)
     const double bound = atomic_load_explicit(&all->bound, memory_order_relaxed);
     if (r->least <= bound + margin_of(s, bound) && attempt_trial(s, r, trial, bound, &landing) &&
         landing.distance <= bound) {
-        keep(all, &landing);
+        keep_landing(all, &landing);
     }
 }
 

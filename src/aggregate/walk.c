@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 #include <math.h>
 
 typedef struct {

@@ -3,8 +3,11 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "math/vec3.h"
 #include "shape/whole.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <math.h>
 #include <string.h>
 

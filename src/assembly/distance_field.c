@@ -5,7 +5,10 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "geom/isosurface.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 
 enum { LAYERS_A_BLOCK = 4 };
 

@@ -1,9 +1,9 @@
 #pragma once
 // Signed distance of an assembly's grains, sampled on a grid near their surfaces.
-#include "geom/isosurface.h"
 
-#include <clast/assembly.h>
 #include <clast/mesh.h>
+
+typedef struct clx_grid clx_grid;
 
 /// What a grain's distance needs beside the assembly: a hierarchy per mesh shape.
 typedef struct clx_distance_field {

@@ -4,13 +4,15 @@
 // to the set; the sphere about the set grows until nothing is outside. For polyhedra the points are
 // vertices and the end is exact; for spheres and ellipsoids the rounds close in quadratically once
 // the touched grains are known.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "geom/miniball.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 
 enum { MAX_ROUNDS = 300 };
 static const double close_enough = 1e-13;

@@ -1,5 +1,5 @@
 // Envelopes of an assembly by name: hulls, spheres, published rays.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/alpha.h"
 #include "assembly/hull_part.h"
@@ -7,6 +7,7 @@
 #include "assembly/whole.h"
 #include "assembly/wrap.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include <math.h>
 #include <string.h>
 

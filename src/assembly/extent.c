@@ -1,10 +1,11 @@
 // How far an assembly reaches: greatest length and widths across the principal axes of its mass.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/hull_part.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/sym3.h"
 
 enum { MAX_STEPS = 200, N_START = 16 };

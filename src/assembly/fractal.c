@@ -1,12 +1,14 @@
 // Fractal dimensions of an assembly: from its growth, and from the distances of its grains.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/ball_cut.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/special.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 
 enum { MAX_POINTS = 40, N_RADIUS = 16, MAX_GRAINS = 4000, MIN_CENTRES = 200, N_SHELL = 64 };
 

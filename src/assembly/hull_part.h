@@ -1,7 +1,8 @@
 #pragma once
 // What a shape adds to the convex hull of an assembly, in the shape's own frame.
 #include "geom/smooth_hull.h"
-#include <clast/structure.h>
+#include <clast/assembly.h>
+#include <clast/shape.h>
 
 /// Hull vertices of a polyhedron, or the spheres or the ellipsoid that may show.
 typedef struct clx_hull_part {

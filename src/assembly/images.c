@@ -7,7 +7,9 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 
 /// The grains, then images of those near the border.
 typedef struct {
@@ -24,7 +26,7 @@ static void imaged_free(imaged *m)
     *m = (imaged){0};
 }
 
-static clast_status add(const clast_assembly *a, int32_t i, const double shift[3], imaged *m)
+static clast_status add_image(const clast_assembly *a, int32_t i, const double shift[3], imaged *m)
 {
     CLAST_ASSERT(i >= 0 && i < a->n_grain);
     clast_status status = CLAST_OK;
@@ -60,7 +62,7 @@ static clast_status add_images(const clast_assembly *a, int32_t i, const clast_p
                       (period->length[k] > 0.0 && x > -reach && x < period->length[k] + reach);
         }
         if (is_near) {
-            CLX_TRY(add(a, i, shift, m));
+            CLX_TRY(add_image(a, i, shift, m));
         }
     }
 done:
@@ -79,7 +81,7 @@ static clast_status make_images(const clast_assembly *a, const clast_period *per
     }
     for (int32_t i = 0; i < a->n_grain; ++i) {
         largest = fmax(largest, reach_of(a, i));
-        CLX_TRY(add(a, i, none, m));
+        CLX_TRY(add_image(a, i, none, m));
     }
     m->n_own = a->n_grain;
     for (int32_t i = 0; i < a->n_grain && period != NULL; ++i) {
@@ -121,14 +123,7 @@ clast_status clast_assembly_find_contacts_periodic(clast_assembly *assembly, dou
                                                m.all.contact_point[c]));
         }
     }
-    clx_free(assembly->contact);
-    clx_free(assembly->contact_point);
-    assembly->contact = made.contact;
-    assembly->contact_point = made.contact_point;
-    assembly->n_contact = made.n_contact;
-    assembly->contact_capacity = made.contact_capacity;
-    made.contact = NULL;
-    made.contact_point = NULL;
+    clx_contacts_replace(assembly, &made);
 done:
     clx_free(made.contact);
     clx_free(made.contact_point);

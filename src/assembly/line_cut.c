@@ -160,7 +160,7 @@ static bool cut(const body *b, double y, double z, double x[2])
 }
 
 /// Adds an interval's length and first two moments.
-static void add(double m[3], double sign, const double x[2])
+static void add_interval(double m[3], double sign, const double x[2])
 {
     const double a = x[0];
     const double b = x[1];
@@ -185,15 +185,15 @@ static void common(int32_t n, double (*x)[2], double m[3])
     }
     double whole[2] = {0.0, 0.0};
     for (int32_t i = 0; i < n; ++i) {
-        add(m, 1.0, x[i]);
+        add_interval(m, 1.0, x[i]);
         if (i == 0 || x[i][0] > whole[1]) {
-            add(m, -1.0, whole);
+            add_interval(m, -1.0, whole);
             whole[0] = x[i][0];
             whole[1] = x[i][1];
         }
         whole[1] = fmax(whole[1], x[i][1]);
     }
-    add(m, -1.0, whole);
+    add_interval(m, -1.0, whole);
 }
 
 /// Mass of what each interval shares with those of earlier parts; `room` holds n intervals.
@@ -212,7 +212,7 @@ static void surplus_of(int32_t n, double (*x)[2], const double *density, double 
         }
         v3_set(shared, 0.0, 0.0, 0.0);
         for (int32_t j = 0; j < k; ++j) {
-            add(shared, 1.0, room[j]);
+            add_interval(shared, 1.0, room[j]);
         }
         common(k, room, twice);
         v3_sub(shared, shared, twice);

@@ -5,7 +5,10 @@
 #include "assembly/distance_field.h"
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/whole.h"
+#include "geom/isosurface.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 
 static double thinnest_grain(const clast_assembly *a)
 {

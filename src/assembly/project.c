@@ -1,12 +1,14 @@
 // Shadows of assemblies by scan lines: on each line the covered length is exact (spheres and
 // ellipsoids in closed form, surfaces by their triangles), between lines the midpoint rule.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
 #include <stdlib.h>
 
 /// Something that covers an interval of each line it meets: an ellipse or a triangle.

@@ -1,15 +1,18 @@
 // Solid volume by distance from a centre: spheres cut by spheres in closed form, other grains by
 // lattice points: in the grain, and for shells that are smaller than the grain (those about the
 // centre of a core), where few of its points would lie, in the shell.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/ball_cut.h"
 #include "assembly/grain_points.h"
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include <clast/shape.h>
+#include <clast/table.h>
 
 enum { POINTS_A_GRAIN = 512 };
 

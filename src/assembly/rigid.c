@@ -10,6 +10,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
 #include <clast/form.h>
@@ -42,7 +43,7 @@ done:
     return status;
 }
 
-static clast_status take(joined *j, const clast_mesh *mesh, clast_part *part)
+static clast_status append_part(joined *j, const clast_mesh *mesh, clast_part *part)
 {
     const clast_status status = clast_mesh_append(&j->mesh, mesh);
     if (status == CLAST_OK) {
@@ -71,7 +72,7 @@ static clast_status add_round(joined *j, const double semi_axes[3], const double
     CLX_TRY(clast_mesh_ellipsoid(semi_axes, LEVEL, &mesh));
     const double volume = 4.0 / 3.0 * CLAST_PI * a[0] * a[1] * a[2];
     clast_mesh_transform(&mesh, cbrt(volume / clast_mesh_volume(&mesh)), orientation, position);
-    CLX_TRY(take(j, &mesh, part));
+    CLX_TRY(append_part(j, &mesh, part));
 done:
     clast_mesh_free(&mesh);
     return status;
@@ -100,7 +101,7 @@ static clast_status add_surface(joined *j, const clast_assembly *a, int32_t i,
     CLX_TRY(next(j, &part));
     part->kind = CLAST_SHAPE_MESH;
     v3_copy(part->position, mass.centroid);
-    CLX_TRY(take(j, taken, part));
+    CLX_TRY(append_part(j, taken, part));
 done:
     clast_mesh_free(&mesh);
     clast_mesh_free(&hull);

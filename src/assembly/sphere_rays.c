@@ -14,6 +14,8 @@
 #include "geom/hull_inc.h"
 #include "math/rng.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 
 typedef struct rays {
     int32_t n_sphere;

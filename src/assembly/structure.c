@@ -1,9 +1,12 @@
 // All measures of an assembly in one table, each with its uncertainty.
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
+#include <clast/shape.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 

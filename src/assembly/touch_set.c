@@ -6,6 +6,7 @@
 #include "math/vec3.h"
 #include "touch/gap.h"
 #include "touch/tree.h"
+#include <clast/shape.h>
 #include <stdlib.h>
 
 void clx_touch_set_free(clx_touch_set *set)
@@ -70,7 +71,7 @@ typedef struct collector {
     int32_t grain;
 } collector;
 
-static bool keep(collector *c, int32_t other, const double point[3])
+static bool append_touch(collector *c, int32_t other, const double point[3])
 {
     clx_pairs *p = c->pairs;
     if (other <= c->grain) {
@@ -91,7 +92,7 @@ static bool keep(collector *c, int32_t other, const double point[3])
 static bool keep_near(int32_t body, void *context)
 {
     static const double nowhere[3] = {0.0, 0.0, 0.0};
-    return keep(context, body, nowhere);
+    return append_touch(context, body, nowhere);
 }
 
 static bool keep_within(int32_t body, const clx_gap *gap, void *context)
@@ -99,7 +100,7 @@ static bool keep_within(int32_t body, const clx_gap *gap, void *context)
     double middle[3];
     v3_add(middle, gap->point[0], gap->point[1]);
     v3_scale(middle, 0.5, middle);
-    return keep(context, body, middle);
+    return append_touch(context, body, middle);
 }
 
 /// Insertion sort of one grain's few finds by the other grain.

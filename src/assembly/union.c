@@ -15,10 +15,13 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "shape/shape.h"
 #include "touch/gap.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 
 enum { N_SHIFT = 8, FIRST_POINTS = 256, BISECTIONS = 24, PAIR_BLOCK = 64 };
 static const double touching = 1e-9; // depth by radius that counts as a touch, not an overlap
@@ -364,6 +367,19 @@ done:
     return status;
 }
 
+void clx_contacts_replace(clast_assembly *assembly, clast_assembly *made)
+{
+    CLAST_ASSERT(assembly->n_grain == made->n_grain);
+    clx_free(assembly->contact);
+    clx_free(assembly->contact_point);
+    assembly->contact = made->contact;
+    assembly->contact_point = made->contact_point;
+    assembly->n_contact = made->n_contact;
+    assembly->contact_capacity = made->contact_capacity;
+    made->contact = NULL;
+    made->contact_point = NULL;
+}
+
 clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
 {
     CLX_ARGUMENTS(assembly);
@@ -385,14 +401,7 @@ clast_status clast_assembly_find_contacts(clast_assembly *assembly, double gap)
         CLX_TRY(clx_alloc(&made.contact_point, 1, sizeof *made.contact_point));
         made.contact_capacity = 1;
     }
-    clx_free(assembly->contact);
-    clx_free(assembly->contact_point);
-    assembly->contact = made.contact;
-    assembly->contact_point = made.contact_point;
-    assembly->n_contact = made.n_contact;
-    assembly->contact_capacity = made.contact_capacity;
-    made.contact = NULL;
-    made.contact_point = NULL;
+    clx_contacts_replace(assembly, &made);
 done:
     clx_free(made.contact);
     clx_free(made.contact_point);

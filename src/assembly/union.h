@@ -1,13 +1,19 @@
 #pragma once
 // The union's volume where the grains lie in a scene of contact already.
-#include "assembly/touch_set.h"
 #include "touch/scene.h"
-#include <clast/assembly.h>
+
+typedef struct clast_union clast_union;
+typedef struct clast_union_options clast_union_options;
+typedef struct clx_pairs clx_pairs;
+typedef struct clx_touch_set clx_touch_set;
 
 /// clast_assembly_union of grains whose true solids are the scene's bodies: body i is grain i. It
 /// spares the trees of the shapes, which for a small aggregate cost as much as the rest.
 clast_status clx_union_of_scene(const clast_assembly *assembly, clx_touch_scene *scene,
                                 const clast_union_options *options, clast_union *out);
+
+/// Puts the contacts that `made` carries in place of the assembly's; `made` has none then.
+void clx_contacts_replace(clast_assembly *assembly, clast_assembly *made);
 
 /// Keeps the pairs that overlap: n_overlap, max_overlap and max_overlap_share of `out`.
 ///

@@ -1,7 +1,10 @@
 // Whether an assembly that a caller has filled himself holds together.
 #include "assembly/whole.h"
 
+#include "base/whole.h"
 #include "shape/whole.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 #include <math.h>
 
 const char *clx_arrays_fault(const clast_assembly *a)

@@ -1,9 +1,7 @@
 #pragma once
 // Whether an assembly that a caller has filled himself holds together. Both say what is wrong, for
 // people, or give NULL.
-#include "base/shared.h"
-#include "base/whole.h"
-#include <clast/assembly.h>
+#include "base/status.h"
 
 /// Counts and arrays alone: for calls that are made once a grain.
 const char *clx_arrays_fault(const clast_assembly *assembly);

@@ -15,8 +15,11 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "base/status.h"
+#include "geom/isosurface.h"
 #include "geom/nearest_node.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 
 enum { LAYERS_A_BLOCK = 2, MAX_CELLS = 320, MAX_NODES = 100000000 };
 

@@ -256,7 +256,7 @@ void clx_pool_destroy(clx_pool *pool)
     clx_free(pool);
 }
 
-static void *take(size_t bytes)
+static void *take_bytes(size_t bytes)
 {
     if (current != NULL) {
         void *got = pool_take(current, bytes);
@@ -291,7 +291,7 @@ clast_status clx_alloc(void *block, int64_t n, size_t size)
     if (!may_take(n, size, &bytes)) {
         return fail(n, size);
     }
-    got = take(bytes);
+    got = take_bytes(bytes);
     if (got == NULL) {
         return fail(n, size);
     }

@@ -1,7 +1,6 @@
 #pragma once
 // All heap use of the library goes through here, so that tests can count live blocks and refuse the
 // k-th.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// Zeroed block of n items of `size` bytes into *block; n * size is checked for overflow.

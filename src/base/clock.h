@@ -1,6 +1,6 @@
 #pragma once
 // Time that passes, for reports; no result depends on it.
-#include "base/shared.h"
+#include "base/status.h"
 
 /// Seconds since some fixed moment; never goes back.
 CLX_SHARED double clx_clock(void);

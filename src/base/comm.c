@@ -2,6 +2,7 @@
 #include "base/comm.h"
 
 #include "base/alloc.h"
+#include <clast/machine.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
+#include <clast/field.h>
 #include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -415,8 +416,8 @@ static int format_choice(const clast_field *f, int32_t index, char *text, size_t
     return word == NULL ? -1 : snprintf(text, size, "%.*s", (int)strcspn(word, "|"), word);
 }
 
-int clast_field_format(const clast_field *f, const void *config, int32_t index, char *text,
-                       size_t size)
+int clast_field_format(const clast_field *f, const void *config, int32_t index, size_t size,
+                       char *text)
 {
     if (f == NULL || config == NULL || text == NULL) {
         return -1;

@@ -1,7 +1,8 @@
 #pragma once
 // The range check of configurations that callers fill themselves.
-#include "base/status.h"
-#include <clast/field.h>
+#include <clast/status.h>
+
+typedef struct clast_field clast_field;
 
 /// As clast_unit_parse_asked; the spelling it names is the one nearest to a typical value [SI], 0:
 /// none is known.

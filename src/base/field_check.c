@@ -2,6 +2,8 @@
 // go through.
 #include "base/field.h"
 
+#include "base/status.h"
+#include <clast/field.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,6 @@
 //
 // Lives in base so that io, plot and render, which may not include each other, write alike; nothing
 // below io may use it (STYLE section 1: only io, plot, render and cli open files).
-#include "base/shared.h"
 #include "base/status.h"
 
 /// An output under construction: written to a temporary file beside `path`, renamed by commit.

@@ -1,6 +1,6 @@
 #pragma once
 // Arrays that hot loops go through.
-#include "base/alloc.h"
+#include <clast/status.h>
 
 /// clx_grow for them: they begin with a cache line, and large ones ask for large pages.
 clast_status clx_grow_lines(void *block, int64_t *capacity, int64_t need, size_t size);

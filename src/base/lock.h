@@ -3,7 +3,6 @@
 //
 // The lock is a file beside it, PATH.lock, held by flock(2): the kernel (of an NFS server, too)
 // lets it go with its process, so that none is ever stale. Who holds it is written inside.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// {0} holds nothing.

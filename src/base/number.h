@@ -1,7 +1,7 @@
 #pragma once
 // Decimal texts to doubles and back, correctly rounded, whatever the locale of the host program: no
 // other file of the library calls strtod, or prints a double by the C library.
-#include "base/shared.h"
+#include "base/status.h"
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

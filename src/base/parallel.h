@@ -1,6 +1,5 @@
 #pragma once
 // Threads out of sight: a kernel is a function on a range that writes only its own slots.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// Works on items [begin, end) as worker number `worker` (0 .. clx_parallel_workers()-1).

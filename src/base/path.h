@@ -1,6 +1,5 @@
 #pragma once
 // The parts of a file's path, as text.
-#include "base/shared.h"
 #include "base/status.h"
 #include <stdbool.h>
 

@@ -5,6 +5,7 @@
 // LEAVE is the last message of k, FAREWELL the last to k, so nothing is on its way afterwards.
 #include "base/queue.h"
 
+#include <clast/machine.h>
 #include <time.h>
 
 enum { ASK = 1, GIVE, ENDED, STOP, LEAVE, FAREWELL };

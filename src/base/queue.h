@@ -4,8 +4,7 @@
 // Rank 0 keeps the list and answers the others between its own work: whoever waits for something
 // else calls clx_queue_serve now and then. A stop asked for on any rank reaches all. With one rank
 // nothing is sent.
-#include "base/comm.h"
-#include "base/shared.h"
+#include "base/status.h"
 
 /// Whose items they are. Called on rank 0 only.
 typedef struct clx_queue_owner {

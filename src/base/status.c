@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "base/whole.h"
 #include "clast_version.h"
+#include <clast/field.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -43,7 +43,7 @@ clast_status clast_table_init(clast_table *table, const char *name, int64_t n_ro
     return status;
 }
 
-static clast_status add(clast_table *table, const char *name, const char *unit, bool is_text)
+static clast_status add_column(clast_table *table, const char *name, const char *unit, bool is_text)
 {
     clast_status status = CLAST_OK;
     clast_column made = {0};
@@ -69,7 +69,7 @@ clast_status clast_table_add_number(clast_table *table, const char *name, const 
 {
     CLX_ARGUMENTS(table, name, unit);
     CLX_WHOLE(table, table);
-    const clast_status status = add(table, name, unit, false);
+    const clast_status status = add_column(table, name, unit, false);
     if (status == CLAST_OK && number != NULL) {
         *number = table->column[table->n_column - 1].number;
     }
@@ -80,7 +80,7 @@ clast_status clast_table_add_text(clast_table *table, const char *name)
 {
     CLX_ARGUMENTS(table, name);
     CLX_WHOLE(table, table);
-    clast_status status = add(table, name, "", true);
+    clast_status status = add_column(table, name, "", true);
     const int32_t column = table->n_column - 1;
     for (int64_t i = 0; i < table->n_row && status == CLAST_OK; ++i) {
         status = clast_table_set_text(table, column, i, "");

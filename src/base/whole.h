@@ -2,10 +2,9 @@
 // Whether what a caller has filled himself holds together: counts that are not negative, arrays
 // where counts say so, numbers of items that exist. Each noun has one function for it, in its own
 // folder.
-#include "base/shared.h"
 #include "base/status.h"
-#include <clast/field.h>
-#include <clast/table.h>
+
+typedef struct clast_text_list clast_text_list;
 
 /// Refuses the argument `object` of a public function where `noun`'s rules do not hold.
 #define CLX_WHOLE(noun, object)                                                                    \

@@ -1,6 +1,7 @@
 #pragma once
 // One run of an agglomerating cloud on one kind of mesh.
 #include <clast/agglomerate.h>
+#include <clast/cloud.h>
 
 /// A population that owns its arrays.
 typedef struct clx_evolution {

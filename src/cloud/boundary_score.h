@@ -2,8 +2,8 @@
 // The law of depths in a box and the distance of a sample from it.
 #include "cloud/part.h"
 
-#include <clast/domain.h>
-#include <clast/uniformity.h>
+#include <clast/cloud.h>
+#include <clast/decompose.h>
 
 /// H(z) = 1 - prod (1 - c_j z) on [0, 1].
 typedef struct clx_depth_law {

@@ -66,7 +66,7 @@ static int64_t find_kind(const clx_block *b, const clx_kind *seen)
     return k;
 }
 
-static void put(clx_block *b, int64_t kind, int64_t particle)
+static void put_particle(clx_block *b, int64_t kind, int64_t particle)
 {
     CLAST_ASSERT(kind >= 0 && particle >= 0);
     b->next[particle] = b->kind[kind].n > 0 ? b->kind[kind].head : -1;
@@ -74,7 +74,7 @@ static void put(clx_block *b, int64_t kind, int64_t particle)
     ++b->kind[kind].n;
 }
 
-static int64_t take(clx_block *b, int64_t kind)
+static int64_t take_particle(clx_block *b, int64_t kind)
 {
     CLAST_ASSERT(b->kind[kind].n > 0 && b->kind[kind].head >= 0);
     const int64_t particle = b->kind[kind].head;
@@ -95,7 +95,7 @@ bool clx_block_sort(clx_block *b, int64_t limit)
             }
             b->kind[b->n_kind++] = seen;
         }
-        put(b, k, b->member[m]);
+        put_particle(b, k, b->member[m]);
     }
     for (int64_t k = 0; k < b->n_kind; ++k) {
         let_settle(b, &b->kind[k]);
@@ -187,14 +187,14 @@ double clx_block_rates(clx_block *b)
     return total_of(b);
 }
 
-/// First kind of a colliding pair: chance n row. Rounding may pass the end: then the last one with
-/// a chance.
-static int64_t pick_first(clx_block *b, double total)
+/// The kind at `at` of the sum of n rate, their row or their change. Rounding may pass the end:
+/// then the last one with a chance; -1 without any.
+static int64_t pick_kind(const clx_block *b, bool by_change, double at)
 {
-    double at = clx_rng_uniform(b->rng) * total;
     int64_t last = -1;
     for (int64_t k = 0; k < b->n_kind; ++k) {
-        const double chance = (double)b->kind[k].n * b->kind[k].row;
+        const clx_kind *kind = &b->kind[k];
+        const double chance = (double)kind->n * (by_change ? kind->change : kind->row);
         if (chance > 0.0) {
             last = k;
             at -= chance;
@@ -204,6 +204,12 @@ static int64_t pick_first(clx_block *b, double total)
         }
     }
     return last;
+}
+
+/// First kind of a colliding pair.
+static int64_t pick_first(clx_block *b, double total)
+{
+    return pick_kind(b, false, clx_rng_uniform(b->rng) * total);
 }
 
 enum { WITHIN = -2 }; ///< in place of a second kind: the parcel's own particles
@@ -258,17 +264,17 @@ static void load(clx_block *b, int64_t particle)
     const int64_t kind = find_kind(b, &seen);
     if (kind == b->n_kind) {
         b->kind[b->n_kind++] = seen;
-        put(b, kind, particle);
+        put_particle(b, kind, particle);
         b->kind[kind].row = row_of(b, kind);
     } else { // its row already counts the others of its kind, not itself: the loop above added one
-        put(b, kind, particle);
+        put_particle(b, kind, particle);
     }
 }
 
 static void one_self_event(clx_block *b, int64_t kind)
 {
     const clx_kind gone = b->kind[kind];
-    const int64_t i = take(b, kind);
+    const int64_t i = take_particle(b, kind);
     drop_if_empty(b, kind);
     unload(b, &gone);
     int64_t live[2];
@@ -289,8 +295,8 @@ static bool one_event(clx_block *b, double total)
         return false;
     }
     const clx_kind gone[2] = {b->kind[first], b->kind[second]};
-    const int64_t i = take(b, first);
-    const int64_t j = take(b, second);
+    const int64_t i = take_particle(b, first);
+    const int64_t j = take_particle(b, second);
     drop_if_empty(b, first > second ? first : second); // the higher number first: the lower stays
     if (first != second) {
         drop_if_empty(b, first > second ? second : first);
@@ -316,35 +322,18 @@ static double changes_of(const clx_block *b)
     return rate;
 }
 
-/// A kind with chance n change; -1 without any.
-static int64_t pick_changing(const clx_block *b, double at)
-{
-    int64_t last = -1;
-    for (int64_t k = 0; k < b->n_kind; ++k) {
-        const double chance = (double)b->kind[k].n * b->kind[k].change;
-        if (chance > 0.0) {
-            last = k;
-            at -= chance;
-            if (at < 0.0) {
-                break;
-            }
-        }
-    }
-    return last;
-}
-
 /// A particle settles, breaks or comes in.
 static void one_change(clx_block *b, double total)
 {
     int64_t live[CLX_MOST_FRAGMENTS];
     int n_live = 0;
     const double at = clx_rng_uniform(b->rng) * total - clx_box_source(b->box);
-    const int64_t kind = at < 0.0 ? -1 : pick_changing(b, at);
+    const int64_t kind = at < 0.0 ? -1 : pick_kind(b, true, at);
     if (kind < 0) {
         n_live = clx_box_source(b->box) > 0.0 ? clx_box_enter(b->box, b->rng, live) : 0;
     } else {
         const clx_kind gone = b->kind[kind];
-        const int64_t i = take(b, kind);
+        const int64_t i = take_particle(b, kind);
         drop_if_empty(b, kind);
         unload(b, &gone);
         n_live = clx_box_change(b->box, i, b->rng, live);

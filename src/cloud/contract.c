@@ -2,6 +2,7 @@
 #include "cloud/contract.h"
 
 #include "base/status.h"
+#include <clast/cloud.h>
 #include <math.h>
 
 clast_status clx_cloud_check(const clast_cloud *cloud)

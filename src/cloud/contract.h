@@ -1,6 +1,6 @@
 #pragma once
 // What callers hand to the functions on clouds, checked once at the public boundary.
-#include "base/shared.h"
+#include "base/status.h"
 #include <clast/decompose.h>
 
 /// 1 to 3 dimensions, n >= 0 and coordinates for them; optional arrays are not looked at.

@@ -3,7 +3,7 @@
 // over directions u. [Matheron 1975; docs/theory/pairs.md]
 #include "base/status.h"
 
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 /// The set covariance in closed form or by quadrature [m^d]: a box, a cylinder or a sphere.
 double clx_covariogram(const clast_domain *domain, double r);

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "math/rng.h"
 #include "math/sort.h"
+#include <clast/cloud.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // Symmetric, centred and star discrepancies: constants, one-point sums, statistics of Liang et al.
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 #include "base/alloc.h"
 #include "cloud/contract.h"

@@ -1,5 +1,5 @@
 // Domains and their measure-preserving maps to the unit cube.
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 #include "cloud/boundary_score.h"
 #include "cloud/surface.h"

@@ -1,5 +1,5 @@
 // Domains from and to their names: "cylinder:0,0,1mm,0,0,1,5mm,2cm".
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 #include "base/number.h"
 #include "base/status.h"

@@ -1,6 +1,6 @@
 // Henze and Zirkler's test on probit scores: whitened, standardised on the log scale.
 // [HenzeZirkler1990]
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 #include "base/alloc.h"
 #include "base/parallel.h"

@@ -21,7 +21,7 @@ void clx_pair_cells_free(clx_pair_cells *c)
     *c = (clx_pair_cells){0};
 }
 
-static void measure(const double *x, double radius, clx_pair_cells *c)
+static void measure_grid(const double *x, double radius, clx_pair_cells *c)
 {
     double extent = 0.0;
     for (int32_t j = 0; j < c->d; ++j) {
@@ -68,7 +68,7 @@ clast_status clx_pair_cells_make(const double *x, int64_t n, int32_t d, double r
     clast_status status = CLAST_OK;
     clx_pair_cells made = {.d = d, .n = n};
     clx_keyed *entry = NULL;
-    measure(x, radius, &made);
+    measure_grid(x, radius, &made);
     CLX_TRY(clx_alloc(&entry, n, sizeof *entry));
     for (int64_t i = 0; i < n; ++i) {
         entry[i] = (clx_keyed){(uint64_t)key_of(&made, x + i * d), (uint64_t)i};

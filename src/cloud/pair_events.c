@@ -69,8 +69,8 @@ clast_status clx_pair_events(const clast_comm *comm, const clast_domain *domain,
     const double factor = 0.5 * rate * n * (n - 1.0);
     const clast_estimate found = clx_pair_poisson(&result->pairs.integral.estimate, n);
     result->events_by_pairs = scaled(&found, factor, most);
-    (void)clast_estimate_choose((clast_estimator)config->estimator, &result->events_by_cells,
-                                &result->events_by_pairs, &result->disagree);
+    (void)clast_estimate_choose(&result->events_by_cells, &result->events_by_pairs,
+                                (clast_estimator)config->estimator, &result->disagree);
     // a cell at its cap gives less than its pairs: the two numbers are not of the same thing
     result->disagree = result->disagree && result->n_capped == 0 && factor > 0.0;
     clx_pair_within(result);

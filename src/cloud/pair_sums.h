@@ -9,7 +9,7 @@
 // so sums over orthants of products of that basis serve all three.
 #include "cloud/part.h"
 
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 enum { CLX_PAIR_BASIS = 3 };
 

@@ -388,8 +388,8 @@ clast_status clast_pairs_count(const clast_domain *domain, const clast_cloud *cl
     return clx_pairs_count(clast_comm_one(), domain, cloud, config, NULL, pairs);
 }
 
-clast_estimate clast_estimate_choose(clast_estimator estimator, const clast_estimate *cells,
-                                     const clast_estimate *pairs, bool *disagree)
+clast_estimate clast_estimate_choose(const clast_estimate *cells, const clast_estimate *pairs,
+                                     clast_estimator estimator, bool *disagree)
 {
     if (cells == NULL || pairs == NULL) {
         return (clast_estimate){(double)NAN, (double)NAN, (double)NAN, false};

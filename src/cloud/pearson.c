@@ -1,5 +1,5 @@
 // Pearson correlation of coordinate pairs with Student's t and Bonferroni's correction.
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 #include "cloud/contract.h"
 #include "cloud/uniformity.h"

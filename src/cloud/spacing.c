@@ -5,7 +5,7 @@
 // in balanced trees of medians whatever the density, one tree for each PIECE points, so that memory
 // does not grow with the cloud. Of many points some stand for all, chosen by their place alone:
 // which rank has them, and in what order, does not matter. [docs/theory/cloud-ranks.md]
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 
 #include "base/alloc.h"
 #include "base/machine.h"

@@ -416,9 +416,9 @@ done:
     return status;
 }
 
-clast_status clast_spectrum_evolve(const clast_spectrum_config *config,
-                                   const clast_collide_config *collide,
-                                   const clast_spectrum_start *start_table, clast_spectrum *result)
+clast_status clast_spectrum_evolve(const clast_spectrum_start *start_table,
+                                   const clast_spectrum_config *config,
+                                   const clast_collide_config *collide, clast_spectrum *result)
 {
     clast_status status = CLAST_OK;
     clx_start start = {0};

@@ -92,7 +92,7 @@ done:
     return status;
 }
 
-static void add(double value, double *sum, double *sum2)
+static void add_square(double value, double *sum, double *sum2)
 {
     *sum += value;
     *sum2 += value * value;
@@ -114,7 +114,7 @@ static void count_balance(const sampling *s, int64_t live, int32_t row, clx_spec
     made->mass_error =
         fmax(made->mass_error, fabs((double)missing) / (double)(b->start + b->added));
     for (int k = 0; k < CLX_N_TOLD; ++k) {
-        add(value[k], &sums->told[CLX_N_TOLD * row + k], &sums->told2[CLX_N_TOLD * row + k]);
+        add_square(value[k], &sums->told[CLX_N_TOLD * row + k], &sums->told2[CLX_N_TOLD * row + k]);
     }
 }
 
@@ -140,11 +140,12 @@ static void count(sampling *s, int32_t row, clx_spectrum_sums *sums, clast_spect
         }
     }
     for (int k = 0; k < 4; ++k) {
-        add(moment[k] / box->volume, &sums->moment[4 * row + k], &sums->moment2[4 * row + k]);
+        add_square(moment[k] / box->volume, &sums->moment[4 * row + k],
+                   &sums->moment2[4 * row + k]);
     }
     for (int32_t i = 0; i < n; ++i) {
         const int64_t at = (int64_t)row * n + i;
-        add(s->at[i], &sums->number[at], &sums->number2[at]);
+        add_square(s->at[i], &sums->number[at], &sums->number2[at]);
     }
     count_balance(s, live, row, sums, made);
 }

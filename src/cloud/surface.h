@@ -2,7 +2,7 @@
 // The closed surface of a mesh domain.
 #include "base/status.h"
 
-#include <clast/domain.h>
+#include <clast/cloud.h>
 #include <clast/mesh.h>
 
 struct clast_domain_surface {

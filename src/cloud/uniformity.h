@@ -3,9 +3,8 @@
 #include "cloud/part.h"
 
 #include <clast/decompose.h>
-#include <clast/uniformity.h>
 
-// The public tests (clast/uniformity.h) of the points of all ranks; arguments are not checked.
+// The public tests (clast/decompose.h) of the points of all ranks; arguments are not checked.
 clast_status clx_discrepancy_test(const clx_part *part, clast_sums sums, clast_discrepancy *result);
 clast_status clx_henze_zirkler_test(const clx_part *part, clast_sums sums,
                                     clast_henze_zirkler *result);

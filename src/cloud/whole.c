@@ -1,6 +1,8 @@
 // Whether a decomposition, as a caller hands it back, holds together.
 #include "cloud/whole.h"
 
+#include "base/whole.h"
+#include <clast/decompose.h>
 #include <math.h>
 
 /// Each of n numbers is below `limit`; -1 stands for none.

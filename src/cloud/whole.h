@@ -1,8 +1,9 @@
 #pragma once
 // Whether a decomposition, as a caller hands it back, holds together.
-#include "base/shared.h"
-#include "base/whole.h"
-#include <clast/decompose.h>
+#include "base/status.h"
+
+typedef struct clast_cells clast_cells;
+typedef struct clast_decomposition clast_decomposition;
 
 /// What is wrong, for people, or NULL.
 CLX_SHARED const char *clx_decomposition_fault(const clast_decomposition *result);

@@ -6,6 +6,7 @@
 #include "cloud/decompose_steps.h"
 #include "cloud/reuse.h"
 #include "math/special.h"
+#include <clast/agglomerate.h>
 #include <math.h>
 #include <string.h>
 
@@ -292,7 +293,7 @@ done:
 }
 
 /// Hands all over to the workspace.
-static void keep(call *c, uint64_t setup)
+static void hand_over(call *c, uint64_t setup)
 {
     clast_workspace *w = c->workspace;
     w->last = c->made;
@@ -400,7 +401,7 @@ clast_status clast_workspace_decompose_in(clast_workspace *workspace, const clas
     }
     CLX_TRY(gather(points, &c.cloud));
     CLX_TRY(run_call(&c, domain));
-    keep(&c, setup);
+    hand_over(&c, setup);
     *result = &workspace->last;
 done:
     if (is_in) {
@@ -498,7 +499,7 @@ done:
     return status;
 }
 
-clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *cell, int64_t stride)
+clast_status clast_workspace_cells(const clast_workspace *workspace, int64_t stride, int32_t *cell)
 {
     CLX_ARGUMENTS(workspace, cell);
     const clast_status status = check_output(workspace, cell, stride);
@@ -508,8 +509,8 @@ clast_status clast_workspace_cells(const clast_workspace *workspace, int32_t *ce
     return status;
 }
 
-clast_status clast_workspace_events(const clast_workspace *workspace, double *events,
-                                    int64_t stride)
+clast_status clast_workspace_events(const clast_workspace *workspace, int64_t stride,
+                                    double *events)
 {
     CLX_ARGUMENTS(workspace, events);
     const clast_status status = check_output(workspace, events, stride);

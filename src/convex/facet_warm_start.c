@@ -22,7 +22,7 @@ CLX_INLINE double drift2(const double x[3], const float seen[3])
     return v3_norm2(d);
 }
 
-static void keep(const double x[3], float seen[3])
+static void keep_point(const double x[3], float seen[3])
 {
     for (int i = 0; i < 3; ++i) {
         seen[i] = (float)x[i];
@@ -208,8 +208,8 @@ static void remember_face(const clx_pair *pair, int k, int32_t f, int32_t v,
         turn = lesser_of(turn, v3_dot(near->along, at.q) * near->inverse);
     }
     turn = lesser_of(turn, MOST_TURN);
-    keep(at.p, warm_start->seen[0]);
-    keep(at.q, warm_start->seen[1]);
+    keep_point(at.p, warm_start->seen[0]);
+    keep_point(at.q, warm_start->seen[1]);
     warm_start->sure = sure_margin(
         pair,
         warm_start->data[3] - v3_dot(at.q, warm_start->data + 4) - turn * other->bounding_radius,
@@ -251,8 +251,8 @@ static void remember_edges(const clx_pair *pair, int32_t i, int32_t j, clx_warm_
         v3_scale(at.mb, -1.0, at.mb);
     }
     v3_scale(back, -1.0, at.mb);
-    keep(at.ma, warm_start->seen[0]);
-    keep(at.mb, warm_start->seen[1]);
+    keep_point(at.ma, warm_start->seen[0]);
+    keep_point(at.mb, warm_start->seen[1]);
     const double turn_a = arc_limit(ea, at.ma);
     const double turn_b = arc_limit(eb, back);
     const double lengths = v3_norm(warm_start->data + 3) + v3_norm(warm_start->data + 9);

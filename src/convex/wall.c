@@ -24,8 +24,8 @@ static inline bool is_kept(const clx_warm_start *warm_start, const double d[3])
 }
 
 /// Keeps vertex v, the farthest along d.
-static void keep(const clx_hull_core *core, int32_t v, const double d[3],
-                 clx_warm_start *warm_start)
+static void keep_support(const clx_hull_core *core, int32_t v, const double d[3],
+                         clx_warm_start *warm_start)
 {
     CLAST_ASSERT(v >= 0 && v < core->n_vert);
     double turn = 1.0;
@@ -51,7 +51,7 @@ static const double *farthest(const clx_hull_core *core, const double d[3],
     if (!is_kept(warm_start, d)) {
         const int32_t last = warm_start->feature[0];
         const int32_t from = last >= 0 && last < core->n_vert ? last : clx_core_start(core, d);
-        keep(core, clx_core_climb(core, d, from), d, warm_start);
+        keep_support(core, clx_core_climb(core, d, from), d, warm_start);
     }
     return warm_start->data;
 }

@@ -237,7 +237,7 @@ int32_t clx_wall_mesh_contacts(const clx_wall_mesh *wall, const clx_placed *body
 }
 
 /// False for a triangle without area.
-static bool measure(const clast_mesh *mesh, int32_t number, clx_wall_triangle *t)
+static bool measure_triangle(const clast_mesh *mesh, int32_t number, clx_wall_triangle *t)
 {
     double e[3], f[3], n[3];
     const int32_t *v = mesh->tri[number];
@@ -271,7 +271,7 @@ static void measure_tilts(const clast_mesh *mesh, const clx_topology *topology, 
         const int32_t half = 3 * number + k;
         const int32_t twin = clx_half_twin(topology, half);
         t->tilt[k][0] = t->tilt[k][1] = 1.0;
-        if (twin < 0 || !measure(mesh, twin / 3, &other)) {
+        if (twin < 0 || !measure_triangle(mesh, twin / 3, &other)) {
             continue;
         }
         const bool is_consistent = clx_half_from(mesh, half) == clx_half_to(mesh, twin);
@@ -310,7 +310,7 @@ clast_status clx_wall_mesh_create(const clast_mesh *mesh, clx_wall_mesh **wall)
     CLX_TRY(clx_alloc(&made->tri, mesh->n_tri, sizeof *made->tri));
     for (int32_t i = 0; i < mesh->n_tri; ++i) {
         clx_wall_triangle *t = &made->tri[made->n_tri];
-        if (measure(mesh, i, t)) {
+        if (measure_triangle(mesh, i, t)) {
             measure_tilts(mesh, &topology, i, t);
             made->n_tri += 1;
         }

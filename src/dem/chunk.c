@@ -5,6 +5,7 @@
 // left of another's chunk: threads are never equally fast. No result depends on the borders.
 #include "dem/chunk.h"
 
+#include "base/alloc.h"
 #include "base/lines.h"
 #include <string.h>
 

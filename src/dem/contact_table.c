@@ -2,6 +2,7 @@
 #include "base/alloc.h"
 #include "dem/dem.h"
 #include "dem/pair_force.h"
+#include <clast/table.h>
 
 static const struct {
     const char *name, *unit;

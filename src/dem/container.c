@@ -2,6 +2,7 @@
 #include "dem/container.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "dem/dem.h"
 #include "dem/pair_force.h"
 #include "geom/whole.h"

@@ -15,7 +15,7 @@ double clx_fluid_drag(const clast_dem *dem, const clx_grain *g, double reynolds,
 {
     return g->kind == CLAST_SHAPE_SPHERE && dem->config.sphere_drag == CLAST_DEM_DRAG_STANDARD
                ? clast_drag_sphere(reynolds)
-               : clast_drag_coefficient(reynolds, form);
+               : clast_drag_coefficient(form, reynolds);
 }
 
 clast_drag clx_fluid_form(const clast_dem *dem, const clast_shape *shape, double density)

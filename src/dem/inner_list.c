@@ -12,6 +12,7 @@
 // whenever clast_dem_step returns.
 #include "dem/dem.h"
 
+#include "base/alloc.h"
 #include "base/lines.h"
 #include <string.h>
 

@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "dem/dem.h"
 #include "dem/touch.h"
+#include <clast/assembly.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -7,6 +7,7 @@
 // costs a pass over memory.
 #include "dem/dem.h"
 
+#include "base/alloc.h"
 #include "base/lines.h"
 #include "convex/facet.h"
 #include "dem/container.h"

@@ -1,6 +1,7 @@
 // Simulations to plain arrays and back.
 #include "dem/saved.h"
 
+#include "base/alloc.h"
 #include "base/lines.h"
 #include "dem/dem.h"
 #include "dem/energy.h"

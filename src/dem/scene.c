@@ -5,6 +5,8 @@
 #include "math/rng.h"
 #include "math/vec3.h"
 #include "shape/gravel.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <math.h>
 #include <stdio.h>
 

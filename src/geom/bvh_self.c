@@ -213,7 +213,7 @@ typedef struct {
     int64_t n_all, cap;
 } self_search;
 
-static void keep(self_search *search, block_result *result, int32_t i, int32_t j)
+static void append_pair(self_search *search, block_result *result, int32_t i, int32_t j)
 {
     CLAST_ASSERT(i != j);
     const int32_t *item = search->bvh->tree.item;
@@ -273,7 +273,7 @@ static void search_one(self_search *search, block_result *result, int32_t i)
             box_of(bvh->corner[j], other_low, other_high);
             if (j > i && boxes_meet(low, high, other_low, other_high) &&
                 clx_triangles_meet(bvh->corner[i], bvh->corner[j])) {
-                keep(search, result, i, j);
+                append_pair(search, result, i, j);
             }
         }
     }

@@ -4,10 +4,12 @@
 #include "base/alloc.h"
 #include "geom/holes.h"
 #include "geom/intersect.h"
+#include "geom/topology.h"
 #include "geom/weld.h"
 #include "math/predicates.h"
 #include "math/vec3.h"
 #include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdlib.h>
 #include <string.h>
 

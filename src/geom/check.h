@@ -1,7 +1,9 @@
 #pragma once
 // The steps of clast_mesh_check, one file each.
-#include "geom/topology.h"
-#include <clast/mesh_repair.h>
+#include <clast/status.h>
+
+typedef struct clast_mesh_check_result clast_mesh_check_result;
+typedef struct clx_topology clx_topology;
 
 /// True when the three corners are on one line, exactly.
 bool clx_is_flat(const clast_mesh *mesh, int32_t t);

@@ -2,8 +2,11 @@
 #include "geom/check.h"
 
 #include "base/alloc.h"
+#include "geom/topology.h"
 #include "geom/tree.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdlib.h>
 
 static void add_triangles(const clast_mesh *mesh, const int32_t *part, clast_mesh_part *list)

@@ -2,6 +2,7 @@
 #include "base/number.h"
 #include "geom/check.h"
 
+#include <clast/mesh_repair.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

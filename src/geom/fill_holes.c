@@ -13,8 +13,11 @@
 #include "geom/check.h"
 #include "geom/holes.h"
 #include "geom/polygon.h"
+#include "geom/topology.h"
 #include "geom/weld.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,9 @@
 #include "geom/holes.h"
 
 #include "base/alloc.h"
+#include "geom/topology.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 #include <string.h>
 
 typedef struct {

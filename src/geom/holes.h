@@ -1,6 +1,8 @@
 #pragma once
 // Open edges chained into loops.
-#include "geom/topology.h"
+#include <clast/status.h>
+
+typedef struct clx_topology clx_topology;
 
 /// Simple loops: loop i visits vertex[begin[i] .. begin[i + 1] - 1] once each.
 typedef struct clx_loops {

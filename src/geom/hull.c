@@ -9,9 +9,11 @@
 #include "geom/hull.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/qhull_call.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 #include <stdlib.h>
 
 static const double RANK_TOLERANCE = 1e-13; // of the extent; doubles near 1 are spaced by 2e-16

@@ -1,6 +1,6 @@
 #pragma once
 // Convex hulls of point arrays, for code that has no mesh.
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 /// As clast_mesh_hull, of n points.
 clast_status clx_hull_points(const double (*point)[3], int64_t n, clast_mesh *hull);

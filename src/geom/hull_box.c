@@ -72,7 +72,7 @@ static void turn_down(const clx_hull_body *body, clx_shadow *shadow, clx_box *bo
 }
 
 /// Inserts a box among the best few, in rising order; it is below the last when all are taken.
-static void keep(clx_box kept[KEPT], int *n_kept, const clx_box *box)
+static void insert_box(clx_box kept[KEPT], int *n_kept, const clx_box *box)
 {
     CLAST_ASSERT(*n_kept >= 0 && *n_kept <= KEPT);
     int at = *n_kept < KEPT ? (*n_kept)++ : KEPT - 1;
@@ -112,7 +112,7 @@ static void boxes_on_faces(const clx_hull_body *body, const clx_face_views *view
         }
         if (box_along(body, body->normal[view->face], view->width, limit, shadow, &box) &&
             box_volume(&box) < limit) {
-            keep(kept, n_kept, &box);
+            insert_box(kept, n_kept, &box);
         }
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Triangles that cut each other, exactly.
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 /// Do two triangles with area cut each other? True when each has corners strictly on both sides of
 /// the other's plane and they share a stretch of the line in which the planes meet, or when they

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 
 const int8_t clx_grid_neighbour[CLX_GRID_NEIGHBOURS][3] = {
     {1, 0, 0},  {0, 1, 0},  {1, 1, 0},   {0, 0, 1},  {1, 0, 1},   {0, 1, 1},   {1, 1, 1},

@@ -1,6 +1,6 @@
 #pragma once
 // The level surface of numbers on a regular grid, by marching tetrahedra.
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 /// Numbers on the nodes of a regular grid; node (i, j, k) lies at low + h (i, j, k) and has index
 /// (k n[1] + j) n[0] + i.

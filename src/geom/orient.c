@@ -4,6 +4,9 @@
 
 #include "base/alloc.h"
 #include "geom/check.h"
+#include "geom/topology.h"
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdlib.h>
 
 static void turn_over(clast_mesh *mesh, int32_t t)

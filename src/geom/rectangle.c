@@ -98,7 +98,7 @@ static int least_turn(const calipers *c)
 }
 
 /// Keeps the rectangle with a side along d, turned back by k quarters, if it is the least so far.
-static void take(calipers *c, int k, const double d[2], double area)
+static void keep_rectangle(calipers *c, int k, const double d[2], double area)
 {
     CLAST_ASSERT(k >= 0 && k < 4);
     const double length2 = d[0] * d[0] + d[1] * d[1];
@@ -118,7 +118,7 @@ static void weigh(calipers *c, int k, const double d[2])
     const double across[2] = {-d[1], d[0]};
     const double along = reach_along(s, c->corner[1], d) - reach_along(s, c->corner[3], d);
     const double up = reach_along(s, c->corner[2], across) - reach_along(s, c->corner[0], across);
-    take(c, k, d, along * up);
+    keep_rectangle(c, k, d, along * up);
 }
 
 /// Meets every edge of the outline once. Of the four calipers one moves at a time, so the edges
@@ -210,7 +210,7 @@ static void try_all(calipers *c)
         }
         measure_edges(s->n, (const double(*)[2])s->point, (const double(*)[2])edge, area);
         for (int k = 0; k < N_EDGE; ++k) {
-            take(c, 0, edge[k], area[k]);
+            keep_rectangle(c, 0, edge[k], area[k]);
         }
     }
 }

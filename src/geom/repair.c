@@ -6,10 +6,15 @@
 #include "geom/repair.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/check.h"
+#include "geom/topology.h"
 #include "geom/weld.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
+#include <clast/field.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <string.h>
 
 #define FIELD(type, name)                                                                          \

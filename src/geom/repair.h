@@ -1,8 +1,9 @@
 #pragma once
 // The steps of clast_mesh_repair. Each changes `mesh` in place and adds to the report; on failure
 // the mesh may be half changed but is valid and owned by the caller.
-#include "geom/topology.h"
-#include <clast/mesh_repair.h>
+#include <clast/status.h>
+
+typedef struct clast_mesh_repair_report clast_mesh_repair_report;
 
 /// Drops marked triangles; returns how many.
 int32_t clx_drop_marked(clast_mesh *mesh, const bool *mark);

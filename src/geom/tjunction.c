@@ -6,8 +6,10 @@
 #include "geom/repair.h"
 
 #include "base/alloc.h"
+#include "geom/topology.h"
 #include "geom/tree.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "geom/union_find.h"
+#include <clast/mesh.h>
 #include <stdlib.h>
 
 typedef struct {

@@ -3,6 +3,7 @@
 // triangles may share an edge, in any direction. Triangles with a repeated corner ("collapsed")
 // take no part.
 #include <clast/mesh.h>
+#include <clast/status.h>
 
 /// Half-edge h = 3 t + k runs from corner k of triangle t to corner k + 1.
 typedef struct clx_topology {

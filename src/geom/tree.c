@@ -242,7 +242,7 @@ static int32_t split(const build_state *s, const node_range *range, int *axis)
     return range->n / 2;
 }
 
-static void measure(node_range *range)
+static void measure_range(node_range *range)
 {
     bin_empty(&range->bounds);
     bin_empty(&range->middles);
@@ -260,7 +260,7 @@ static void build_node(build_state *s, int32_t first, int32_t n, int depth)
     const int32_t self = s->tree->n_node++;
     node_range range = {.box = s->box + first, .n = n, .depth = depth};
     int axis = 0;
-    measure(&range);
+    measure_range(&range);
     const int32_t n_left = n > 1 ? split(s, &range, &axis) : 0;
     CLAST_ASSERT(n_left >= 0 && n_left < n);
     clx_tree_node *node = &s->tree->node[self];

@@ -1,7 +1,6 @@
 #pragma once
 // A binary tree over boxes, flat and in preorder; what clast_bvh, pair traversals and pictures
 // stand on.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// No path from the root is longer than this many edges, whatever the boxes: a depth-first walk

@@ -6,9 +6,11 @@
 #include "geom/weld.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/topology.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #pragma once
 // Merging vertices that are near each other.
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 typedef struct clx_weld_rule {
     double tolerance;     ///< model units; 0 merges bit-equal vertices (-0 equals 0)

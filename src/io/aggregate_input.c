@@ -7,7 +7,7 @@
 #include "io/config_files.h"
 #include "io/shape_word.h"
 #include <clast/fill.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
 #include <clast/state.h>
@@ -23,7 +23,7 @@ static clast_status check_surface(const char *path, const clast_mesh *mesh)
 {
     clast_status status = CLAST_OK;
     clast_mesh_check_result found = {0};
-    CLX_TRY(clast_mesh_require_solid(path, mesh, "take it as it is with --accept-faults"));
+    CLX_TRY(clast_mesh_require_solid(mesh, path, "take it as it is with --accept-faults"));
     CLX_TRY(clast_mesh_check(mesh, &found));
     CLX_CHECK(found.n_intersection == 0, CLAST_E_GEOMETRY,
               "%s cuts itself: %lld pairs of triangles; see clast mesh check, or --accept-faults",

@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "io/bed_tables.h"
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/state.h>
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,5 @@
 #pragma once
 // Containers in state files and from surfaces.
-#include "base/status.h"
-#include <clast/mesh.h>
 #include <clast/table.h>
 
 /// Vertices [m] and triangles as the tables that a state keeps.

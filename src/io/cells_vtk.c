@@ -2,6 +2,8 @@
 #include <clast/decompose.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
+#include "base/whole.h"
 #include "cloud/contract.h"
 #include "cloud/surface.h"
 #include "cloud/whole.h"
@@ -207,8 +209,8 @@ done:
     return status;
 }
 
-clast_status clast_cells_write_vtu(const char *path, const clast_decomposition *result,
-                                   const clast_domain *domain)
+clast_status clast_cells_write_vtu(const clast_decomposition *result, const clast_domain *domain,
+                                   const char *path)
 {
     CLX_ARGUMENTS(path, result, domain);
     CLX_WHOLE(decomposition, result);
@@ -309,9 +311,9 @@ done:
     return status;
 }
 
-clast_status clast_decomposition_write_points(const char *path, const clast_cloud *cloud,
-                                              const clast_decomposition *result,
-                                              const clast_domain *domain)
+clast_status clast_decomposition_write_points(const clast_decomposition *result,
+                                              const clast_cloud *cloud, const clast_domain *domain,
+                                              const char *path)
 {
     CLX_ARGUMENTS(path, cloud, result);
     CLX_GUARD(clx_cloud_check(cloud));

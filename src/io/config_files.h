@@ -1,10 +1,11 @@
 #pragma once
 // The files that a configuration names, for the manifest of its run: how many, and the i-th with
 // its role ("core", "sizes", "curve").
-#include "base/shared.h"
-#include <clast/aggregate_run.h>
-#include <clast/evolve.h>
-#include <clast/pack.h>
+#include "base/status.h"
+
+typedef struct clast_aggregate_config clast_aggregate_config;
+typedef struct clast_pack_config clast_pack_config;
+typedef struct clast_evolve_config clast_evolve_config;
 
 CLX_SHARED int32_t clx_aggregate_n_file(const clast_aggregate_config *config);
 CLX_SHARED const char *clx_aggregate_file(const clast_aggregate_config *config, int32_t i,

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "io/json.h"
+#include <clast/field.h>
 #include <math.h>
 #include <string.h>
 
@@ -65,10 +66,10 @@ static clast_status append_value(growing_text *t, const clast_field *f, const vo
     case CLAST_FIELD_TEXT_LIST:
         return append_quoted(t, ((const clast_text_list *)(const void *)slot)->item[index]);
     case CLAST_FIELD_CHOICE:
-        (void)clast_field_format(f, config, 0, text, sizeof text);
+        (void)clast_field_format(f, config, 0, sizeof text, text);
         return append_quoted(t, text);
     default: // whole numbers and true or false print alike in any locale
-        n = clast_field_format(f, config, 0, text, sizeof text);
+        n = clast_field_format(f, config, 0, sizeof text, text);
         return append(t, text, (size_t)n);
     }
 }

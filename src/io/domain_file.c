@@ -1,9 +1,10 @@
 // Domains named on the command line; those bounded by a surface are read from its file.
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 #include "base/status.h"
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ static clast_status read_mesh(const char *path, double scale, clast_domain *doma
     clast_status status = CLAST_OK;
     clast_mesh mesh = {0};
     CLX_TRY(clast_mesh_read_welded(path, &mesh, NULL));
-    CLX_TRY(clast_mesh_require_solid(path, &mesh, NULL));
+    CLX_TRY(clast_mesh_require_solid(&mesh, path, NULL));
     status = clast_domain_of_mesh(&mesh, scale, domain);
     if (status != CLAST_OK) {
         char why[512];

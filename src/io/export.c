@@ -4,8 +4,10 @@
 #include "assembly/whole.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/state.h>
 #include <clast/table.h>
 #include <string.h>
 
@@ -118,7 +120,7 @@ static clast_status write_threemf(const clast_assembly *assembly, int level, con
     for (int32_t i = 0; i < assembly->n_grain; ++i) {
         CLX_TRY(clast_assembly_grain_surface(assembly, i, level, &all));
     }
-    CLX_TRY(clast_mesh_write(path, &all, &options));
+    CLX_TRY(clast_mesh_write(&all, path, &options));
     report->n_vertex = all.n_vert;
     report->n_triangle = all.n_tri;
 done:

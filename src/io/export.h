@@ -2,7 +2,8 @@
 // One writer for each format of clast_assembly_write: appends the whole file.
 #include "base/file.h"
 #include "io/parts.h"
-#include <clast/state.h>
+
+typedef struct clast_export_options clast_export_options;
 
 typedef struct clx_export {
     const clast_assembly *assembly;

@@ -3,6 +3,7 @@
 #include "io/export.h"
 #include "io/mesh_io.h"
 #include "math/colour.h"
+#include <clast/state.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

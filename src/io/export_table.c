@@ -4,9 +4,13 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/number.h"
+#include "base/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include <clast/field.h>
+#include <clast/shape.h>
+#include <clast/state.h>
+#include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -61,8 +65,8 @@ void clx_shape_ellipsoid(const clast_shape *shape, double semi_axes[3], double t
 }
 
 /// Adds a number column called `name`, or name_unit for lengths to the given power.
-static clast_status add(clast_table *table, const char *name, const char *unit, int power,
-                        double **into)
+static clast_status add_quantity(clast_table *table, const char *name, const char *unit, int power,
+                                 double **into)
 {
     char title[64];
     char text[32] = "-";
@@ -82,13 +86,13 @@ static clast_status add_poses(const clast_assembly *a, const char *unit, clast_t
     clast_status status = CLAST_OK;
     double *into = NULL;
     for (int k = 0; k < 3; ++k) {
-        CLX_TRY(add(table, axes[k], unit, 1, &into));
+        CLX_TRY(add_quantity(table, axes[k], unit, 1, &into));
         for (int32_t i = 0; i < a->n_grain; ++i) {
             into[i] = a->position[i][k];
         }
     }
     for (int k = 0; k < 4; ++k) {
-        CLX_TRY(add(table, quaternion[k], unit, 0, &into));
+        CLX_TRY(add_quantity(table, quaternion[k], unit, 0, &into));
         for (int32_t i = 0; i < a->n_grain; ++i) {
             into[i] = a->orientation[i][k];
         }
@@ -128,7 +132,7 @@ static clast_status add_measures(const clast_assembly *a, const char *unit, clas
     clast_status status = CLAST_OK;
     double *into = NULL;
     for (size_t k = 0; k < sizeof measures / sizeof measures[0]; ++k) {
-        CLX_TRY(add(table, measures[k].name, unit, measures[k].power, &into));
+        CLX_TRY(add_quantity(table, measures[k].name, unit, measures[k].power, &into));
         for (int32_t i = 0; i < a->n_grain; ++i) {
             into[i] = measure_of(a, i, measures[k].what);
         }

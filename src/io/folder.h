@@ -1,6 +1,5 @@
 #pragma once
 // What lies in a folder.
-#include "base/shared.h"
 #include "base/status.h"
 
 typedef struct clx_folder {

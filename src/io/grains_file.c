@@ -14,7 +14,6 @@
 #include <clast/form.h>
 #include <clast/harmonics.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/volume.h>
 #include <stdio.h>
@@ -114,14 +113,15 @@ static clast_status write_surface(const clx_grains_task *task, const char *suffi
     if (task->options->hull || mesh->n_tri == 0) {
         CLX_TRY(clast_mesh_hull(mesh, &hull));
     }
-    CLX_TRY(clast_mesh_write(path, hull.n_tri > 0 ? &hull : mesh, NULL));
+    CLX_TRY(clast_mesh_write(hull.n_tri > 0 ? &hull : mesh, path, NULL));
 done:
     clx_free(path);
     clast_mesh_free(&hull);
     return status;
 }
 
-static clast_status measure(const clx_grains_task *task, const clast_mesh *mesh, clast_grain *grain)
+static clast_status measure_grain(const clx_grains_task *task, const clast_mesh *mesh,
+                                  clast_grain *grain)
 {
     clast_status status = CLAST_OK;
     clast_mesh welded = {0};
@@ -132,7 +132,7 @@ static clast_status measure(const clx_grains_task *task, const clast_mesh *mesh,
     if (status == CLAST_E_GEOMETRY) { // perhaps only seams: vertices that rounding has parted
         CLX_TRY(clast_mesh_copy(mesh, &welded));
         CLX_TRY(clast_mesh_weld_auto(&welded, NULL));
-        CLX_TRY(clast_mesh_require_solid(task->path, &welded, "measure its hull with --hull"));
+        CLX_TRY(clast_mesh_require_solid(&welded, task->path, "measure its hull with --hull"));
         status = clast_grain_measure(&welded, grain);
     }
 done:
@@ -147,7 +147,7 @@ static clast_status take_mesh(clx_grains_task *task, clast_grains_kind kind, con
     clast_status status = CLAST_OK;
     clast_grain grain;
     clast_grain_record *record = NULL;
-    CLX_TRY(measure(task, mesh, &grain));
+    CLX_TRY(measure_grain(task, mesh, &grain));
     if (task->options->folder != NULL) {
         CLX_TRY(write_surface(task, suffix, mesh));
     }

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include <clast/field.h>
 #include <clast/form.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,7 +52,7 @@ clast_status clx_grains_of_table(clx_grains_task *task, const clast_table *table
                                record->grain.axes[a].lis);
         }
     }
-    clast_form_set_complaint(&set, text, sizeof text);
+    clast_form_set_complaint(&set, sizeof text, text);
     if (text[0] != '\0') {
         CLX_TRY(clx_grains_note(task, text));
     }

@@ -6,7 +6,6 @@
 // file is refused instead of tried (HDF5 1.10 leaks, and hangs at exit, on some). See
 // docs/theory/state-file.md. HDF5's serial library holds one global state: calls from several
 // threads take turns.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// A file being built (clx_h5_create) or read (clx_h5_open). Opaque.

@@ -4,6 +4,8 @@
 
 #include "io/points.h"
 #include "io/volume_io.h"
+#include <clast/table.h>
+#include <clast/volume.h>
 
 clast_status clx_h5_available(void)
 {

@@ -2,6 +2,7 @@
 // and manifests are written without a tree in memory.                                   [RFC 8259]
 #include "io/json.h"
 
+#include "base/file.h"
 #include "base/number.h"
 #include <math.h>
 #include <stdio.h>

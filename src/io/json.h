@@ -1,7 +1,8 @@
 #pragma once
 // Pieces of JSON into an output file. Errors are the file's: sticky, seen by clx_file_commit.
-#include "base/file.h"
-#include "base/shared.h"
+#include "base/status.h"
+
+typedef struct clx_file clx_file;
 
 enum { CLX_JSON_STEP = 8 };
 

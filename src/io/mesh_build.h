@@ -1,6 +1,6 @@
 #pragma once
 // A mesh that grows while a file is read: vertices, then polygons that are cut as they come.
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 #include "geom/polygon.h"
 

@@ -1,9 +1,11 @@
 // Surfaces from files and to files: which format, and the way there and back.
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "io/mesh_io.h"
 #include <clast/field.h>
@@ -162,7 +164,7 @@ static clast_status write_format(clast_mesh_format format, const clast_mesh *mes
     }
 }
 
-clast_status clast_mesh_write(const char *path, const clast_mesh *mesh,
+clast_status clast_mesh_write(const clast_mesh *mesh, const char *path,
                               const clast_mesh_write_options *options)
 {
     CLX_ARGUMENTS(path, mesh);

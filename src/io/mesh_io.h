@@ -1,8 +1,8 @@
 #pragma once
 // What the mesh readers and writers share inside src/io.
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
-#include "base/file.h"
+typedef struct clx_file clx_file;
 
 /// Adds a line to the report's warnings; after the eighth the rest is dropped.
 void clx_report_warn(clast_mesh_read_report *report, const char *format, ...)

@@ -1,4 +1,5 @@
 // Surfaces to OBJ, PLY and OFF: the same doubles come back from each.
+#include "base/file.h"
 #include "base/number.h"
 #include "io/bytes.h"
 #include "io/mesh_io.h"

@@ -13,7 +13,6 @@
 #include <clast/form.h>
 #include <clast/grading.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <clast/mesh_repair.h>
 #include <clast/shape.h>
 #include <clast/state.h>
@@ -81,7 +80,7 @@ static clast_status read_surface(const clast_pack_config *config, const char *pa
         CLX_TRY(note_hull(name, &mesh, &hull, note));
     } else {
         CLX_TRY(clast_mesh_weld_auto(&mesh, NULL));
-        CLX_TRY(clast_mesh_require_solid(path, &mesh, "take its hull (hull: yes)"));
+        CLX_TRY(clast_mesh_require_solid(&mesh, path, "take its hull (hull: yes)"));
     }
     CLX_TRY(clast_shape_mesh(name, hull.n_tri > 0 ? &hull : &mesh, shape));
 done:

@@ -7,6 +7,7 @@
 #include "io/bytes.h"
 #include "io/spheres_table.h"
 #include "io/text.h"
+#include <clast/assembly.h>
 #include <clast/cloud.h>
 #include <clast/table.h>
 #include <stdio.h>

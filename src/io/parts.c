@@ -3,6 +3,7 @@
 #include "io/parts.h"
 
 #include "base/alloc.h"
+#include <clast/shape.h>
 #include <string.h>
 
 void clx_parts_free(clx_parts *parts)

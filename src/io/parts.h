@@ -1,6 +1,7 @@
 #pragma once
 // The surfaces of an assembly's grains, one at a time.
 #include <clast/assembly.h>
+#include <clast/mesh.h>
 
 typedef struct clx_parts {
     const clast_assembly *assembly; ///< borrowed

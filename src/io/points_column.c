@@ -2,6 +2,7 @@
 #include "io/points.h"
 
 #include "base/status.h"
+#include <clast/table.h>
 #include <stdio.h>
 
 enum { NAME_SIZE = 256 };

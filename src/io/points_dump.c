@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "io/text.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <string.h>
 

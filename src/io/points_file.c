@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include <clast/cloud.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 #include "io/points.h"
 
 #include "base/alloc.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "io/ply.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

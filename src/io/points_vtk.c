@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "io/text.h"
 #include "io/vtk_number.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <string.h>
 

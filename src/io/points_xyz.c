@@ -3,6 +3,7 @@
 #include "io/points.h"
 
 #include "io/text.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <stdio.h>
 

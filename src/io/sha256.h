@@ -1,6 +1,6 @@
 #pragma once
 // SHA-256. [FIPS 180-4 section 6.2]
-#include "base/shared.h"
+#include "base/status.h"
 #include <stddef.h>
 #include <stdint.h>
 

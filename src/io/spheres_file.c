@@ -5,6 +5,7 @@
 #include "base/lock.h"
 #include "base/path.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "io/spheres_table.h"
 #include "shape/whole.h"
 #include <clast/state.h>
@@ -104,7 +105,7 @@ static clast_status write_state(const char *path, const char *name, const clast_
     bool is_busy = false;
     CLX_TRY(clx_lock_take(path, PATIENCE, &lock, &is_busy)); // from reading to writing
     if (access(path, F_OK) != 0) {
-        status = clast_state_write_spheres(path, name, spheres, unit);
+        status = clast_state_write_spheres(spheres, path, name, unit);
         goto done;
     }
     CLX_TRY(clast_state_read(path, &state));
@@ -119,7 +120,7 @@ done:
     return status;
 }
 
-clast_status clast_spheres_write(const char *path, const char *name, const clast_spheres *spheres,
+clast_status clast_spheres_write(const clast_spheres *spheres, const char *path, const char *name,
                                  const char *unit)
 {
     CLX_ARGUMENTS(path, name, spheres);

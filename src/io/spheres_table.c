@@ -29,7 +29,7 @@ static bool is_named(const char *column, const char *wanted)
 }
 
 /// A column under the k-th name; the first of a kind counts, and a radius before a diameter.
-static void take(columns *c, int name, const clast_column *column)
+static void take_column(columns *c, int name, const clast_column *column)
 {
     const int at = name < RADIUS ? name : RADIUS;
     if (c->column[at] == NULL || (at == RADIUS && c->is_diameter && name < FIRST_DIAMETER)) {
@@ -43,7 +43,7 @@ static void find_names(const clast_table *table, columns *c)
     for (int name = 0; name < N_NAME; ++name) {
         for (int32_t i = 0; i < table->n_column; ++i) {
             if (is_named(table->column[i].name, names[name])) {
-                take(c, name, &table->column[i]);
+                take_column(c, name, &table->column[i]);
             }
         }
     }
@@ -68,7 +68,7 @@ static clast_status take_list(const clast_table *table, const char *list, column
                   list, table->n_column);
         for (int name = 0; name < N_NAME; ++name) {
             if (strlen(names[name]) == length && strncasecmp(at, names[name], length) == 0) {
-                take(c, name, &table->column[n]);
+                take_column(c, name, &table->column[n]);
             }
         }
         at += length + (at[length] == ',');

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "io/state_path.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <inttypes.h>
 #include <string.h>
 

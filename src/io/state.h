@@ -1,6 +1,6 @@
 #pragma once
 // The parts of a state file, for checkpoints and other files that hold them too.
-#include "base/shared.h"
+#include "base/status.h"
 #include "io/h5.h"
 #include <clast/state.h>
 

@@ -4,13 +4,15 @@
 
 #include "base/alloc.h"
 #include "io/state_path.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
 /// Array of *n items of `width` numbers into a fresh block; *n < 0 takes any number and tells it.
-static clast_status take(clx_place at, const char *name, clx_h5_type type, int32_t width,
-                         int64_t *n, void *data)
+static clast_status read_array(clx_place at, const char *name, clx_h5_type type, int32_t width,
+                               int64_t *n, void *data)
 {
     clast_status status = CLAST_OK;
     char path[CLX_H5_NAME_LIMIT];
@@ -106,8 +108,8 @@ clast_status clx_state_take_spheres(clx_h5 *h5, const char *folder, clast_sphere
     clast_status status = CLAST_OK;
     clast_spheres made = {0};
     int64_t n = -1;
-    CLX_TRY(take((clx_place){h5, folder}, "centre", CLX_H5_F64, 3, &n, &made.centre));
-    CLX_TRY(take((clx_place){h5, folder}, "radius", CLX_H5_F64, 1, &n, &made.radius));
+    CLX_TRY(read_array((clx_place){h5, folder}, "centre", CLX_H5_F64, 3, &n, &made.centre));
+    CLX_TRY(read_array((clx_place){h5, folder}, "radius", CLX_H5_F64, 1, &n, &made.radius));
     CLX_CHECK(n <= INT32_MAX &&
                   (n == 0 || (all_finite(made.centre[0], 3 * n) && all_positive(made.radius, n))),
               CLAST_E_FORMAT, "%s: not every sphere is finite with a radius above 0", folder);
@@ -125,8 +127,8 @@ static clast_status take_mesh(clx_h5 *h5, const char *folder, clast_mesh *mesh)
     clast_mesh made = {0};
     int64_t n_vert = -1;
     int64_t n_tri = -1;
-    CLX_TRY(take((clx_place){h5, folder}, "vert", CLX_H5_F64, 3, &n_vert, &made.vert));
-    CLX_TRY(take((clx_place){h5, folder}, "tri", CLX_H5_I32, 3, &n_tri, &made.tri));
+    CLX_TRY(read_array((clx_place){h5, folder}, "vert", CLX_H5_F64, 3, &n_vert, &made.vert));
+    CLX_TRY(read_array((clx_place){h5, folder}, "tri", CLX_H5_I32, 3, &n_tri, &made.tri));
     CLX_CHECK(n_vert <= INT32_MAX && n_tri <= INT32_MAX && n_vert > 0 &&
                   all_finite(made.vert[0], 3 * n_vert) &&
                   (n_tri == 0 || all_within(made.tri[0], 3 * n_tri, (int32_t)n_vert)),
@@ -238,8 +240,8 @@ static clast_status take_rigid(clx_h5 *h5, const char *folder, clast_shape *shap
     int32_t(*id)[5] = NULL;
     double(*number)[10] = NULL;
     int64_t n = -1;
-    CLX_TRY(take((clx_place){h5, folder}, "part_id", CLX_H5_I32, 5, &n, &id));
-    CLX_TRY(take((clx_place){h5, folder}, "part", CLX_H5_F64, 10, &n, &number));
+    CLX_TRY(read_array((clx_place){h5, folder}, "part_id", CLX_H5_I32, 5, &n, &id));
+    CLX_TRY(read_array((clx_place){h5, folder}, "part", CLX_H5_F64, 10, &n, &number));
     CLX_CHECK(n > 0 && n <= INT32_MAX, CLAST_E_FORMAT, "%s: %" PRId64 " parts", folder, n);
     CLX_TRY(clx_alloc(&shape->parts.part, n, sizeof *shape->parts.part));
     for (; shape->parts.n < n; ++shape->parts.n) {
@@ -336,13 +338,13 @@ static clast_status take_grains(clx_h5 *h5, const char *folder, clast_assembly *
 {
     clast_status status = CLAST_OK;
     int64_t n = -1;
-    CLX_TRY(take((clx_place){h5, folder}, "shape_id", CLX_H5_I32, 1, &n, &a->shape_id));
+    CLX_TRY(read_array((clx_place){h5, folder}, "shape_id", CLX_H5_I32, 1, &n, &a->shape_id));
     CLX_CHECK(n <= INT32_MAX, CLAST_E_LIMIT, "%s has %" PRId64 " grains", folder, n);
-    CLX_TRY(take((clx_place){h5, folder}, "position", CLX_H5_F64, 3, &n, &a->position));
-    CLX_TRY(take((clx_place){h5, folder}, "orientation", CLX_H5_F64, 4, &n, &a->orientation));
-    CLX_TRY(take((clx_place){h5, folder}, "scale", CLX_H5_F64, 1, &n, &a->scale));
-    CLX_TRY(take((clx_place){h5, folder}, "density", CLX_H5_F64, 1, &n, &a->density));
-    CLX_TRY(take((clx_place){h5, folder}, "id", CLX_H5_I64, 1, &n, &a->id));
+    CLX_TRY(read_array((clx_place){h5, folder}, "position", CLX_H5_F64, 3, &n, &a->position));
+    CLX_TRY(read_array((clx_place){h5, folder}, "orientation", CLX_H5_F64, 4, &n, &a->orientation));
+    CLX_TRY(read_array((clx_place){h5, folder}, "scale", CLX_H5_F64, 1, &n, &a->scale));
+    CLX_TRY(read_array((clx_place){h5, folder}, "density", CLX_H5_F64, 1, &n, &a->density));
+    CLX_TRY(read_array((clx_place){h5, folder}, "id", CLX_H5_I64, 1, &n, &a->id));
     a->n_grain = a->grain_capacity = (int32_t)n;
     CLX_TRY(check_poses(a, folder));
 done:
@@ -356,8 +358,9 @@ static clast_status take_contacts(clx_h5 *h5, const char *folder, clast_assembly
     if (!has(h5, folder, "contact")) {
         return CLAST_OK;
     }
-    CLX_TRY(take((clx_place){h5, folder}, "contact", CLX_H5_I32, 2, &n, &a->contact));
-    CLX_TRY(take((clx_place){h5, folder}, "contact_point", CLX_H5_F64, 3, &n, &a->contact_point));
+    CLX_TRY(read_array((clx_place){h5, folder}, "contact", CLX_H5_I32, 2, &n, &a->contact));
+    CLX_TRY(
+        read_array((clx_place){h5, folder}, "contact_point", CLX_H5_F64, 3, &n, &a->contact_point));
     CLX_CHECK(n <= INT32_MAX && (n == 0 || (all_within(a->contact[0], 2 * n, a->n_grain) &&
                                             all_finite(a->contact_point[0], 3 * n))),
               CLAST_E_FORMAT, "%s: a contact joins grains that are not there", folder);
@@ -409,8 +412,8 @@ static clast_status take_texts(clx_h5 *h5, const char *folder, const char *name,
     int64_t n_byte = -1;
     int64_t n_begin = table->n_row + 1;
     (void)snprintf(begin_name, sizeof begin_name, "%s_begin", name);
-    CLX_TRY(take((clx_place){h5, folder}, begin_name, CLX_H5_I64, 1, &n_begin, &begin));
-    CLX_TRY(take((clx_place){h5, folder}, name, CLX_H5_U8, 1, &n_byte, &bytes));
+    CLX_TRY(read_array((clx_place){h5, folder}, begin_name, CLX_H5_I64, 1, &n_begin, &begin));
+    CLX_TRY(read_array((clx_place){h5, folder}, name, CLX_H5_U8, 1, &n_byte, &bytes));
     CLX_CHECK(begin != NULL && bytes != NULL, CLAST_E_FORMAT, "column %s is not there", name);
     CLX_TRY(fill_texts(table, table->n_column - 1, bytes, begin, n_byte));
 done:
@@ -440,7 +443,7 @@ static clast_status take_column(clx_h5 *h5, const char *folder, int32_t c, clast
         CLX_TRY(clast_table_add_text(table, title));
         CLX_TRY(take_texts(h5, folder, name, table));
     } else {
-        CLX_TRY(take((clx_place){h5, folder}, name, CLX_H5_F64, 1, &n_row, &from));
+        CLX_TRY(read_array((clx_place){h5, folder}, name, CLX_H5_F64, 1, &n_row, &from));
         CLX_TRY(clast_table_add_number(table, title, unit, &into));
         if (from != NULL && n_row > 0) {
             memcpy(into, from, (size_t)n_row * sizeof *into);

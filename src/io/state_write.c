@@ -6,6 +6,8 @@
 #include "base/whole.h"
 #include "io/state_path.h"
 #include "shape/whole.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <string.h>
 
 /// One array under a folder.
@@ -287,7 +289,7 @@ done:
     return status;
 }
 
-clast_status clast_state_write_assembly(const char *path, const clast_assembly *assembly,
+clast_status clast_state_write_assembly(const clast_assembly *assembly, const char *path,
                                         const char *config)
 {
     CLX_ARGUMENTS(path, assembly);
@@ -314,8 +316,8 @@ done:
     return status;
 }
 
-clast_status clast_state_write_spheres(const char *path, const char *name,
-                                       const clast_spheres *spheres, const char *unit)
+clast_status clast_state_write_spheres(const clast_spheres *spheres, const char *path,
+                                       const char *name, const char *unit)
 {
     CLX_ARGUMENTS(path, name, spheres, unit);
     CLX_WHOLE(spheres, spheres);

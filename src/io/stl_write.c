@@ -4,6 +4,8 @@
 // those of the rounded corners, and a facet of which rounding makes two corners one is left out.
 #include "io/mesh_io.h"
 
+#include "base/file.h"
+#include "base/status.h"
 #include "io/bytes.h"
 #include "math/vec3.h"
 #include <stdio.h>

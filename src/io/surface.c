@@ -1,8 +1,10 @@
 // Surfaces that must bound a solid: one weld, one count, and the command that closes the file.
 #include "base/alloc.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include "geom/whole.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
+#include <clast/mesh_repair.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -85,7 +87,7 @@ done:
     return status;
 }
 
-clast_status clast_mesh_cure(const char *path, const clast_mesh *mesh, char *command, size_t size)
+clast_status clast_mesh_cure(const clast_mesh *mesh, const char *path, size_t size, char *command)
 {
     CLX_ARGUMENTS(path, mesh, command);
     CLX_WHOLE(mesh, mesh);
@@ -141,7 +143,7 @@ static void list_faults(const clast_mesh_check_result *found, char *text, size_t
     }
 }
 
-clast_status clast_mesh_require_solid(const char *path, const clast_mesh *mesh,
+clast_status clast_mesh_require_solid(const clast_mesh *mesh, const char *path,
                                       const char *otherwise)
 {
     CLX_ARGUMENTS(path, mesh);
@@ -158,7 +160,7 @@ clast_status clast_mesh_require_solid(const char *path, const clast_mesh *mesh,
               "%s is flat: its %d vertices lie in one plane, and what has no thickness is no solid",
               path, found.n_vertex);
     list_faults(&found, faults, sizeof faults);
-    CLX_TRY(clast_mesh_cure(path, mesh, cure, sizeof cure));
+    CLX_TRY(clast_mesh_cure(mesh, path, sizeof cure, cure));
     status = clx_fail(
         CLAST_E_GEOMETRY, "%s is not a closed, outward surface: %s; %s%s%s%s", path, faults,
         otherwise != NULL ? otherwise : "", otherwise != NULL ? ", or " : "",

@@ -1,4 +1,5 @@
 // 3MF, for printers: one object in millimetres in a ZIP [3MF core specification 1.3].
+#include "base/file.h"
 #include "base/number.h"
 #include "base/status.h"
 #include "io/mesh_io.h"

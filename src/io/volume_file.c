@@ -1,6 +1,8 @@
 // Volumes of scanners: which format, and bare values without any.
 #include "io/volume_io.h"
 
+#include "base/status.h"
+#include <clast/volume.h>
 #include <string.h>
 #define ZLIB_CONST // next_in is const
 #include <zlib.h>

@@ -2,6 +2,7 @@
 #include "io/h5_inside.h"
 #include "io/volume_io.h"
 
+#include <clast/volume.h>
 #include <stdio.h>
 #include <string.h>
 

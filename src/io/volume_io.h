@@ -1,8 +1,8 @@
 #pragma once
 // Formats of volumes, from memory.
-#include <clast/volume.h>
+#include <clast/status.h>
 
-#include "base/status.h"
+typedef struct clast_volume clast_volume;
 
 bool clx_nrrd_is(const uint8_t *bytes, size_t n);
 clast_status clx_nrrd_parse(const uint8_t *bytes, size_t n, clast_volume *volume);

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include <clast/field.h>
+#include <clast/volume.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

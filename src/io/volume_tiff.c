@@ -1,6 +1,7 @@
 // TIFF by libtiff: a page is a slice of the volume, in strips or tiles.  [docs/adr/0004-tiff.md]
 #include "io/volume_io.h"
 
+#include <clast/volume.h>
 #include <string.h>
 
 bool clx_tiff_is(const uint8_t *bytes, size_t n)

@@ -4,6 +4,7 @@
 #include "io/vtk_array.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
 #include <string.h>
 #include <zlib.h>

@@ -1,7 +1,9 @@
 #pragma once
 // VTK's XML formats: the head of a file, and one DataArray: inline, binary, zlib-compressed in
 // blocks, base64.
-#include "base/file.h"
+#include <clast/status.h>
+
+typedef struct clx_file clx_file;
 
 /// An array being gathered block by block. {0} is empty.
 typedef struct clx_vtk_array {

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "io/vtk_array.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <inttypes.h>
 
 static void put_head(clx_file *file, const char *unit, int64_t n_point, int64_t n_cell)

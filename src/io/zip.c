@@ -2,6 +2,7 @@
 #include "io/zip.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/number.h"
 #include "io/bytes.h"
 #include <stdarg.h>
@@ -15,7 +16,7 @@ enum {
     CHUNK = 1 << 16
 };
 
-static voidpf take(voidpf unused, uInt n, uInt size)
+static voidpf zip_alloc(voidpf unused, uInt n, uInt size)
 {
     void *block = NULL;
     (void)unused;
@@ -23,7 +24,7 @@ static voidpf take(voidpf unused, uInt n, uInt size)
     return block;
 }
 
-static void give(voidpf unused, voidpf block)
+static void zip_free(voidpf unused, voidpf block)
 {
     (void)unused;
     clx_free(block);
@@ -37,7 +38,7 @@ clast_status clx_zip_begin_entry(clx_zip *zip, const char *name)
     *e = (clx_zip_entry){.offset = zip->offset, .crc = (uint32_t)crc32(0, NULL, 0)};
     (void)snprintf(e->name, sizeof e->name, "%s", name);
     zip->n_packed = 0;
-    zip->stream = (z_stream){.zalloc = take, .zfree = give};
+    zip->stream = (z_stream){.zalloc = zip_alloc, .zfree = zip_free};
     // -15: no zlib header around the deflated bytes
     CLX_CHECK(deflateInit2(&zip->stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) == Z_OK,
               CLAST_E_MEMORY, "no memory to pack %s", name);

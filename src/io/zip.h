@@ -1,6 +1,8 @@
 #pragma once
 // A ZIP file of a few entries, deflated, with no times in it: equal contents give equal bytes.
-#include "base/file.h"
+#include <clast/status.h>
+
+typedef struct clx_file clx_file;
 #define ZLIB_CONST // input is read-only
 #include <zlib.h>
 

@@ -7,6 +7,7 @@
 #include "math/rng.h"
 #include "math/sample.h"
 #include "math/sort.h"
+#include <clast/statistics.h>
 #include <math.h>
 
 clast_bootstrap clast_bootstrap_default(void)

@@ -1,8 +1,9 @@
 #pragma once
 // Bootstrap intervals: percentiles of statistics over samples drawn with replacement.
-#include "base/status.h"
+#include <clast/status.h>
 
-#include <clast/statistics.h>
+typedef struct clast_bootstrap clast_bootstrap;
+typedef struct clast_sample_summary clast_sample_summary;
 
 /// Row numbers of resample b of n rows: draws from (seed, CLX_STREAM_RESAMPLE, b).
 void clx_bootstrap_rows(const clast_bootstrap *bootstrap, int64_t b, int64_t n, int64_t *row);

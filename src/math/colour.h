@@ -1,6 +1,6 @@
 #pragma once
 // Colours that colour-blind readers can tell apart, shared by charts and pictures.
-#include "base/shared.h"
+#include "base/status.h"
 
 enum { CLX_N_COLOUR = 8 };
 

@@ -3,10 +3,12 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/sample.h"
 #include "math/sort.h"
 #include "math/special.h"
 #include "math/whole.h"
+#include <clast/table.h>
 #include <math.h>
 
 enum { MAX_BIN = 200 };

@@ -102,7 +102,7 @@ static double predict(const double *row, const double *b, int32_t p)
     return sum;
 }
 
-static void measure(const double *x, const double *y, const scratch *w, clx_least_squares *f)
+static void measure_fit(const double *x, const double *y, const scratch *w, clx_least_squares *f)
 {
     double mean = 0.0;
     double residual = 0.0;
@@ -158,7 +158,7 @@ clast_status clx_least_squares_fit(const clx_regression *data, clx_least_squares
     CLX_TRY(clx_alloc(&f.leverage, n, sizeof *f.leverage));
     CLX_TRY(decompose(data->x, n, p, &w));
     solve(data->y, n, p, &w, f.b);
-    measure(data->x, data->y, &w, &f);
+    measure_fit(data->x, data->y, &w, &f);
     *fit = f;
     f = (clx_least_squares){0};
 done:

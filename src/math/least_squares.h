@@ -1,6 +1,5 @@
 #pragma once
 // Linear least squares y = X b with what a regression report needs, by the singular values of X.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// What is to be fitted: y = X b. Borrowed.

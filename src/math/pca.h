@@ -1,6 +1,6 @@
 #pragma once
 // Principal components of a symmetric matrix by LAPACK.
-#include "base/status.h"
+#include <clast/status.h>
 
 /// Eigenvalues (falling) and unit eigenvectors of a symmetric n x n matrix; row k of `vector`
 /// belongs to value k and its entry of largest size is positive, so that equal matrices give equal

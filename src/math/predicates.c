@@ -64,7 +64,7 @@ static int grow(int n, const double *e, double b, double *sum)
 }
 
 /// out = e + f; room for n + m.
-static int add(int n, const double *e, int m, const double *f, double *out)
+static int add_expansions(int n, const double *e, int m, const double *f, double *out)
 {
     int k = 0;
     for (int i = 0; i < n; ++i) {
@@ -116,7 +116,7 @@ static int multiply(int n, const double *e, int m, const double f[2], double *ou
     for (int j = 0; j < m; ++j) {
         length[j] = scale(n, e, f[j], part[j]);
     }
-    return add(length[0], part[0], length[1], part[1], out);
+    return add_expansions(length[0], part[0], length[1], part[1], out);
 }
 
 /// a - b as at most two components.
@@ -157,7 +157,7 @@ static int minor(const exact *p, const exact *q, const exact *r, const exact *s,
     const int n = multiply(p->n, p->e, q->n, q->e, a);
     const int m = multiply(r->n, r->e, s->n, s->e, b);
     negate(m, b);
-    return add(n, a, m, b, out);
+    return add_expansions(n, a, m, b, out);
 }
 
 static double orient3d_exact(const double a[3], const double b[3], const double c[3],
@@ -179,7 +179,7 @@ static double orient3d_exact(const double a[3], const double b[3], const double 
         double term[64];
         const int n_two = minor(&m[j][0], &m[k][1], &m[j][1], &m[k][0], two);
         const int n_term = multiply(n_two, two, m[i][2].n, m[i][2].e, term);
-        n = add(n, total, n_term, term, total);
+        n = add_expansions(n, total, n_term, term, total);
         CLAST_ASSERT(n <= 192);
     }
     return n > 0 ? total[n - 1] : 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 // Random draws as pure functions of (seed, stream, index), never of call order, threads or ranks.
 // Philox4x32-10 from Random123 [Salmon2011]; counter = (index, part of stream), key = seed.
-#include "base/shared.h"
+#include "base/status.h"
 #include <stdint.h>
 
 /// A cursor over one stream: the k-th draw from (seed, stream, index) is always the same number.

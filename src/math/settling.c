@@ -37,7 +37,7 @@ done:
     return status;
 }
 
-double clast_drag_coefficient(double reynolds, const clast_drag *drag)
+double clast_drag_coefficient(const clast_drag *drag, double reynolds)
 {
     if (drag == NULL) {
         return (double)NAN;
@@ -102,7 +102,7 @@ static double solve_reynolds(double wanted, const clast_drag *drag)
         if (middle <= low || middle >= high) {
             break;
         }
-        *(clast_drag_coefficient(reynolds, drag) * reynolds * reynolds < wanted ? &low : &high) =
+        *(clast_drag_coefficient(drag, reynolds) * reynolds * reynolds < wanted ? &low : &high) =
             middle;
     }
     return exp(0.5 * (low + high));
@@ -134,7 +134,7 @@ clast_status clast_terminal_velocity(double diameter, double density, const clas
         settling->reynolds = solve_reynolds(wanted, drag);
         settling->velocity =
             copysign(settling->reynolds * fluid->viscosity / (fluid->density * diameter), excess);
-        settling->drag_coefficient = clast_drag_coefficient(settling->reynolds, drag);
+        settling->drag_coefficient = clast_drag_coefficient(drag, settling->reynolds);
         settling->in_range = settling->reynolds < 3e5;
     }
 done:

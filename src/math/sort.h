@@ -1,7 +1,6 @@
 #pragma once
 // Sorting numbers: radix sorts whose cost does not depend on their order, the same bytes for any
 // number of threads.
-#include "base/shared.h"
 #include "base/status.h"
 
 /// What a key belongs to.

@@ -8,6 +8,7 @@
 #include "math/sample.h"
 #include "math/sort.h"
 #include "math/whole.h"
+#include <clast/table.h>
 #include <math.h>
 
 double clast_quantile_share(int32_t k)

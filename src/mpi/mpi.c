@@ -7,7 +7,7 @@
 #include <clast/mpi.h>
 
 #include "mpi/zoltan.h"
-
+#include <clast/machine.h>
 #include <mpi.h>
 #include <sched.h>
 #include <stdlib.h>

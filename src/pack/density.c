@@ -4,6 +4,7 @@
 #include "pack/pack.h"
 #include "pack/start.h"
 #include "shape/curve.h"
+#include <clast/shape.h>
 #include <math.h>
 
 /// The configured one, or that of the shape's own parts.

@@ -261,7 +261,8 @@ static bool place_on_shelf(const clast_pack *p, filling *f, double radius, doubl
     return false;
 }
 
-static clast_status keep(const clast_pack *p, filling *f, const clast_dem_grain *g, double radius)
+static clast_status append_grain(const clast_pack *p, filling *f, const clast_dem_grain *g,
+                                 double radius)
 {
     CLAST_ASSERT(radius > 0.0);
     clast_status status = CLAST_OK;
@@ -287,7 +288,7 @@ static clast_status keep_old(const clast_pack *p, filling *f)
         clast_dem_read_grain(p->dem, i, &g);
         clx_dem_shape_measures(p->dem, g.shape, measures);
         if (g.position[2] + g.scale * measures[0] > f->low) {
-            CLX_TRY(keep(p, f, &g, g.scale * measures[0]));
+            CLX_TRY(append_grain(p, f, &g, g.scale * measures[0]));
         }
     }
     f->n_old = f->n;
@@ -316,7 +317,7 @@ static clast_status try_place(clast_pack *p, filling *f, clx_pack_number *number
                                              ? place_on_shelf(p, f, radius, g.position)
                                              : place_on_lattice(p, f, radius, g.position));
     if (*is_placed) {
-        CLX_TRY(keep(p, f, &g, radius));
+        CLX_TRY(append_grain(p, f, &g, radius));
         ++p->n_made;
         p->mass += mass;
         return CLAST_OK;

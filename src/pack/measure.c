@@ -4,6 +4,7 @@
 #include "dem/dem.h"
 #include "dem/ranks.h"
 #include "pack/pack.h"
+#include <clast/assembly.h>
 #include <math.h>
 #include <string.h>
 
@@ -115,7 +116,7 @@ static clast_status measure_walls(const clast_assembly *a, const clast_bed *bed,
         return CLAST_OK;
     }
     const clast_status status =
-        clast_porosity_core_measure(a, bed, options, bulk, CLAST_PACK_CORE, &core);
+        clast_porosity_core_measure(a, bed, bulk, CLAST_PACK_CORE, options, &core);
     r->wall_share = status == CLAST_OK ? core.share : r->wall_share;
     return status == CLAST_E_GEOMETRY ? CLAST_OK : status; // a long, narrow box
 }
@@ -155,11 +156,11 @@ static clast_status measure_bed(const clast_pack *p, clast_pack_result *r)
     }
     CLX_TRY(clast_porosity_profile(&a, &bed, &o, &profile));
     whole.trim = 0.0;
-    if (clast_porosity_measure(&a, &bed, &whole, &profile, &bulk) == CLAST_OK) {
+    if (clast_porosity_measure(&a, &bed, &profile, &whole, &bulk) == CLAST_OK) {
         r->top = bulk.top;
         r->untrimmed = bulk.porosity;
     }
-    status = clast_porosity_measure(&a, &bed, &o, &profile, &bulk);
+    status = clast_porosity_measure(&a, &bed, &profile, &o, &bulk);
     if (status == CLAST_OK) {
         r->porosity = bulk.porosity;
         r->z_low = bulk.z_low;
@@ -270,7 +271,7 @@ clast_status clast_pack_achieved(const clast_pack *p, clast_table *table)
         volume[i] = g.scale * g.scale * g.scale * measures[1] * (g.density / unit);
     }
     const clast_grading_sample sample = {.n = n, .size = size, .volume = volume};
-    CLX_TRY(clast_grading_compare(p->input.curve, p->input.grading, &sample, table, &match));
+    CLX_TRY(clast_grading_compare(p->input.grading, p->input.curve, &sample, table, &match));
 done:
     clx_free(size);
     clx_free(volume);

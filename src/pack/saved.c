@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "math/vec3.h"
 #include "pack/load.h"
+#include <clast/shape.h>
 #include <math.h>
 #include <string.h>
 

@@ -10,6 +10,7 @@
 #include "base/whole.h"
 #include "math/sort.h"
 #include "plot/figure.h"
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

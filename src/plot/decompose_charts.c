@@ -2,9 +2,11 @@
 #include <clast/chart.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "cloud/contract.h"
 #include "cloud/whole.h"
 #include "math/sort.h"
+#include <clast/cloud.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,8 +4,11 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/least_squares.h"
 #include "porosity/whole.h"
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/whole.h"
+#include <clast/table.h>
 #include <math.h>
 
 /// Sums a column's shares up to each sieve: sieve i is the lower end of row i + 1, so the first has

@@ -2,6 +2,8 @@
 #include <clast/chart.h>
 
 #include "base/alloc.h"
+#include <clast/pairs.h>
+#include <clast/table.h>
 #include <math.h>
 
 /// Shells in which a uniform cloud has less than this have no g to speak of.

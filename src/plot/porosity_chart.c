@@ -5,6 +5,8 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/whole.h"
+#include <clast/porosity.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -4,9 +4,12 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/sort.h"
 #include "math/whole.h"
 #include "shape/whole.h"
+#include <clast/form.h>
+#include <clast/statistics.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -6,7 +6,9 @@
 #include "base/status.h"
 #include "base/whole.h"
 #include "porosity/whole.h"
+#include <clast/assembly.h>
 #include <clast/field.h>
+#include <clast/mesh.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -76,7 +78,7 @@ done:
     return status;
 }
 
-int clast_bed_format(const clast_bed *bed, char *text, size_t size)
+int clast_bed_format(const clast_bed *bed, size_t size, char *text)
 {
     if (clx_bed_fault(bed) != NULL || text == NULL) {
         return -1;
@@ -155,7 +157,7 @@ clast_status clast_bed_table(const clast_bed *bed, clast_table *table)
     clast_table made = {0};
     char text[256];
     double *floor_m = NULL;
-    CLX_CHECK(clast_bed_format(bed, text, sizeof text) > 0, CLAST_E_LIMIT,
+    CLX_CHECK(clast_bed_format(bed, sizeof text, text) > 0, CLAST_E_LIMIT,
               "the bed's text is too long");
     CLX_TRY(clast_table_init(&made, "bed", 1));
     CLX_TRY(clast_table_add_text(&made, "bed"));

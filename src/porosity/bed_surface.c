@@ -2,10 +2,12 @@
 #include <clast/porosity.h>
 
 #include "base/status.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 
 clast_status clast_bed_close(const clast_mesh *container, clast_mesh *closed)

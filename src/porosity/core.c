@@ -9,9 +9,11 @@
 #include "assembly/touch_set.h"
 #include "assembly/whole.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
+#include <clast/shape.h>
 
 enum { POINTS = 512 };
 
@@ -165,8 +167,8 @@ static double core_area(const clast_bed *bed, double depth, double ramp)
 }
 
 clast_status clast_porosity_core_measure(const clast_assembly *assembly, const clast_bed *bed,
-                                         const clast_porosity_options *options,
                                          const clast_porosity_bulk *bulk, double n_size,
+                                         const clast_porosity_options *options,
                                          clast_porosity_core *core)
 {
     CLX_ARGUMENTS(assembly, bed, options, bulk, core);

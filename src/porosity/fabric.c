@@ -4,8 +4,11 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,8 +24,8 @@ typedef struct {
     } row[ROW_LIMIT];
 } rows;
 
-static void add(rows *r, const char *prefix, const char *name, double value, const char *unit,
-                const char *meaning)
+static void add_row(rows *r, const char *prefix, const char *name, double value, const char *unit,
+                    const char *meaning)
 {
     (void)snprintf(r->row[r->n].name, sizeof r->row[r->n].name, "%s%s", prefix, name);
     r->row[r->n].value = value;
@@ -37,11 +40,12 @@ static void add_tensor(rows *r, const char *prefix, double tensor[3][3], const c
     double value[3];
     double axes[3][3];
     clx_sym3_eigen(tensor, value, axes);
-    add(r, prefix, "_1", value[0], "-", of);
-    add(r, prefix, "_2", value[1], "-", "middle eigenvalue");
-    add(r, prefix, "_3", value[2], "-", "least eigenvalue");
-    add(r, prefix, "_anisotropy", value[0] - value[2], "-", "0 for random directions, 1 for one");
-    add(r, prefix, "_vertical", tensor[2][2], "-", "vertical entry, 1/3 for random directions");
+    add_row(r, prefix, "_1", value[0], "-", of);
+    add_row(r, prefix, "_2", value[1], "-", "middle eigenvalue");
+    add_row(r, prefix, "_3", value[2], "-", "least eigenvalue");
+    add_row(r, prefix, "_anisotropy", value[0] - value[2], "-",
+            "0 for random directions, 1 for one");
+    add_row(r, prefix, "_vertical", tensor[2][2], "-", "vertical entry, 1/3 for random directions");
 }
 
 static void add_outer(double tensor[3][3], double weight, const double a[3])
@@ -71,12 +75,12 @@ static void add_counts(rows *r, const clast_assembly *a, const int32_t *count)
         sum += count[i] >= 4 ? count[i] : 0;
     }
     const double n = (double)a->n_grain;
-    add(r, "", "coordination", 2.0 * a->n_contact / n, "-", "mean number of touching grains");
-    add(r, "", "share_free", (double)none / n, "-", "grains that touch no other");
-    add(r, "", "share_rattler", (double)few / n, "-", "grains with fewer than four contacts");
+    add_row(r, "", "coordination", 2.0 * a->n_contact / n, "-", "mean number of touching grains");
+    add_row(r, "", "share_free", (double)none / n, "-", "grains that touch no other");
+    add_row(r, "", "share_rattler", (double)few / n, "-", "grains with fewer than four contacts");
     if (few < a->n_grain) {
-        add(r, "", "coordination_bearing", (double)sum / (n - (double)few), "-",
-            "mean of the grains with four contacts or more");
+        add_row(r, "", "coordination_bearing", (double)sum / (n - (double)few), "-",
+                "mean of the grains with four contacts or more");
     }
 }
 
@@ -185,8 +189,8 @@ static void grains(rows *r, const clast_assembly *a)
         scale_tensor(shortest, 1.0 / sum);
         add_tensor(r, "long_axis", longest, "greatest eigenvalue of the direction tensor");
         add_tensor(r, "short_axis", shortest, "greatest eigenvalue of the direction tensor");
-        add(r, "", "long_axis_dip", angle / sum, "rad",
-            "mean angle of the longest axis to the horizontal; 0.571 for random directions");
+        add_row(r, "", "long_axis_dip", angle / sum, "rad",
+                "mean angle of the longest axis to the horizontal; 0.571 for random directions");
     }
 }
 

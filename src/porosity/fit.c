@@ -6,6 +6,8 @@
 #include "math/least_squares.h"
 #include "math/sample.h"
 #include "math/sort.h"
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <math.h>
 #include <string.h>
 

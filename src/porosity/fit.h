@@ -1,6 +1,11 @@
 #pragma once
 // Parts of a porosity fit.
-#include <clast/porosity_fit.h>
+#include <clast/status.h>
+
+typedef struct clast_column clast_column;
+typedef struct clast_fit_data clast_fit_data;
+typedef struct clast_porosity_fit clast_porosity_fit;
+typedef struct clast_porosity_fit_config clast_porosity_fit_config;
 
 /// Beds with candidates, borrowed: all of a fit, or a part of them.
 typedef struct clx_fit_sample {

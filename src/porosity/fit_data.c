@@ -1,5 +1,5 @@
 // Beds with their candidate features, from tables.
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 
 #include "base/alloc.h"
 #include "base/number.h"
@@ -265,7 +265,7 @@ clast_status clast_fit_data_mixture(const clast_table *beds, const clast_table *
     CLX_TRY(begin(CLAST_MODEL_MIXTURE, beds->n_row, &d));
     for (int32_t f = 0; f < CLAST_N_MIXTURE_FEATURE; ++f) {
         char name[96];
-        (void)clast_mixture_feature_name(f, name, sizeof name);
+        (void)clast_mixture_feature_name(f, sizeof name, name);
         CLX_TRY(clast_table_add_number(&d.beds, name, "-", &unused));
     }
     for (int64_t row = 0; row < beds->n_row; ++row) {

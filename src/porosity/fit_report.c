@@ -7,6 +7,9 @@
 #include "math/least_squares.h"
 #include "math/special.h"
 #include "porosity/model.h"
+#include <clast/field.h>
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -257,9 +260,9 @@ done:
     return status;
 }
 
-clast_status clast_porosity_fit_data(const clast_fit_data *data,
-                                     const clast_porosity_fit_config *config, const char *name,
-                                     const char *source, clast_porosity_fit *fit)
+clast_status clast_porosity_fit_data(const clast_fit_data *data, const char *name,
+                                     const char *source, const clast_porosity_fit_config *config,
+                                     clast_porosity_fit *fit)
 {
     CLX_ARGUMENTS(data, config, name, source, fit);
     CLX_WHOLE(table, &data->beds);

@@ -11,6 +11,8 @@
 #include "math/rng.h"
 #include "math/sample.h"
 #include "math/sort.h"
+#include <clast/porosity_model.h>
+#include <clast/table.h>
 #include <math.h>
 
 /// Some of the beds with the candidates that have a value in every bed.

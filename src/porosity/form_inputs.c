@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "shape/whole.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 static const char *const statistic[4] = {"mean_", "deviation_", "inverse_mean_",
                                          "inverse_deviation_"};
 
-bool clast_mixture_feature_name(int32_t feature, char *text, size_t size)
+bool clast_mixture_feature_name(int32_t feature, size_t size, char *text)
 {
     if (text == NULL) {
         return false;

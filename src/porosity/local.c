@@ -8,9 +8,12 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "base/whole.h"
 #include "geom/convex_cell.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 #include <stdlib.h>
 
 enum { SIDES = 96, BLOCK = 32 };

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include <clast/porosity_model.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,10 @@
 #pragma once
 // Building porosity models.
-#include <clast/porosity_model.h>
+#include <clast/status.h>
+
+typedef struct clast_form_inputs clast_form_inputs;
+typedef struct clast_porosity_model clast_porosity_model;
+typedef struct clast_prediction clast_prediction;
 
 /// Room for terms, ranges and a covariance of an empty model, texts not yet set.
 clast_status clx_model_room(const char *name, const char *source, int32_t n_term, int32_t n_range,

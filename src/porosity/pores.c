@@ -6,6 +6,7 @@
 #include "assembly/whole.h"
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "base/whole.h"
 #include "math/sort.h"
 #include "math/vec3.h"
 #include "porosity/whole.h"
@@ -76,7 +77,7 @@ static double nearest_within(const search *s, const double x[3], double reach, d
     return v.held ? -1.0 : v.nearest + dust;
 }
 
-static void measure(int64_t begin, int64_t end, int32_t worker, void *context)
+static void measure_range(int64_t begin, int64_t end, int32_t worker, void *context)
 {
     const search *s = context;
     (void)worker;
@@ -184,7 +185,7 @@ clast_status clast_pores_measure(const clast_assembly *assembly, const clast_bed
     CLX_TRY(clx_touch_set_init(assembly, &set));
     s.first = 0.25 * cbrt(clast_assembly_volume(assembly) / assembly->n_grain);
     CLX_TRY(clx_alloc(&s.delta, n, sizeof *s.delta));
-    clx_parallel_for(n, BLOCK, measure, &s);
+    clx_parallel_for(n, BLOCK, measure_range, &s);
     CLX_TRY(keep_pores(s.delta, n, &n_pore, &n_bed));
     CLX_TRY(clast_table_init(&made.sizes, "pores", options->n_bin));
     CLX_TRY(histogram(s.delta, n_pore, options->n_bin, &made.sizes));

@@ -3,12 +3,14 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "math/bootstrap.h"
 #include "math/sample.h"
 #include "porosity/form_inputs.h"
 #include "porosity/model.h"
 #include "porosity/whole.h"
 #include "shape/whole.h"
+#include <clast/statistics.h>
 #include <math.h>
 #include <string.h>
 
@@ -23,8 +25,8 @@ static double feature_value(const clast_porosity_model *model, const clast_form_
     return f < 0 ? (double)NAN : is_single ? in->single[f] : in->mixture[f];
 }
 
-static clast_status take(const clast_porosity_model *model, const clast_form_inputs *in,
-                         const char *name, double *value)
+static clast_status read_input(const clast_porosity_model *model, const clast_form_inputs *in,
+                               const char *name, double *value)
 {
     clast_status status = CLAST_OK;
     const bool is_spread = strstr(name, "deviation_") != NULL;
@@ -60,10 +62,10 @@ clast_status clx_porosity_model_values(const clast_porosity_model *model,
               "model %s takes columns of a table, not forms", model->name);
     CLX_TRY(clx_alloc(&found, (int64_t)model->n_term + model->n_range, sizeof *found));
     for (int32_t k = 0; k < model->n_term; ++k) {
-        CLX_TRY(take(model, inputs, model->term[k].feature, &found[k]));
+        CLX_TRY(read_input(model, inputs, model->term[k].feature, &found[k]));
     }
     for (int32_t k = 0; k < model->n_range; ++k) {
-        CLX_TRY(take(model, inputs, model->range[k].feature, &found[model->n_term + k]));
+        CLX_TRY(read_input(model, inputs, model->range[k].feature, &found[model->n_term + k]));
     }
     memcpy(value, found, (size_t)model->n_term * sizeof *found);
     memcpy(range_value, found + model->n_term, (size_t)model->n_range * sizeof *found);

@@ -8,6 +8,9 @@
 #include "math/vec3.h"
 #include "porosity/slabs.h"
 #include "porosity/whole.h"
+#include <clast/assembly.h>
+#include <clast/mesh.h>
+#include <clast/shape.h>
 
 enum { SLICE_LIMIT = 10000000, BLOCK = 64 };
 
@@ -42,22 +45,6 @@ typedef struct {
     reached *block;         ///< [n_block]
 } gathering;
 
-/// First of the edges 1 to n that lies above z, less one; n when none does.
-static int32_t slice_of(const gathering *g, double z)
-{
-    int32_t low = 0;
-    int32_t high = g->n_slice;
-    while (low < high) {
-        const int32_t middle = low + (high - low) / 2;
-        if (g->edge[middle + 1] > z) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
-}
-
 /// Slices [range[0], range[1]) that grain i, moved up by `shift`, can reach.
 static void range_of(const gathering *g, int32_t i, double shift, int32_t range[2])
 {
@@ -67,8 +54,8 @@ static void range_of(const gathering *g, int32_t i, double shift, int32_t range[
     const double z = g->assembly->position[i][2] + shift;
     const double reach = g->assembly->scale[i] * fmax(shape->bounding_radius, equal);
     const double rounding = 1e-12 * (fabs(z) + reach);
-    range[0] = slice_of(g, z - reach - rounding);
-    range[1] = slice_of(g, z + reach + rounding);
+    range[0] = clx_slice_of(g->n_slice, g->edge, z - reach - rounding);
+    range[1] = clx_slice_of(g->n_slice, g->edge, z + reach + rounding);
     range[1] += range[1] < g->n_slice ? 1 : 0;
 }
 
@@ -333,8 +320,9 @@ done:
 }
 
 clast_status clast_porosity_measure(const clast_assembly *assembly, const clast_bed *bed,
+                                    const clast_table *profile,
                                     const clast_porosity_options *options,
-                                    const clast_table *profile, clast_porosity_bulk *bulk)
+                                    clast_porosity_bulk *bulk)
 {
     CLX_ARGUMENTS(assembly, bed, options, profile, bulk);
     CLX_WHOLE(assembly, assembly);

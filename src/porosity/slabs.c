@@ -11,11 +11,15 @@
 
 #include "assembly/whole.h"
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "math/quadrature.h"
 #include "math/vec3.h"
 #include "porosity/discs.h"
 #include "porosity/slabs.h"
 #include "shape/whole.h"
+#include <clast/assembly.h>
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,14 +30,14 @@ typedef struct {
     double *solid;      ///< [n]
 } slices;
 
-/// First slice whose upper edge is above z (n when none is).
-static int32_t slice_of(const slices *s, double z)
+int32_t clx_slice_of(int32_t n, const double *edge, double z)
 {
+    CLAST_ASSERT(n >= 0);
     int32_t low = 0;
-    int32_t high = s->n;
+    int32_t high = n;
     while (low < high) {
         const int32_t middle = low + (high - low) / 2;
-        if (s->edge[middle + 1] > z) {
+        if (edge[middle + 1] > z) {
             high = middle;
         } else {
             low = middle + 1;
@@ -52,7 +56,7 @@ static double share_below(double t)
 static void add_ellipsoid(const slices *s, double volume, double z, double half_height)
 {
     CLAST_ASSERT(half_height >= 0.0 && volume >= 0.0);
-    const int32_t begin = slice_of(s, z - half_height);
+    const int32_t begin = clx_slice_of(s->n, s->edge, z - half_height);
     if (begin >= s->n) {
         return;
     }
@@ -122,7 +126,7 @@ static void sort_facet(double p[3][3], facet *f)
 /// @param z  height of the grain's centroid; facets are relative to it
 static void add_facet(const slices *s, const facet *f, double z)
 {
-    const int32_t begin = slice_of(s, z + f->z[0]);
+    const int32_t begin = clx_slice_of(s->n, s->edge, z + f->z[0]);
     if (begin >= s->n) {
         return;
     }
@@ -257,7 +261,7 @@ static clast_status add_clump(const slices *s, const clast_spheres *spheres,
     world_clump c = {0};
     CLX_TRY(place_clump(spheres, position, turn, scale, &c));
     const double top = c.knot[c.n_knot - 1];
-    for (int32_t k = slice_of(s, c.knot[0]); k < s->n && s->edge[k] < top; ++k) {
+    for (int32_t k = clx_slice_of(s->n, s->edge, c.knot[0]); k < s->n && s->edge[k] < top; ++k) {
         double volume = 0.0;
         CLX_TRY(between(&c, fmax(s->edge[k], c.knot[0]), fmin(s->edge[k + 1], top), &volume));
         s->solid[k] += volume;

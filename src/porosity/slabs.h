@@ -8,3 +8,6 @@ clast_status clx_grain_slabs(const clast_assembly *assembly, int32_t i,
 
 /// Adds the volume of a closed mesh between edge[k] and edge[k + 1] to solid[k].
 void clx_mesh_slabs(const clast_mesh *mesh, int32_t n, const double *edge, double *solid);
+
+/// First slice whose upper edge lies above z, of n between rising edges [n + 1]; n when none does.
+int32_t clx_slice_of(int32_t n, const double *edge, double z);

@@ -17,7 +17,7 @@ typedef struct {
     const double *z_a; ///< of a's centre
 } contacts;
 
-static clast_status take(const clast_table *table, contacts *c)
+static clast_status read_contacts(const clast_table *table, contacts *c)
 {
     static const char *const branch[3] = {"branch_x_m", "branch_y_m", "branch_z_m"};
     static const char *const force[3] = {"force_x_N", "force_y_N", "force_z_N"};
@@ -103,7 +103,7 @@ clast_status clast_stress(const clast_table *table, const clast_bed *bed, const 
     contacts c = {0};
     double sum[6] = {0.0};
     double volume = 0.0;
-    CLX_TRY(take(table, &c));
+    CLX_TRY(read_contacts(table, &c));
     clast_bed_volumes(bed, 1, z, &volume);
     CLX_CHECK(z[1] > z[0] && volume > 0.0, CLAST_E_GEOMETRY, "no volume between %g and %g m", z[0],
               z[1]);
@@ -170,7 +170,7 @@ clast_status clast_stress_profile(const clast_table *table, const clast_bed *bed
     const double *high = clast_table_numbers(profile, "z_high_m");
     CLX_CHECK(n > 0 && low != NULL && high != NULL, CLAST_E_USAGE,
               "the table is no porosity profile");
-    CLX_TRY(take(table, &c));
+    CLX_TRY(read_contacts(table, &c));
     CLX_TRY(clx_alloc(&sum, n, sizeof *sum));
     CLX_TRY(clx_alloc(&edge, n + 1, sizeof *edge));
     CLX_TRY(clx_alloc(&volume, n, sizeof *volume));

@@ -1,7 +1,10 @@
 // Whether beds and models that a caller has filled himself hold together.
 #include "porosity/whole.h"
 
+#include "base/whole.h"
 #include "geom/whole.h"
+#include <clast/porosity.h>
+#include <clast/porosity_model.h>
 #include <math.h>
 
 const char *clx_bed_fault(const clast_bed *bed)

@@ -2,6 +2,7 @@
 #include "render/scene.h"
 
 #include "geom/ray.h"
+#include <clast/shape.h>
 
 /// A ray on its way through the scene.
 typedef struct {

@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "math/colour.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
 #include <stdio.h>
 #include <string.h>
 

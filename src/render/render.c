@@ -6,6 +6,7 @@
 #include "math/vec3.h"
 #include "render/label.h"
 #include "render/shade.h"
+#include <clast/assembly.h>
 #include <string.h>
 
 enum { TILE = 16, BAND = 4 };

@@ -3,6 +3,8 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <clast/assembly.h>
+#include <clast/shape.h>
 
 static clast_status build_clump(const clast_spheres *spheres, clx_scene_shape *shape)
 {

@@ -3,6 +3,7 @@
 #include "geom/bvh.h"
 #include "render/wide.h"
 #include <clast/render.h>
+#include <clast/shape.h>
 
 /// A shape in its own frame; what is not of its kind is empty.
 typedef struct clx_scene_shape {

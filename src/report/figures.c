@@ -2,10 +2,13 @@
 #include "report/figures.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/path.h"
 #include "plot/figure.h"
 #include "report/page.h"
+#include "report/run.h"
 #include <clast/chart.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

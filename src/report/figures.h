@@ -1,7 +1,9 @@
 #pragma once
 // Charts of the run's tables, and the folder's pictures.
-#include "base/file.h"
-#include "report/run.h"
+#include <clast/status.h>
+
+typedef struct clx_file clx_file;
+typedef struct clx_run clx_run;
 
 /// Inline SVG of every chart that the run's tables allow; ids begin with "r<index>".
 clast_status clx_figures_charts(clx_file *file, const clx_run *run, int32_t index);

@@ -5,6 +5,7 @@
 // a run folder can neither run code nor call home.                                 [CSP level 3]
 #include "report/page.h"
 
+#include "base/file.h"
 #include "io/sha256.h"
 #include "report/web.h"
 #include <clast/status.h>

@@ -1,7 +1,10 @@
 #pragma once
 // Pieces of an HTML page into an output file. Errors are the file's: sticky, seen by
 // clx_file_commit.
-#include "base/file.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct clx_file clx_file;
 
 /// Text with & < > " ' escaped; control characters and bytes that are not UTF-8 become U+FFFD.
 /// Safe in elements and in quoted attributes.

@@ -1,14 +1,16 @@
 // manifest.json as tables: what ran, on what, where, when.
 #include "report/provenance.h"
 
+#include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include "report/run.h"
 #include <clast/agglomerate.h>
 #include <clast/aggregate_run.h>
 #include <clast/decompose.h>
 #include <clast/evolve.h>
 #include <clast/pack.h>
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 #include <stdlib.h>
 #include <string.h>
 

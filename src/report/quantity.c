@@ -1,6 +1,7 @@
 // Units and digits of the report's numbers.
 #include "report/quantity.h"
 
+#include "base/file.h"
 #include "base/number.h"
 #include "report/page.h"
 #include <math.h>

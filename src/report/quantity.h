@@ -1,6 +1,8 @@
 #pragma once
 // What the keys and columns of a run mean, and numbers as people read them.
-#include "base/file.h"
+#include <stdbool.h>
+
+typedef struct clx_file clx_file;
 
 enum { CLX_QUANTITY_SIZE = 128 };
 

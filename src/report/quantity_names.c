@@ -1,8 +1,9 @@
 // Labels and units of keys and columns: a table of names, and how names are put together.
 #include "report/quantity.h"
 
+#include "base/file.h"
 #include "report/page.h"
-#include <clast/structure.h>
+#include <clast/assembly.h>
 #include <stdio.h>
 #include <string.h>
 

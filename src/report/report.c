@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "base/whole.h"
 #include "report/figures.h"
 #include "report/page.h"
 #include "report/provenance.h"
@@ -209,8 +210,8 @@ done:
     return status;
 }
 
-clast_status clast_report_write(const char *const *runs, int32_t n_run,
-                                const clast_report_config *config, const char *path)
+clast_status clast_report_write(const char *const *runs, int32_t n_run, const char *path,
+                                const clast_report_config *config)
 {
     CLX_ARGUMENTS(path);
     CLX_ARRAY(runs, n_run);
@@ -244,8 +245,8 @@ done:
     return status;
 }
 
-clast_status clast_report_write_view(const clast_assembly *assembly,
-                                     const clast_report_config *config, const char *path)
+clast_status clast_report_write_view(const clast_assembly *assembly, const char *path,
+                                     const clast_report_config *config)
 {
     CLX_ARGUMENTS(assembly, path);
     CLX_WHOLE(assembly, assembly);

@@ -1,8 +1,10 @@
 // The large figures of summary.json, and runs side by side.
 #include "report/summary.h"
 
+#include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include "report/run.h"
 #include "report/value.h"
 
 /// The first number inside a value that is a number or an object of numbers; its name to *which.

@@ -1,7 +1,9 @@
 #pragma once
 // The numbers of summary.json as figures and tables.
-#include "base/file.h"
-#include "report/run.h"
+#include <stdint.h>
+
+typedef struct clx_file clx_file;
+typedef struct clx_run clx_run;
 
 /// The few large figures of one run.
 void clx_summary_headline(clx_file *file, const clx_run *run);

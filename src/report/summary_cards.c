@@ -2,10 +2,12 @@
 // as they are written.
 #include "report/summary.h"
 
+#include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include "report/run.h"
 #include "report/value.h"
-#include <clast/structure.h>
+#include <clast/assembly.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,8 +2,11 @@
 #include "report/tables.h"
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include "report/run.h"
+#include <clast/table.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

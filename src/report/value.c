@@ -1,6 +1,7 @@
 // Values of a JSON file as text.
 #include "report/value.h"
 
+#include "base/file.h"
 #include "report/page.h"
 #include "report/quantity.h"
 #include <string.h>

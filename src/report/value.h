@@ -1,7 +1,9 @@
 #pragma once
 // Values of a JSON file on a page.
-#include "base/file.h"
 #include <jansson.h>
+#include <stdbool.h>
+
+typedef struct clx_file clx_file;
 
 /// A number with the unit of its key, a text, "yes" or "no", a list with commas; a dash for all
 /// else. `place`: as for clx_quantity_of.

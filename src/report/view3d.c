@@ -7,6 +7,7 @@
 #include "render/legend.h"
 #include "report/page.h"
 #include <clast/mesh_repair.h>
+#include <clast/shape.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #pragma once
 // Checkpoints of a run: FOLDER/checkpoint-NNNNNNNNNNNN.h5, the last two kept.
-#include "base/shared.h"
+#include "base/status.h"
 #include "io/h5.h"
 
 enum { CLX_CHECKPOINT_KEEP = 2 };

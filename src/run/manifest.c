@@ -8,6 +8,7 @@
 #include "io/json.h"
 #include "io/sha256.h"
 #include "run/run.h"
+#include <clast/field.h>
 #include <clast/machine.h>
 #include <inttypes.h>
 #include <stdio.h>

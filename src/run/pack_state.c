@@ -7,6 +7,7 @@
 #include "io/state.h"
 #include "pack/saved.h"
 #include "run/checkpoint.h"
+#include <clast/assembly.h>
 #include <string.h>
 
 enum { N_ARRAY = 15 };
@@ -183,7 +184,7 @@ done:
 }
 
 /// Room for the arrays, as the file declares them.
-static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
+static clast_status alloc_arrays(clx_h5 *h5, clx_pack_saved *s)
 {
     clast_status status = CLAST_OK;
     clx_dem_saved *d = &s->dem;
@@ -238,7 +239,7 @@ static clast_status take_pack(clx_h5 *h5, clx_pack_saved *s)
     clast_status status = CLAST_OK;
     array a[N_ARRAY];
     int32_t is_due = 0;
-    CLX_TRY(measure(h5, s));
+    CLX_TRY(alloc_arrays(h5, s));
     const int n = list_arrays(s, a);
     for (int k = 0; k < n; ++k) {
         const int64_t shape[2] = {a[k].n, a[k].width};

@@ -1,6 +1,5 @@
 #pragma once
 // Packings in state files: what they are to everyone, and what they need to go on.
-#include "base/shared.h"
 #include "base/status.h"
 #include <clast/pack.h>
 

@@ -1,6 +1,5 @@
 #pragma once
 // Run folders inside the library: what one holds, going on in it, changing places.
-#include "base/shared.h"
 #include "base/status.h"
 #include <clast/run_folder.h>
 #include <jansson.h>

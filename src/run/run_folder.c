@@ -200,7 +200,7 @@ done:
 }
 
 /// Makes sure that no earlier run is overwritten or mixed in.
-static clast_status take(clast_run_folder *run, bool force)
+static clast_status take_folder(clast_run_folder *run, bool force)
 {
     clast_status status = CLAST_OK;
     char line[CLX_RUN_LINE];
@@ -234,7 +234,7 @@ clast_status clast_run_folder_begin(const char *folder, bool force, const char *
     clast_run_folder *made = NULL;
     CLX_CHECK(folder[0] != '\0', CLAST_E_USAGE, "the output folder has no name");
     CLX_TRY(create(folder, command, monitor, &made));
-    CLX_TRY(take(made, force));
+    CLX_TRY(take_folder(made, force));
     *run = made;
     made = NULL;
 done:

@@ -245,7 +245,7 @@ static void find_outer(search *s, const cube *c, clx_fill_sample *p)
 }
 
 /// f at a point of a cube.
-static void measure(search *s, const cube *c, clx_fill_sample *p)
+static void sample_cube(search *s, const cube *c, clx_fill_sample *p)
 {
     clx_fill *fill = s->fill;
     double reach = reach_by(s, c, p->at);
@@ -295,7 +295,7 @@ static clast_status take_sample(search *s, cube *c)
     const int32_t number = (int32_t)s->n_sample++;
     clx_fill_sample *p = &s->samples[number];
     v3_copy(p->at, c->next);
-    measure(s, c, p);
+    sample_cube(s, c, p);
     c->sample[c->n_sample++] = number;
     c->upper = bound_by(s, p, c->centre, s->half[c->level], c->upper);
     c->is_bounded = false;
@@ -593,7 +593,7 @@ static void climb(search *s, clx_fill_sample *best)
         }
         p->tri = -1;
         v3_add(p->at, best->at, step);
-        measure(s, home, p);
+        sample_cube(s, home, p);
         if (p->value > best->value) {
             *best = *p;
         } else {

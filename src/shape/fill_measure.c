@@ -4,9 +4,11 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "shape/shape.h"
 #include "shape/whole.h"
+#include <clast/table.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -92,7 +92,7 @@ static float name_of(int32_t number)
     return w;
 }
 
-static void measure(part *p)
+static void measure_part(part *p)
 {
     clx_float4 low = all4(INFINITY);
     clx_float4 high = all4(-INFINITY);
@@ -212,8 +212,8 @@ static void divide(part *p, int depth, part *rest)
     }
     *rest = (part){.items = p->items, .first = p->first + n_left, .n = p->n - n_left};
     p->n = n_left;
-    measure(p);
-    measure(rest);
+    measure_part(p);
+    measure_part(rest);
 }
 
 /// What floats may be wrong by at a triangle, in units of the surface.
@@ -419,7 +419,7 @@ clast_status clx_fill_field_create(const clast_mesh *mesh, clx_fill_field *field
     n = make_items(&made, items);
     CLX_CHECK(n > 0, CLAST_E_GEOMETRY, "the surface has no size");
     part whole = {.items = items, .n = n};
-    measure(&whole);
+    measure_part(&whole);
     CLX_TRY(make_node(&whole, 0, &made, &root));
     *field = made;
     made = (clx_fill_field){0};

@@ -7,6 +7,7 @@
 #include "base/whole.h"
 #include "shape/whole.h"
 #include <clast/field.h>
+#include <clast/table.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -333,7 +334,7 @@ static void put_rows(const clast_form_set *set, char *text, size_t size, size_t 
     }
 }
 
-void clast_form_set_complaint(const clast_form_set *set, char *text, size_t size)
+void clast_form_set_complaint(const clast_form_set *set, size_t size, char *text)
 {
     if (clx_form_set_fault(set) != NULL || text == NULL || size == 0) {
         return;

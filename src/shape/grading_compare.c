@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "shape/curve.h"
+#include <clast/table.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -159,7 +160,7 @@ done:
     return status;
 }
 
-clast_status clast_grading_compare(const clast_curve *curve, const clast_grading *grading,
+clast_status clast_grading_compare(const clast_grading *grading, const clast_curve *curve,
                                    const clast_grading_sample *sample, clast_table *table,
                                    clast_grading_match *match)
 {

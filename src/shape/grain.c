@@ -2,12 +2,16 @@
 #include "shape/grain.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/hull.h"
+#include "geom/hull_body.h"
 #include "geom/topology.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include "shape/roundness.h"
 #include "shape/shape.h"
+#include <clast/grain.h>
+#include <clast/mesh.h>
 
 #define AXES(id, name, what, source) {name, what, source},
 static const char *const AXES_TEXT[CLAST_N_AXES][3] = {CLAST_AXES_LIST(AXES)};

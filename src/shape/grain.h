@@ -1,8 +1,9 @@
 #pragma once
 // Steps of measuring a grain that its sources (surfaces, series) share.
-#include <clast/grain.h>
+#include <clast/status.h>
 
-#include "geom/hull_body.h"
+typedef struct clast_axes clast_axes;
+typedef struct clast_grain clast_grain;
 
 /// Principal moments, the mass-equivalent ellipsoid and the principal frame from volume, centroid
 /// and inertia, which are already in the grain.

@@ -2,9 +2,12 @@
 #include "shape/grain.h"
 
 #include "base/status.h"
+#include "base/whole.h"
 #include "geom/smooth_hull.h"
 #include "shape/shape.h"
 #include "shape/whole.h"
+#include <clast/grain.h>
+#include <clast/shape.h>
 
 /// Width of the union along a unit direction.
 static double width_along(const clast_spheres *s, const double axis[3])

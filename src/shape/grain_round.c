@@ -13,6 +13,8 @@
 
 #include "base/status.h"
 #include "math/vec3.h"
+#include <clast/grain.h>
+#include <clast/mesh.h>
 
 enum { MOST_DEPTH = 12 };
 

@@ -3,6 +3,7 @@
 
 #include "base/status.h"
 #include "base/whole.h"
+#include <clast/table.h>
 
 void clast_grain_statistics_free(clast_grain_statistics *statistics)
 {

@@ -1,7 +1,6 @@
 #pragma once
 // Gravel-like convex grains for scenes, tests and timings.
-#include "base/status.h"
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 /// Grain number `index` of a seed: a Fibonacci sphere of n points, jittered by 0.6 / sqrt(n), with
 /// six dents of up to 30 %, stretched to flatness N(0.647, 0.12) and elongation N(0.682, 0.10) (cut

@@ -12,6 +12,8 @@
 #include "shape/grain.h"
 #include "shape/roundness.h"
 #include "shape/whole.h"
+#include <clast/grain.h>
+#include <clast/mesh.h>
 #include <math.h>
 
 enum { LEAST_NODES = 120, MAX_LEVEL = 8 };

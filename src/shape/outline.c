@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "geom/topology.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
 #include <stdlib.h>
 
 enum { N_RAY = 2 * CLX_OUTLINE_POINTS, N_POINT = CLX_OUTLINE_POINTS };

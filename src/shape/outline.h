@@ -1,6 +1,6 @@
 #pragma once
 // The outline of a surface's shadow as evenly spaced points.
-#include <clast/mesh.h>
+#include <clast/status.h>
 
 enum { CLX_OUTLINE_POINTS = 720 };
 

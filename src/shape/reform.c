@@ -6,6 +6,7 @@
 #include <clast/form.h>
 
 #include "base/status.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
@@ -23,7 +24,7 @@ static void second_moments(const clast_mass *mass, double c[3][3])
     }
 }
 
-static clast_status measure(const clast_mesh *mesh, clast_mass *mass, double c[3][3])
+static clast_status measure_mass(const clast_mesh *mesh, clast_mass *mass, double c[3][3])
 {
     const clast_status status = clast_mesh_mass(mesh, mass);
     if (status == CLAST_OK) {
@@ -90,7 +91,7 @@ clast_status clast_reform_principal(const clast_mesh *mesh, clast_mesh *out, dou
     double c[3][3] = {{0.0}};
     double value[3];
     double frame[3][3];
-    CLX_TRY(measure(mesh, &mass, c));
+    CLX_TRY(measure_mass(mesh, &mass, c));
     clx_sym3_eigen(c, value, frame);
     CLX_CHECK(value[2] > 0.0, CLAST_E_GEOMETRY,
               "no solid has second moments %g, %g, %g: the surface is open or inside out", value[0],
@@ -114,7 +115,7 @@ static clast_status polish(clast_mesh *mesh, const double lis[3])
     clast_mass mass = {0};
     double c[3][3] = {{0.0}};
     double factor[3];
-    const clast_status status = measure(mesh, &mass, c);
+    const clast_status status = measure_mass(mesh, &mass, c);
     if (status == CLAST_OK) {
         for (int k = 0; k < 3; ++k) {
             factor[k] = lis[k] / (2.0 * sqrt(5.0 * c[k][k]));

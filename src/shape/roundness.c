@@ -14,6 +14,8 @@
 
 #include "base/alloc.h"
 #include "shape/outline.h"
+#include <clast/grain.h>
+#include <clast/mesh.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 // Wadell's roundness of a grain from the outline of its greatest shadow.
-#include <clast/grain.h>
+#include <clast/status.h>
 
 /// Mean radius of the corners of the outline along `direction`, by the radius of the greatest
 /// circle inside it.                                         [Wadell1932; ZhengHryciw2015]

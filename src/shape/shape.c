@@ -5,10 +5,13 @@
 #include "shape/shape.h"
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/whole.h"
 #include "math/sym3.h"
 #include "math/vec3.h"
 #include "shape/whole.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <string.h>
 
 void clast_shape_free(clast_shape *shape)

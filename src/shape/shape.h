@@ -1,6 +1,8 @@
 #pragma once
 // What the kinds of shapes share inside the library.
-#include <clast/shape.h>
+#include <clast/status.h>
+
+typedef struct clast_mass clast_mass;
 
 /// Semi-axes a >= b >= c of the solid ellipsoid with this volume and this inertia about its
 /// centroid at unit density: the eigenvalues of C = trace(I)/2 - I are V a^2 / 5, cyclic.

@@ -2,6 +2,7 @@
 #include <clast/shape.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "shape/whole.h"
 #include <string.h>
 

@@ -12,6 +12,7 @@
 #include "shape/random_field.h"
 #include <clast/form.h>
 #include <clast/grain.h>
+#include <clast/mesh.h>
 #include <stddef.h>
 
 enum { LEAST_DEGREE = 3, N_HALVING = 40 }; // degree 1 moves a body, degree 2 is its form

@@ -12,6 +12,8 @@
 
 #include "base/alloc.h"
 #include "math/vec3.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <stdlib.h>
 
 /// Overlaps shallower than this share of the smaller radius are taken as touches; what they hide is

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/status.h"
+#include "base/whole.h"
 #include "shape/whole.h"
 #include <math.h>
 #include <string.h>

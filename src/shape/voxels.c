@@ -2,10 +2,12 @@
 #include <clast/volume.h>
 
 #include "base/alloc.h"
+#include "base/whole.h"
 #include "geom/isosurface.h"
 #include "geom/whole.h"
 #include "math/vec3.h"
 #include "shape/whole.h"
+#include <clast/mesh.h>
 #include <stdlib.h>
 
 void clast_voxels_free(clast_voxels *voxels)

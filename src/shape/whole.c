@@ -1,7 +1,14 @@
 // Whether shapes and what they are made of, as a caller has filled them himself, hold together.
 #include "shape/whole.h"
 
+#include "base/whole.h"
+#include "geom/whole.h"
 #include "math/vec3.h"
+#include <clast/form.h>
+#include <clast/grading.h>
+#include <clast/harmonics.h>
+#include <clast/shape.h>
+#include <clast/volume.h>
 #include <math.h>
 
 const char *clx_spheres_fault(const clast_spheres *spheres)

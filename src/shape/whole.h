@@ -1,13 +1,14 @@
 #pragma once
 // Whether shapes and what they are made of, as a caller has filled them himself, hold together.
 // Each function says what is wrong, for people, or gives NULL.
-#include "base/shared.h"
-#include "geom/whole.h"
-#include <clast/form.h>
-#include <clast/grading.h>
-#include <clast/harmonics.h>
-#include <clast/shape.h>
-#include <clast/volume.h>
+#include "base/status.h"
+
+typedef struct clast_curve clast_curve;
+typedef struct clast_form_set clast_form_set;
+typedef struct clast_harmonics clast_harmonics;
+typedef struct clast_sizes clast_sizes;
+typedef struct clast_volume clast_volume;
+typedef struct clast_voxels clast_voxels;
 
 const char *clx_spheres_fault(const clast_spheres *spheres);
 const char *clx_shape_fault(const clast_shape *shape);

@@ -1,12 +1,11 @@
 // A fit from a configuration to a folder of results.
-#include <clast/aggregate_fit.h>
+#include <clast/aggregate_run.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
 #include "base/path.h"
 #include "io/config_files.h"
 #include "study/aggregate_fit_chart.h"
-#include <clast/aggregate_run.h>
 #include <clast/run_folder.h>
 #include <clast/table.h>
 #include <jansson.h>

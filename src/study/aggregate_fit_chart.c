@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/path.h"
 #include <clast/chart.h>
+#include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

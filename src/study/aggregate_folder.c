@@ -5,9 +5,9 @@
 #include "base/file.h"
 #include "base/path.h"
 #include "io/state.h"
-#include <clast/mesh_file.h>
+#include <clast/assembly.h>
+#include <clast/mesh.h>
 #include <clast/run_folder.h>
-#include <clast/structure.h>
 #include <clast/table.h>
 #include <math.h>
 #include <stdio.h>
@@ -42,7 +42,7 @@ static clast_status write_stl(const char *folder, const clast_assembly *assembly
     }
     clast_mesh_transform(&mesh, 1e3, unturned, none);
     CLX_TRY(clx_path_join(path, folder, "aggregate.stl"));
-    CLX_TRY(clast_mesh_write(path, &mesh, &options));
+    CLX_TRY(clast_mesh_write(&mesh, path, &options));
 done:
     clast_mesh_free(&mesh);
     return status;

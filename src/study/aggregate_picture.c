@@ -8,9 +8,10 @@
 #include "math/vec3.h"
 #include <clast/assembly.h>
 #include <clast/chart.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/mesh_repair.h>
 #include <clast/render.h>
+#include <clast/table.h>
 
 enum { PICTURE_WIDTH = 960, PICTURE_HEIGHT = 720 };
 
@@ -114,10 +115,10 @@ static clast_status write_printable(const char *folder, const clx_folder_results
     CLX_TRY(clast_assembly_printable(r->first, &config, r->monitor, &mesh, &report));
     clast_mesh_transform(&mesh, 1e3, unturned, none);
     CLX_TRY(clx_path_join(path, folder, "printable.stl"));
-    CLX_TRY(clast_mesh_write(path, &mesh, &options));
+    CLX_TRY(clast_mesh_write(&mesh, path, &options));
     CLX_TRY(verify(path));
     CLX_TRY(clx_path_join(path, folder, "printable.3mf"));
-    CLX_TRY(clast_mesh_write(path, &mesh, &options));
+    CLX_TRY(clast_mesh_write(&mesh, path, &options));
     CLX_TRY(write_printable_report(folder, &report, mesh.n_tri));
 done:
     clast_mesh_free(&mesh);

@@ -5,6 +5,8 @@
 #include "study/aggregate_repeats.h"
 
 #include "base/alloc.h"
+#include <clast/machine.h>
+#include <clast/table.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,7 +106,7 @@ done:
     return status;
 }
 
-static void take(const char **from, void *bytes, size_t n)
+static void unpack_bytes(const char **from, void *bytes, size_t n)
 {
     if (n > 0) {
         memcpy(bytes, *from, n);
@@ -116,12 +118,12 @@ static clast_status unpack_one(const char **from, const clast_table *first, clx_
 {
     clast_status status = CLAST_OK;
     head shape;
-    take(from, &shape, sizeof shape);
-    take(from, &repeat->result, sizeof repeat->result);
+    unpack_bytes(from, &shape, sizeof shape);
+    unpack_bytes(from, &repeat->result, sizeof repeat->result);
     repeat->index = (int32_t)shape.index;
     CLX_TRY(like(first, &shape, &repeat->history));
     for (int32_t c = 0; c < repeat->history.n_column; ++c) {
-        take(from, repeat->history.column[c].number, (size_t)shape.n_row * sizeof(double));
+        unpack_bytes(from, repeat->history.column[c].number, (size_t)shape.n_row * sizeof(double));
     }
 done:
     return status;

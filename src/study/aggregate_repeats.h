@@ -2,6 +2,7 @@
 // Repeats of an aggregation where they were grown, and their way to rank 0.
 #include "base/comm.h"
 #include <clast/aggregate_run.h>
+#include <clast/table.h>
 
 /// One finished repeat in numbers.
 typedef struct clx_repeat {

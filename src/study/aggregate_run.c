@@ -12,7 +12,9 @@
 #include "study/aggregate_folder.h"
 #include "study/aggregate_repeats.h"
 #include <clast/field.h>
+#include <clast/machine.h>
 #include <clast/report.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -7,6 +7,7 @@
 #include "io/folder.h"
 #include "io/state.h"
 #include "run/checkpoint.h"
+#include <clast/table.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "run/checkpoint.h"
 #include "run/pack_state.h"
+#include <clast/assembly.h>
 #include <clast/chart.h>
 #include <clast/form.h>
 #include <clast/run_folder.h>

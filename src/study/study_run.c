@@ -5,6 +5,7 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/file.h"
 #include "base/lock.h"
 #include "base/path.h"
@@ -12,6 +13,7 @@
 #include "run/checkpoint.h"
 #include "run/run.h"
 #include <clast/machine.h>
+#include <clast/table.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

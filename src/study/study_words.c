@@ -3,6 +3,7 @@
 #include "study/study.h"
 
 #include "base/alloc.h"
+#include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,7 +21,7 @@ typedef struct {
     clast_status status;
 } sink;
 
-static void add(sink *to, const char *text)
+static void append_text(sink *to, const char *text)
 {
     if (to->status == CLAST_OK) {
         to->status = clx_alloc_text(&to->words->item[to->words->n], text);
@@ -35,8 +36,8 @@ static void add_set(sink *to, const char *key, const char *value)
     if (to->status == CLAST_OK && (n < 0 || n >= (int)sizeof pair)) {
         to->status = clx_fail(CLAST_E_CONFIG, "%s: the value is too long", key);
     }
-    add(to, "--set");
-    add(to, pair);
+    append_text(to, "--set");
+    append_text(to, pair);
 }
 
 static void add_command(sink *to, const char *command)
@@ -46,7 +47,7 @@ static void add_command(sink *to, const char *command)
         const size_t n = strcspn(command, " ");
         (void)snprintf(word, sizeof word, "%.*s", (int)n, command);
         if (n > 0) {
-            add(to, word);
+            append_text(to, word);
         }
         command += n + (command[n] == ' ');
     }
@@ -57,8 +58,8 @@ static void add_settings(sink *to, const clast_study_config *config,
 {
     char seed[32];
     for (int32_t i = 0; i < config->set.n; ++i) {
-        add(to, "--set");
-        add(to, config->set.item[i]);
+        append_text(to, "--set");
+        append_text(to, config->set.item[i]);
     }
     for (int32_t c = 0; c < plan->n_column; ++c) {
         if (plan->column[c].text != NULL) {
@@ -89,25 +90,25 @@ clast_status clx_study_words(const clx_study_words_of *of, int64_t row, const ch
               "path too long: %s", folder);
     add_command(&to, config->run);
     if (resume) {
-        add(&to, "--resume");
-        add(&to, out);
+        append_text(&to, "--resume");
+        append_text(&to, out);
     } else {
         if (config->config[0] != '\0') {
-            add(&to, config->config);
+            append_text(&to, config->config);
         }
         for (int32_t i = 0; i < config->argument.n; ++i) {
-            add(&to, config->argument.item[i]);
+            append_text(&to, config->argument.item[i]);
         }
         add_settings(&to, config, worker, plan, row);
         if (worker->has_folder) {
-            add(&to, "-o");
-            add(&to, out);
+            append_text(&to, "-o");
+            append_text(&to, out);
         }
     }
-    add(&to, "-j");
-    add(&to, "1");
-    add(&to, "--quiet");
-    add(&to, "--json");
+    append_text(&to, "-j");
+    append_text(&to, "1");
+    append_text(&to, "--quiet");
+    append_text(&to, "--json");
     CLX_TRY(to.status);
     *words = made;
     made = (clast_text_list){0};

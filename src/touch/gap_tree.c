@@ -11,7 +11,7 @@ typedef struct {
 } nearest;
 
 /// Keeps a pair of points if it is closer than what is known.
-static void keep(nearest *best, const double a[3], const double b[3])
+static void keep_nearest(nearest *best, const double a[3], const double b[3])
 {
     const double d = v3_distance(a, b);
     if (d < best->distance) {
@@ -43,7 +43,7 @@ static void keep_segments(const double *p0, const double *p1, const double *q0, 
     s = dd > 0.0 ? clamp((de * t - v3_dot(d, w)) / dd) : 0.0;
     v3_axpy(x, p0, s, d);
     v3_axpy(y, q0, t, e);
-    keep(best, x, y);
+    keep_nearest(best, x, y);
 }
 
 /// Where segment p q goes through the triangle, if it does: the bodies intersect.
@@ -64,7 +64,7 @@ static void keep_piercing(const double *p, const double *q, double corner[3][3],
     v3_axpy(x, p, a / (a - b), to);
     const double size2 = v3_norm2(e[0]) + v3_norm2(e[1]);
     if (clx_triangle_closest(corner, x, closest) <= 1e-30 * size2) {
-        keep(best, x, x);
+        keep_nearest(best, x, x);
     }
 }
 
@@ -75,9 +75,9 @@ static void keep_triangles(double a[3][3], double b[3][3], nearest *best)
         const double *a0 = a[i];
         const double *a1 = a[(i + 1) % 3];
         (void)clx_triangle_closest(b, a0, closest);
-        keep(best, a0, closest);
+        keep_nearest(best, a0, closest);
         (void)clx_triangle_closest(a, b[i], closest);
-        keep(best, closest, b[i]);
+        keep_nearest(best, closest, b[i]);
         keep_piercing(a0, a1, b, best);
         keep_piercing(b[i], b[(i + 1) % 3], a, best);
         for (int j = 0; j < 3; ++j) {
@@ -278,7 +278,7 @@ static double keep_foot(const double axes[3], const double y[3], const double e[
 {
     double x[3], n[3];
     project_on_ellipsoid(axes, y, x);
-    keep(best, x, y);
+    keep_nearest(best, x, y);
     for (int k = 0; k < 3; ++k) {
         n[k] = x[k] / (axes[k] * axes[k]);
     }
@@ -331,7 +331,7 @@ static void keep_ellipsoid_face(const double axes[3], double corner[3][3], neare
     v3_axpy(y, x, gap > 0.0 ? gap : 0.0, n);
     const double size2 = v3_norm2(e[0]) + v3_norm2(e[1]);
     if (clx_triangle_closest(corner, y, closest) <= 1e-28 * (size2 + v3_norm2(y))) {
-        keep(best, x, y);
+        keep_nearest(best, x, y);
     }
 }
 
@@ -348,7 +348,7 @@ static void keep_ellipsoid_triangle(const double axes[3], double corner[3][3], n
         for (int k = 0; k < 3; ++k) {
             y[k] *= axes[k];
         }
-        keep(best, y, y);
+        keep_nearest(best, y, y);
         return;
     }
     keep_ellipsoid_face(axes, corner, best);

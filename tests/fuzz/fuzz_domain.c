@@ -1,5 +1,5 @@
 // Any text is a domain with a volume, whose map stays in the unit cube, or one line of complaint.
-#include <clast/domain.h>
+#include <clast/cloud.h>
 
 #include <clast/status.h>
 #include <math.h>

@@ -1,5 +1,6 @@
 // Fuzz: tables of grains, from text to a prediction.
 #include <clast/porosity_model.h>
+#include <clast/statistics.h>
 #include <clast/table.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -14,7 +15,7 @@ static void use(const clast_table *table)
     if (clast_form_set_of(table, NULL, &set) != CLAST_OK) {
         return;
     }
-    clast_form_set_complaint(&set, text, sizeof text);
+    clast_form_set_complaint(&set, sizeof text, text);
     if (clast_form_set_factors(&set, &factors) == CLAST_OK &&
         clast_statistics_of(&factors, &few, &statistics) == CLAST_OK) {
         clast_statistics_free(&statistics);

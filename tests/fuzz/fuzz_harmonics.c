@@ -1,5 +1,6 @@
 // Any bytes are a series, whose surface is a solid or refused, or one line of complaint.
 #include <clast/harmonics.h>
+#include <clast/mesh.h>
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);

@@ -1,6 +1,6 @@
 #pragma once
 // One body for the four surface readers: any bytes end in an error or in a mesh that can be used.
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 // the packing's shapes are those of the file, so that the check of shapes lets it pass.
 #include "h5_script.h"
 #include "run/pack_state.h"
+#include <clast/assembly.h>
 #include <clast/grading.h>
 #include <clast/machine.h>
 #include <clast/pack.h>

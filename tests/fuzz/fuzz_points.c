@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 
 #include <clast/status.h>
+#include <clast/table.h>
 #include <stdlib.h>
 #include <string.h>
 

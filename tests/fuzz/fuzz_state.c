@@ -6,6 +6,7 @@
 // and what is tested is everything that clast itself decides about the file. An input that does not
 // begin with a line of the script is given to the reader as it is: it must fall to the CRC-32.
 #include "h5_script.h"
+#include <clast/assembly.h>
 #include <clast/state.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);

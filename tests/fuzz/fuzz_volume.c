@@ -1,4 +1,5 @@
 // Any bytes are a volume (NRRD, TIFF, bare), which is cut into labels or parts, or one line.
+#include <clast/mesh.h>
 #include <clast/status.h>
 #include <clast/volume.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 // Any bytes are a volume, whose labels have surfaces or are refused, or one line of complaint.
+#include <clast/mesh.h>
 #include <clast/volume.h>
 #include <stdlib.h>
 

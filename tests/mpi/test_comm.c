@@ -2,6 +2,7 @@
 // sees the same table as programs without MPI. Ends with 0, or the line of the check that failed.
 #include <clast/mpi.h>
 
+#include <clast/machine.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>

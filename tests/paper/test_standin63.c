@@ -4,7 +4,6 @@
 
 #include <clast/form.h>
 #include <clast/mesh.h>
-#include <clast/mesh_file.h>
 #include <stdio.h>
 
 enum { N = 63 };

@@ -5,7 +5,7 @@
 #include "cloud/pair_sums.h"
 #include "math/rng.h"
 #include "oracle.h"
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

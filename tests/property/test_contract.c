@@ -227,14 +227,14 @@ static void bad_points_change_nothing_in_a_workspace(void **state)
     REFUSED_INTO(made, clast_workspace_decompose(NULL, &good_points, &c, &made));
     REFUSED(clast_workspace_decompose(w, &good_points, &c, NULL));
     REFUSED(clast_workspace_create(NULL));
-    REFUSED_INTO(of, clast_workspace_cells(w, of, 0));
-    REFUSED_INTO(of, clast_workspace_cells(w, of, -1));
-    REFUSED_INTO(of, clast_workspace_cells(NULL, of, 1));
-    REFUSED(clast_workspace_cells(w, NULL, 1));
-    REFUSED_INTO(events, clast_workspace_events(w, events, 0));
-    REFUSED_INTO(events, clast_workspace_events(NULL, events, 1));
-    REFUSED(clast_workspace_events(w, NULL, 1));
-    CHECK_OK(clast_workspace_cells(w, of, 2)); // the decomposition still stands
+    REFUSED_INTO(of, clast_workspace_cells(w, 0, of));
+    REFUSED_INTO(of, clast_workspace_cells(w, -1, of));
+    REFUSED_INTO(of, clast_workspace_cells(NULL, 1, of));
+    REFUSED(clast_workspace_cells(w, 1, NULL));
+    REFUSED_INTO(events, clast_workspace_events(w, 0, events));
+    REFUSED_INTO(events, clast_workspace_events(NULL, 1, events));
+    REFUSED(clast_workspace_events(w, 1, NULL));
+    CHECK_OK(clast_workspace_cells(w, 2, of)); // the decomposition still stands
     clast_workspace_destroy(w);
     clast_fields_free(clast_decompose_fields, &c);
 }
@@ -418,7 +418,7 @@ static void bad_agglomerations_are_refused(void **state)
 static void try_spectrum(const void *config, void *context)
 {
     clast_spectrum r;
-    REFUSED_INTO(r, clast_spectrum_evolve(config, context, NULL, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, config, context, &r));
 }
 
 static void spectra_are_refused(void **state)
@@ -431,14 +431,14 @@ static void spectra_are_refused(void **state)
     c.concentration = c.duration = 1.0;
     c.n_step = c.repeats = 1;
     spoil_fields(clast_spectrum_fields, &c, sizeof c, try_spectrum, &good);
-    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &good, NULL, &r));
-    REFUSED_INTO(r, clast_spectrum_evolve(&c, NULL, NULL, &r));
-    REFUSED(clast_spectrum_evolve(&c, &good, NULL, NULL));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, NULL, &good, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, NULL, &r));
+    REFUSED(clast_spectrum_evolve(NULL, &c, &good, NULL));
     good.alpha = (double)NAN;
-    REFUSED_INTO(r, clast_spectrum_evolve(&c, &good, NULL, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, &r));
     c.duration = (double)NAN;
     good.alpha = 1.0;
-    REFUSED_INTO(r, clast_spectrum_evolve(&c, &good, NULL, &r));
+    REFUSED_INTO(r, clast_spectrum_evolve(NULL, &c, &good, &r));
 }
 
 /* --- surfaces --- */

@@ -44,7 +44,7 @@ static void same_doubles_come_back(void **state)
         clast_mesh back = {0};
         clast_mesh_read_report r;
         random_mesh(k, &mesh);
-        CHECK_OK(clast_mesh_write(path, &mesh,
+        CHECK_OK(clast_mesh_write(&mesh, path,
                                   &(clast_mesh_write_options){.unit = "um", .name = "a\nf 1 2 3"}));
         CHECK_OK(clast_mesh_read(path, &back, &r));
         assert_int_equal(back.n_vert, mesh.n_vert);
@@ -67,7 +67,7 @@ static void stl_gives_back_the_nearest_singles_and_the_same_triangles(void **sta
     clast_mesh back = {0};
     CHECK_OK(clast_mesh_ellipsoid(axes, 3, &mesh));
     clast_mesh_transform(&mesh, 1.7, turn, place);
-    CHECK_OK(clast_mesh_write(support_scratch_file("a.stl"), &mesh, NULL));
+    CHECK_OK(clast_mesh_write(&mesh, support_scratch_file("a.stl"), NULL));
     CHECK_OK(clast_mesh_read(support_scratch_file("a.stl"), &back, NULL));
     assert_int_equal(back.n_vert, mesh.n_vert);
     assert_int_equal(back.n_tri, mesh.n_tri);
@@ -94,9 +94,9 @@ static void equal_meshes_give_equal_files(void **state)
         int64_t n = 0;
         int64_t m = 0;
         const clast_mesh_write_options options = {.unit = "mm", .name = "a <b> & \"c\""};
-        CHECK_OK(clast_mesh_write(support_scratch_file(names[i]), &mesh, &options));
+        CHECK_OK(clast_mesh_write(&mesh, support_scratch_file(names[i]), &options));
         CHECK_OK(clx_file_read_all(support_scratch_file(names[i]), 1 << 20, &first, &n));
-        CHECK_OK(clast_mesh_write(support_scratch_file(names[i]), &mesh, &options));
+        CHECK_OK(clast_mesh_write(&mesh, support_scratch_file(names[i]), &options));
         CHECK_OK(clx_file_read_all(support_scratch_file(names[i]), 1 << 20, &second, &m));
         assert_true(n == m && memcmp(first, second, (size_t)n) == 0);
         clx_free(first);
@@ -219,7 +219,7 @@ static clast_status write_file(void *context)
     clast_mesh mesh = {0};
     clast_status status = clast_mesh_box(1.0, 1.0, 1.0, &mesh);
     if (status == CLAST_OK) {
-        status = clast_mesh_write(support_scratch_file(context), &mesh,
+        status = clast_mesh_write(&mesh, support_scratch_file(context),
                                   &(clast_mesh_write_options){.unit = "m"});
     }
     clast_mesh_free(&mesh);
@@ -284,18 +284,18 @@ static void what_cannot_be_written_is_refused(void **state)
     clast_mesh mesh = {0};
     CHECK_OK(clast_mesh_box(1.0, 1.0, 1.0, &mesh));
     const int n_file = count_files(support_scratch());
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.step"), &mesh, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.3mf"), &mesh, NULL), CLAST_E_USAGE);
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.stl"), &mesh,
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.step"), NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.3mf"), NULL), CLAST_E_USAGE);
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.stl"),
                                   &(clast_mesh_write_options){.unit = "ell"}),
                  CLAST_E_USAGE);
     mesh.vert[3][1] = 1e39;
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.stl"), &mesh, NULL), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.stl"), NULL), CLAST_E_GEOMETRY);
     mesh.vert[3][1] = (double)NAN;
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.ply"), &mesh, NULL), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.ply"), NULL), CLAST_E_GEOMETRY);
     mesh.vert[3][1] = 0.0;
     mesh.tri[0][0] = mesh.tri[0][1];
-    CHECK_STATUS(clast_mesh_write(support_scratch_file("x.3mf"), &mesh,
+    CHECK_STATUS(clast_mesh_write(&mesh, support_scratch_file("x.3mf"),
                                   &(clast_mesh_write_options){.unit = "m"}),
                  CLAST_E_GEOMETRY);
     assert_int_equal(count_files(support_scratch()), n_file);

@@ -5,7 +5,7 @@
 #include "aggregate/trial.h"
 #include "math/rng.h"
 #include "math/vec3.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <string.h>
 
 static const double axes[2][3] = {{1.0, 0.7, 0.3}, {1.0, 0.6, 0.5}};

@@ -1,7 +1,7 @@
 // The laws of the power table, and counting.
 #include "alternatives.h"
 
-#include <clast/uniformity.h>
+#include <clast/decompose.h>
 #include <math.h>
 #include <stdlib.h>
 

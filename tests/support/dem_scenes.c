@@ -3,6 +3,8 @@
 #include <clast/assembly.h>
 
 #include "math/rng.h"
+#include <clast/mesh.h>
+#include <clast/shape.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #include "densities.h"
 
 #include "base/alloc.h"
+#include <clast/mesh.h>
 #include <math.h>
 #include <string.h>
 

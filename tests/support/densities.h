@@ -4,7 +4,6 @@
 #include "math/rng.h"
 
 #include <clast/cloud.h>
-#include <clast/domain.h>
 
 typedef enum { PLACE_BOX, PLACE_CYLINDER, PLACE_SURFACE, N_PLACE } density_place;
 

@@ -1,7 +1,7 @@
 #include "mesh_maker.h"
 
 #include "base/alloc.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <string.h>
 #include <unistd.h>
 

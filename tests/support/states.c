@@ -1,6 +1,8 @@
 #include "states.h"
 
 #include "base/alloc.h"
+#include <clast/assembly.h>
+#include <clast/table.h>
 #include <string.h>
 
 static clast_status add_shapes(clast_assembly *a, const clast_spheres *pair)

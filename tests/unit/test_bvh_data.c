@@ -3,7 +3,7 @@
 #include "geom/bvh.h"
 #include "math/rng.h"
 #include "support.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 /// Points in the box of a mesh, the first at its vertices' height.
 static void random_point(clx_rng *rng, const double low[3], const double high[3], double point[3])

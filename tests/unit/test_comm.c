@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "base/alloc.h"
+#include "base/comm.h"
 #include "base/queue.h"
 #include <string.h>
 

@@ -9,7 +9,7 @@
 #include <clast/harmonics.h>
 #include <clast/mesh_repair.h>
 #include <clast/pack.h>
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 #include <clast/render.h>
 #include <clast/report.h>
 #include <clast/study.h>

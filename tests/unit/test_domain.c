@@ -4,8 +4,8 @@
 #include "base/alloc.h"
 #include "geom/cut_volume.h"
 #include "math/rng.h"
+#include <clast/cloud.h>
 #include <clast/decompose.h>
-#include <clast/domain.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * were set on other bodies (equal balls, boxes, three balls by sampling); these are not theirs. */
 #include "support.h"
 
-#include <clast/structure.h>
+#include <clast/assembly.h>
 
 /* A ball of radius R that touches both balls, of radii 1 and b, sits with its centre at (x, rho):
  * the circles where it touches bound the neck. */

@@ -5,7 +5,7 @@
 #include <clast/evolve.h>
 #include <clast/form.h>
 #include <clast/shape.h>
-#include <clast/structure.h>
+#include <clast/assembly.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "io/export.h"
 #include "math/vec3.h"
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/table.h>
 #include <errno.h>
 #include <stdio.h>

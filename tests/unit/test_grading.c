@@ -308,7 +308,7 @@ static void achieved_is_set_beside_wanted(void **state)
     clast_table table = {0};
     clast_grading_match match;
     CHECK_OK(clast_curve_make(2, sieve, mass, &curve));
-    CHECK_OK(clast_grading_compare(&curve, NULL, &(clast_grading_sample){4, size, volume}, &table,
+    CHECK_OK(clast_grading_compare(NULL, &curve, &(clast_grading_sample){4, size, volume}, &table,
                                    &match));
     assert_int_equal(table.n_row, 4);
     const double *achieved = clast_table_numbers(&table, "achieved_mass");
@@ -324,11 +324,11 @@ static void achieved_is_set_beside_wanted(void **state)
     CHECK_REL(match.wanted_d50, 2e-3 * pow(2.0, 1.0 / 3.0), 1e-14);
     clast_table_free(&table);
     CHECK_STATUS(
-        clast_grading_compare(&curve, NULL, &(clast_grading_sample){0, size, NULL}, &table, &match),
+        clast_grading_compare(NULL, &curve, &(clast_grading_sample){0, size, NULL}, &table, &match),
         CLAST_E_CONFIG);
     const double bad[2] = {1e-3, (double)NAN};
     CHECK_STATUS(
-        clast_grading_compare(&curve, NULL, &(clast_grading_sample){2, bad, NULL}, &table, &match),
+        clast_grading_compare(NULL, &curve, &(clast_grading_sample){2, bad, NULL}, &table, &match),
         CLAST_E_CONFIG);
     clast_curve_free(&curve);
 }
@@ -346,7 +346,7 @@ static void drawn_masses_match_the_curve(void **state)
     for (uint64_t i = 0; i < N_DRAW; ++i) {
         size[i] = clast_grading_draw(g, 1, i);
     }
-    CHECK_OK(clast_grading_compare(&curve, g, &(clast_grading_sample){N_DRAW, size, NULL}, &table,
+    CHECK_OK(clast_grading_compare(g, &curve, &(clast_grading_sample){N_DRAW, size, NULL}, &table,
                                    &match));
     CHECK_ABS(match.distance_number, 0.0, sqrt(0.5 * log(2e6) / N_DRAW));
     // inside a class numbers, not masses, are even over log size: that difference is exact;
@@ -419,7 +419,7 @@ static void curves_without_mass_are_refused(void **state)
                          CLAST_E_CONFIG);
             assert_null(grading);
         }
-        CHECK_STATUS(clast_grading_compare(&bad[i], NULL, &sample, &table, &match), CLAST_E_CONFIG);
+        CHECK_STATUS(clast_grading_compare(NULL, &bad[i], &sample, &table, &match), CLAST_E_CONFIG);
     }
     assert_true(isnan(clast_curve_size(&bad[0], 0.5)));
     assert_true(isnan(clast_curve_size(&bad[1], 0.5)));
@@ -619,7 +619,7 @@ static clast_status make_all(void *context)
         status = clast_grading_of_curve(&curve, CLAST_SPREAD_LINEAR, CLAST_COUNT_MEAN, &g);
     }
     if (status == CLAST_OK) {
-        status = clast_grading_compare(&curve, g, &(clast_grading_sample){2, size, NULL}, &table,
+        status = clast_grading_compare(g, &curve, &(clast_grading_sample){2, size, NULL}, &table,
                                        &match);
     }
     clast_table_free(&table);

@@ -173,7 +173,7 @@ static void fitted_models_are_drawn(void **state)
     CHECK_OK(clast_fields_default(clast_porosity_fit_fields, &c));
     CHECK_OK(clast_table_parse_csv("beds", text, strlen(text), NULL, &t, NULL));
     CHECK_OK(clast_fit_data_single(&t, &c, &d));
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     for (int k = 0; k < CLAST_N_FIT_CHART; ++k) {
         char path[1024];
         (void)snprintf(path, sizeof path, "%s/%s.svg", out,

@@ -5,7 +5,7 @@
 #include <clast/aggregate_run.h>
 #include <clast/chart.h>
 #include <clast/field.h>
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 #include <clast/porosity.h>
 #include <clast/state.h>
 #include <clast/table.h>
@@ -128,12 +128,12 @@ static void write_bed(const char *folder)
                                           (double[4]){1.0, 0.0, 0.0, 0.0}, 1.5, 2650.5));
     }
     CHECK_OK(clast_bed_parse("box:-0.25,-0.5,1.75,1.5", &bed));
-    assert_true(clast_bed_format(&bed, text, sizeof text) > 0);
+    assert_true(clast_bed_format(&bed, sizeof text, text) > 0);
     CHECK_OK(clast_bed_parse(text, &bed));
     options.layer = 0.0625;
     options.cut = 0.9;
     CHECK_OK(clast_porosity_profile(&a, &bed, &options, &profile));
-    CHECK_OK(clast_porosity_measure(&a, &bed, &options, &profile, &bulk));
+    CHECK_OK(clast_porosity_measure(&a, &bed, &profile, &options, &bulk));
     path_in(folder, "profile.csv", path);
     CHECK_OK(clast_table_write_csv(&profile, path));
     CHECK_OK(clast_table_read_csv(path, NULL, &again, NULL));
@@ -152,7 +152,7 @@ static void write_bed(const char *folder)
     CHECK_OK(clast_mesh_box(0.5, 1.25, 1e-3, &box));
     for (size_t k = 0; k < sizeof meshes / sizeof meshes[0]; ++k) {
         path_in(folder, meshes[k], path);
-        CHECK_OK(clast_mesh_write(path, &box, &(clast_mesh_write_options){.unit = "mm"}));
+        CHECK_OK(clast_mesh_write(&box, path, &(clast_mesh_write_options){.unit = "mm"}));
     }
     path_in(folder, "m.obj", path);
     CHECK_OK(clast_mesh_read(path, &back, NULL));

@@ -110,7 +110,7 @@ static void check_bed(const clast_pack *pack, const clast_pack_config *config)
     double top = 0.0;
     CHECK_OK(clast_dem_assembly(dem, &grains));
     CHECK_OK(clast_porosity_profile(&grains, &where, &options, &profile));
-    CHECK_OK(clast_porosity_measure(&grains, &where, &options, &profile, &bulk));
+    CHECK_OK(clast_porosity_measure(&grains, &where, &profile, &options, &bulk));
     assert_true(bulk.porosity > 0.3 && bulk.porosity < 0.8);
     assert_true(clast_dem_mean_height(dem, &top) < top && top < 0.1);
     assert_true(clast_dem_n_step(dem) <= clast_pack_expected_steps(pack));

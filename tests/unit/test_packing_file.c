@@ -90,7 +90,7 @@ static void check_box(clast_assembly *a, const char *bed_text, double porosity, 
     assert_true(clast_bed_period(&bed, period.length));
     options.layer = 0.3;
     CHECK_OK(clast_porosity_profile(a, &bed, &options, &profile));
-    CHECK_OK(clast_porosity_measure(a, &bed, &options, &profile, &bulk));
+    CHECK_OK(clast_porosity_measure(a, &bed, &profile, &options, &bulk));
     CHECK_ABS(bulk.porosity, porosity, tolerance);
     CHECK_REL(bulk.z_high - bulk.z_low, period.length[2], 1e-15);
     for (int64_t k = 0; k < profile.n_row; ++k) {
@@ -103,7 +103,7 @@ static void check_box(clast_assembly *a, const char *bed_text, double porosity, 
     CHECK_OK(clast_assembly_overlaps(a, &period, &overlaps));
     assert_int_equal(overlaps.n, 0);
     options.trim = 0.1;
-    CHECK_STATUS(clast_porosity_measure(a, &bed, &options, &profile, &bulk), CLAST_E_USAGE);
+    CHECK_STATUS(clast_porosity_measure(a, &bed, &profile, &options, &bulk), CLAST_E_USAGE);
     clast_table_free(&profile);
 }
 
@@ -161,7 +161,7 @@ static void beds_in_three_directions_read_back(void **state)
     assert_int_equal(bed.kind, CLAST_BED_PERIODIC_3D);
     CHECK_REL(bed.floor, -3e-3, 1e-15);
     CHECK_REL(clast_bed_area(&bed), 8.0, 1e-15);
-    assert_true(clast_bed_format(&bed, text, sizeof text) > 0);
+    assert_true(clast_bed_format(&bed, sizeof text, text) > 0);
     CHECK_OK(clast_bed_parse(text, &back));
     assert_true(back.ceiling == bed.ceiling && back.floor == bed.floor &&
                 back.low[1] == bed.low[1]);

@@ -626,17 +626,17 @@ static void estimates_are_chosen_by_rule(void **state)
     const clast_estimate open = {2.0, 1.5, (double)INFINITY, false};
     const clast_estimate none = {(double)NAN, 0.0, (double)INFINITY, false};
     bool apart = true;
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &narrow, &wide, &apart).value == 1.0);
+    assert_true(clast_estimate_choose(&narrow, &wide, CLAST_ESTIMATOR_AUTO, &apart).value == 1.0);
     assert_false(apart);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &wide, &narrow, NULL).value == 1.05);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &narrow, &far, &apart).value == 1.0);
+    assert_true(clast_estimate_choose(&wide, &narrow, CLAST_ESTIMATOR_AUTO, NULL).value == 1.05);
+    assert_true(clast_estimate_choose(&narrow, &far, CLAST_ESTIMATOR_AUTO, &apart).value == 1.0);
     assert_true(apart);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &open, &open, NULL).value == 2.0);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &open, &none, NULL).value == 2.0);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_CELLS, &narrow, &far, &apart).value == 1.0);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_AUTO, &open, &wide, &apart).value == 1.05);
+    assert_true(clast_estimate_choose(&open, &open, CLAST_ESTIMATOR_AUTO, NULL).value == 2.0);
+    assert_true(clast_estimate_choose(&open, &none, CLAST_ESTIMATOR_AUTO, NULL).value == 2.0);
+    assert_true(clast_estimate_choose(&narrow, &far, CLAST_ESTIMATOR_CELLS, &apart).value == 1.0);
+    assert_true(clast_estimate_choose(&open, &wide, CLAST_ESTIMATOR_AUTO, &apart).value == 1.05);
     assert_false(apart);
-    assert_true(clast_estimate_choose(CLAST_ESTIMATOR_PAIRS, &wide, &open, NULL).value == 2.0);
+    assert_true(clast_estimate_choose(&wide, &open, CLAST_ESTIMATOR_PAIRS, NULL).value == 2.0);
 }
 
 int main(void)

@@ -59,8 +59,8 @@ static clast_status core_of(const clast_assembly *a, const char *text, double n_
     options.at_slice = true;
     CHECK_OK(clast_bed_parse(text, &bed));
     CHECK_OK(clast_porosity_profile(a, &bed, &options, &profile));
-    CHECK_OK(clast_porosity_measure(a, &bed, &options, &profile, &bulk));
-    const clast_status status = clast_porosity_core_measure(a, &bed, &options, &bulk, n_size, core);
+    CHECK_OK(clast_porosity_measure(a, &bed, &profile, &options, &bulk));
+    const clast_status status = clast_porosity_core_measure(a, &bed, &bulk, n_size, &options, core);
     clast_table_free(&profile);
     return status;
 }
@@ -203,7 +203,7 @@ static clast_status make_both(void *context)
         const clast_porosity_options exact = clast_porosity_options_default();
         const clast_porosity_bulk bulk = {.z_high = 1.0};
         clast_porosity_core core;
-        status = clast_porosity_core_measure(&s->assembly, &s->bed, &exact, &bulk, 0.5, &core);
+        status = clast_porosity_core_measure(&s->assembly, &s->bed, &bulk, 0.5, &exact, &core);
     }
     clast_pores_free(&pores);
     clast_table_free(&radial);

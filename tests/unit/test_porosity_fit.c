@@ -8,7 +8,7 @@
 #include "support.h"
 
 #include "math/rng.h"
-#include <clast/porosity_fit.h>
+#include <clast/porosity_model.h>
 #include <clast/table.h>
 #include <stdio.h>
 #include <string.h>
@@ -95,7 +95,7 @@ static void diagnostics_match_r(void **state)
     make_beds(&t);
     set_use(&c, "a,b,c");
     CHECK_OK(clast_fit_data_columns(&t, &c, &d));
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     for (int k = 0; k < 4; ++k) {
         CHECK_REL(clast_table_numbers(&f.rows, "cook")[row[k]], cook[k], 1e-10);
         CHECK_REL(clast_table_numbers(&f.rows, "studentised")[row[k]], studentised[k], 1e-10);
@@ -125,7 +125,7 @@ static void like_features_are_removed(void **state)
     add_column(&t, "same", col_same);
     c.n_term = 3;
     CHECK_OK(clast_fit_data_columns(&t, &c, &d));
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     assert_int_equal(f.model.n_term, 2);
     assert_int_equal(f.n_removed, 1);
     int found = 0;
@@ -139,7 +139,7 @@ static void like_features_are_removed(void **state)
     assert_int_equal(found, 3);
     clast_porosity_fit_free(&f);
     c.correlation_limit = 1.0; /* nothing is removed: all three join */
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     assert_int_equal(f.model.n_term, 3);
     clast_porosity_fit_free(&f);
     clast_fit_data_free(&d);
@@ -178,7 +178,7 @@ static void equation_17_is_found(void **state)
     make_forms(&t, 0.0);
     CHECK_OK(clast_fit_data_single(&t, &c, &d));
     assert_int_equal(d.beds.n_column, 2 + 26);
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     assert_string_equal(f.model.term[0].feature, "inverse_equancy");
     assert_string_equal(f.model.term[1].feature, "inverse_elongation");
     CHECK_ABS(f.model.intercept, 0.278, 1e-12);
@@ -204,7 +204,7 @@ static void noise_is_measured(void **state)
     make_forms(&t, 0.005);
     set_use(&c, "inverse_equancy,inverse_elongation");
     CHECK_OK(clast_fit_data_single(&t, &c, &d));
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     const double *e = clast_table_numbers(&f.terms, "standard_error");
     CHECK_ABS(f.model.term[0].coefficient, 0.019, 4.0 * e[1]);
     CHECK_ABS(f.model.term[1].coefficient, 0.014, 4.0 * e[2]);
@@ -250,7 +250,7 @@ static void mixtures_are_grouped_by_bed(void **state)
     assert_int_equal(d.left_out.n_row, 1);
     assert_string_equal(d.left_out.column[1].text[0], "fewer than two grains");
     c.n_term = 1;
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     assert_string_equal(f.model.term[0].feature, "inverse_mean_equancy");
     CHECK_ABS(f.model.term[0].coefficient, 0.03, 1e-12);
     CHECK_ABS(f.model.intercept, 0.25, 1e-12);
@@ -276,7 +276,7 @@ static void bad_rows_change_nothing(void **state)
     CHECK_OK(clast_fit_data_columns(&t, &c, &d));
     assert_int_equal(d.beds.n_row, 5);
     assert_int_equal(d.left_out.n_row, 5);
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     for (int64_t i = 0; i < 5; ++i) {
         assert_true(isfinite(clast_table_numbers(&f.rows, "held_out")[i]));
     }
@@ -306,7 +306,7 @@ static void hopeless_tables_are_refused(void **state)
         CHECK_OK(clast_table_parse_csv("beds", bad[k], strlen(bad[k]), NULL, &t, NULL));
         clast_status status = clast_fit_data_columns(&t, &c, &d);
         if (status == CLAST_OK) {
-            status = clast_porosity_fit_data(&d, &c, "m", "test", &f);
+            status = clast_porosity_fit_data(&d, "m", "test", &c, &f);
         }
         CHECK_STATUS(status, CLAST_E_FORMAT);
         assert_null(f.rows.column);
@@ -329,7 +329,7 @@ static void columns_with_gaps_are_no_candidates(void **state)
     add_column(&t, "b", col_b);
     CHECK_OK(clast_fit_data_columns(&t, &c, &d));
     add_column(&d.beds, "gap", col_gap); /* as an undefined form factor would be */
-    CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+    CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
     int found = 0;
     for (int64_t k = 0; k < f.ranking.n_row; ++k) {
         found += strcmp(f.ranking.column[3].text[k], "not finite in some row") == 0 ? 1 : 0;
@@ -337,9 +337,9 @@ static void columns_with_gaps_are_no_candidates(void **state)
     assert_int_equal(found, 1);
     set_use(&c, "gap");
     clast_porosity_fit g = {0};
-    CHECK_STATUS(clast_porosity_fit_data(&d, &c, "m", "test", &g), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_porosity_fit_data(&d, "m", "test", &c, &g), CLAST_E_FORMAT);
     set_use(&c, "nothing");
-    CHECK_STATUS(clast_porosity_fit_data(&d, &c, "m", "test", &g), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_porosity_fit_data(&d, "m", "test", &c, &g), CLAST_E_FORMAT);
     clast_porosity_fit_free(&f);
     clast_fit_data_free(&d);
     clast_table_free(&t);
@@ -374,14 +374,14 @@ static void noise_is_no_model(void **state)
         }
         c.n_permutation = 39;
         CHECK_OK(clast_fit_data_columns(&t, &c, &d));
-        CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+        CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
         n_significant += f.p_value <= 0.05 ? 1 : 0;
         held_out += f.r2_held_out / 20.0;
         assert_true(isnan(clast_table_numbers(&f.terms, "p")[1]));
         clast_porosity_fit_free(&f);
         c.n_permutation = 0;
         c.validation = CLAST_VALIDATION_PUBLISHED;
-        CHECK_OK(clast_porosity_fit_data(&d, &c, "m", "test", &f));
+        CHECK_OK(clast_porosity_fit_data(&d, "m", "test", &c, &f));
         published += f.model.r2 / 20.0;
         assert_true(isnan(f.p_value));
         n_claimed += clast_table_numbers(&f.terms, "p")[1] < 0.05 ? 1 : 0;
@@ -409,7 +409,7 @@ static clast_status fit_all(void *context)
     clast_porosity_fit f = {0};
     clast_status status = clast_fit_data_columns(&j->beds, &j->config, &d);
     if (status == CLAST_OK) {
-        status = clast_porosity_fit_data(&d, &j->config, "m", "test", &f);
+        status = clast_porosity_fit_data(&d, "m", "test", &j->config, &f);
     }
     clast_porosity_fit_free(&f);
     clast_fit_data_free(&d);

@@ -100,11 +100,11 @@ static void features_have_104_names(void **state)
     (void)state;
     char name[96];
     for (int32_t k = 0; k < CLAST_N_MIXTURE_FEATURE; ++k) {
-        assert_true(clast_mixture_feature_name(k, name, sizeof name));
+        assert_true(clast_mixture_feature_name(k, sizeof name, name));
         assert_int_equal(clast_mixture_feature_find(name), k);
     }
     assert_int_equal(CLAST_N_MIXTURE_FEATURE, 104);
-    assert_false(clast_mixture_feature_name(104, name, sizeof name));
+    assert_false(clast_mixture_feature_name(104, sizeof name, name));
     assert_int_equal(clast_mixture_feature_find("mean_beauty"), -1);
     assert_int_equal(clast_form_feature_find("inverse_equancy"), 13 + CLAST_FORM_EQUANCY);
 }
@@ -171,7 +171,7 @@ static void complaint_counts_by_reason(void **state)
     char text[256];
     read_text("FL,EL\n0.5,0.8\n,0.8\n0.5,inf\n-0.5,0.8\n0,0.8\n", &t);
     CHECK_OK(clast_form_set_of(&t, NULL, &s));
-    clast_form_set_complaint(&s, text, sizeof text);
+    clast_form_set_complaint(&s, sizeof text, text);
     assert_string_equal(
         text, "4 of 5 rows left out: 1 missing, 1 infinite, 2 not positive (rows 2, 3, 4, 5)");
     CHECK_OK(clast_form_set_left_out(&s, &out));

@@ -107,7 +107,7 @@ static const char *make_run(const char *name, const char *shape_name)
     clast_assembly assembly = {0};
     make_assembly(shape_name, &assembly);
     (void)snprintf(path, sizeof path, "%s/state.h5", folder);
-    CHECK_OK(clast_state_write_assembly(path, &assembly, NULL));
+    CHECK_OK(clast_state_write_assembly(&assembly, path, NULL));
     clast_assembly_free(&assembly);
     put(folder, "summary.json", summary);
     put(folder, "manifest.json", manifest);
@@ -170,7 +170,7 @@ static void two_runs_are_compared(void **state)
     const char *runs[] = {make_run("first", "box"), make_run("second", "box")};
     char path[1024];
     (void)snprintf(path, sizeof path, "%s/both.html", support_scratch());
-    CHECK_OK(clast_report_write(runs, 2, NULL, path));
+    CHECK_OK(clast_report_write(runs, 2, path, NULL));
     char *page = text_of(path);
     check_has(page, "Side by side");
     check_has(page, "<a href=\"#run-1\">first</a>");
@@ -200,10 +200,9 @@ static void nothing_from_files_becomes_markup(void **state)
         "<svg xmlns='http://www.w3.org/2000/svg'><script/></svg>");
     (void)snprintf(path, sizeof path, "%s/evil.html", support_scratch());
     CHECK_OK(clast_report_write(
-        &folder, 1,
+        &folder, 1, path,
         &(clast_report_config){
-            .title = "<h1>&", .rows = 5, .view = true, .triangles = 1000, .picture_mb = 1},
-        path));
+            .title = "<h1>&", .rows = 5, .view = true, .triangles = 1000, .picture_mb = 1}));
     char *page = text_of(path);
     // The page's own script comes last; what is before it came from the run.
     char *own = strstr(page, "<footer>");
@@ -293,7 +292,7 @@ static void view_alone_is_a_page(void **state)
     char path[1024];
     (void)snprintf(path, sizeof path, "%s/view.html", support_scratch());
     make_assembly("</script><b>", &assembly);
-    CHECK_OK(clast_report_write_view(&assembly, NULL, path));
+    CHECK_OK(clast_report_write_view(&assembly, path, NULL));
     char *page = text_of(path);
     check_has(page, "<title>clast</title>");
     check_has(page, "Content-Security-Policy");
@@ -301,7 +300,7 @@ static void view_alone_is_a_page(void **state)
     check_has(page, "</html>");
     check_lacks(page, "<b>");
     free(page);
-    CHECK_STATUS(clast_report_write_view(&empty, NULL, path), CLAST_E_GEOMETRY);
+    CHECK_STATUS(clast_report_write_view(&empty, path, NULL), CLAST_E_GEOMETRY);
     clast_assembly_free(&assembly);
 }
 
@@ -311,17 +310,17 @@ static void folder_without_summary_is_refused(void **state)
     const char *folder = folder_of("bare");
     char path[1024];
     (void)snprintf(path, sizeof path, "%s/none.html", support_scratch());
-    CHECK_STATUS(clast_report_write(&folder, 1, NULL, path), CLAST_E_IO);
+    CHECK_STATUS(clast_report_write(&folder, 1, path, NULL), CLAST_E_IO);
     assert_non_null(strstr(clast_error_detail(), "has no summary.json"));
     assert_null(fopen(path, "r"));
     put(folder, "summary.json", "{\"n_grain\": 1,\n oops}");
-    CHECK_STATUS(clast_report_write(&folder, 1, NULL, path), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_report_write(&folder, 1, path, NULL), CLAST_E_FORMAT);
     assert_non_null(strstr(clast_error_detail(), "summary.json:2:"));
     put(folder, "summary.json", "[1]");
-    CHECK_STATUS(clast_report_write(&folder, 1, NULL, path), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_report_write(&folder, 1, path, NULL), CLAST_E_FORMAT);
     put(folder, "summary.json", "{}");
     put(folder, "state.h5", "no HDF5");
-    CHECK_STATUS(clast_report_write(&folder, 1, NULL, path), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_report_write(&folder, 1, path, NULL), CLAST_E_FORMAT);
     assert_null(fopen(path, "r"));
 }
 

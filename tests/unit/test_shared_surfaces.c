@@ -2,7 +2,7 @@
  * description states (measured by an independent program). */
 #include "support.h"
 
-#include <clast/mesh_file.h>
+#include <clast/mesh.h>
 
 #include <stdio.h>
 

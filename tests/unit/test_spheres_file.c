@@ -21,7 +21,7 @@ static void csv_gives_back_the_same_doubles(void **state)
     const clast_spheres s = {2, centre, radius};
     clast_spheres back = {0};
     const char *path = support_scratch_file("round.csv");
-    CHECK_OK(clast_spheres_write(path, "any", &s, NULL));
+    CHECK_OK(clast_spheres_write(&s, path, "any", NULL));
     CHECK_OK(clast_spheres_read(path, NULL, &back));
     assert_int_equal(back.n, 2);
     assert_memory_equal(back.centre, centre, sizeof centre);
@@ -73,19 +73,19 @@ static void state_file_gains_and_replaces_sets(void **state)
     clast_spheres back = {0};
     char path[600];
     (void)snprintf(path, sizeof path, "%s", support_scratch_file("sets.h5"));
-    CHECK_OK(clast_spheres_write(path, "a", &two, NULL));
-    CHECK_OK(clast_spheres_write(path, "b", &one, NULL));
+    CHECK_OK(clast_spheres_write(&two, path, "a", NULL));
+    CHECK_OK(clast_spheres_write(&one, path, "b", NULL));
     CHECK_OK(clast_spheres_read(path, "a", &back));
     assert_int_equal(back.n, 2);
     clast_spheres_free(&back);
-    CHECK_OK(clast_spheres_write(path, "a", &one, NULL));
+    CHECK_OK(clast_spheres_write(&one, path, "a", NULL));
     CHECK_OK(clast_spheres_read(path, "a", &back));
     assert_int_equal(back.n, 1);
     clast_spheres_free(&back);
-    CHECK_STATUS(clast_spheres_write(path, "c", &one, "um"), CLAST_E_USAGE);
+    CHECK_STATUS(clast_spheres_write(&one, path, "c", "um"), CLAST_E_USAGE);
     put(path, "no state file");
-    CHECK_STATUS(clast_spheres_write(path, "a", &one, NULL), CLAST_E_FORMAT);
-    CHECK_STATUS(clast_spheres_write(support_scratch_file("a.xyz"), "a", &one, NULL),
+    CHECK_STATUS(clast_spheres_write(&one, path, "a", NULL), CLAST_E_FORMAT);
+    CHECK_STATUS(clast_spheres_write(&one, support_scratch_file("a.xyz"), "a", NULL),
                  CLAST_E_USAGE);
     CHECK_STATUS(clast_spheres_read(support_scratch_file("a.csv"), "a", &back), CLAST_E_USAGE);
 }

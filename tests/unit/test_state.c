@@ -112,13 +112,13 @@ static void assembly_comes_back_bit_for_bit(void **state)
     clast_assembly a = {0};
     clast_assembly b = {0};
     CHECK_OK(make_assembly(&a));
-    CHECK_OK(clast_state_write_assembly(support_scratch_file("a.h5"), &a, NULL));
+    CHECK_OK(clast_state_write_assembly(&a, support_scratch_file("a.h5"), NULL));
     CHECK_OK(clast_state_read_assembly(support_scratch_file("a.h5"), &b));
     check_same_assembly(&a, &b);
     CHECK_OK(clast_assembly_add_grain(&b, 0, a.position[0], a.orientation[0], 1.0, 1.0));
     clast_assembly_free(&b);
     clast_assembly_free(&a);
-    CHECK_OK(clast_state_write_assembly(support_scratch_file("none.h5"), &a, NULL));
+    CHECK_OK(clast_state_write_assembly(&a, support_scratch_file("none.h5"), NULL));
     CHECK_OK(clast_state_read_assembly(support_scratch_file("none.h5"), &b));
     assert_int_equal(b.n_grain + b.n_shape, 0);
     clast_assembly_free(&b);
@@ -232,7 +232,7 @@ static void parts_are_read_by_name(void **state)
                  CLAST_E_FORMAT);
     CHECK_OK(clast_spheres_alloc(1, &s));
     s.radius[0] = 1.0;
-    CHECK_OK(clast_state_write_spheres(support_scratch_file("one.h5"), "only", &s, "mm"));
+    CHECK_OK(clast_state_write_spheres(&s, support_scratch_file("one.h5"), "only", "mm"));
     clast_spheres_free(&s);
     CHECK_OK(clast_state_read_spheres(support_scratch_file("one.h5"), NULL, &s));
     assert_int_equal(s.n, 1);
@@ -249,7 +249,7 @@ static void names_that_cannot_be_are_refused(void **state)
     s.radius[0] = 1.0;
     static const char *const wrong[] = {"", "a/b", "."};
     for (size_t i = 0; i < 3; ++i) {
-        CHECK_STATUS(clast_state_write_spheres(support_scratch_file("w.h5"), wrong[i], &s, "m"),
+        CHECK_STATUS(clast_state_write_spheres(&s, support_scratch_file("w.h5"), wrong[i], "m"),
                      CLAST_E_USAGE);
     }
     char name[] = "twice";
@@ -320,7 +320,7 @@ static void inconsistent_assemblies_are_refused(void **state)
         default:
             break;
         }
-        CHECK_OK(clast_state_write_assembly(support_scratch_file("lie.h5"), &a, NULL));
+        CHECK_OK(clast_state_write_assembly(&a, support_scratch_file("lie.h5"), NULL));
         CHECK_STATUS(clast_state_read_assembly(support_scratch_file("lie.h5"), &back),
                      lie == 0 ? CLAST_OK : CLAST_E_FORMAT);
         assert_true(lie == 0 || (back.shape == NULL && back.position == NULL));
@@ -419,7 +419,7 @@ static void full_disk_keeps_the_old_state(void **state)
 #ifdef CLAST_ALLOC_INJECT
     clast_assembly none = {0};
     clast_assembly back = {0};
-    CHECK_OK(clast_state_write_assembly(support_scratch_file("full.h5"), &none, NULL));
+    CHECK_OK(clast_state_write_assembly(&none, support_scratch_file("full.h5"), NULL));
     for (int k = 1; k <= 4; ++k) {
         (void)clx_file_refuse(k, ENOSPC);
         const clast_status status = write_all(support_scratch_file("full.h5"));

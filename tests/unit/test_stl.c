@@ -112,7 +112,7 @@ static void box_comes_back_from_a_binary_file(void **state)
     clast_mesh_read_report report;
     (void)snprintf(path, sizeof path, "%s/box.stl", support_scratch());
     CHECK_OK(clast_mesh_box(1.0, 2.0, 3.0, &box));
-    CHECK_OK(clast_mesh_write(path, &box, NULL));
+    CHECK_OK(clast_mesh_write(&box, path, NULL));
     CHECK_OK(clast_mesh_read(path, &back, &report));
     assert_int_equal(back.n_vert, 8);
     assert_int_equal(back.n_tri, 12);

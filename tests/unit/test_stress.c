@@ -116,8 +116,8 @@ static void inside_of_a_surface_is_a_bed(void **state)
                   clast_table_numbers(&in_box, "porosity")[k], 1e-12);
     }
     o.cut = 0.8;
-    CHECK_OK(clast_porosity_measure(&a, &bed, &o, &in_box, &one));
-    CHECK_OK(clast_porosity_measure(&a, &surface, &o, &in_surface, &other));
+    CHECK_OK(clast_porosity_measure(&a, &bed, &in_box, &o, &one));
+    CHECK_OK(clast_porosity_measure(&a, &surface, &in_surface, &o, &other));
     CHECK_REL(other.porosity, one.porosity, 1e-12);
     box.n_tri = 1; /* a triangle encloses nothing */
     clast_mesh_free(&closed);

@@ -55,8 +55,8 @@ static void any_layout_gives_the_cells_of_dense_arrays(void **state)
     clast_cloud cloud = {.n = N, .dimension = 3, .x = dense};
     CHECK_OK(clast_decompose(&cloud, &c, &plain));
     CHECK_OK(clast_workspace_create(&workspace));
-    CHECK_STATUS(clast_workspace_cells(workspace, cell, 1), CLAST_E_USAGE);
-    CHECK_STATUS(clast_workspace_events(workspace, events, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_workspace_cells(workspace, 1, cell), CLAST_E_USAGE);
+    CHECK_STATUS(clast_workspace_events(workspace, 1, events), CLAST_E_USAGE);
     for (int k = 0; k < 3; ++k) {
         const clast_decomposition *made = NULL;
         double sum = 0.0;
@@ -64,8 +64,8 @@ static void any_layout_gives_the_cells_of_dense_arrays(void **state)
         assert_memory_equal(made->cells.of_point, plain.cells.of_point,
                             N * sizeof *plain.cells.of_point);
         CHECK_REL(made->events, plain.events, 0.0);
-        CHECK_OK(clast_workspace_cells(workspace, cell, 2));
-        CHECK_OK(clast_workspace_events(workspace, events, 3));
+        CHECK_OK(clast_workspace_cells(workspace, 2, cell));
+        CHECK_OK(clast_workspace_events(workspace, 3, events));
         for (int i = 0; i < N; ++i) {
             assert_int_equal(cell[2 * i], plain.cells.of_point[i]);
             sum += events[3 * i];
@@ -168,7 +168,7 @@ static void repeated_collisions_take_no_memory(void **state)
     }
     CHECK_OK(clast_workspace_create(&workspace));
     CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
-    CHECK_OK(clast_workspace_cells(workspace, cell, 1));
+    CHECK_OK(clast_workspace_cells(workspace, 1, cell));
     const clast_collide_cells cells = {
         .n = made->cells.n, .of_particle = cell, .volume = made->cells.volume};
     for (uint64_t step = 0; step < 3; ++step) {
@@ -256,7 +256,7 @@ static void bad_points_are_told_and_leave_no_result(void **state)
     dense[7] = (double)NAN;
     CHECK_STATUS(clast_workspace_decompose(workspace, &points, &c, &made), CLAST_E_FORMAT);
     assert_null(made);
-    CHECK_STATUS(clast_workspace_cells(workspace, &cell, 1), CLAST_E_USAGE);
+    CHECK_STATUS(clast_workspace_cells(workspace, 1, &cell), CLAST_E_USAGE);
     dense[7] = 0.5;
     CHECK_OK(clast_workspace_decompose(workspace, &points, &c, &made));
     points.dimension = 4;
