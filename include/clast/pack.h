@@ -1,4 +1,5 @@
 #pragma once
+#include <clast/assembly.h>
 #include <clast/dem.h>
 #include <clast/grading.h>
 #include <clast/mesh.h>
