@@ -228,6 +228,8 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .hash = clast_dem_hash(pack->dem),
                            .n_fill = pack->n_fill,
                            .n_waited = pack->n_waited,
+                           .n_overlap = pack->n_overlap,
+                           .deepest_start = pack->deepest,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .clocked_steps = pack->clocked_steps,
