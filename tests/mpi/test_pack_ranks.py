@@ -80,8 +80,9 @@ class Beds(Case):
         self.assertGreater(alone.json["coordination"], 0.3)
         return many
 
-    def test_spheres_in_a_cylinder(self):
-        bed = self.same((1, 2, 3, 4), "--mass", "6g", "--height", "40mm", "--max-steps", 6000)
+    def test_spheres_in_a_cylinder_until_they_are_at_rest(self):
+        bed = self.same((1, 2, 3, 4), "--mass", "8g", "--height", "45mm", "--damping", "1e-6")
+        self.assertEqual(bed["phase"], "done")
         self.assertEqual(bed["ranks"]["n"], 4)
         self.assertGreater(bed["ranks"]["ghosts"], 10)
 
