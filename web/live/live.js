@@ -39,7 +39,7 @@ function newWorker() {
 }
 
 function setReady() {
-  $('run').disabled = !state.text || !program;
+  $('run').disabled = state.text === null || !program;
   $('cancel').disabled = true;
 }
 
