@@ -14,9 +14,10 @@ typedef struct cli_box {
 int cli_box_fields(clast_field *fields, int n, size_t offset);
 
 /// Whether the options go with one another and with the number of arguments: those of a box with
-/// --box-model alone, those of clouds without. `fields` is the whole table.
+/// --box-model alone, those of clouds without, those of a kernel with that kernel. `fields` is the
+/// whole table.
 clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
-                           const cli_box *box);
+                           const cli_box *box, const clast_agglomerate_config *agglomerate);
 
 /// A run: where results go, the whole configuration, and the parts of it that a box looks at.
 typedef struct cli_box_job {

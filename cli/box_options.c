@@ -1,4 +1,5 @@
-// Options of clast agglomerate --box-model, and which of them go with one another.
+// Options of clast agglomerate, and which of them go with one another: of clouds, of a box, of
+// kernels.
 #include "box_model.h"
 
 #include <math.h>
@@ -110,9 +111,42 @@ static const char *idle_in(const cli_box *box, const char *name)
     return NULL;
 }
 
-clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
-                           const cli_box *box)
+/// The run of which options are checked.
+typedef struct {
+    const cli_box *box;
+    clast_agglomerate_config agglomerate; ///< with its kernel as a mask; borrows its texts
+} options;
+
+/// Refuses what kernels, sticking, radii and settling in a box do not look at, be it a number or a
+/// column: "--shear does nothing with --kernel brownian".
+static clast_status check_used(const options *o, const char *option, const char *name)
 {
+    char key[64];
+    char word[512] = "";
+    (void)snprintf(key, sizeof key, "%s", name);
+    char *const end = strstr(key, "_column");
+    if (end != NULL) {
+        *end = '\0';
+    }
+    clast_collide_config collide = o->agglomerate.collide;
+    if (o->box->box_model && o->box->spectrum.settling_depth > 0.0 &&
+        strcmp(key, "efficiency") != 0) {
+        collide.kernel |= 1U << CLAST_KERNEL_SETTLING;
+    }
+    const char *const by = clast_collide_idle(&collide, key);
+    if (by == NULL) {
+        return CLAST_OK;
+    }
+    (void)clast_field_format(clast_fields_find(clast_agglomerate_fields, by), &o->agglomerate, 0,
+                             word, sizeof word);
+    return cli_fail(CLAST_E_USAGE, "--%s does nothing with --%s %s", option,
+                    strcmp(by, "radius_law") == 0 ? "radius-law" : by, word);
+}
+
+clast_status cli_box_check(const cli_common *common, const clast_field *fields, const void *config,
+                           const cli_box *box, const clast_agglomerate_config *agglomerate)
+{
+    options o = {box, *agglomerate};
     if (!box->box_model && common->n_argument == 0) {
         return cli_fail(CLAST_E_USAGE,
                         "missing POINTS... (or --box-model: a box without positions)");
@@ -121,6 +155,7 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
         return cli_fail(CLAST_E_USAGE, "a box has no positions: leave '%s' or --box-model out",
                         cli_name(common->argument[0]));
     }
+    CLI_GUARD(clast_kernel_parse(agglomerate->kernel, &o.agglomerate.collide.kernel));
     for (const clast_field *f = fields; f->name != NULL; ++f) {
         char option[64];
         const char *const why = box->box_model ? idle_in(box, f->name) : NULL;
@@ -136,6 +171,9 @@ clast_status cli_box_check(const cli_common *common, const clast_field *fields, 
                                 ? "is an option of clouds: a box has no positions"
                                 : "does nothing ",
                             why != NULL ? why : "");
+        }
+        if (!is_default(fields, f, config)) {
+            CLI_GUARD(check_used(&o, option, f->name));
         }
     }
     if (box->box_model &&

@@ -278,7 +278,7 @@ done:
 static clast_status run(const cli_common *common, void *values)
 {
     config *c = values;
-    CLI_GUARD(cli_box_check(common, fields, c, &c->box));
+    CLI_GUARD(cli_box_check(common, fields, c, &c->box, &c->agglomerate));
     if (c->box.box_model) {
         const cli_box_job job = {common, fields, c, &c->box, &c->agglomerate, chart_end[c->charts]};
         return cli_box_run(&job, &c->force);

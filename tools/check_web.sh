@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Is web/dist/view.js the bundle of web/view.js and its lock? tools/check_web.sh [--update]
-# Digests always; where node and the registry are at hand it is also built anew and compared. --update builds and renews.
+# Is web/dist/view.js the bundle of web/view.js, web/view/ and their lock? tools/check_web.sh [--update]
+# Digests always; where npm (tools/setup.sh web) and the registry are at hand it is also built anew and compared. --update builds and renews.
 set -eu
 cd "$(dirname "$0")/../web"
-files="view.js package.json package-lock.json dist/view.js dist/LICENSE-three.txt"
+files="view.js $(echo view/*.js) package.json package-lock.json dist/view.js dist/LICENSE-three.txt"
 build() { # into the folder $1
-    cp view.js package.json package-lock.json "$1"
+    cp -r view.js view package.json package-lock.json "$1"
     (cd "$1" && npm ci --silent --no-audit --no-fund >/dev/null 2>&1 && npm run --silent build >/dev/null 2>&1)
 }
 made=$(mktemp -d)
@@ -25,5 +25,5 @@ if command -v npm >/dev/null && build "$made"; then
     cmp "$made/dist/view.js" dist/view.js || { echo "web: dist/view.js is not what web/view.js builds to; run tools/check_web.sh --update"; exit 1; }
     echo "web: bundle of $size bytes is that of its sources, built anew"
 else
-    echo "web: digests agree; not built anew (no node, or no registry)"
+    echo "web: digests agree; not built anew (no npm: tools/setup.sh web; or no registry)"
 fi

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """A twin of the figures' engine of SCARLET-1.0 for EJ15 loose, written from the method's description alone (march, envelope by
 10,000 rays, sizes, shuffling), in NumPy and with other random numbers: it shares no line with the library. It says what mean and
-spread the published engine has, of which the specification knows three seeds.
+spread the published engine has, of which three seeds were run.
 
 usage: tools/march_twin.py [SEEDS]     (needs numpy and scipy; about 5 s a seed)
 
 Prints porosity and D_agg [um] of each seed, then mean, spread of one aggregate, and the chance that three seeds drawn from these
-differ from their mean by as much as the specification's three, and that they lie as near each other.
+differ from their mean by as much as those three, and that they lie as near each other.
 """
 import pathlib
 import sys
@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull
 
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data/scarlet"
 COARSE, FINE = 0.01, 0.0005  # constants of the inward and the outward steps; the k-th step is k times as long
-SEEDS_OF_SPECIFICATION = np.array([167.0, 168.9, 167.7])  # D_agg [um]
+SEEDS_OF_ORIGINAL = np.array([167.0, 168.9, 167.7])  # D_agg [um]
 
 
 def read_stl(path):
@@ -130,9 +130,9 @@ def main():
     print(f"porosity {mean[0]:.4f} +- {spread[0]:.4f}, standard error {spread[0] / np.sqrt(n):.4f}")
     print(f"D_agg    {mean[1]:.2f} +- {spread[1]:.2f} um, standard error {spread[1] / np.sqrt(n):.2f}")
     three = np.random.default_rng(1).choice(found[:, 1], size=(100000, 3))
-    off = abs(SEEDS_OF_SPECIFICATION.mean() - mean[1])
+    off = abs(SEEDS_OF_ORIGINAL.mean() - mean[1])
     print(f"three seeds of these lie {off:.2f} um or more from the mean in {(abs(three.mean(1) - mean[1]) >= off).mean():.2f} of draws,"
-          f" spread by no more than {SEEDS_OF_SPECIFICATION.std(ddof=1):.2f} um in {(three.std(1, ddof=1) <= SEEDS_OF_SPECIFICATION.std(ddof=1)).mean():.3f}")
+          f" spread by no more than {SEEDS_OF_ORIGINAL.std(ddof=1):.2f} um in {(three.std(1, ddof=1) <= SEEDS_OF_ORIGINAL.std(ddof=1)).mean():.3f}")
 
 
 if __name__ == "__main__":

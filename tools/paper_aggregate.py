@@ -4,7 +4,7 @@ original program's measured value, ours, an exact reference where one exists, de
 
 usage: tools/paper_aggregate.py [--clast build/release/clast] [--quick | --page]     (--quick: fewer repeats; --page: the page anew from aggregate.csv)
 
-Nothing here tunes anything: limits come from the acceptance table of the method's specification or from sampling error.
+Nothing here tunes anything: limits were set before the first run, by the original's few seeds or by sampling error.
 """
 import argparse
 import csv
@@ -264,11 +264,11 @@ The release places sizes in the order of the list (its `displace_in_order` choos
 (*t* with pooled spread; p by drawing three of ours at random.) A mean of three seeds has a standard error of $0.0158/\sqrt3 = 0.009$, so these seeds cannot tell 0.798 from
 0.803; the first 0.798 of 100 shuffled repeats was also 1.1 of its own standard errors low. What the three seeds do show is a small spread, 0.003 where one of ours has 0.016:
 three of our own repeats lie that close together in 3.4 % of draws (for the figures, 0.004: 5 %; 27Sk21's two seeds differ by 0.017, as ours do). No step of the
-two programs, compared again with the specification line by line, gives a reason for it. The first two together have p = 0.012 (Fisher), with the third and the spreads
+two programs, compared again line by line, gives a reason for it. The first two together have p = 0.012 (Fisher), with the third and the spreads
 of Fig. 10 as in the section above.
 
 $D_\text{agg}$ of the figures, 169.0 $\pm$ 4.2 um (one aggregate; 300 repeats) against 167.0, 168.9, 167.7, says the same as the porosity and no more: the solid volume is equal
-to 0.1 % (578 484 and 577 900 um³), so an envelope 1.4 % larger is 0.0033 in porosity and 0.8 um in diameter, and 0.3 um is the mean of a cube root. The specification's $\pm$ 1.0 is
+to 0.1 % (578 484 and 577 900 um³), so an envelope 1.4 % larger is 0.0033 in porosity and 0.8 um in diameter, and 0.3 um is the mean of a cube root. The original's $\pm$ 1.0 is
 the spread of its three seeds; a mean of three has a standard error of $4.2/\sqrt3 = 2.4$ um. `tools/march_twin.py` is the engine once more, from the description alone, in NumPy
 with its own random numbers: 0.7689 $\pm$ 0.0162 and 168.6 $\pm$ 4.0 um over 34 seeds (standard errors 0.003 and 0.7 um). Two programs that share no line agree in mean and in
 spread; the three seeds lie 0.5 standard errors from either."""
@@ -353,11 +353,11 @@ def write(r):
     count = {v: [row for row in r.rows if row["verdict"] == v] for v in ("pass", "open", "FAIL")}
     lines = ["# Virtual aggregates: the paper beside ours", "",
              "Made by `make paper-aggregate`" + (" with --quick: a tenth of the repeats." if r.quick else ", all repeats."), "",
-             "*published*: Rossi and Bonadonna (SCARLET-1.0). *original*: their programs, run for our specification (number of seeds).",
+             "*published*: Rossi and Bonadonna (SCARLET-1.0). *original*: their programs (commit 3f946b3), which we ran under Octave (number of seeds).",
              "*ours*: mean ± standard deviation of one aggregate (repeats), under each contact mode: `exact` (true surfaces and true hull),",
              "`spheres` (composites, first touch in closed form, true hull), `march` with the steps, rays and faults of the `figures`' engine",
              "and of the `release` (porosity by 10,000 rays). *reference*: closed form or exact geometry. *deviation* and *limit* are those of",
-             "the mode under *judged*; limits come from the acceptance table of the method's specification or from sampling error, and none",
+             "the mode under *judged*; limits were set before the first run, by the original's few seeds or by sampling error, and none",
              "was moved after a result. *t*: two-sample t of ours against the original's single seeds. A row outside its limit is FAIL,",
              "or *open* when the original's seeds are so few that |t| < 2: the two do not differ as far as those seeds can tell.", "",
              "The figures with the published engine, envelope and composites are shipped as `examples/scarlet/*.yaml` "

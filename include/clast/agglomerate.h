@@ -95,6 +95,13 @@ CLAST_API clast_status clast_collide(clast_population *population, const clast_c
                                      double dt, uint64_t step, const clast_collide_config *config,
                                      int64_t *n_event);
 
+/// The key ("kernel", "sticking", "radius_law") by whose value another key of
+/// clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their
+/// ranges look at, one of another law of sticking, of fractal radii.
+///
+/// @return NULL where the key is looked at, and for every key that is none of these
+CLAST_API const char *clast_collide_idle(const clast_collide_config *config, const char *key);
+
 // Size spectrum of a well-mixed suspension in time, without positions: coagulation, breakage,
 // sources and settling, by Monte Carlo or by a sectional method. [docs/theory/agglomeration.md
 // section 6]

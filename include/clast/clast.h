@@ -10,6 +10,7 @@
 #include <clast/decompose.h>
 #include <clast/dem.h>
 #include <clast/domain.h>
+#include <clast/evolve.h>
 #include <clast/field.h>
 #include <clast/fill.h>
 #include <clast/form.h>

@@ -2,6 +2,7 @@
 #include <clast/cloud.h>
 #include <clast/domain.h>
 #include <clast/field.h>
+#include <clast/machine.h>
 #include <clast/pairs.h>
 #include <clast/table.h>
 #include <clast/uniformity.h>
@@ -186,6 +187,7 @@ typedef struct clast_within_cells {
 
 typedef struct clast_decomposition {
     int64_t n, n_outside; ///< points used and left out
+    int64_t n_here; ///< of cells.of_point: n + n_outside, with several ranks the points of this one
     int64_t n_test; ///< points tested: n, fewer when weights thin them out, more by the ghosts that
                     ///< fill the box of a mesh domain
     int32_t dimension;
@@ -240,6 +242,38 @@ CLAST_API clast_status clast_decompose(const clast_cloud *cloud,
 CLAST_API clast_status clast_decompose_in(const clast_domain *domain, const clast_cloud *cloud,
                                           const clast_decompose_config *config,
                                           clast_decomposition *result);
+
+/// Events against the number of points: random parts of n, n/2, n/4, ... points of a cloud without
+/// weights and variable, decomposed each by itself.
+///
+/// @param n_size   parts, 1 to 40; the smallest has 5 points at least
+/// @param regular  a regular mesh of so many cells an axis beside, to 200; 0: none
+/// @param table    out, a row a part, smallest first: n, events, events_low, events_high, n_cell,
+/// and the events scaled by (N / n)^2 to all points, scaled_...; with a regular mesh regular_events
+/// and scaled_regular. Without beta dt they are pair_integral, ... [1/m^d]
+/// @return CLAST_E_CONFIG for counts out of range, weights or a variable, a regular mesh in a mesh
+/// domain; what clast_decompose_in returns
+CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const clast_cloud *cloud,
+                                             int32_t n_size, int32_t regular,
+                                             const clast_decompose_config *config,
+                                             clast_table *table);
+
+/// The same of one cloud of which each rank has a part; points stay where they are. Called by all
+/// ranks with the same domain and configuration. Cells, tests, events and all numbers are those of
+/// all points together, on every rank, and the same bytes for any number of ranks, any first
+/// distribution and any order of the points; cells.of_point [cloud->n] is of the points here. A
+/// rank may have none. [docs/theory/cloud-ranks.md]
+///
+/// @param comm   of clast_mpi_create; NULL: the only rank
+/// @param cloud  the points of this rank
+/// @return on several ranks CLAST_E_CONFIG for what one process alone does: a mesh as domain,
+/// weights, a variable, ghost samples, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
+/// than 200,000 points. The status is the same on every rank, and an error names the rank
+/// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
+CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
+                                             const clast_cloud *cloud,
+                                             const clast_decompose_config *config,
+                                             clast_decomposition *result);
 
 /// Whether label and pass mean something: of bins, not of a tree or a single cell.
 CLAST_API bool clast_cells_are_labelled(const clast_cells *cells);

@@ -1,5 +1,5 @@
 #pragma once
-#include <clast/status.h>
+#include <clast/machine.h>
 
 CLAST_BEGIN
 
@@ -79,9 +79,16 @@ typedef struct clast_spacing {
 } clast_spacing;
 
 /// @return CLAST_E_ARGUMENT for n < 5
-/// @note O(n log n); beyond 50,000 points the neighbours of every k-th are looked for
+/// @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which
+/// their places alone decide
 CLAST_API clast_status clast_spacing_test(const double *u, int64_t n, int32_t d,
                                           clast_spacing *result);
+
+/// The same of the points that all ranks have together; called by all of them.
+///
+/// @param comm  NULL: the only rank
+CLAST_API clast_status clast_spacing_ranks(const clast_comm *comm, const double *u, int64_t n,
+                                           int32_t d, clast_spacing *result);
 
 /// Distance-to-boundary score: mean absolute difference between the distribution of depths and its
 /// law.

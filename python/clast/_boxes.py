@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 
@@ -14,6 +14,18 @@ from ._tables import Table, given_table, table_of
 _OF_CLOUDS = ("rebuild", "change_level", "fixed", "depth", "self_collisions")
 _IDLE = {"monte-carlo": ("tolerance", "breakage_exponent", "fragments", "fragment_exponent", "source_size"),
          "sectional": ("particles", "collisions", "leap", "block")}
+
+
+def check_used(config: Any, names: Iterable[str], settles: bool = False) -> None:
+    """Sets the mask of the kernels, and refuses keys that they, the law of sticking, the radii, or settling in a box do not look at."""
+    mask, collide = ctypes.c_uint32(), config.collide
+    check(call("clast_kernel_parse")(config.kernel, ctypes.byref(mask)))
+    for name in names:
+        collide.kernel = mask.value | (1 << c.VALUES["CLAST_KERNEL_SETTLING"] if settles and name != "efficiency" else 0)
+        by = call("clast_collide_idle")(ctypes.byref(collide), name.encode())
+        if by is not None:
+            raise Error("CLAST_E_CONFIG", f"{name}: does nothing with this {by.decode()}")
+    collide.kernel = mask.value
 
 
 def warn_of_range(report: Any) -> None:
@@ -73,9 +85,8 @@ def box_model(*, sizes: Any = None, seed: int | None = None, **keys: Any) -> Spe
     with Config(c.clast_spectrum_config(), "clast_spectrum_fields", parts[0]) as box, \
             Config(c.clast_agglomerate_config(), ("clast_agglomerate_fields", "clast_decompose_fields"), {**parts[1], "seed": seed}) as rest:
         a, s = rest.struct, box.struct
-        kernel = ctypes.c_uint32()
-        check(call("clast_kernel_parse")(a.kernel, ctypes.byref(kernel)))
-        a.collide.kernel, a.collide.seed = kernel.value, a.decompose.seed
+        check_used(a, parts[1], s.settling_depth > 0)
+        a.collide.seed = a.decompose.seed
         s.duration, s.n_step, s.repeats = a.duration, a.n_step, a.repeats
         check(call("clast_spectrum_evolve")(ctypes.byref(s), ctypes.byref(a.collide), ctypes.byref(start) if held is not None else None,
                                             ctypes.byref(result.struct)))

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _bindings as c
-from ._boxes import warn_of_range
-from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, view, warn, whole
+from ._boxes import check_used, warn_of_range
+from ._core import Config, Floats, Owner, call, check, choice, encoded, fixed, html_table, numbers, refuse, settled, view, warn, whole
 from ._html import file_html
 from ._tables import Path, Table, table_of
 
@@ -38,6 +38,7 @@ class Decomposition:
     points_needed: float
     ideal_score: float
     estimator: str  #: "cells", or "pairs" by distance
+    sizes: Table | None  #: events of random parts of the points, with sizes=K
     _cloud: Cloud = field(repr=False)
     _owner: Owner = field(repr=False)
 
@@ -197,19 +198,34 @@ def _domain(cloud: Cloud, domain: str | None) -> str:
 
 
 def decompose(positions: Any, *, domain: str | None = None, radius: Any = None, mass: Any = None, weight: Any = None, velocity: Any = None,
-              variable: Any = None, **keys: Any) -> Decomposition:
+              variable: Any = None, test_only: bool = False, sizes: int = 0, regular: int = 0, **keys: Any) -> Decomposition:
     """Splits a Cloud, or positions (n, 1 to 3) [m], into cells of uniform concentration and counts events.
 
     float64 arrays in C order are read where they lie, others are converted once. `domain` is that of the command
-    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree").
+    ("box:0,0,0,1,1,1", "sphere:5mm"); its other keys follow as keywords (seed=1, beta_dt=1e-12, mesh="tree"). `test_only` runs the
+    tests alone (`reject` says what they found); `sizes` gives the table of that name, what `clast decompose --sizes` writes.
     """
+    own = settled("decompose", dict(test_only=test_only, sizes=sizes, regular=regular))
+    if own["test_only"]:
+        keys["variant"] = "test"
     cloud = Cloud._named("positions", positions, radius=radius, mass=mass, weight=weight, velocity=velocity, variable=variable)
     result = c.clast_decomposition()
     with Config(c.clast_decompose_config(), "clast_decompose_fields", {"domain": _domain(cloud, domain), **keys}) as config:
         check(call("clast_decompose")(ctypes.byref(cloud._struct()), ctypes.byref(config.struct), ctypes.byref(result)))
+        owner = Owner(result, "clast_decomposition_free")
+        parts = _parts_of(cloud, own["sizes"], own["regular"], config.struct) if own["sizes"] else None
     if result.n_pass > 0 and result.points_per_bin < 10:
         warn(f"{result.points_per_bin:.2g} points a bin (under 10): joining bins by their counts keeps their noise; compare mesh='tree'")
-    return _decomposition(Owner(result, "clast_decomposition_free"), cloud)
+    return _decomposition(owner, cloud, parts)
+
+
+def _parts_of(cloud: Cloud, sizes: int, regular: int, config: Any) -> Table:
+    """Events of random parts of n, n/2, n/4, ... points."""
+    domain, table = Owner(c.clast_domain(), "clast_domain_free"), Owner(c.clast_table(), "clast_table_free")
+    check(call("clast_domain_parse")(config.domain, ctypes.byref(domain.struct)))
+    check(call("clast_decompose_sizes")(ctypes.byref(domain.struct), ctypes.byref(cloud._struct()), sizes, regular, ctypes.byref(config),
+                                        ctypes.byref(table.struct)))
+    return table_of(table)
 
 
 @dataclass(frozen=True)
@@ -243,22 +259,25 @@ def agglomerate(*snapshots: Any, domain: str | None = None, radius: Any = None, 
     clouds = (c.clast_cloud * len(made))(*(cloud._struct() for cloud in made))
     given, held = c.clast_agglomerate_input(), []
     given.snapshot, given.n_snapshot = ctypes.cast(clouds, ctypes.POINTER(c.clast_cloud)), len(made)
+    given_columns = []
     for name, value in dict(monomers=monomers, speed_rms=speed_rms, temperature=temperature, shear=shear, dissipation=dissipation).items():
         if value is not None and name != "monomers" and (isinstance(value, str) or np.ndim(value) == 0):
             keys[name] = value  # of all particles
         elif value is not None:
+            given_columns.append(name)
             held.append(_column(name, value, made[0].positions))
             setattr(given, name, ctypes.cast(held[-1].ctypes.data, ctypes.POINTER(ctypes.c_double)))
     tables = ("clast_agglomerate_fields", "clast_decompose_fields")
     owner = Owner(c.clast_agglomeration(), "clast_agglomeration_free")
     with Config(c.clast_agglomerate_config(), tables, {"domain": _domain(made[0], domain), **keys}) as config:
+        check_used(config.struct, [*keys, *given_columns])
         check(call("clast_agglomerate")(ctypes.byref(given), ctypes.byref(config.struct), ctypes.byref(owner.struct)))
     r = owner.struct
     warn_of_range(r.range)
     return Agglomeration(table_of(owner, r.history), table_of(owner, r.particles), table_of(owner, r.spectrum), r.n_rebuilt, r.n_cell)
 
 
-def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
+def _decomposition(owner: Owner, cloud: Cloud, sizes: Table | None) -> Decomposition:
     r, nan = owner.struct, float("nan")
     is_bound = not math.isnan(r.events_low)
     given = tuple(v if math.isfinite(v) else nan for v in
@@ -269,5 +288,5 @@ def _decomposition(owner: Owner, cloud: Cloud) -> Decomposition:
     return Decomposition(n=r.n, n_outside=r.n_outside, dimension=r.dimension, reject=r.before.reject, score=r.before.score,
                          ideal_score=r.before.ideal, estimator=estimator, stop=call("clast_decompose_stop_text")(r.stop).decode(),
                          n_cell=r.cells.n, events=events[0], events_low=events[1], events_high=events[2], pair_integral=pairs[0],
-                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved,
+                         pair_integral_low=pairs[1], pair_integral_high=pairs[2], resolved=r.resolved, sizes=sizes,
                          points_needed=r.points_needed if math.isfinite(r.points_needed) else nan, _cloud=cloud, _owner=owner)

@@ -296,11 +296,13 @@ class Monitor:
     def run(self, work: Callable[[Any], Any]) -> Any:
         """work(monitor): its status."""
         is_main = threading.current_thread() is threading.main_thread()
-        before = signal.signal(signal.SIGINT, self._interrupt) if is_main else None
+        before = signal.getsignal(signal.SIGINT) if is_main else None  # None in the main thread: the handler of a program around Python
+        if before is not None:
+            signal.signal(signal.SIGINT, self._interrupt)
         try:
             status = work(ctypes.byref(self.struct))
         finally:
-            if is_main:
+            if before is not None:
                 signal.signal(signal.SIGINT, before)
         if self._failed is not None:
             raise self._failed

@@ -87,6 +87,11 @@ def _space(points: Any) -> NDArray[Any]:
     return np.pad(array, ((0, 0), (0, 1))) if array.ndim == 2 and array.shape[1] == 2 else array
 
 
+def _check_numbers(name: str, corners: NDArray[Any], n_vertex: int) -> None:
+    if corners.size and (corners.min() < 0 or corners.max() >= n_vertex):
+        raise refuse(f"{name}: vertex numbers from {corners.min()} to {corners.max()} where there are {n_vertex} vertices, from 0")
+
+
 def _halved(points: Floats, quads: NDArray[Any]) -> NDArray[Any]:
     """Two triangles of each quadrangle, by the diagonal that leaves both on one side of it: a concave one has only that."""
     a, b, c, d = (_space(points)[quads[:, k]] for k in range(4))
@@ -103,8 +108,7 @@ class Mesh:
         """Vertices are borrowed where they are float64 in C order, else converted once; triangles are checked and copied."""
         vert, given = numbers("vertices", vertices, [3]), numbers("triangles", triangles, [3], np.int32)
         tri = np.frombuffer(given.tobytes(), np.int32).reshape(given.shape)  # which nobody can write to
-        if tri.size and (tri.min() < 0 or tri.max() >= len(vert)):
-            raise refuse(f"triangles: vertex numbers from {tri.min()} to {tri.max()} where there are {len(vert)} vertices, from 0")
+        _check_numbers("triangles", tri, len(vert))
         self._mesh: Any = c.clast_mesh()
         self._mesh.n_vert, self._mesh.n_tri = len(vert), len(tri)
         self._mesh.vert = ctypes.cast(vert.ctypes.data, ctypes.POINTER(ctypes.c_double))
@@ -148,7 +152,9 @@ class Mesh:
             if kind == "triangle":
                 found.append(np.asarray(data))
             elif kind == "quad":
-                found.append(_halved(np.asarray(points, np.float64), np.asarray(data)))
+                quads = numbers("quads", data, [4], np.int32)
+                _check_numbers("quads", quads, len(points))
+                found.append(_halved(np.asarray(points, np.float64), quads))
             elif kind not in ("vertex", "line"):
                 raise refuse(f"cells: {len(data)} of kind {kind}; a surface has triangles and quadrangles")
         return cls(_space(points), np.concatenate(found))

@@ -28,6 +28,14 @@ class Table(NDArray[Any]):
     def __array_finalize__(self, base: Any) -> None:
         self.units = getattr(base, "units", {})
 
+    def __reduce__(self) -> tuple[Any, ...]:  # NumPy's own state knows of no units
+        made: Any = super().__reduce__()
+        return made[0], made[1], (made[2], self.units)
+
+    def __setstate__(self, state: Any) -> None:
+        array, self.units = state
+        super().__setstate__(array)
+
     def __getitem__(self, key: Any) -> Any:
         part = super().__getitem__(key)
         return part.view(np.ndarray) if isinstance(part, Table) and part.dtype.names is None else part

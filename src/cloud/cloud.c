@@ -5,6 +5,7 @@
 #include "base/whole.h"
 #include "cloud/columns.h"
 #include "cloud/contract.h"
+#include "math/rng.h"
 #include "math/sort.h"
 #include <stdio.h>
 #include <string.h>
@@ -208,60 +209,5 @@ clast_status clast_cloud_from_table(const clast_table *table, const clast_cloud_
     made = (clast_cloud){0};
 done:
     clast_cloud_free(&made);
-    return status;
-}
-
-/// Mixes a number thoroughly. [Steele2014, splitmix64]
-static uint64_t mix(uint64_t x)
-{
-    x += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
-}
-
-static uint64_t hash_of(const double *x, int32_t d)
-{
-    uint64_t hash = 0;
-    for (int32_t j = 0; j < d; ++j) {
-        const double value = x[j] + 0.0; // -0 is 0
-        uint64_t bits = 0;
-        memcpy(&bits, &value, sizeof bits);
-        hash = mix(hash ^ bits);
-    }
-    return hash;
-}
-
-static bool are_equal(const double *a, const double *b, int32_t d)
-{
-    bool equal = true;
-    for (int32_t j = 0; j < d; ++j) {
-        equal = equal && a[j] == b[j];
-    }
-    return equal;
-}
-
-clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated)
-{
-    clast_status status = CLAST_OK;
-    clx_keyed *entry = NULL;
-    int64_t n = 0;
-    int64_t first = 0;
-    CLX_NEED(n_repeated);
-    CLX_TRY(clx_cloud_check(cloud));
-    const int32_t d = cloud->dimension;
-    CLX_TRY(clx_alloc(&entry, cloud->n, sizeof *entry));
-    for (int64_t i = 0; i < cloud->n; ++i) {
-        entry[i] = (clx_keyed){hash_of(cloud->x + i * d, d), (uint64_t)i};
-    }
-    CLX_TRY(clx_sort_keyed(entry, cloud->n));
-    for (int64_t i = 1; i < cloud->n; ++i) {
-        first = entry[i].key == entry[first].key ? first : i;
-        n += first < i && are_equal(cloud->x + (int64_t)entry[first].item * d,
-                                    cloud->x + (int64_t)entry[i].item * d, d);
-    }
-    *n_repeated = n;
-done:
-    clx_free(entry);
     return status;
 }

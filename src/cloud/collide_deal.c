@@ -306,6 +306,9 @@ static void evolve_collectors(deal *d, double delta)
         if (m < 0) {
             break;
         }
+        if (d->cell->box != NULL) {
+            d->cell->box->now = d->cell->box->time + time;
+        }
         meet(d, c, m);
         if (++since >= d->n_collector + LEAST_REFRESH) { // rows drift by rounding
             list_all(d);

@@ -50,7 +50,11 @@ enum clx_stream {
     CLX_STREAM_PERMUTATION = 42,
     CLX_STREAM_PACK_SHAPE = 50,
     CLX_STREAM_PACK_VELOCITY = 51,
-    CLX_STREAM_PACK_TURN = 52
+    CLX_STREAM_PACK_TURN = 52,
+    CLX_STREAM_EVOLVE_PLACE = 60,
+    CLX_STREAM_EVOLVE_SHAPE = 61,
+    CLX_STREAM_EVOLVE_MOVE = 62,
+    CLX_STREAM_EVOLVE_MEET = 63
 };
 
 /// Cursor at the first draw of (seed, stream, index).
@@ -78,3 +82,12 @@ void clx_rng_cone(clx_rng *rng, const double axis[3], double half_angle, double 
 
 /// Orientation uniform on SO(3), unit quaternion w, x, y, z. [Shoemake1992]
 void clx_rng_orientation(clx_rng *rng, double orientation[4]);
+
+/// Mixes the bits of a number thoroughly: a hash, one to one. [Steele2014, splitmix64]
+static inline uint64_t clx_mix(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}

@@ -127,9 +127,17 @@ class BoxModel(Case):
                   ((*BOX, "--initial", "table"), "--initial table and --initial-file go together"),
                   ((*BOX, "--kernel", "ballistic"), "which a box does not have"),
                   ((*BOX, "--kernel", "brownian"), "--monomer-radius"),
+                  ((*BOX, "--shear", "3"), "--shear does nothing with --kernel constant"),
+                  ((*BOX, "--settling-depth", "1m", "--efficiency", "1"), "--efficiency does nothing with --kernel constant"),
+                  (("agglomerate", UNIFORM, "--kernel", "brownian+settling", "--dissipation-column", "e"),
+                   "--dissipation-column does nothing with --kernel brownian+settling"),
+                  (("agglomerate", UNIFORM, "--sticking", "liquid", "--asperity", "1um"), "--asperity does nothing with --sticking liquid"),
+                  (("agglomerate", UNIFORM, "--fractal-prefactor", "1.3"), "--fractal-prefactor does nothing with --radius-law volume"),
                   (("agglomerate", "--box-model"), "--concentration")]
         for words, says in wanted:
             self.assert_fails(2, *words, says=[says])
+        settles = clast(*BOX, "--settling-depth", "1m", "--gravity", "5", "--monomer-radius", "1um", "--particle-density", "2000", "--json")
+        self.assertEqual(settles.code, 0, settles.err)  # by which particles settle, whatever the kernel
 
     def test_any_thread_count_gives_the_same_spectrum(self):
         runs = []

@@ -60,8 +60,8 @@ static void released_engine_is_met(void **state)
     check_mean(porosity_of(EJ15 "order=given;flavour=release;repeats=8", &size), 0.803, 0.003);
 }
 
-/// Exact reference of two ellipsoids (own of the specification, no spheres): mean +- deviation over
-/// 300 repeats.
+/// Exact reference of two ellipsoids (integrated here, not published; no spheres): mean +-
+/// deviation over 300 repeats.
 static void two_ellipsoids_touch_as_the_exact_reference(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Paper [Martinez2021 sec. 2.1; specification sec. 3]: size and power of the five tests. */
+/* Paper [Martinez2021 sec. 2.1]: size and power of the five tests. */
 #include "support.h"
 
 #include "alternatives.h"
@@ -25,7 +25,7 @@ static void each_test_has_its_size(void **state)
 
 enum { N_SAMPLE = 120, REFERENCE = 200 };
 
-/* Four sampling errors of a rate; the specification does not say how many samples its own took, so
+/* Four sampling errors of a rate; how many samples the reference took is not known, so
  * 200 are supposed. A rate of 0 or 1 there is a rate within 1/200 of it. */
 static void check_rate(const char *law, const char *test, double rate, double reference, int n)
 {

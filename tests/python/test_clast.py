@@ -281,6 +281,17 @@ class Lives(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "mine"):
             clast.aggregate(**AGGREGATE, progress=fail)
 
+    def test_a_handler_that_python_did_not_set_stays(self):
+        """An interpreter inside a program: signal.signal cannot put that program's handler of Ctrl-C back, so it is left alone."""
+        import signal
+        from unittest import mock
+        with mock.patch.object(signal, "getsignal", return_value=None), mock.patch.object(signal, "signal") as changed:
+            self.assertGreater(clast.aggregate(**AGGREGATE)["n_grain"], 0)
+        changed.assert_not_called()
+        before = signal.getsignal(signal.SIGINT)
+        clast.aggregate(**AGGREGATE)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+
     def test_interrupt_ends_at_a_checkpoint(self):
         with tempfile.TemporaryDirectory() as folder:
             with self.assertRaises(KeyboardInterrupt):

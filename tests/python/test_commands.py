@@ -1,10 +1,12 @@
 """Every command of clast is a function of the package, with the numbers that the command prints."""
 import base64
+import copy
 import html
 import json
 import math
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -269,6 +271,7 @@ class Commands(unittest.TestCase):
         said = command(*words[:2], "--initial", "table", "--initial-file", path, "--constant", 1, "--n-step", 2)
         self.assertEqual(list(clast.box_model(sizes=sizes, constant=1, n_step=2).history["M1"]), said["moments"]["M1"])
         for keys, line in ((dict(solver="sectional", particles=3), "^particles: does nothing with solver 'sectional'"), (dict(initial="table"), "^sizes: and"),
+                           (dict(concentration=1, shear=3), "^shear: does nothing with this kernel"),
                            (dict(sizes={"size": [1.0]}), "columns size and number"), (dict(concentratio=1), "did you mean concentration")):
             with self.assertRaisesRegex(clast.Error, line):
                 clast.box_model(**keys)
@@ -279,6 +282,10 @@ class Commands(unittest.TestCase):
                     mean_free_path="66nm", efficiency=1, variant="test", n_step=1, duration=10.0, settling_law="stokes")
         with self.assertRaisesRegex(clast.Error, "Reynolds number of settling by Stokes' law"):
             clast.agglomerate(x, **keys)
+        for idle, line in ((dict(shear=3), "^shear: does nothing with this kernel"), (dict(dissipation=np.ones(2)), "^dissipation: does nothing"),
+                           (dict(asperity=1e-6), "^asperity: does nothing with this sticking")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.agglomerate(x, **keys, **idle)
         with self.assertWarnsRegex(UserWarning, "^kernel settling: Reynolds number .*; beyond lie 50 % of the particles"):
             clast.agglomerate(x, **keys, out_of_range="extrapolate")
 
@@ -464,6 +471,26 @@ class Clouds(unittest.TestCase):
                 clast.Cloud.read(path)
 
 
+    def test_parts_of_a_cloud_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ("decompose", self.path, "--domain", self.box, "--sizes", 4, "--regular", 5, "--beta-dt", "1e-4", "--seed", 3)
+            command(*words, "-o", pathlib.Path(folder, "out"))
+            want = clast.read_table(pathlib.Path(folder, "out/events_by_n.csv"))
+        found = clast.decompose(self.x, domain=self.box, sizes=4, regular=5, beta_dt=1e-4, seed=3).sizes
+        self.assertEqual((found.columns, list(found["n"])), (want.columns, [62, 125, 250, 500]))
+        for name in found.columns:
+            np.testing.assert_array_equal(found[name], want[name])
+        self.assertIsNone(clast.decompose(self.x, domain=self.box).sizes)
+        for keys, line in ((dict(sizes=8), "^sizes: 8 of 500 points end below 5"), (dict(sizes=41), "^sizes: 41"),
+                           (dict(sizes=2, weight=np.ones(500)), "^sizes: takes parts of equal points")):
+            with self.assertRaisesRegex(clast.Error, line):
+                clast.decompose(self.x, domain=self.box, **keys)
+
+    def test_the_tests_alone(self):
+        found = clast.decompose(self.x, domain=self.box, test_only=True)
+        self.assertEqual((found.reject, found.n_cell, len(found.tests)), (True, 1, 5))
+
+
 class Tables(unittest.TestCase):
     def test_a_table_is_an_array_and_a_data_frame(self):
         table = clast.predict_beds({"flatness": [0.6, 0.7], "elongation": [0.7, 0.8]})
@@ -490,6 +517,10 @@ class Tables(unittest.TestCase):
             self.assertEqual((table.columns, table.units["d_um"], table["d_um"].sum()), (("name", "d_um", "share"), "um", 3.5))
             table.write(pathlib.Path(folder, "again.csv"))
             self.assertEqual(pathlib.Path(folder, "again.csv").read_text(), path.read_text())
+            again = pickle.loads(pickle.dumps(table))
+            self.assertEqual((type(again), again.units, again.columns), (clast.Table, table.units, table.columns))
+            self.assertEqual(again.tobytes(), table.tobytes())
+            self.assertEqual(copy.deepcopy(table[:1]).units, table.units)
             self.assertIn("a, &lt;b&gt;", table._repr_html_())
             self.assertNotIn("<b>", table._repr_html_())
 

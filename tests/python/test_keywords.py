@@ -12,6 +12,7 @@ import typing
 import unittest
 
 import clast
+import loud
 from clast import _bindings, _functions
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -25,7 +26,7 @@ SKIPPED = {  # keys of the command that the function does not have, and why
     "predict": {"each", "force"},  # predict_beds
     "decompose": {"columns", "unit", "radius_column", "diameter_column", "mass_column", "velocity_columns", "weight_column", "variable_column",
                   "dataset", "frame", "domain_unit",  # Cloud.read
-                  "test_only", "charts", "sizes", "regular", "force"},
+                  "charts", "force"},
 }
 TYPES = {"number": {float}, "integer": {int}, "flag": {bool}}
 
@@ -96,7 +97,7 @@ class Keywords(unittest.TestCase):
 
     def test_mypy_knows_the_keywords(self):
         if shutil.which("mypy") is None:
-            self.skipTest("NOT TESTED: mypy is not installed (apt install mypy)")
+            self.skipTest(loud.LEFT_OUT + "mypy is not installed (apt install mypy)")
         good = '''import clast
 bed = clast.pack(mass="3kg", law="hertz", shapes=["sphere", "ellipsoid:3,2,1"], seed=3, shaking_time=0)
 print(bed["porosity"], clast.predict(0.6, (0.7, 0.1)).porosity + 1.0, clast.fit("beds.csv").model.intercept + 1.0)
@@ -131,4 +132,4 @@ from python_functions import FUNCTIONS  # noqa: E402
 HAND = {name: __import__(f"clast.{name}", fromlist=["x"]) for name in {about[0] for about in FUNCTIONS.values()}}
 
 if __name__ == "__main__":
-    unittest.main()
+    loud.main()

@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import loud
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "examples/notebooks"
 MISSING = [name for name in ("nbconvert", "ipykernel", "matplotlib") if importlib.util.find_spec(name) is None]
@@ -24,7 +26,7 @@ def words(path):
     return found
 
 
-@unittest.skipIf(MISSING, f"NOT TESTED: {', '.join(MISSING)} not installed (tools/setup.sh notebook)")
+@unittest.skipIf(MISSING, f"{loud.LEFT_OUT}{', '.join(MISSING)} not installed (tools/setup.sh notebook)")
 class Notebooks(unittest.TestCase):
     maxDiff = None
 
@@ -60,4 +62,4 @@ class Notebooks(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    loud.main()

@@ -12,6 +12,7 @@ import unittest
 import numpy as np
 
 import clast
+import loud
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRAIN = ROOT / "data/standin63/grain00.ply"
@@ -87,7 +88,7 @@ class Others(unittest.TestCase):
         try:
             import meshio
         except ImportError:
-            self.skipTest("NOT TESTED: meshio is not installed (apt install python3-meshio)")
+            self.skipTest(loud.LEFT_OUT + "meshio is not installed (apt install python3-meshio)")
         self.same(clast.Mesh.from_meshio(self.grain.to_meshio()))
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "grain.vtu")
@@ -105,6 +106,11 @@ class Others(unittest.TestCase):
             quad = np.roll(np.arange(4), turn)[None]
             cut = clast.Mesh.from_meshio(types.SimpleNamespace(points=arrow, cells=[("quad", quad)]))
             self.assertAlmostEqual(cut.area, 1.0, places=14)
+        for bad in ([0, 1, 2, 4], [0, 1, 2, -1]):
+            with self.assertRaisesRegex(clast.Error, "^quads: vertex numbers from .* where there are 4 vertices"):
+                clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE, cells=[("quad", np.array([bad]))]))
+        with self.assertRaisesRegex(clast.Error, "^quads: an array of shape"):
+            clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE, cells=[("quad", np.array([[0, 1, 2]]))]))
         flat = clast.Mesh.from_meshio(types.SimpleNamespace(points=SQUARE[:, :2], cells=[("quad", np.array([[0, 1, 2, 3]]))]))
         self.assertEqual(flat.area, 1.0)
 
@@ -131,4 +137,4 @@ class Others(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    loud.main()

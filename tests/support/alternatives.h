@@ -1,11 +1,11 @@
 #pragma once
-// Laws of points that the specification's power table tries the uniformity tests on, and the rates
-// at which the tests reject them.
+// Laws of points that a power table of a plain prototype tries the uniformity tests on, and the
+// rates at which the tests reject them.
 #include "math/rng.h"
 
 #include <clast/decompose.h>
 
-/// Rates of the specification's table, in the order of its columns; -1 where it has none.
+/// Rates of the prototype's table, in the order of its columns; -1 where it has none.
 typedef struct alternative {
     const char *name;
     int64_t n;

@@ -2,6 +2,7 @@
  * clouds, in a Monte Carlo box and in the sectional balance alike. */
 #include "support.h"
 
+#include "cloud/kernel_range.h"
 #include <clast/agglomerate.h>
 #include <stdio.h>
 #include <string.h>
@@ -247,6 +248,84 @@ static void a_run_tells_when_it_left_the_range(void **state)
     assert_true(share > 0.01 && share < 1.0);
 }
 
+/* What a pair shows of a configuration: its rate, and what lies outside each range. */
+typedef struct {
+    double rate;
+    clast_range_use use[CLAST_N_KERNEL_RANGE];
+} shown;
+
+static shown show(const clast_collide_config *c, double a, double b)
+{
+    shown s = {0};
+    clast_collider pair[2] = {{.monomers = 1.0, .radius = a, .velocity = {0.0, 0.0, 1e-3}},
+                              {.monomers = 3.0, .radius = b, .velocity = {1e-2}}};
+    for (int k = 0; k < 2; ++k) {
+        pair[k].mass = 4.0 / 3.0 * CLAST_PI * pow(pair[k].radius, 3.0) * 2500.0;
+    }
+    s.rate = clast_kernel_value(c->kernel, &c->medium, &pair[0], &pair[1]);
+    for (int k = 0; k < CLAST_N_KERNEL_RANGE; ++k) {
+        clx_range_add(clx_ranges_of(c) & 1U << k, c, &c->medium, pair, 1.0, &s.use[k]);
+    }
+    return s;
+}
+
+/* Whether another value of a key shows in some pair of 10 nm to 1 mm, in air or water. */
+static bool shows(clast_agglomerate_config *c, const clast_field *field)
+{
+    static const clast_medium fluid[3] = {
+        {293.0, 1.8e-5, 1.2, 2500.0, 0.0, 1.0, 1e-2, 0.0, 0.1, 9.81, 0.0, 1.0, 1.0, 1.0, 0},
+        {293.0, 1e-3, 1000.0, 2500.0, 0.0, 1e3, 1e-2, 1.3, 0.01, 9.81, 0.5, 1.0, 1.0, 1.0, 0},
+        {293.0, 1.8e-5, 1.2, 2500.0, 6e-8, 1e5, 1.0, 0.0, 1.0, 9.81, 0.0, 1.0, 1.0, 1.0, 1}};
+    bool is_seen = false;
+    for (int f = 0; f < 3; ++f) {
+        for (double a = 1e-8; a < 2e-3; a *= 3.0) {
+            for (double b = a; b < 2e-3; b *= 3.0) {
+                c->collide.medium = fluid[f];
+                const shown before = show(&c->collide, a, b);
+                void *value = (char *)c + field->offset;
+                if (field->type == CLAST_FIELD_F64) {
+                    *(double *)value = *(double *)value > 0.0 ? *(double *)value * 3.0 : 1e-7;
+                } else {
+                    *(int32_t *)value = 1 - *(int32_t *)value;
+                }
+                const shown after = show(&c->collide, a, b);
+                is_seen = is_seen || memcmp(&before, &after, sizeof after) != 0;
+            }
+        }
+    }
+    return is_seen;
+}
+
+/* A key of the fluid counts as used by a kernel when another value of it changes a rate or a range,
+ * and only then: the others are refused where they are given. */
+static void keys_are_used_where_they_change_something(void **state)
+{
+    (void)state;
+    static const char *const key[] = {
+        "constant",  "additive",       "product",    "temperature", "viscosity",
+        "density",   "mean_free_path", "shear",      "dissipation", "shear_constant",
+        "speed_rms", "gravity",        "efficiency", "settling_law"};
+    for (int k = 0; k < CLAST_N_KERNEL; ++k) {
+        for (size_t i = 0; i < sizeof key / sizeof key[0]; ++i) {
+            clast_agglomerate_config c = {.collide.kernel = 1U << k};
+            const clast_field *field = clast_fields_find(clast_agglomerate_fields, key[i]);
+            assert_non_null(field);
+            const bool is_used = clast_collide_idle(&c.collide, key[i]) == NULL;
+            if (shows(&c, field) != is_used) {
+                fail_msg("%s: %s is %sused", clast_kernel_table()[k].name, key[i],
+                         is_used ? "un" : "");
+            }
+        }
+    }
+    clast_collide_config c = {.sticking.law = CLAST_STICKING_LIQUID};
+    assert_null(clast_collide_idle(&c, "film_viscosity"));
+    assert_string_equal(clast_collide_idle(&c, "asperity"), "sticking");
+    assert_null(clast_collide_idle(&c, "alpha"));
+    assert_string_equal(clast_collide_idle(&c, "fractal_dimension"), "radius_law");
+    c.radius_law = CLAST_RADIUS_FRACTAL_GYRATION;
+    assert_null(clast_collide_idle(&c, "fractal_dimension"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +334,7 @@ int main(void)
         cmocka_unit_test(laws_of_sticking_refuse_pairs_out_of_their_range),
         cmocka_unit_test(boxes_are_held_against_the_same_table),
         cmocka_unit_test(a_run_tells_when_it_left_the_range),
+        cmocka_unit_test(keys_are_used_where_they_change_something),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

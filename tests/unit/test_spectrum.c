@@ -606,6 +606,49 @@ static void drawn_gelation_is_named(void **state)
     clast_spectrum_free(&r);
 }
 
+/* One heavy particle among 4096 of sizes 1 to 1.2, of more kinds than a block has: it meets them
+ * all as a collector, at c x m / V, and passes the size of a gel after 12 captures or so, within
+ * the first deal. The mean time is the sum of 1 / (n <m> x) over them, where its partners have the
+ * mean size <m2> / <m>; it had been told as that of the last collision of any block before. */
+static void gel_by_a_collector_has_its_own_time(void **state)
+{
+    (void)state;
+    enum { N_SMALL = 200, N = 4096 };
+    double size[N_SMALL + 1];
+    double number[N_SMALL + 1];
+    double mean = 0.0;
+    double square = 0.0;
+    for (int k = 0; k < N_SMALL; ++k) {
+        size[k] = 1.0 + 0.001 * k;
+        number[k] = (1.0 - 1.0 / N) / N_SMALL;
+        mean += size[k] / N_SMALL;
+        square += size[k] * size[k] / N_SMALL;
+    }
+    const double gel = 256.0 * mean / (1.0 - 0.95 * 256.0 / N); /* N^(2/3) mean sizes */
+    size[N_SMALL] = 0.95 * gel;
+    number[N_SMALL] = 1.0 / N;
+    const clast_spectrum_start start = {N_SMALL + 1, size, number};
+    clast_spectrum_config c = runs(0.3);
+    clast_collide_config k = kernel("product");
+    c.initial = CLAST_INITIAL_TABLE;
+    c.size_max = 0.0;
+    c.particles = N;
+    c.n_step = 1;
+    k.block = 128;
+    clast_spectrum r;
+    CHECK_OK(clast_spectrum_evolve(&c, &k, &start, &r));
+    double time = 0.0;
+    double variance = 0.0;
+    for (double x = size[N_SMALL]; x < gel; x += square / mean) {
+        time += 1.0 / (mean * x);
+        variance += 1.0 / (mean * x * mean * x);
+    }
+    CHECK_REL(r.gel_size, gel, 1e-3);
+    assert_int_equal(r.n_gelled, N_RUN);
+    CHECK_ABS(r.gel_time, time, 3.5 * sqrt(variance / N_RUN) + 0.03 * time);
+    clast_spectrum_free(&r);
+}
+
 static clast_status evolve_once(void *context)
 {
     const clast_spectrum_config *c = context;
@@ -687,6 +730,7 @@ int main(void)
         cmocka_unit_test(drawn_particles_break_as_the_laws_say),
         cmocka_unit_test(both_solvers_agree_on_all_processes),
         cmocka_unit_test(drawn_gelation_is_named),
+        cmocka_unit_test(gel_by_a_collector_has_its_own_time),
         cmocka_unit_test(every_refused_allocation_is_told),
         cmocka_unit_test(what_does_not_go_together_is_refused),
     };
