@@ -2,13 +2,16 @@
 as a person would use it."""
 import base64
 import hashlib
+import io
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zipfile
 
 import jobs
 
@@ -94,12 +97,17 @@ class Live(unittest.TestCase):
             self.assertEqual(words[0], "clast")
             subprocess.run([jobs.CLAST, *words[1:]], cwd=folder, check=True, capture_output=True, env=jobs.PLAIN)
             self.assertEqual(hashlib.sha256((folder / "cells/cells.csv").read_bytes()).hexdigest(), self.text("hash"))
+        zipped = self.browser.value("zipOf({[state.name]: state.text, ...state.result.files}).arrayBuffer().then((b) => btoa(Array.from(new Uint8Array(b), (c) => String.fromCharCode(c)).join('')))")
+        with zipfile.ZipFile(io.BytesIO(base64.b64decode(zipped))) as folder:
+            self.assertIsNone(folder.testzip())
+            self.assertEqual(hashlib.sha256(folder.read("cells/cells.csv")).hexdigest(), self.text("hash"))
         self.browser.value("pick(0)")
         self.assertIn("cell 0 of", self.text("picked"))
 
     def test_the_picture_shows_cells(self):
         self.click("[data-make=cluster]")
-        count = "new Set(new Uint32Array($('picture').getContext('2d').getImageData(0, 0, SIZE, SIZE).data.buffer)).size"
+        count = ("(() => { const copy = new OffscreenCanvas(SIZE, SIZE).getContext('2d', {willReadFrequently: true}); copy.drawImage($('picture'), 0, 0); "
+                 "return new Set(new Uint32Array(copy.getImageData(0, 0, SIZE, SIZE).data.buffer)).size; })()")
         before = self.browser.value(count)
         self.split()
         self.assertGreater(self.browser.value(count), before + 5)
@@ -125,7 +133,7 @@ class Live(unittest.TestCase):
 
     @staticmethod
     def kept(name):
-        return name.lstrip("-/\\").replace("/", "_")
+        return re.sub(r"^[-/\\]+|[/\\\0]", "_", name)
 
     def test_cancel_ends_within_a_tenth_of_a_second(self):
         self.drop("big.csv", b"x,y,z\n" + b"\n".join(b"%.6f,%.6f,%.6f" % ((k * 0.754877) % 1, (k * 0.569840) % 1, (k * 0.324717) % 1) for k in range(300000)))

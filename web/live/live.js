@@ -39,7 +39,7 @@ function newWorker() {
 }
 
 function setReady() {
-  $('run').disabled = !state.text || !program;
+  $('run').disabled = state.text === null || !program;
   $('cancel').disabled = true;
 }
 
@@ -54,7 +54,7 @@ function glance(text) {
   if (names.every((name) => name !== '' && Number.isFinite(Number(name)))) { names = names.map((_, k) => `column_${k + 1}`); first = 0; }
   const wanted = ['x', 'y', 'z'].map((axis) => names.findIndex((name) => name.toLowerCase().split('_')[0] === axis)).filter((k) => k >= 0);
   const from = wanted.length > 1 ? wanted : names.slice(0, 3).map((_, k) => k);
-  const columns = from.map(() => new Float64Array(lines.length - first));
+  const columns = from.map(() => new Float64Array(Math.max(0, lines.length - first)));
   for (let i = first; i < lines.length; i += 1) {
     const cells = cut(lines[i]);
     from.forEach((k, axis) => { columns[axis][i - first] = Number(cells[k]); });
@@ -271,6 +271,7 @@ function spray(event) {
     const p = [x + 0.03 * normal(Math.random), y + 0.03 * normal(Math.random)];
     if (p.every((c) => c > 0 && c < 1)) stroke.push(p.map((c) => c.toFixed(4)).join(','));
   }
+  $('undo').disabled = false;
   setPoints('painted.csv', paintedText(), 'box:0,0,1,1');
 }
 
