@@ -1000,6 +1000,10 @@ def pack(
         density_weight: Quantities | None = None,
         mass: Quantity | None = None,
         seed: int | None = None,
+        start: Text | None = None,
+        start_unit: Text | None = None,
+        start_columns: Text | None = None,
+        start_diameter: Quantity | None = None,
         container: Text | None = None,
         container_unit: Text | None = None,
         domain: Literal["cylinder", "periodic", "box", "open", "cell"] | None = None,
@@ -1093,6 +1097,10 @@ def pack(
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
+        start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
+        start_unit: length unit of the start, where it does not say (no default)
+        start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
+        start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
         container_unit: length unit of its coordinates (no default)
         domain: container, its sides; cell: periodic in x, y and z (height) (cylinder, periodic, box, open, cell; default cylinder)
