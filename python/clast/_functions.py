@@ -578,6 +578,8 @@ def evolve(
         sides: Literal["deposit", "reflect", "periodic"] | None = None,
         open_top: bool | None = None,
         wind: Text | None = None,
+        field: Text | None = None,
+        field_columns: Text | None = None,
         wind_shear: Quantity | None = None,
         eddy_diffusivity: float | None = None,
         brownian: bool | None = None,
@@ -645,6 +647,8 @@ def evolve(
         sides: the same of the sides; periodic: a box alone (deposit, reflect, periodic; default periodic)
         open_top: what passes the top of a box is gone; else it comes back (default False)
         wind: velocity x,y,z of the fluid at z = 0 [m/s] (default 0,0,0)
+        field: file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), added to the wind; beyond the grid those at its edge (no default)
+        field_columns: its columns of velocities (default u,v,w)
         wind_shear: change of velocity x with z (1/s; -1e+09 to 1e+09; default 0.0)
         eddy_diffusivity: turbulent diffusivity, the same everywhere [m^2/s] (0 to 1e+06; default 0.0)
         brownian: particles diffuse by Brownian motion, as their envelopes' drag says (default True)
