@@ -13,6 +13,7 @@
 
 enum { MOST_PARTS = 8, N_POWER = 4 };
 
+static const double one_cell = 2.0;     ///< standard errors that pairs may show beyond one cell
 static const double most_carried = 2.0; ///< factor by which a count's pairs in cells may change
                                         ///< before it is made anew
 
@@ -267,14 +268,14 @@ static double count_all(const count *n)
 }
 
 /// Whether the one cell that the tests left agrees with what the pairs show: it is then the better
-/// value, for a uniform cloud's number of pairs is known without error.
+/// value, for a uniform cloud's number of pairs is known without error. It is never too high.
 static bool is_one_cell(const count *n, const clx_resolution *shown, double all)
 {
     const double error = log(shown->high / shown->value) / CLX_NORMAL_975 * shown->value;
     const double between = error * error - n->variance; // finer cells add what is independent
     const double small = fmin(0.9 * CLX_MOST_BIAS * all, 0.5 * error);
     return n->cells->n == 1 && !n->capped[0] && between < 4e-4 * all * all &&
-           shown->value - all <= fmax(small, 3.0 * sqrt(fmax(0.0, between))); // never too high
+           shown->value - all <= fmax(small, one_cell * sqrt(fmax(0.0, between)));
 }
 
 /// Puts what the pairs of all points show in the place of the cells' own pairs where the cells are
@@ -368,7 +369,12 @@ static clast_status ask_pairs(const count *n, const clx_ladder *ladder, clx_reso
     how.radius = n->config->pairs_radius;
     how.outside = n->config->outside;
     CLX_TRY(clx_pairs_count(n->sample->comm, n->sample->domain, n->cloud, &how, ladder, &pairs));
-    const clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
+    clast_estimate e = clx_pair_poisson(&pairs.integral.estimate, own);
+    if (e.resolved && isinf(pairs.integral.scale) && n->cells->n > 1) { // the tests saw structure
+        e.resolved = false;
+        e.high = INFINITY;
+        pairs.integral.n_needed = INFINITY;
+    }
     if (isfinite(e.value)) {
         *shown = (clx_resolution){.value = factor * e.value,
                                   .low = factor * e.low,

@@ -68,7 +68,7 @@ struct clast_dem {
     struct clx_ranks *ranks;         ///< steps its grains over several ranks, or NULL
     const uint8_t *is_ghost; ///< [n_grain] of a rank's own simulation: moved by another; else NULL
     const int32_t *number;   ///< [n_grain] of such a simulation: grains' numbers; else NULL
-    struct clx_energy *energy;       ///< the energy book, or NULL
+    struct clx_energy *energy; ///< the energy book, or NULL
 };
 
 /// The number that a grain has for the user.
