@@ -64,7 +64,7 @@ paper-packing:
 	@tools/paper_packing.py
 example-code-saturne:
 	@tools/setup.sh saturne
-	@tools/build.sh release libclast.so libclast_view.so
+	@tools/build.sh release libclast.so libclast_view.so libclast_mpi.so
 	@examples/code_saturne/drive.py
 golden: dev
 	@CLAST_RENEW_GOLDEN=1 ctest --test-dir build/dev -R 'test_golden|test_transcripts' --output-on-failure --no-tests=error

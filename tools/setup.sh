@@ -25,7 +25,7 @@ deb=("${sundials[@]}" build-essential git python3 debhelper dh-python lintian)
 i386=("${dev[@]}" gcc-multilib curl)
 wasm=("${dev[@]}" emscripten nodejs curl chromium)
 bare=(git mmdebstrap debian-archive-keyring)
-saturne=("${build[@]}" python3 code-saturne code-saturne-include)
+saturne=("${mpi[@]}" python3 code-saturne code-saturne-include)
 test=("${mpi[@]}" "${sundials[@]}" "${bundle[@]}" "${deb[@]}" "${clang[@]}" "${hooks[@]}" "${site[@]}" "${python[@]}" "${notebook[@]}" g++ clang-tidy-14 ccache groff-base locales admesh)
 groups="build sundials mpi dev clang afl paper format hooks python notebook docs web site dist bundle deb i386 wasm bare saturne test"
 case " $groups " in *" $group "*) ;; *) echo "usage: tools/setup.sh ${groups// /|}" >&2; exit 2 ;; esac

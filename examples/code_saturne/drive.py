@@ -141,11 +141,12 @@ def draw_meshes(study, rows):
 
 
 def part_ranks(study):
+    """Gathered on every rank, and from each rank's own points where libclast_mpi is built."""
     rows = []
     for ranks in (1, 2):
-        row = study.duct(f"ranks-{ranks}", CELLS[1], 1000, ranks)[-1]
+        row = study.duct(f"ranks-{ranks}", CELLS[1], 1000, ranks, task="ranks", every=20)[-1]
         rows.append({"ranks": ranks, "parcels": int(row["parcels"]), "events": f"{row['events']:.2f}", "low": f"{row['events_low']:.1f}",
-                     "high": f"{row['events_high']:.1f}"})
+                     "high": f"{row['events_high']:.1f}", "own_points": f"{row['own_points']:.2f}" if row["own_points"] >= 0 else "not built"})
     show(rows)
     study.write_table("ranks.csv", rows)
 

@@ -6,5 +6,6 @@ def define_domain_parameters(domain):
     with open(os.path.join(domain.data_dir, "build.txt")) as f:
         mesh, include, library = (line.rstrip("\n") for line in f)
     domain.meshes = [mesh]
-    domain.compile_cflags = f"-I{include}"
-    domain.compile_libs = f"-L{library} -Wl,-rpath,{library} -lclast -lm"
+    has_ranks = os.path.exists(os.path.join(library, "libclast_mpi.so"))
+    domain.compile_cflags = f"-I{include}" + (" -DHAVE_CLAST_MPI" if has_ranks else "")
+    domain.compile_libs = f"-L{library} -Wl,-rpath,{library}{' -lclast_mpi' if has_ranks else ''} -lclast -lm"

@@ -4,6 +4,7 @@
 // The flow: k-epsilon turbulence of one fluid in a mesh whose groups are 1 inlet, 2 outlet, 3 wall,
 // 4 symmetry, 5 the part of the inlet that particles come from.
 #include "cs_headers.h"
+#include "cs_restart.h"
 #include "cs_turbulence_bc.h"
 #include "settings.h"
 
@@ -30,7 +31,16 @@ void cs_user_parameters(cs_domain_t *domain)
     fluid->viscl0 = s->viscosity;
     cs_get_glob_time_step()->dt_ref = s->dt;
     cs_time_step_define_nt_max(s->n_step);
+    cs_restart_checkpoint_set_defaults(-2, -1.0, -1.0); // none: the runs are short
     cs_get_glob_turb_ref_values()->uref = cs_math_3_norm(s->velocity);
+}
+
+/// No fields are written: many small collective writes take longer than the runs. Take this
+/// function out, and the last state is in RESU/*/postprocessing for ParaView.
+void cs_user_postprocess_writers(void)
+{
+    cs_post_define_writer(-1, "results", "postprocessing", "EnSight Gold", "",
+                          FVM_WRITER_FIXED_MESH, false, false, -1, -1.0);
 }
 
 void cs_user_initialization(cs_domain_t *domain)

@@ -19,15 +19,15 @@ static int read_numbers(char *text, double *number, int limit)
 
 static void read_task(const char *word, run_settings *s)
 {
-    static const char *name[] = {"count", "own", "grow", "snapshot"};
-    for (int k = 0; k < 4; ++k) {
+    static const char *name[] = {"count", "own", "ranks", "grow", "snapshot"};
+    for (int k = 0; k < 5; ++k) {
         if (strcmp(word, name[k]) == 0) {
             s->task = (run_task)k;
             return;
         }
     }
-    bft_error(__FILE__, __LINE__, 0, "settings.txt: no task %s: count, own, grow or snapshot",
-              word);
+    bft_error(__FILE__, __LINE__, 0,
+              "settings.txt: no task %s: count, own, ranks, grow or snapshot", word);
 }
 
 static void read_integer(const char *text, int *number)

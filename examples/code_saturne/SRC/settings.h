@@ -9,6 +9,7 @@ enum { MAX_SETS = 4 };
 typedef enum {
     TASK_COUNT,    ///< clast counts events of the solver's parcels, which it leaves as they are
     TASK_OWN,      ///< beside the solver's own agglomeration, cell by cell, in the last step
+    TASK_RANKS,    ///< as count, and again from each rank's own parcels without gathering them
     TASK_GROW,     ///< clast's events make parcels grow
     TASK_SNAPSHOT, ///< the parcels of the last step go to a file
 } run_task;
