@@ -1,5 +1,5 @@
 # clast: what people type. CMake does the building (CMakePresets.json); tools/ holds the longer steps.
-.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing example-code-saturne golden docs format hooks dist tarball wheel deb packages bare install clean
+.PHONY: all dev release mpi tsan coverage minimal fuzz fuzz-commands faults afl quick test demo bench paper paper-aggregate paper-predict paper-shape paper-d2sd paper-packing example-code-saturne golden docs format hooks dist tarball wheel deb packages test-i386 wasm bare install clean
 all: dev
 
 # The group of tools/setup.sh that a target's tools are in.
@@ -90,6 +90,13 @@ deb:
 	@tools/deb.sh
 packages: tarball wheel deb
 	@tools/check_packages.sh
+test-i386:
+	@tools/setup.sh i386
+	@tools/test_i386.sh
+wasm:
+	@tools/setup.sh wasm
+	@tools/build.sh release clast_cli
+	@tools/wasm.sh
 bare:
 	@tools/check_bare.sh
 clean:

@@ -157,6 +157,7 @@ static clast_status gather_cells(const cli_common *common, const clast_cloud *cl
         status = cli_fail(CLAST_E_MEMORY, "not enough memory for the cells of all points");
     }
     CLI_TRY(cli_agree(common, status));
+    CLI_TRY(count == NULL ? CLAST_E_MEMORY : CLAST_OK); // for the analyzer
     count[comm->rank] = n;
     comm->sum(comm->context, count, comm->n_rank);
     comm->gather(comm->context, result->cells.of_point, n, count, all);
@@ -280,7 +281,7 @@ const cli_command cli_decompose = {
         "volume, beta_dt, seed.\n"
         "mpirun -n N clast-mpi decompose ... (clast built with MPI): one cloud over N ranks, each "
         "of which reads its part of the file\n(delimited text, HDF5); the same bytes for any N. "
-        "Tree cells and tests; -o without points.vtp and charts.",
+        "-o without points.vtp and charts.",
     .fields = fields,
     .config_size = sizeof(config),
     .n_min = 1,

@@ -90,14 +90,15 @@ done:
 
 static const char details[] =
     "Particles fall by the drag of their own form, drift with a linear wind and diffuse, exactly\n"
-    "for any step away from the borders. In each step the cloud is cut into cells where it is\n"
+    "for any step away from the borders (in a velocity field on a grid by steps of Runge and\n"
+    "Kutta, a quarter of a cell each). In each step the cloud is cut into cells where it is\n"
     "even (D2SD; kept while the tests accept them); in a cell pairs meet at the rate of the\n"
     "kernel and stick by the law of sticking. Each event is one pair: the smaller comes to the\n"
     "larger and stays where their true surfaces first touch, with the contact of clast aggregate.\n"
     "Mass, moments, porosity (of the ellipsoid of equal moments), collision radius, fall speed\n"
     "and diffusivity are those of the new aggregate from then on.\n\n"
-    "Not there: aggregates break, restructure or turn; particles act on the fluid; a velocity\n"
-    "field on a grid; bodies with inertia of their own (kernel ballistic is refused).\n\n"
+    "Not there: aggregates break, restructure or turn; particles act on the fluid; the field\n"
+    "changes in time; bodies have inertia of their own (kernel ballistic is refused).\n\n"
     "With -o RUN: balance.csv and spectrum.csv (rows in time), events.csv (the tree: node n + k\n"
     "is event k of n particles), deposit.csv, deposit_sizes.csv (for clast pack --curve list:FILE\n"
     "--size-meaning volume), particles.csv, state.h5 (the aggregate of most grains),\n"

@@ -171,6 +171,12 @@ static void print_text(const clast_pack_result *r)
     print_hulls(r);
     (void)printf("%-26s %d in %d fill%s, %.6g kg of %.6g kg\n", "grains", r->dem.n_grain, r->n_fill,
                  r->n_fill == 1 ? "" : "s", r->dem.mass, r->mass_wanted);
+    if (r->n_overlap > 0) {
+        (void)printf(
+            "%-26s %lld overlapped, the deepest by %.3g of the smaller one's radius; their "
+            "springs part them\n",
+            "start", (long long)r->n_overlap, r->deepest_start);
+    }
     if (r->n_waited > 0) {
         (void)printf("%-26s %lld found no place in one fill and were made in the next\n", "waited",
                      (long long)r->n_waited);

@@ -89,11 +89,23 @@ static void on_signal(int number)
     }
 }
 
+/// Processor time of the calling thread; the wall's where no signal comes (WebAssembly).
+static clockid_t thread_clock(void)
+{
+    clockid_t clock = CLOCK_MONOTONIC;
+#ifndef __EMSCRIPTEN__
+    if (pthread_getcpuclockid(pthread_self(), &clock) != 0) {
+        clock = CLOCK_MONOTONIC;
+    }
+#endif
+    return clock;
+}
+
 bool cli_stop_asked(void)
 {
     const int64_t now = (int64_t)(1e6 * cli_clock()) + 1;
-    if (atomic_load(&last_look) == 0 && pthread_getcpuclockid(pthread_self(), &processor) != 0) {
-        processor = CLOCK_MONOTONIC;
+    if (atomic_load(&last_look) == 0) {
+        processor = thread_clock();
     }
     const int64_t last = atomic_exchange(&last_look, now);
     if (last != 0) {

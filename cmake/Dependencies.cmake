@@ -104,7 +104,9 @@ endif()
 
 # Partitions of beds over ranks. It is linked with one MPI, which must be ours: a program with it is linked and asked which it loads.
 add_library(clast_zoltan INTERFACE)
-if(MPI_C_FOUND AND CLAST_ZOLTAN)
+if("${CLAST_ZOLTAN}" STREQUAL "ON" AND NOT MPI_C_FOUND)
+  clast_without(CLAST_ZOLTAN "partitions by Zoltan" "it works over ranks alone, and there is no MPI")
+elseif(MPI_C_FOUND AND CLAST_ZOLTAN)
   find_path(ZOLTAN_INCLUDE zoltan.h PATH_SUFFIXES trilinos)
   find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan)
   mark_as_advanced(ZOLTAN_INCLUDE ZOLTAN_LIBRARY)

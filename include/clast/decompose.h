@@ -262,14 +262,14 @@ CLAST_API clast_status clast_decompose_sizes(const clast_domain *domain, const c
 /// ranks with the same domain and configuration. Cells, tests, events and all numbers are those of
 /// all points together, on every rank, and the same bytes for any number of ranks, any first
 /// distribution and any order of the points; cells.of_point [cloud->n] is of the points here. A
-/// rank may have none. [docs/theory/ranks.md]
+/// rank may have none. [docs/theory/cloud-ranks.md]
 ///
 /// @param comm   of clast_mpi_create; NULL: the only rank
 /// @param cloud  the points of this rank
 /// @return on several ranks CLAST_E_CONFIG for what one process alone does: a mesh as domain,
-/// weights, a variable, cells of bins, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
+/// weights, a variable, ghost samples, cross-fitting; CLAST_E_LIMIT for pairs by distance of more
 /// than 200,000 points. The status is the same on every rank, and an error names the rank
-/// @note some 80 bytes a point at most, cloud->x included
+/// @note of 10^7 points on two ranks some 200 bytes a point of its own, on rank 0 twice that
 CLAST_API clast_status clast_decompose_ranks(const clast_comm *comm, const clast_domain *domain,
                                              const clast_cloud *cloud,
                                              const clast_decompose_config *config,

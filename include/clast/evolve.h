@@ -72,7 +72,9 @@ typedef struct clast_evolve_config {
     int32_t floor, sides; ///< clast_border
     bool open_top;        ///< what passes the top is gone; else it reflects
 
-    char *wind;        ///< velocity of the fluid at z = 0: "x,y,z" [m/s]
+    char *wind;  ///< velocity of the fluid at z = 0: "x,y,z" [m/s]
+    char *field; ///< file of velocities on a regular grid, added to it; "": none
+    char *field_columns;
     double wind_shear; ///< d(velocity x)/dz [1/s]
     double eddy_diffusivity;
     bool brownian; ///< particles diffuse by Brownian motion
@@ -111,6 +113,7 @@ typedef struct clast_evolve_input {
     const clast_domain *domain;
     const clast_domain *release; ///< NULL: the domain
     const clast_cloud *points;   ///< NULL: drawn
+    const clast_cloud *field;    ///< nodes of a regular grid with velocities; NULL: none
 } clast_evolve_input;
 
 /// An evolution under way. Opaque; one thread at a time (it uses several inside).
@@ -217,7 +220,7 @@ typedef struct clast_evolve_source {
     int32_t n_shape;
     clast_grading *grading;
     clast_domain domain, release;
-    clast_cloud points;
+    clast_cloud points, field;
     clast_evolve_input input;
 } clast_evolve_source;
 

@@ -63,8 +63,12 @@ typedef struct clast_pack_config {
     clast_f64_list density_weight; ///< chances of densities that are drawn
     double mass;                   ///< wanted [kg]
     uint64_t seed;
-    char *container;      ///< surface that holds the grains in place of domain; "": none
-    char *container_unit; ///< of its coordinates
+    char *start;           ///< packing to begin with, in place of grains that are made; "": none
+    char *start_unit;      ///< of its lengths, where it does not say
+    char *start_columns;   ///< of spheres from another program (clast_packing_options)
+    double start_diameter; ///< of all of them; 0: the file's [m]
+    char *container;       ///< surface that holds the grains in place of domain; "": none
+    char *container_unit;  ///< of its coordinates
 
     int32_t generator;
     double spacing;               ///< h_g; 0: the published one of the curve, or as grains need [m]
@@ -108,8 +112,9 @@ typedef struct clast_pack_input {
     const clast_grading *grading;
     const clast_curve *curve; ///< wanted, or NULL when sizes follow no sieve curve
     int32_t n_shape;
-    const clast_shape *shape;           ///< [n_shape], any size
-    const clast_mesh *container;        ///< walls [m], or NULL
+    const clast_shape *shape;    ///< [n_shape], any size
+    const clast_assembly *start; ///< grains to begin with [m]; its shapes are `shape`; or NULL
+    const clast_mesh *container; ///< walls [m], or NULL
     const clast_mesh *container_closed; ///< the same with its holes covered (clast_bed_close)
 } clast_pack_input;
 
@@ -191,6 +196,8 @@ typedef struct clast_pack_result {
     double elongation[2];  ///< I/L, the same
     int64_t n_frame;       ///< frames for ParaView of a run (clast_pack_run), in all its parts
     double frame_interval; ///< from one to the next: whole steps; 0: none asked for [s]
+    int64_t n_overlap;     ///< of grains that a start brought
+    double deepest_start;  ///< of those, over the smaller one's radius
     clast_dem_cell cell;   ///< zeros in other domains
     clast_dem_load load;
     clast_dem_energy energy; ///< zeros where none is booked
@@ -228,6 +235,7 @@ typedef struct clast_pack_source {
     int32_t n_hull;
     clast_pack_hull *hull; ///< [n_hull] shapes that are hulls of surfaces, in their order
     clast_mesh container, container_closed;
+    clast_assembly start; ///< none without config->start
     clast_pack_input input;
 } clast_pack_source;
 

@@ -578,6 +578,8 @@ def evolve(
         sides: Literal["deposit", "reflect", "periodic"] | None = None,
         open_top: bool | None = None,
         wind: Text | None = None,
+        field: Text | None = None,
+        field_columns: Text | None = None,
         wind_shear: Quantity | None = None,
         eddy_diffusivity: float | None = None,
         brownian: bool | None = None,
@@ -645,6 +647,8 @@ def evolve(
         sides: the same of the sides; periodic: a box alone (deposit, reflect, periodic; default periodic)
         open_top: what passes the top of a box is gone; else it comes back (default False)
         wind: velocity x,y,z of the fluid at z = 0 [m/s] (default 0,0,0)
+        field: file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), added to the wind; beyond the grid those at its edge (no default)
+        field_columns: its columns of velocities (default u,v,w)
         wind_shear: change of velocity x with z (1/s; -1e+09 to 1e+09; default 0.0)
         eddy_diffusivity: turbulent diffusivity, the same everywhere [m^2/s] (0 to 1e+06; default 0.0)
         brownian: particles diffuse by Brownian motion, as their envelopes' drag says (default True)
@@ -996,6 +1000,10 @@ def pack(
         density_weight: Quantities | None = None,
         mass: Quantity | None = None,
         seed: int | None = None,
+        start: Text | None = None,
+        start_unit: Text | None = None,
+        start_columns: Text | None = None,
+        start_diameter: Quantity | None = None,
         container: Text | None = None,
         container_unit: Text | None = None,
         domain: Literal["cylinder", "periodic", "box", "open", "cell"] | None = None,
@@ -1089,6 +1097,10 @@ def pack(
         density_weight: chance of each density (by number of grains) with density_of: chance; none: all equal (at least 0; no default)
         mass: mass of the packing (m_tot) (kg; at least 1e-15; default 1.0)
         seed: seed of sizes, forms, turns, velocities (at least 0; default 1)
+        start: packing to begin with, in place of grains that are made: a run of clast (state.h5, or its export as CSV beside shapes), or spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd) (no default)
+        start_unit: length unit of the start, where it does not say (no default)
+        start_columns: columns of its spheres in their order: id,x,y,z,d (no default)
+        start_diameter: of all its spheres; 0: as the file says (m; 0 to 1e+06; default 0.0)
         container: surface, closed or open, that holds the grains in place of domain, width, depth and height; grains are made inside of it (no default)
         container_unit: length unit of its coordinates (no default)
         domain: container, its sides; cell: periodic in x, y and z (height) (cylinder, periodic, box, open, cell; default cylinder)

@@ -305,13 +305,17 @@ static clast_status bin_cells(const clx_sample *m, const clast_decompose_config 
     int32_t *cell = NULL;
     int32_t *of_sample = NULL;
     int32_t n_cell = 0;
-    CLX_TRY(clx_passes_run(m->u, m->n_test, m->domain, config, result, &passes));
-    CLX_TRY(clx_alloc(&cell, passes.bins.n_bin, sizeof *cell));
+    const clx_part part = clx_part_of(m->comm, m->u, m->n_test, m->domain->dimension);
+    CLX_TRY(clx_passes_run(&part, m->domain, config, result, &passes));
+    CLX_TRY(clast_comm_agree(m->comm, clx_alloc(&cell, passes.bins.n_bin, sizeof *cell), NULL));
     const int32_t kind = config->mesh == CLAST_CELLS_AUTO ? CLAST_CELLS_BOXES : config->mesh;
     CLX_TRY(clx_cells_make(&passes.bins, (clx_cells_kind)kind, passes.tag, cell, &n_cell));
-    CLX_TRY(alloc_cells(&result->cells, n_cell));
+    status = alloc_cells(&result->cells, n_cell);
+    if (status == CLAST_OK) {
+        status = clx_alloc(&of_sample, m->n, sizeof *of_sample);
+    }
+    CLX_TRY(clast_comm_agree(m->comm, status, NULL));
     gather_bins(&passes, cell, &result->cells);
-    CLX_TRY(clx_alloc(&of_sample, m->n, sizeof *of_sample));
     for (int64_t i = 0; i < m->n; ++i) {
         of_sample[i] = cell[clx_bins_of(&passes.bins, m->u + i * m->domain->dimension)];
     }
@@ -572,8 +576,7 @@ static clast_status check_ranks(const clast_domain *domain, const clast_cloud *c
     } single[] = {{domain->kind == CLAST_DOMAIN_MESH, "a mesh as domain"},
                   {cloud->weight != NULL, "weights"},
                   {cloud->variable != NULL, "a variable"},
-                  {!takes_tree(config) && config->variant != CLAST_VARIANT_TEST,
-                   "cells of bins (--mesh tree has others)"},
+                  {config->ghost_samples > 0, "expected scores by sampling (--ghost-samples)"},
                   {config->crossfit, "cross-fitting"}};
     for (size_t k = 0; k < sizeof single / sizeof single[0]; ++k) {
         CLX_CHECK(!single[k].is_asked, CLAST_E_CONFIG,

@@ -450,6 +450,10 @@ clast_status clx_gauss_sum_gridded(const clx_part *part, double beta, double *su
     clx_free(g.order);
     g.order = NULL;
     clx_comm_sum(part->comm, g.count, g.size);
+    if (part->comm->rank > 0) {
+        clx_free(g.count);
+        g.count = NULL;
+    }
     status = part->comm->rank == 0 ? evaluate(&g, sum) : CLAST_OK;
     CLX_TRY(clast_comm_agree(part->comm, status, NULL));
     part->comm->broadcast(part->comm->context, 0, sum, (int64_t)sizeof *sum);

@@ -10,7 +10,7 @@
 //
 // Sums over cells know no order (math/exact_sum.h). Each rank walks the cells of its stretch of the
 // codes; of a cell that a border between two ranks cuts, all know the number of points beforehand,
-// and the last of them counts it. [docs/theory/ranks.md]
+// and the last of them counts it. [docs/theory/cloud-ranks.md]
 #include "cloud/ladder.h"
 
 #include "base/alloc.h"
@@ -555,6 +555,7 @@ static clast_status walk_grid(ladder_walk *w, ladder_cell *all)
     CLX_TRY(clast_comm_agree(w->comm, status, NULL));
     w->next = 0;
     visit(w, all);
+    CLAST_ASSERT(bits != NULL);
     if (size > 0) {
         memcpy(bits, w->met_here, (size_t)size * sizeof *bits);
     }

@@ -133,6 +133,7 @@ enum { DIGIT = 4, VALUES = 1 << DIGIT };
 static void select_splitters(const clast_comm *comm, const clx_ranked *r, int64_t *count)
 {
     const int32_t n_rank = comm->n_rank;
+    CLAST_ASSERT(count != NULL && r->first != NULL);
     for (int shift = 64 - DIGIT; shift >= 0; shift -= DIGIT) {
         for (int32_t k = 1; k < n_rank; ++k) { // keys below each candidate
             for (uint64_t v = 0; v < VALUES; ++v) {

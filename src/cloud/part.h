@@ -1,7 +1,7 @@
 #pragma once
 // Points of the unit cube, of which each rank has a part: they stay there. What is needed of all of
 // them is counted, added without rounding, or sorted as keys, so that no result depends on which
-// rank has which point, nor on their order. [docs/theory/ranks.md]
+// rank has which point, nor on their order. [docs/theory/cloud-ranks.md]
 #include "base/comm.h"
 #include "math/exact_sum.h"
 

@@ -38,6 +38,7 @@ static clast_status pack(search *s, int64_t round)
     clast_status status = CLAST_OK;
     const int32_t d = s->cloud->dimension;
     int64_t n = 0;
+    CLAST_ASSERT(s->at != NULL && s->n_out != NULL);
     memset(s->at, 0, (size_t)s->comm->n_rank * sizeof *s->at);
     for (int64_t i = 0; i < s->cloud->n; ++i) {
         const uint64_t hash = clx_place_hash(s->cloud->x + i * d, d);

@@ -4,7 +4,7 @@
 // Faces are periodic, so that no point lacks neighbours and the mean is exact. Neighbours are found
 // in balanced trees of medians whatever the density, one tree for each PIECE points, so that memory
 // does not grow with the cloud. Of many points some stand for all, chosen by their place alone:
-// which rank has them, and in what order, does not matter. [docs/theory/ranks.md]
+// which rank has them, and in what order, does not matter. [docs/theory/cloud-ranks.md]
 #include <clast/uniformity.h>
 
 #include "base/alloc.h"

@@ -3,7 +3,7 @@
 //
 // Over ranks each has a stretch of the curve and grows the cells that lie in it, without a word to
 // the others. Of cells that a border between two stretches cuts, a few in each depth, all ranks add
-// up the counts beforehand, and decide alike. [docs/theory/ranks.md]
+// up the counts beforehand, and decide alike. [docs/theory/cloud-ranks.md]
 #include "cloud/uniformity_tree.h"
 
 #include "base/alloc.h"

@@ -106,7 +106,7 @@ void clast_dem_read_cell(const clast_dem *dem, clast_dem_cell *cell)
         cell->shift = dem->cell->shift;
         cell->shear_rate = dem->cell->shear;
         for (int k = 0; k < 3; ++k) {
-            cell->strain[k] = -log(dem->cell->side[k] / dem->cell->first[k]);
+            cell->strain[k] = log(dem->cell->first[k] / dem->cell->side[k]);
         }
         cell->shear_strain = dem->cell->sheared;
     }

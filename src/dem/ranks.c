@@ -7,12 +7,16 @@
 
 #include "base/alloc.h"
 #include "dem/fluid.h"
+#include <math.h>
 #include <string.h>
 
 /// Refreshes between looks at the balance, and the greatest over mean cost above which grains are
 /// distributed anew.
 enum { LOOK_EVERY = 16 };
 static const double MOST_IMBALANCE = 1.15;
+
+/// The same over what the last partition left, where it could do no better.
+static const double WORSE = 1.1;
 
 clast_status clx_dem_share(clast_dem *dem, const clast_comm *comm)
 {
@@ -208,7 +212,8 @@ static clast_status look_at_balance(clast_dem *whole)
     }
     const double all = (double)clx_comm_total(r->comm, (int64_t)cost);
     const double most = -clx_comm_least(r->comm, -cost);
-    return most * r->comm->n_rank > MOST_IMBALANCE * all ? balance(whole) : CLAST_OK;
+    const double limit = fmax(MOST_IMBALANCE, WORSE * r->counts.imbalance);
+    return most * r->comm->n_rank > limit * all ? balance(whole) : CLAST_OK;
 }
 
 static clast_status refresh(clast_dem *whole)

@@ -114,6 +114,7 @@ static void bisect(clast_site *s, int64_t n, int32_t n_rank, int32_t *to)
 static double imbalance(const clast_dem *whole, const int32_t *owner, int32_t n, double *sum)
 {
     const clx_ranks *r = whole->ranks;
+    CLAST_ASSERT(sum != NULL);
     double all = 0.0;
     double most = 0.0;
     memset(sum, 0, (size_t)r->comm->n_rank * sizeof *sum);
@@ -142,6 +143,7 @@ static clast_status partition_together(clast_dem *whole, const clast_site *all, 
     status = status == CLAST_OK ? clx_alloc(&to, whole->n_grain, sizeof *to) : status;
     status = status == CLAST_OK ? clx_alloc(&sum, whole->n_grain, sizeof *sum) : status;
     CLX_TRY(clast_comm_agree(comm, status, NULL));
+    CLAST_ASSERT(own != NULL && to != NULL && sum != NULL); // on this rank too
     for (int32_t i = 0; i < whole->n_grain; ++i) {
         if (r->owner[i] == comm->rank) {
             own[n++] = all[i];
@@ -173,6 +175,7 @@ clast_status clx_ranks_partition(clast_dem *whole)
     status = clx_alloc(&s, whole->n_grain, sizeof *s);
     status = status == CLAST_OK ? clx_alloc(&sum, r->comm->n_rank, sizeof *sum) : status;
     CLX_TRY(clast_comm_agree(r->comm, status, NULL));
+    CLAST_ASSERT(s != NULL && sum != NULL); // on this rank too
     for (int32_t i = 0; i < whole->n_grain; ++i) {
         const double *x = whole->grain[i].position;
         s[i] = (clast_site){.number = i};

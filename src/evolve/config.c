@@ -2,6 +2,9 @@
 #include "evolve/config.h"
 
 #include "aggregate/config.h"
+#include "assembly/whole.h"
+#include "base/whole.h"
+#include "cloud/contract.h"
 #include <float.h>
 #include <math.h>
 
@@ -69,6 +72,11 @@ const clast_field clast_evolve_fields[] = {
     FLAG(open_top, 0, "what passes the top of a box is gone; else it comes back"),
 
     TEXT(wind, "0,0,0", "velocity x,y,z of the fluid at z = 0 [m/s]", .group = "fluid"),
+    TEXT(field, "",
+         "file of velocities on a regular grid (CSV x,y,z,u,v,w in m and m/s, VTK, HDF5, ...), "
+         "added "
+         "to the wind; beyond the grid those at its edge"),
+    TEXT(field_columns, "u,v,w", "its columns of velocities"),
     NUMBER(wind_shear, 0, -1e9, 1e9, "1/s", "change of velocity x with z"),
     NUMBER(eddy_diffusivity, 0, 0, 1e6, "-", "turbulent diffusivity, the same everywhere [m^2/s]"),
     FLAG(brownian, 1, "particles diffuse by Brownian motion, as their envelopes' drag says"),
@@ -195,8 +203,9 @@ static bool can_reach_floor(const clast_evolve_config *c, const double wind[3])
     return c->medium.gravity > 0.0 || c->eddy_diffusivity > 0.0 || c->brownian || wind[2] < 0.0;
 }
 
-static clast_status check_borders(const clast_evolve_config *c, const clast_domain *domain)
+static clast_status check_borders(const clast_evolve_config *c, const clast_evolve_input *input)
 {
+    const clast_domain *domain = input->domain;
     clast_status status = CLAST_OK;
     const bool is_box = domain->kind == CLAST_DOMAIN_BOX;
     double wind[3];
@@ -211,11 +220,26 @@ static clast_status check_borders(const clast_evolve_config *c, const clast_doma
     CLX_CHECK(is_box || !c->open_top, CLAST_E_CONFIG, "open_top: only a box has a top");
     CLX_CHECK(c->floor != CLAST_BORDER_PERIODIC || !c->open_top, CLAST_E_CONFIG,
               "open_top: with floor: periodic what passes the top enters below");
-    CLX_CHECK(c->floor != CLAST_BORDER_DEPOSIT || can_reach_floor(c, wind), CLAST_E_CONFIG,
+    CLX_CHECK(c->floor != CLAST_BORDER_DEPOSIT || input->field != NULL || can_reach_floor(c, wind),
+              CLAST_E_CONFIG,
               "floor: nothing reaches it (gravity 0, no diffusion, no wind down); take floor: "
               "reflect or periodic");
 done:
     return status;
+}
+
+/// Whether what the caller gave holds together.
+static clast_status check_input(const clast_evolve_input *input)
+{
+    CLX_ARGUMENTS(input->domain);
+    CLX_ARRAY(input->shape, input->n_shape);
+    for (int32_t i = 0; i < input->n_shape; ++i) {
+        CLX_WHOLE(assembly, &input->shape[i]);
+    }
+    CLX_GUARD(clx_domain_check(input->domain));
+    CLX_GUARD(input->release != NULL ? clx_domain_check(input->release) : CLAST_OK);
+    CLX_GUARD(input->field != NULL ? clx_cloud_check(input->field) : CLAST_OK);
+    return input->points != NULL ? clx_cloud_check(input->points) : CLAST_OK;
 }
 
 static clast_status check_counts(const clast_evolve_config *c, const clast_evolve_input *input)
@@ -244,9 +268,9 @@ clast_status clx_evolve_config_check(const clast_evolve_config *c, const clast_e
     clast_status status = CLAST_OK;
     double weights = 0.0;
     CLX_TRY(clast_fields_check(clast_evolve_fields, c));
-    CLX_NEED(input->domain);
+    CLX_TRY(check_input(input));
     CLX_TRY(check_counts(c, input));
-    CLX_TRY(check_borders(c, input->domain));
+    CLX_TRY(check_borders(c, input));
     for (int32_t k = 0; k < c->shape_weight.n; ++k) {
         weights += c->shape_weight.item[k];
     }

@@ -22,6 +22,7 @@ void clast_evolve_destroy(clast_evolve *e)
         return;
     }
     clx_kit_free(&e->kit);
+    clx_flow_free(&e->flow);
     clx_free(e->kind);
     clx_free(e->grain);
     clx_free(e->body);
@@ -204,6 +205,9 @@ clast_status clast_evolve_create(const clast_evolve_config *config, const clast_
     e->config = config;
     e->input = input;
     CLX_TRY(prepare_encounters(e));
+    if (input->field != NULL) {
+        CLX_TRY(clx_flow_make(input->field, &e->flow));
+    }
     CLX_TRY(prepare_kit(e));
     CLX_TRY(prepare_cells(e));
     CLX_TRY(place_all(e));

@@ -1,8 +1,10 @@
 #pragma once
-// The inside of an evolution, from the bottom up: rows (rows.c), bodies and what follows from their
-// grains (body.c), two that become one (join.c), who meets (meet.c), motion (move.c), cells and
-// steps (evolve.c), what is told (tables.c, measure.c), what is kept (saved.c). Calls go down only.
+// The inside of an evolution, from the bottom up: rows (rows.c), a user's field (flow.c), bodies
+// and what follows from their grains (body.c), two that become one (join.c), who meets (meet.c),
+// motion (move.c), cells and steps (evolve.c), what is told (tables.c, measure.c), what is kept
+// (saved.c). Calls go down only.
 #include "aggregate/kit.h"
+#include "evolve/flow.h"
 #include "evolve/rows.h"
 #include "math/rng.h"
 #include <clast/evolve.h>
@@ -84,6 +86,7 @@ struct clast_evolve {
     clast_collide_config collide;      ///< kernel's mask and medium in full
     uint32_t ranges;                   ///< rows of the table of ranges that collisions are held to
     double wind[3];                    ///< at z = 0
+    clx_flow flow;                     ///< of the user, on a grid
     int32_t meeting;                   ///< AUTO already resolved
     clx_kit kit;
     clx_evolve_kind *kind; ///< [n_kind]

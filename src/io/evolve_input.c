@@ -22,6 +22,7 @@ void clast_evolve_unload(clast_evolve_source *source)
     clast_domain_free(&source->domain);
     clast_domain_free(&source->release);
     clast_cloud_free(&source->points);
+    clast_cloud_free(&source->field);
     *source = (clast_evolve_source){0};
 }
 
@@ -60,24 +61,41 @@ static clast_status load_domain(const char *option, const char *text, clast_doma
     return status;
 }
 
-/// Positions x, y, z, and diameters where a column of them is named.
-static clast_status load_points(const clast_evolve_config *c, clast_cloud *points)
+/// Rows of x, y, z with what else the columns name; `option` stands before messages.
+static clast_status load_cloud(const char *option, const char *path, clast_cloud_columns *columns,
+                               clast_cloud *cloud)
 {
     static char axis[3][2] = {"x", "y", "z"};
     clast_status status = CLAST_OK;
     clast_table table = {0};
     char *item[3] = {axis[0], axis[1], axis[2]};
-    const clast_cloud_columns columns = {.columns = {.n = 3, .item = item},
-                                         .diameter_column = c->diameter_column};
-    CLX_TRY(clast_cloud_read(c->points, NULL, &table));
-    CLX_TRY(clast_cloud_from_table(&table, &columns, points));
-    CLX_CHECK(points->dimension == 3, CLAST_E_FORMAT, "%s has %d coordinates; x, y, z are needed",
-              c->points, points->dimension);
+    columns->columns = (clast_text_list){.n = 3, .item = item};
+    CLX_TRY(clast_cloud_read(path, NULL, &table));
+    CLX_TRY(clast_cloud_from_table(&table, columns, cloud));
+    CLX_CHECK(cloud->dimension == 3, CLAST_E_FORMAT, "%s has %d coordinates; x, y, z are needed",
+              path, cloud->dimension);
 done:
     if (status != CLAST_OK) {
-        clx_fail_prefix("points");
+        clx_fail_prefix("%s", option);
     }
+    columns->columns = (clast_text_list){0};
     clast_table_free(&table);
+    return status;
+}
+
+static clast_status load_clouds(const clast_evolve_config *c, clast_evolve_source *made)
+{
+    clast_status status = CLAST_OK;
+    char *velocity = c->field_columns;
+    clast_cloud_columns points = {.diameter_column = c->diameter_column};
+    clast_cloud_columns field = {.velocity_columns = {.n = 1, .item = &velocity}};
+    if (c->points[0] != '\0') {
+        CLX_TRY(load_cloud("points", c->points, &points, &made->points));
+    }
+    if (c->field[0] != '\0') {
+        CLX_TRY(load_cloud("field", c->field, &field, &made->field));
+    }
+done:
     return status;
 }
 
@@ -99,6 +117,7 @@ clast_status clast_evolve_load(const clast_evolve_config *config, clast_evolve_s
     clast_status status = CLAST_OK;
     clast_evolve_source made = {0};
     const bool has_points = config->points[0] != '\0';
+    const bool has_field = config->field[0] != '\0';
     const bool has_release = config->release[0] != '\0';
     CLX_CHECK(config->domain[0] != '\0', CLAST_E_CONFIG,
               "domain: give the space that they are in, as box:0,0,0,1cm,1cm,1cm");
@@ -113,9 +132,7 @@ clast_status clast_evolve_load(const clast_evolve_config *config, clast_evolve_s
         CLX_CHECK(made.release.dimension == 3, CLAST_E_CONFIG, "release: %s has %d dimensions",
                   config->release, made.release.dimension);
     }
-    if (has_points) {
-        CLX_TRY(load_points(config, &made.points));
-    }
+    CLX_TRY(load_clouds(config, &made));
     CLX_TRY(load_sizes(config, &made));
     *source = made;
     made = (clast_evolve_source){0};
@@ -124,7 +141,8 @@ clast_status clast_evolve_load(const clast_evolve_config *config, clast_evolve_s
                                          .grading = source->grading,
                                          .domain = &source->domain,
                                          .release = has_release ? &source->release : NULL,
-                                         .points = has_points ? &source->points : NULL};
+                                         .points = has_points ? &source->points : NULL,
+                                         .field = has_field ? &source->field : NULL};
 done:
     clast_evolve_unload(&made);
     return status;
@@ -169,6 +187,7 @@ const char *clx_evolve_file(const clast_evolve_config *config, int32_t i, const 
         const char *role, *file;
     } other[] = {{"curve", curve_file(config->curve)},
                  {"points", config->points[0] != '\0' ? config->points : NULL},
+                 {"field", config->field[0] != '\0' ? config->field : NULL},
                  {"domain", behind(config->domain, "mesh:")},
                  {"release", behind(config->release, "mesh:")}};
     for (size_t k = 0; k < sizeof other / sizeof *other; ++k) {

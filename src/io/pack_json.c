@@ -160,6 +160,10 @@ clast_status clast_pack_result_json(const clast_pack_result *r, bool times, char
     if (r->dem.verified.n > 0) {
         (void)json_object_set_new(o, "verified", verified(&r->dem.verified));
     }
+    if (r->n_overlap > 0) {
+        put_count(o, "n_overlap_start", r->n_overlap);
+        put(o, "deepest_overlap_start", r->deepest_start);
+    }
     if (r->load.volume > 0.0) {
         (void)json_object_set_new(o, "cell", loaded(r));
     }

@@ -78,7 +78,7 @@ typedef struct {
 
 static clast_status cannot_read(const text *t)
 {
-    return clx_fail(CLAST_E_IO, "cannot read %s: %s", t->path, strerror(errno));
+    return clx_fail(CLAST_E_IO, "cannot read %s: %s", t->path, clx_errno_text());
 }
 
 /// Reads n bytes from a place on.
@@ -324,6 +324,7 @@ static clast_status read_stretch(const text *t, const int64_t stretch[2], int64_
     clast_status status = CLAST_OK;
     int64_t kept = 0; // bytes of a line that is not whole yet
     char *const rows = bytes + t->n_head;
+    CLAST_ASSERT(bytes != NULL && t->head != NULL);
     memcpy(bytes, t->head, (size_t)t->n_head);
     for (int64_t at = stretch[0]; at < stretch[1]; at += PIECE) {
         const int64_t n = stretch[1] - at < PIECE ? stretch[1] - at : PIECE;

@@ -61,6 +61,15 @@ const clast_field clast_pack_fields[] = {
     NUMBER(mass, 1, 1e-15, 1e15, "kg", "mass of the packing (m_tot)", .common = true),
     {FIELD(U64, seed), 1, 0, 1.8446744073709552e19, "-", "seed of sizes, forms, turns, velocities",
      NULL, .common = true},
+    TEXT(
+        start, "",
+        "packing to begin with, in place of grains that are made: a run of clast (state.h5, or its "
+        "export as CSV beside shapes), or "
+        "spheres of another program (CSV, LAMMPS dump, YADE's x y z r, voro++, .xyz, .xyzd)",
+        .group = "a bed from elsewhere"),
+    TEXT(start_unit, "", "length unit of the start, where it does not say"),
+    TEXT(start_columns, "", "columns of its spheres in their order: id,x,y,z,d"),
+    NUMBER(start_diameter, 0, 0, 1e6, "m", "of all its spheres; 0: as the file says"),
     TEXT(container, "",
          "surface, closed or open, that holds the grains in place of domain, width, depth and "
          "height; grains are made inside of it",

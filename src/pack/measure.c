@@ -43,6 +43,7 @@ clast_status clx_pack_series_row(clast_pack *p)
     clast_dem_measures m;
     int32_t lost = -1;
     const int64_t row = p->series.n_row;
+    CLX_TRY(clx_dem_gather_grains(p->dem));
     if (p->is_held && clx_pack_n_outside(p, &lost) > 0) {
         return clx_fail(CLAST_E_CONVERGE,
                         "grain %d has passed the walls of the closed container by step %lld: it "
@@ -227,6 +228,8 @@ clast_status clast_pack_measure(const clast_pack *pack, clast_pack_result *resul
                            .hash = clast_dem_hash(pack->dem),
                            .n_fill = pack->n_fill,
                            .n_waited = pack->n_waited,
+                           .n_overlap = pack->n_overlap,
+                           .deepest_start = pack->deepest,
                            .wall_s = pack->wall_s,
                            .step_s = pack->step_s,
                            .clocked_steps = pack->clocked_steps,

@@ -7,6 +7,7 @@
 #include "dem/dem.h"
 #include "dem/ranks.h"
 #include "pack/load.h"
+#include "pack/start.h"
 #include <clast/settling.h>
 #include <inttypes.h>
 #include <math.h>
@@ -80,14 +81,16 @@ static clast_status check_room(const clast_pack *p)
         "a height of %g m is %g slices of %g m (layer), a row of the profile each; at most %g: "
         "take a lower domain or a greater layer",
         p->tall, p->tall / c->layer, c->layer, MOST_SLICES);
-    CLX_TRY(clx_pack_check_densities(p));
+    if (p->input.start == NULL) {
+        CLX_TRY(clx_pack_check_densities(p));
+    }
     clx_pack_densities(p, &light, &heavy);
     CLX_CHECK(c->dem.domain != CLAST_DEM_OPEN || p->inside != NULL, CLAST_E_CONFIG,
               "a packing needs sides: domain cylinder, periodic or box, or a container");
     CLX_CHECK(c->dem.floor || p->inside != NULL || is_cell, CLAST_E_CONFIG,
               "a packing needs a floor");
     clast_bed_volumes(&bed, 1, edge, &room);
-    CLX_CHECK(0.5 * heavy * room >= c->mass, CLAST_E_CONFIG,
+    CLX_CHECK(0.5 * heavy * room >= c->mass || p->input.start != NULL, CLAST_E_CONFIG,
               "%g kg cannot fit: at a porosity of 0.5 the room below z = %g m, where grains are "
               "made (fill_low of height), takes %g kg; take a taller or wider domain, or a greater "
               "fill_low",
@@ -109,10 +112,15 @@ clast_status clast_pack_create(const clast_pack_config *config, const clast_pack
     CLX_TRY(clx_pack_check(config));
     made->config = *config;
     made->input = *input;
+    if (input->start != NULL) {
+        CLX_TRY(clx_pack_start_check(made));
+    }
     CLX_TRY(clx_pack_contain(made));
     CLX_TRY(check_room(made));
     CLX_TRY(clx_pack_prepare(made));
-    CLX_TRY(clx_pack_check_draws(made));
+    if (input->start == NULL) {
+        CLX_TRY(clx_pack_check_draws(made));
+    }
     CLX_TRY(clx_pack_load_check(made));
     CLX_TRY(clx_pack_series_begin(made));
     CLX_TRY(clx_pack_load_table(made));
@@ -263,7 +271,7 @@ done:
 static clast_status generate_in_cell(clast_pack *p)
 {
     clast_status status = CLAST_OK;
-    CLX_TRY(clx_pack_fill(p));
+    CLX_TRY(p->input.start != NULL ? clx_pack_start_place(p) : clx_pack_fill(p));
     CLX_CHECK(p->drawn_mass >= p->config.mass && p->n_waiting == 0, CLAST_E_CONFIG,
               "the cell holds %g kg of %g kg on this lattice without overlaps; take a larger cell "
               "(width, depth, height), or another generator or spacing: its stages press it "
@@ -280,6 +288,10 @@ static clast_status generate(clast_pack *p)
 {
     clast_status status = CLAST_OK;
     const double top = p->n_fill > 0 ? clx_dem_highest(p->dem) : -(double)INFINITY;
+    if (p->input.start != NULL) {
+        CLX_TRY(clx_pack_start_place(p));
+        return begin_phase(p, CLAST_PACK_SHAKE);
+    }
     if (p->drawn_mass >= p->config.mass && p->n_waiting == 0) {
         return begin_phase(p, CLAST_PACK_SHAKE);
     }

@@ -50,6 +50,8 @@ struct clast_pack {
     double grain_steps, clocked_steps;
     clast_table series;
     clx_pack_loading load;
+    int64_t n_overlap;     ///< of a start
+    double deepest;        ///< of those, over the smaller one's radius
     double step_s, wall_s; ///< clocks, which no result depends on
 };
 

@@ -17,15 +17,17 @@ void clx_pack_saved_free(clx_pack_saved *saved)
 clast_status clx_pack_save(clast_pack *p, clx_pack_saved *saved)
 {
     clast_status status = CLAST_OK;
-    clx_pack_saved s = {.count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step,
-                                  p->converged ? 1 : 0, p->n_drawn, p->n_waited, 0},
-                        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
-                        .stage = {(double)p->load.stage, (double)p->load.begun, p->load.strain[0],
-                                  p->load.strain[1], p->load.strain[2], p->load.sheared,
-                                  p->load.steady[0], p->load.steady[1], p->load.steady[2]},
-                        .load = clast_pack_load_table(p),
-                        .n_waiting = p->n_waiting,
-                        .series = &p->series};
+    clx_pack_saved s = {
+        .count = {p->phase, p->n_made, p->n_fill, p->fill_step, p->phase_step, p->converged ? 1 : 0,
+                  p->n_drawn, p->n_waited, 0},
+        .number = {p->mass, p->last_height, p->grain_steps, p->drawn_mass},
+        .stage = {(double)p->load.stage, (double)p->load.begun, p->load.strain[0],
+                  p->load.strain[1], p->load.strain[2], p->load.sheared, p->load.steady[0],
+                  p->load.steady[1], p->load.steady[2], (double)p->n_overlap, p->deepest},
+        .has_stage = p->config.dem.domain == CLAST_DEM_CELL || p->input.start != NULL,
+        .load = clast_pack_load_table(p),
+        .n_waiting = p->n_waiting,
+        .series = &p->series};
     CLX_TRY(clx_alloc(&s.waiting, 2 * s.n_waiting, sizeof *s.waiting));
     for (int64_t i = 0; i < s.n_waiting; ++i) {
         s.waiting[2 * i] = p->waiting[i].index;
@@ -167,6 +169,10 @@ static clast_status take_load(clast_pack *p, const clx_pack_saved *s)
     v3_copy(p->load.strain, s->stage + 2);
     p->load.sheared = s->stage[5];
     v3_copy(p->load.steady, s->stage + 6);
+    CLX_CHECK(s->stage[9] >= 0.0 && s->stage[9] < 9e15 && s->stage[10] >= 0.0, CLAST_E_FORMAT,
+              "the checkpoint's start is none");
+    p->n_overlap = (int64_t)s->stage[9];
+    p->deepest = s->stage[10];
 done:
     return status;
 }

@@ -33,6 +33,8 @@ static int list_arrays(clx_pack_saved *s, array a[N_ARRAY])
     a[n++] = (array){"/pack/link", CLX_H5_F64, d->n_pair, CLX_SAVED_PAIR, d->pair};
     if (d->cell != NULL) {
         a[n++] = (array){"/pack/cell", CLX_H5_F64, CLX_SAVED_CELL, 1, d->cell};
+    }
+    if (s->has_stage) {
         a[n++] = (array){"/pack/stage", CLX_H5_F64, CLX_PACK_STAGE, 1, s->stage};
     }
     if (d->energy != NULL) {
@@ -200,6 +202,7 @@ static clast_status measure(clx_h5 *h5, clx_pack_saved *s)
     CLX_TRY(clx_alloc(&d->anchor, d->n_known * CLX_SAVED_ANCHOR, sizeof *d->anchor));
     CLX_TRY(clx_alloc(&d->id, d->n_pair * CLX_SAVED_ID, sizeof *d->id));
     CLX_TRY(clx_alloc(&d->pair, d->n_pair * CLX_SAVED_PAIR, sizeof *d->pair));
+    s->has_stage = clx_h5_has(h5, "/pack/stage");
     if (clx_h5_has(h5, "/pack/cell")) {
         CLX_TRY(clx_alloc(&d->cell, CLX_SAVED_CELL, sizeof *d->cell));
     }

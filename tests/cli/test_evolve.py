@@ -108,6 +108,14 @@ class Evolve(Case):
         masses = sorted(row["mass_kg"] for name in ("particles.csv", "deposit.csv") for row in rows(run / name))
         self.assertAlmostEqual(masses[9] / masses[0], 1000.0, 9)
 
+    def test_examples_are_whole(self):
+        for path in sorted((ROOT / "examples/evolve").glob("*.yaml")):
+            out = clast("evolve", path, "--json", "--quiet", cwd=ROOT).json
+            self.assertEqual(out["number_balance"], 0, path.name)
+            self.assertLess(out["mass_balance"], 1e-12)
+            self.assertGreater(out["deposit"]["mass"], 0.95 * out["mass_start"])  # it ends on the floor
+            self.assertGreater(out["grains_most"], 50)
+
     def test_bad_input_is_one_line(self):
         box = ["evolve", "--domain", "box:0,0,0,1,1,1", "--duration", "1s"]
         self.assert_fails(2, *box, says=("particles",))
@@ -123,6 +131,10 @@ class Evolve(Case):
         outside = self.folder / "outside.csv"
         outside.write_text("x,y,z\n0.5,0.5,0.5\n2,0,0\n")
         self.assert_fails(3, *box, "--points", outside, says=("points", "row 2"))
+        uneven = self.folder / "uneven.csv"
+        uneven.write_text("x,y,z,u,v,w\n" + "".join(f"{x},0,0,1,0,0\n" for x in (0, 1, 3)))
+        self.assert_fails(3, *box, "--particles", 5, "--field", uneven, says=("field", "not even", "plane 2 of 3"))
+        self.assert_fails(3, *box, "--particles", 5, "--field", outside, says=("field", "u"))
         self.assert_fails(2, "evolve", "--domain", "sphere:1", "--particles", 5, "--duration", "1s", says=("only a box",))
         self.assert_fails(3, "evolve", "--resume", self.folder, says=("no checkpoint",))
 

@@ -74,6 +74,61 @@ class Load(Case):
         for name in ("state.h5", "load.csv", "series.csv", "summary.json"):
             self.assertEqual((whole / name).read_bytes(), (cut / name).read_bytes(), name)
 
+    def test_beds_from_elsewhere_carry_what_they_carried(self):
+        """A loaded bed goes out as state, dump and text, and comes back with its contacts and its stress."""
+        run = self.folder / "run"
+        made = clast(*CELL, "--friction", "0", "--stages", "isotropic 20kPa until rest", "--load-rest", "0.01", "--json", "-o", run)
+        self.assertEqual(made.code, 0, made.err)
+        cell = made.json["cell"]
+        hold = ["pack", "--domain", "cell", "--floor=no", "--gravity", "0", "--fluid-density", "0", "--friction", "0", "--quiet",
+                "--width", f"{cell['width']!r}m", "--depth", f"{cell['depth']!r}m", "--height", f"{cell['height']!r}m", "--stages",
+                "hold until time 0.1ms", "--max-steps", "1", "--json"]
+        dump = self.folder / "bed.dump"
+        self.assertEqual(clast("export", run, "-o", dump).code, 0)
+        text = self.folder / "bed.txt"  # as YADE writes spheres
+        with open(run / "grains.csv", encoding="utf-8") as file:
+            text.write_text("".join(f"{r['x_m']} {r['y_m']} {r['z_m']} 0.002\n" for r in csv.DictReader(file)), encoding="utf-8")
+        for start in ([run / "state.h5"], [dump, "--start-unit", "m"], [text, "--start-unit", "m", "--start-columns", "x,y,z,r"]):
+            back = clast(*hold, "--start", *start)
+            self.assertEqual(back.code, 0, back.err)
+            self.assertEqual(back.json["n_contact"], made.json["n_contact"])
+            self.assertEqual(back.json["n_grain"], made.json["n_grain"])
+            self.assertAlmostEqual(back.json["porosity_bulk"], made.json["porosity_bulk"], 12)
+            self.assertEqual(back.json["n_overlap_start"], made.json["n_contact"])
+            self.assertLess(abs(back.json["cell"]["pressure"] / cell["pressure"] - 1), 0.02)
+        whole = self.folder / "again"
+        self.assertEqual(clast(*hold, "--max-steps", "10", "--start", run / "state.h5", "-o", whole).code, 0)
+        resumed = clast("pack", "--resume", whole, "--quiet", "--json")
+        self.assertEqual(resumed.code, 0, resumed.err)
+        straight = clast(*hold[:-3], "--start", run / "state.h5", "--json")
+        self.assertEqual(resumed.json["state_hash"], straight.json["state_hash"])
+        self.assert_fails(2, *hold, "--start", dump, says=("start", "start_unit"))
+        self.assert_fails(2, *hold, "--start", run, says=("is a folder",))
+        self.assert_fails(2, *hold, "--start", run / "state.h5", "--mass", "1g", says=("start brings the grains",))
+        text.write_text("0 0 0.005 0.002\n0 0 0.0055 0.002\n", encoding="utf-8")
+        self.assert_fails(3, *hold, "--start", text, "--start-unit", "m", "--start-columns", "x,y,z,r",
+                          says=("grains 0 and 1 begin inside of each other",))
+
+    def test_own_tables_of_shapes_and_poses_come_back(self):
+        """What clast export writes of any bodies is a start: the same places and turns."""
+        shapes = ["--shapes", "ellipsoid:1.3,1,0.8", "--shapes", "data/standin63/grain00.ply"]
+        lone = ["--domain", "cell", "--width", "40mm", "--height", "40mm", "--floor=no", "--gravity", "0", "--fluid-density", "0",
+                "--stages", "hold until time 1s", "--max-steps", "1", "--quiet"]
+        first = self.folder / "first"
+        again = self.folder / "again"
+        table = self.folder / "bed.csv"
+        made = clast("pack", "--curve", "4mm", "--mass", "2g", "--initial-speed", "0", *shapes, *lone, "-o", first)
+        self.assertEqual(made.code, 0, made.err)
+        self.assertEqual(clast("export", first, "-o", table).code, 0)
+        back = clast("pack", "--start", table, *shapes, *lone, "-o", again)
+        self.assertEqual(back.code, 0, back.err)
+        with open(first / "grains.csv", encoding="utf-8") as a, open(again / "grains.csv", encoding="utf-8") as b:
+            for old, new in zip(csv.DictReader(a), csv.DictReader(b), strict=True):
+                self.assertEqual(old["shape"], new["shape"])
+                for key in old.keys() - {"shape"}:
+                    self.assertAlmostEqual(float(old[key]), float(new[key]), 14, key)
+        self.assert_fails(3, "pack", "--start", table, *shapes[:2], *lone, says=("row", "none of shapes"))
+
     def test_bad_loads_are_said(self):
         self.assert_fails(2, *CELL, says=("without stages",))
         self.assert_fails(2, *CELL, "--stages", "isotropic 10", says=("stage 1", "no pressure"))

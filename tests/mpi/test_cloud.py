@@ -61,6 +61,9 @@ class Cloud(Case):
         for n, arguments in ((3, ("--beta-dt", "1e-6")), (2, ("--no-extrapolate", "--estimator", "cells")), (4, ("--pairs",)),
                              (2, ("--paper", "--mesh", "tree")), (3, ("--tests", "star,pearson", "--votes", "1", "--statistic", "T"))):
             self.both(n, path, *BOX, *arguments)
+        for n, arguments in ((3, ("--mesh", "boxes")), (2, ("--mesh", "components", "--lower", "joint", "--max-pass", "3")),
+                             (4, ("--variant", "fast", "--mesh", "bins", "--paper"))):
+            self.both(n, path, *BOX, *arguments)
         self.both(3, path, *BOX, "--test-only", code=1)
         self.both(2, path, "--domain", "sphere:0.5,0.5,0.5,0.6", "--outside", "drop")
 
@@ -136,7 +139,7 @@ class Cloud(Case):
                 (self.folder / "absent.csv", (), 3, "No such file"),
                 (good, ("--columns", "x,y,w"), 3, "no column of numbers named 'w'"),
                 (pathlib.Path("data/scarlet/stl/27sk21_shape_fine.stl"), (), 3, "27sk21"),
-                (good, ("--mesh", "boxes"), 2, "cells of bins"),
+                (good, ("--mesh", "boxes", "--ghost-samples", "3"), 2, "--ghost-samples"),
                 (good, ("--weight-column", "x"), 2, "weights"),
                 (good, ("--variable-column", "x"), 2, "variable"),
                 (good, ("--crossfit",), 2, "cross-fitting"),

@@ -1,4 +1,5 @@
 """MPI: one bed over ranks: the state, the files and the checkpoints of `clast-mpi pack` are those of `clast pack`."""
+import fcntl
 import json
 import math
 import os
@@ -43,6 +44,21 @@ def own_lines(err):
     return [line for line in err.splitlines() if line.startswith("clast")]
 
 
+def wait_until_free(run):
+    """Ranks outlive a killed one by a moment, and hold the folder's lock until then."""
+    until = time.time() + 60
+    folder = os.open(run, os.O_RDONLY)
+    try:
+        while time.time() < until:
+            try:
+                fcntl.flock(folder, fcntl.LOCK_SH | fcntl.LOCK_NB)
+                return
+            except BlockingIOError:
+                time.sleep(0.05)
+    finally:
+        os.close(folder)
+
+
 class Beds(Case):
     def files(self, folder):
         """Bytes of a run's files but those that name the command and the time."""
@@ -76,22 +92,23 @@ class Beds(Case):
         self.same((2, 3), "--shapes", "ellipsoid:1,0.7,0.5", "--domain", "box", "--mass", "6g", "--height", "40mm",
                   "--max-steps", 1500, "-j", 2)
 
-    def test_a_container_of_triangles(self):
+    def test_a_closed_container_of_triangles(self):
         cup = self.folder / "cup.stl"
         ring = [(0.012 * math.cos(math.tau * k / 24), 0.012 * math.sin(math.tau * k / 24)) for k in range(24)]
         facets = []
         for k in range(24):
             (a, b), (c, d) = ring[k], ring[(k + 1) % 24]
-            for corners in (((a, b, 0), (a, b, 0.06), (c, d, 0)), ((c, d, 0), (a, b, 0.06), (c, d, 0.06))):
+            for corners in (((a, b, 0), (a, b, 0.06), (c, d, 0)), ((c, d, 0), (a, b, 0.06), (c, d, 0.06)),
+                            ((0, 0, 0), (a, b, 0), (c, d, 0)), ((0, 0, 0.06), (c, d, 0.06), (a, b, 0.06))):
                 facets.append("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners) +
                               "endloop\nendfacet\n")
         cup.write_text("solid cup\n" + "".join(facets) + "endsolid cup\n")
         arguments = [word for word in SMALL if word not in ("--width", "24mm")]
-        alone = clast(*arguments, *HULLS, "--container", cup, "--container-unit", "m", "--mass", "5g", "--max-steps", 3000,
-                      "--json")
+        arguments += [*HULLS, "--container", cup, "--container-unit", "m", "--mass", "5g", "--max-steps", 2000, "--series-time",
+                      "1ms", "--json"]
+        alone = clast(*arguments)
         self.assertEqual(alone.code, 0, alone.err)
-        code, out, err = ranks(3, *arguments, *HULLS, "--container", cup, "--container-unit", "m", "--mass", "5g",
-                               "--max-steps", 3000, "--json")
+        code, out, err = ranks(3, *arguments)
         self.assertEqual(code, 0, err)
         self.assertEqual(json.loads(out)["state_hash"], alone.json["state_hash"])
         self.assertGreater(alone.json["n_wall_contact"], 5)
@@ -109,16 +126,36 @@ class Beds(Case):
 
     def test_a_signal_leaves_a_checkpoint(self):
         run = self.folder / "run"
-        arguments = (*SMALL, "--mass", "9g", "--height", "40mm", "--max-steps", 20000)
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
         process = start(2, *arguments, "-o", run)
         until = time.time() + 60
         while time.time() < until and not list(run.glob("checkpoint*")):
             time.sleep(0.05)
-        time.sleep(0.5)
+        time.sleep(0.1)
         process.send_signal(signal.SIGTERM)
         _, err = process.communicate(timeout=60)
         self.assertNotEqual(process.returncode, 0, err)
-        code, out, err = ranks(3, "pack", "--resume", run, "--max-steps", 20000, "--json", "-q")
+        code, out, err = ranks(3, "pack", "--resume", run, "--json", "-q")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(json.loads(out)["state_hash"], clast(*arguments, "--json").json["state_hash"])
+
+    def test_a_killed_rank_ends_all(self):
+        run = self.folder / "run"
+        arguments = (*SMALL, "--mass", "6g", "--height", "40mm", "--shaking-time", "0.1", "--max-steps", 15000)
+        process = start(3, *arguments, "--checkpoint-time", 0, "-o", run)
+        until = time.time() + 60
+        while time.time() < until and len(list(run.glob("checkpoint*"))) < 2:
+            time.sleep(0.05)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        victim = [pid for pid in children if "clast-mpi" in pathlib.Path(f"/proc/{pid}/cmdline").read_text()][-1]
+        os.kill(int(victim), signal.SIGKILL)
+        begun = time.time()
+        _, err = process.communicate(timeout=60)
+        self.assertLess(time.time() - begun, 30)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertRegex(err, r"rank \d")  # mpiexec names rank and signal
+        wait_until_free(run)
+        code, out, err = ranks(2, "pack", "--resume", run, "--json", "-q")
         self.assertEqual(code, 0, err)
         self.assertEqual(json.loads(out)["state_hash"], clast(*arguments, "--json").json["state_hash"])
 
@@ -143,6 +180,11 @@ class Beds(Case):
 
     def test_spheres_that_hinder_each_other(self):
         self.same((3,), "--mass", "4g", "--height", "40mm", "--max-steps", 2500, "--hindrance", "--fluid-viscosity", "1mPa*s")
+
+    def test_what_is_of_one_rank(self):
+        code, _, err = ranks(2, *SMALL, "--mass", "1g", "--height", "40mm", "--energy")
+        self.assertEqual((code, len(own_lines(err))), (2, 1), err)
+        self.assertIn("run it on one rank", own_lines(err)[0])
 
     def test_an_explosion_is_said_once(self):
         wild = (*SMALL, "--mass", "9g", "--height", "40mm", "--collision-time", "2ms", "--time-step", "50us", "--initial-speed",

@@ -3,6 +3,7 @@
 #include "ranks.h"
 #include "support.h"
 
+#include "base/alloc.h"
 #include "dem/dem.h"
 #include "dem/ranks.h"
 #include "dem/saved.h"
@@ -208,10 +209,44 @@ static void bed_is_the_same_on_ranks(void **state)
     }
 }
 
+#ifdef CLAST_ALLOC_INJECT
+/// Rank 1 is refused its k-th block from the first step on; without that, all goes well.
+static int run_refused(const clast_comm *comm, void *context)
+{
+    const bed_case *c = &cases[5];
+    const int64_t k = *(const int64_t *)context;
+    clast_dem *dem = NULL;
+    RANK_CHECK(make(c, &dem) == CLAST_OK);
+    RANK_CHECK(clx_dem_share(dem, comm) == CLAST_OK);
+    (void)clx_alloc_refuse(comm->rank == 1 ? k : 0);
+    clast_status status = clast_dem_step(dem, 60);
+    status = status == CLAST_OK ? clx_dem_gather_all(dem) : status;
+    const bool was_used = clx_alloc_refuse(0) >= 0;
+    RANK_CHECK(was_used && (status == CLAST_OK || status == CLAST_E_MEMORY));
+    RANK_CHECK(comm->least(comm->context, status) == -comm->least(comm->context, -(int64_t)status));
+    RANK_CHECK((status == CLAST_E_MEMORY) == (k < 1000));
+    clast_dem_destroy(dem);
+    return 0;
+}
+
+static void memory_refused_on_one_rank_ends_all(void **state)
+{
+    (void)state;
+    for (int64_t k = 1; k <= 64; k += k < 40 ? 3 : 7) {
+        support_run_ranks(2, run_refused, &k);
+    }
+    int64_t never = 1000000;
+    support_run_ranks(2, run_refused, &never);
+}
+#endif
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bed_is_the_same_on_ranks),
+#ifdef CLAST_ALLOC_INJECT
+        cmocka_unit_test(memory_refused_on_one_rank_ends_all),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -354,6 +354,119 @@ static void floor_takes_what_diffuses(void **state)
     end(&c);
 }
 
+/* Velocities of a turn about z with one turn in 10 s, on a grid in any order. */
+static const char *turning_field(int faulty)
+{
+    const char *path = support_scratch_file("turn.csv");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    const double omega = 2.0 * CLAST_PI / 10.0;
+    (void)fprintf(file, "x,y,z,u,v,w\n");
+    for (int i = 24 - faulty; i >= 0; --i) {
+        const double x = 0.5 * (i % 5) - 1.0;
+        const double y = 0.5 * (i / 5) - 1.0; // NOLINT(bugprone-integer-division): a row
+        (void)fprintf(file, "%.17g,%.17g,0,%.17g,%.17g,0\n", x, y, -omega * y, omega * x);
+    }
+    (void)fclose(file);
+    return path;
+}
+
+/* In a field that turns, bodies are back after a turn, whatever the step. */
+static void a_field_turns_the_cloud(void **state)
+{
+    (void)state;
+    char field[4096];
+    (void)snprintf(field, sizeof field, "field=%s", turning_field(0));
+    const char *const option[] = {"domain=box:-1,-1,0,1,1,1",
+                                  "release=cylinder:0,0,0,0,0,1,0.9,1",
+                                  "particles=50",
+                                  "curve=1um",
+                                  "kernel=constant",
+                                  "constant=0",
+                                  "gravity=0",
+                                  "brownian=no",
+                                  "sides=reflect",
+                                  "floor=reflect",
+                                  "duration=10s",
+                                  "rows=2",
+                                  field,
+                                  NULL};
+    cloud c;
+    clast_table before = {0};
+    clast_table after = {0};
+    begin(&c, option);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &before));
+    (void)follow(&c);
+    CHECK_OK(clast_evolve_table(c.evolve, CLAST_EVOLVE_PARTICLES, &after));
+    assert_int_equal(after.n_row, 50);
+    for (int64_t i = 0; i < after.n_row; ++i) {
+        for (int k = 2; k < 5; ++k) { /* x, y, z */
+            CHECK_ABS(after.column[k].number[i], before.column[k].number[i], 1e-5);
+        }
+    }
+    clast_table_free(&before);
+    clast_table_free(&after);
+    end(&c);
+    (void)turning_field(1); /* a node is missing */
+    open_cloud(&c, option);
+    CHECK_STATUS(clast_evolve_create(&c.config, &c.source.input, &c.evolve), CLAST_E_FORMAT);
+    end(&c);
+}
+
+/* A small cloud from its options to an aggregate, or why not; nothing is left. */
+static clast_status make_small(void *context)
+{
+    static const char *const option[] = {"domain=box:0,0,0,1,1,1",
+                                         "particles=6",
+                                         "curve=1mm",
+                                         "kernel=constant",
+                                         "constant=5",
+                                         "brownian=no",
+                                         "gravity=0",
+                                         "floor=reflect",
+                                         "duration=1s",
+                                         "rows=1",
+                                         NULL};
+    const clast_evolve_source *source = context;
+    clast_evolve_config config = {0};
+    clast_evolve *evolve = NULL;
+    clast_assembly assembly = {0};
+    clast_table saved[CLAST_N_EVOLVE_SAVED] = {{0}};
+    int64_t node = -1;
+    int32_t n = 1;
+    clast_status status = clast_fields_default(clast_evolve_fields, &config);
+    for (int k = 0; status == CLAST_OK && option[k] != NULL; ++k) {
+        char key[64];
+        const char *equal = strchr(option[k], '=');
+        (void)snprintf(key, sizeof key, "%.*s", (int)(equal - option[k]), option[k]);
+        status =
+            clast_field_set(clast_fields_find(clast_evolve_fields, key), &config, equal + 1, false);
+    }
+    status = status == CLAST_OK ? clast_evolve_create(&config, &source->input, &evolve) : status;
+    while (status == CLAST_OK && !clast_evolve_is_over(evolve)) {
+        status = clast_evolve_advance(evolve);
+    }
+    status = status == CLAST_OK ? clast_evolve_largest(evolve, &n, &node) : status;
+    status = status == CLAST_OK ? clast_evolve_aggregate(evolve, node, &assembly) : status;
+    status = status == CLAST_OK ? clast_evolve_save(evolve, saved) : status;
+    for (int k = 0; k < CLAST_N_EVOLVE_SAVED; ++k) {
+        clast_table_free(&saved[k]);
+    }
+    clast_assembly_free(&assembly);
+    clast_evolve_destroy(evolve);
+    clast_fields_free(clast_evolve_fields, &config);
+    return status;
+}
+
+static void each_refused_allocation_is_told(void **state)
+{
+    (void)state;
+    cloud c;
+    open_cloud(&c, (const char *const[]){"domain=box:0,0,0,1,1,1", "curve=1mm", NULL});
+    support_refuse_each_allocation(make_small, &c.source);
+    end(&c);
+}
+
 static void refuses(const char *const *option, clast_status expected)
 {
     cloud c;
@@ -390,6 +503,8 @@ int main(void)
                                        cmocka_unit_test(goes_on_to_the_same_bits),
                                        cmocka_unit_test(events_are_a_tree),
                                        cmocka_unit_test(floor_takes_what_diffuses),
+                                       cmocka_unit_test(a_field_turns_the_cloud),
+                                       cmocka_unit_test(each_refused_allocation_is_told),
                                        cmocka_unit_test(bad_configurations_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

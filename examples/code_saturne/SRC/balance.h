@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
-// README.md)
+// SPDX-License-Identifier: BSD-3-Clause
+// A solver linked with it is under the GPL as a whole: README.md.
 #pragma once
 #include "cs_headers.h"
 

@@ -1,7 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
-// README.md) clast in the solver's time loop: positions and weights are read where the solver keeps
-// them, in records of `extents` bytes, on one rank; on several each gathers all of them and
-// decomposes the same cloud, so that each can change its own parcels without a further message.
+// SPDX-License-Identifier: BSD-3-Clause
+// A solver linked with it is under the GPL as a whole: README.md.
+
+// clast in the solver's time loop: positions and weights are read where the solver keeps them, in
+// records of `extents` bytes, on one rank; on several each gathers all of them and decomposes the
+// same cloud, so that each can change its own parcels without a further message.
 #include "balance.h"
 #include "cs_headers.h"
 #include "settings.h"
@@ -76,6 +78,7 @@ void cs_user_extra_operations_initialize(cs_domain_t *unused)
     check(clast_domain_parse(s->domain, &domain));
     check(clast_fields_default(clast_decompose_fields, &config));
     config.beta_dt = s->kernel * s->dt;
+    config.outside = CLAST_OUTSIDE_DROP; // a parcel on a wall may lie beyond it by a rounding error
     check(clast_workspace_create(&workspace));
     set_policy();
     if (cs_glob_rank_id < 1) {
@@ -257,7 +260,7 @@ static clast_population population_of_records(int64_t n)
 
 /// Collisions of the time since the last call in clast's cells, whose volumes are corrected for the
 /// pairs that they hide by being taken as uniform. Returns the real particles that stuck to others.
-static double grow(const clast_decomposition *cells, int64_t first)
+static double grow(const clast_decomposition *cells, int64_t n, int64_t first)
 {
     const run_settings *s = settings();
     const int32_t n_cell = cells->cells.n;
@@ -268,7 +271,7 @@ static double grow(const clast_decomposition *cells, int64_t first)
                                     .keep_positions = true,
                                     .seed = 1};
     check(clast_kernel_parse("constant", &collide.kernel));
-    clast_population p = population_of_records(cells->n);
+    clast_population p = population_of_records(n);
     double *volume, *events, stuck = 0.0;
     BFT_MALLOC(volume, n_cell + 1, double);
     BFT_MALLOC(events, n_cell + 1, double);
@@ -316,7 +319,7 @@ static balance call_clast(double own, double step_time)
     const double begin = cs_timer_cpu_time();
     const clast_points points = points_of_all_ranks(&first);
     check(clast_workspace_decompose_in(workspace, &domain, &points, &config, &cells));
-    const double stuck = settings()->task == TASK_GROW ? grow(cells, first) : 0.0;
+    const double stuck = settings()->task == TASK_GROW ? grow(cells, points.n, first) : 0.0;
     const double took = cs_timer_cpu_time() - begin;
     const balance now = present();
     balance in = balance_in;

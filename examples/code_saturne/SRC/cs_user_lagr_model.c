@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
-// README.md) The particles: sets of parcels from the source, carried and dispersed by the flow, one
-// way.
+// SPDX-License-Identifier: BSD-3-Clause
+// A solver linked with it is under the GPL as a whole: README.md.
+
+// The particles: sets of parcels from the source, carried and dispersed by the flow, one way.
 #include "balance.h"
 #include "cs_headers.h"
 #include "settings.h"

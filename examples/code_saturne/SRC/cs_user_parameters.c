@@ -1,6 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause (linked with code_saturne the program is under the GPL:
-// README.md) The flow: k-epsilon turbulence of one fluid in a mesh whose groups are 1 inlet, 2
-// outlet, 3 wall, 4 symmetry, 5 the part of the inlet that particles come from.
+// SPDX-License-Identifier: BSD-3-Clause
+// A solver linked with it is under the GPL as a whole: README.md.
+
+// The flow: k-epsilon turbulence of one fluid in a mesh whose groups are 1 inlet, 2 outlet, 3 wall,
+// 4 symmetry, 5 the part of the inlet that particles come from.
 #include "cs_headers.h"
 #include "cs_turbulence_bc.h"
 #include "settings.h"
