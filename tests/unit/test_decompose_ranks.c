@@ -21,7 +21,7 @@ static int32_t dealt_to(int deal, int64_t i, const double *x, int32_t n_rank)
     case 2:
         return n_rank - 1;
     default:
-        return (int32_t)(x[2] * n_rank < n_rank ? x[2] * n_rank : n_rank - 1);
+        return (int32_t)(x[1] * n_rank < n_rank ? x[1] * n_rank : n_rank - 1);
     }
 }
 
