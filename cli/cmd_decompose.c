@@ -84,7 +84,7 @@ static clast_status read_cloud(const cli_common *common, const config *c, clast_
     const char *path = common->argument[0];
     const clast_points_options options = {c->points.dataset, c->points.frame};
     if (common->comm->n_rank > 1) {
-        return clast_cloud_read_ranks(common->comm, path, &options, &c->points.columns, cloud);
+        return clast_cloud_read_ranks(common->comm, path, &c->points.columns, &options, cloud);
     }
     CLI_TRY(cli_points_read(path, &c->points, &table));
     CLI_TRY(clast_cloud_from_table(&table, &c->points.columns, cloud));
@@ -100,7 +100,7 @@ static clast_status read_input(const cli_common *common, const config *c, clast_
     CLI_TRY(cli_agree(common, cli_domain_read(c->decompose.domain, &c->points, domain)));
     CLI_TRY(read_cloud(common, c, cloud));
     cli_domain_name(c->decompose.domain, domain, f->domain);
-    CLI_TRY(clast_cloud_repeated_ranks(common->comm, cloud, &f->n_repeated));
+    CLI_TRY(clast_cloud_repeated_ranks(cloud, common->comm, &f->n_repeated));
 done:
     return status;
 }

@@ -51,7 +51,7 @@ CLAST_API clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n
 /// The same of the points that all ranks have together; called by all of them.
 ///
 /// @param comm  NULL: the only rank
-CLAST_API clast_status clast_cloud_repeated_ranks(const clast_comm *comm, const clast_cloud *cloud,
+CLAST_API clast_status clast_cloud_repeated_ranks(const clast_cloud *cloud, const clast_comm *comm,
                                                   int64_t *n_repeated);
 
 // Particle positions from files, as tables of named columns.
@@ -88,8 +88,8 @@ CLAST_API clast_status clast_cloud_read(const char *path, const clast_points_opt
 /// @return as clast_cloud_read and clast_cloud_from_table, the same on every rank; CLAST_E_FORMAT
 /// for other formats and for quoted cells
 CLAST_API clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
-                                              const clast_points_options *options,
                                               const clast_cloud_columns *columns,
+                                              const clast_points_options *options,
                                               clast_cloud *cloud);
 
 /// clast_cloud_read from memory, HDF5 excepted; `name` stands for the path.

@@ -1,6 +1,5 @@
 #pragma once
 #include <clast/field.h>
-#include <clast/machine.h>
 #include <clast/pairs.h>
 #include <clast/status.h>
 #include <clast/table.h>

@@ -44,16 +44,16 @@ class clast_interval(Structure):
     """Mean of repeated values, and the interval that holds the true mean at this level (Student's t)."""
 
 
+class clast_aggregate_report(Structure):
+    """Results of the repeats, in order."""
+
+
 class clast_fit_estimate(Structure):
     """A quantity under the posterior weights."""
 
 
 class clast_aggregate_fit(Structure):
     """What packing and how many times the list of sizes explain an observation."""
-
-
-class clast_aggregate_report(Structure):
-    """Results of the repeats, in order."""
 
 
 class clast_assembly(Structure):
@@ -88,6 +88,22 @@ class clast_printable_report(Structure):
     """What was made."""
 
 
+class clast_envelope(Structure):
+    """A volume with its uncertainty."""
+
+
+class clast_envelope_options(Structure):
+    """clast_envelope_options."""
+
+
+class clast_fractal(Structure):
+    """A power law N = k (R / a)^D fitted to an assembly."""
+
+
+class clast_extent(Structure):
+    """How far an assembly reaches."""
+
+
 class clast_series(Structure):
     """One set of values; arrays are borrowed."""
 
@@ -114,6 +130,34 @@ class clast_cloud(Structure):
 
 class clast_points_options(Structure):
     """{0} is valid: the first snapshot."""
+
+
+class clast_domain_map_functions(Structure):
+    """A caller's map of a domain onto the unit cube."""
+
+
+class clast_domain(Structure):
+    """A known domain; never taken from the sample's own least and greatest coordinates."""
+
+
+class clast_discrepancy(Structure):
+    """Statistics of one discrepancy."""
+
+
+class clast_henze_zirkler(Structure):
+    """Henze and Zirkler's test of normality of the probit scores Phi^-1(u)."""
+
+
+class clast_pearson(Structure):
+    """Correlation of each pair of coordinates (01, 02, 12), Student's t, Bonferroni over the pairs."""
+
+
+class clast_spacing(Structure):
+    """Mean distance to the nearest neighbour, across periodic faces, over that of uniform points: > 1 is more even than uniform (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 less even."""
+
+
+class clast_boundary_score(Structure):
+    """Distance-to-boundary score: mean absolute difference between the distribution of depths and its law."""
 
 
 class clast_decompose_config(Structure):
@@ -178,14 +222,6 @@ class clast_dem_load(Structure):
 
 class clast_scene_bed(Structure):
     """Case P1 and its kin: grains of 63 gravel forms (152 points on a dented ellipsoid), D log-uniform in 5.6 to 8 mm, random form and turn, on a loose lattice in a box of width x width, periodic in x and y, over a floor, in water; the published law and shaking act."""
-
-
-class clast_domain_map_functions(Structure):
-    """A caller's map of a domain onto the unit cube."""
-
-
-class clast_domain(Structure):
-    """A known domain; never taken from the sample's own least and greatest coordinates."""
 
 
 class clast_evolve_input(Structure):
@@ -440,10 +476,6 @@ class clast_mean(Structure):
     """Mean of a few values and how well it is known."""
 
 
-class clast_porosity_fit_config(Structure):
-    """clast_porosity_fit_config."""
-
-
 class clast_form_inputs(Structure):
     """What is known about the grains of a bed."""
 
@@ -462,6 +494,10 @@ class clast_porosity_model(Structure):
 
 class clast_prediction(Structure):
     """clast_prediction."""
+
+
+class clast_porosity_fit_config(Structure):
+    """clast_porosity_fit_config."""
 
 
 class clast_image(Structure):
@@ -556,26 +592,6 @@ class clast_monitor(Structure):
     """How long work talks to its caller: NULL, or callbacks."""
 
 
-class clast_envelope(Structure):
-    """A volume with its uncertainty."""
-
-
-class clast_envelope_options(Structure):
-    """clast_envelope_options."""
-
-
-class clast_fractal(Structure):
-    """A power law N = k (R / a)^D fitted to an assembly."""
-
-
-class clast_extent(Structure):
-    """How far an assembly reaches."""
-
-
-class clast_structure_options(Structure):
-    """clast_structure_options."""
-
-
 class clast_study_config(Structure):
     """clast_study_config."""
 
@@ -606,26 +622,6 @@ class clast_csv_options(Structure):
 
 class clast_csv_report(Structure):
     """What the reader found."""
-
-
-class clast_discrepancy(Structure):
-    """Statistics of one discrepancy."""
-
-
-class clast_henze_zirkler(Structure):
-    """Henze and Zirkler's test of normality of the probit scores Phi^-1(u)."""
-
-
-class clast_pearson(Structure):
-    """Correlation of each pair of coordinates (01, 02, 12), Student's t, Bonferroni over the pairs."""
-
-
-class clast_spacing(Structure):
-    """Mean distance to the nearest neighbour, across periodic faces, over that of uniform points: > 1 is more even than uniform (a lattice: 2 in 2-D, 1.8 in 3-D), < 1 less even."""
-
-
-class clast_boundary_score(Structure):
-    """Distance-to-boundary score: mean absolute difference between the distribution of depths and its law."""
 
 
 class clast_voxels(Structure):
@@ -690,6 +686,10 @@ class clast_aggregate_config(Structure):
 
 class clast_aggregate_source(Structure):
     """Everything that a configuration names, loaded."""
+
+
+class clast_structure_options(Structure):
+    """clast_structure_options."""
 
 
 class clast_cloud_columns(Structure):
@@ -810,6 +810,12 @@ clast_interval._fields_ = [
     ('low', c_double),
     ('high', c_double),
 ]
+clast_aggregate_report._fields_ = [
+    ('n', c_int32),
+    ('result', POINTER(clast_aggregate_result)),
+    ('confidence', c_double),
+    ('folder', c_char_p),
+]
 clast_fit_estimate._fields_ = [
     ('best', c_double),
     ('mean', c_double),
@@ -844,12 +850,6 @@ clast_aggregate_fit._fields_ = [
     ('n_run', c_int32),
     ('at_level', c_int32),
     ('words', (c_char * 1024)),
-]
-clast_aggregate_report._fields_ = [
-    ('n', c_int32),
-    ('result', POINTER(clast_aggregate_result)),
-    ('confidence', c_double),
-    ('folder', c_char_p),
 ]
 clast_assembly._fields_ = [
     ('n_shape', c_int32),
@@ -912,6 +912,34 @@ clast_printable_report._fields_ = [
     ('solid_volume', c_double),
     ('volume', c_double),
     ('n_triangle_expected', c_double),
+]
+clast_envelope._fields_ = [
+    ('kind', c_int),
+    ('volume', c_double),
+    ('error', c_double),
+    ('low', c_double),
+    ('high', c_double),
+]
+clast_envelope_options._fields_ = [
+    ('tolerance', c_double),
+    ('n_ray', c_int32),
+    ('seed', c_uint64),
+    ('length', c_double),
+    ('n_cell', c_int32),
+]
+clast_fractal._fields_ = [
+    ('dimension', c_double),
+    ('dimension_error', c_double),
+    ('prefactor', c_double),
+    ('prefactor_error', c_double),
+    ('low', c_double),
+    ('high', c_double),
+    ('n', c_int32),
+]
+clast_extent._fields_ = [
+    ('length', c_double),
+    ('axis', ((c_double * 3) * 3)),
+    ('width', (c_double * 3)),
 ]
 clast_series._fields_ = [
     ('kind', c_int),
@@ -979,6 +1007,73 @@ clast_cloud._fields_ = [
 clast_points_options._fields_ = [
     ('dataset', c_char_p),
     ('frame', c_int64),
+]
+clast_domain_map_functions._fields_ = [
+    ('dimension', c_int32),
+    ('volume', c_double),
+    ('map', c_void_p),
+    ('unmap', c_void_p),
+    ('context', c_void_p),
+]
+clast_domain._fields_ = [
+    ('kind', c_int),
+    ('dimension', c_int32),
+    ('low', (c_double * 3)),
+    ('high', (c_double * 3)),
+    ('radius', c_double),
+    ('length', c_double),
+    ('is_placed', c_bool),
+    ('centre', (c_double * 3)),
+    ('axes', ((c_double * 3) * 3)),
+    ('user', clast_domain_map_functions),
+    ('surface', c_void_p),
+]
+clast_discrepancy._fields_ = [
+    ('U1', c_double),
+    ('U2', c_double),
+    ('D2', c_double),
+    ('A', c_double),
+    ('variance', c_double),
+    ('A_standard', c_double),
+    ('p', c_double),
+    ('p_asymptotic', c_double),
+    ('p_paper', c_double),
+    ('T', c_double),
+    ('p_T', c_double),
+    ('M', c_double),
+    ('xi', c_double),
+    ('zeta2', c_double),
+]
+clast_henze_zirkler._fields_ = [
+    ('beta', c_double),
+    ('HZ', c_double),
+    ('mean', c_double),
+    ('variance', c_double),
+    ('log_mean', c_double),
+    ('log_sd', c_double),
+    ('z', c_double),
+    ('p', c_double),
+    ('p_paper', c_double),
+    ('centre', (c_double * 3)),
+    ('covariance', ((c_double * 3) * 3)),
+]
+clast_pearson._fields_ = [
+    ('n_pair', c_int32),
+    ('r', (c_double * 3)),
+    ('p', (c_double * 3)),
+    ('p_bonferroni', c_double),
+]
+clast_spacing._fields_ = [
+    ('ratio', c_double),
+    ('z', c_double),
+    ('p', c_double),
+]
+clast_boundary_score._fields_ = [
+    ('score', c_double),
+    ('ideal', c_double),
+    ('trapezoid', c_double),
+    ('projected', c_double),
+    ('projected_axis', (c_double * 3)),
 ]
 clast_decompose_config._fields_ = [
     ('domain', c_char_p),
@@ -1194,26 +1289,6 @@ clast_scene_bed._fields_ = [
     ('n_vert', c_int32),
     ('width', c_double),
     ('fall', c_double),
-]
-clast_domain_map_functions._fields_ = [
-    ('dimension', c_int32),
-    ('volume', c_double),
-    ('map', c_void_p),
-    ('unmap', c_void_p),
-    ('context', c_void_p),
-]
-clast_domain._fields_ = [
-    ('kind', c_int),
-    ('dimension', c_int32),
-    ('low', (c_double * 3)),
-    ('high', (c_double * 3)),
-    ('radius', c_double),
-    ('length', c_double),
-    ('is_placed', c_bool),
-    ('centre', (c_double * 3)),
-    ('axes', ((c_double * 3) * 3)),
-    ('user', clast_domain_map_functions),
-    ('surface', c_void_p),
 ]
 clast_evolve_input._fields_ = [
     ('n_shape', c_int32),
@@ -1860,20 +1935,6 @@ clast_mean._fields_ = [
     ('low', c_double),
     ('high', c_double),
 ]
-clast_porosity_fit_config._fields_ = [
-    ('target', c_char_p),
-    ('columns', c_char_p),
-    ('group', c_char_p),
-    ('n_term', c_int32),
-    ('use', c_char_p),
-    ('correlation_limit', c_double),
-    ('n_fold', c_int32),
-    ('n_repeat', c_int32),
-    ('score', c_int32),
-    ('validation', c_int32),
-    ('n_permutation', c_int32),
-    ('seed', c_uint64),
-]
 clast_form_inputs._fields_ = [
     ('n_grain', c_int64),
     ('has_deviation', c_bool),
@@ -1924,6 +1985,20 @@ clast_prediction._fields_ = [
     ('leverage', c_double),
     ('n_outside', c_int32),
     ('outside', (c_int32 * 16)),
+]
+clast_porosity_fit_config._fields_ = [
+    ('target', c_char_p),
+    ('columns', c_char_p),
+    ('group', c_char_p),
+    ('n_term', c_int32),
+    ('use', c_char_p),
+    ('correlation_limit', c_double),
+    ('n_fold', c_int32),
+    ('n_repeat', c_int32),
+    ('score', c_int32),
+    ('validation', c_int32),
+    ('n_permutation', c_int32),
+    ('seed', c_uint64),
 ]
 clast_image._fields_ = [
     ('width', c_int32),
@@ -2110,43 +2185,6 @@ clast_monitor._fields_ = [
     ('n_word', c_int32),
     ('word', POINTER(c_char_p)),
 ]
-clast_envelope._fields_ = [
-    ('kind', c_int),
-    ('volume', c_double),
-    ('error', c_double),
-    ('low', c_double),
-    ('high', c_double),
-]
-clast_envelope_options._fields_ = [
-    ('tolerance', c_double),
-    ('n_ray', c_int32),
-    ('seed', c_uint64),
-    ('length', c_double),
-    ('n_cell', c_int32),
-]
-clast_fractal._fields_ = [
-    ('dimension', c_double),
-    ('dimension_error', c_double),
-    ('prefactor', c_double),
-    ('prefactor_error', c_double),
-    ('low', c_double),
-    ('high', c_double),
-    ('n', c_int32),
-]
-clast_extent._fields_ = [
-    ('length', c_double),
-    ('axis', ((c_double * 3) * 3)),
-    ('width', (c_double * 3)),
-]
-clast_structure_options._fields_ = [
-    ('envelope', clast_envelope_options),
-    ('solid', clast_union_options),
-    ('fluid', clast_fluid),
-    ('n_line', c_int32),
-    ('n_direction', c_int32),
-    ('n_first', c_int32),
-    ('alpha', c_bool),
-]
 clast_study_config._fields_ = [
     ('run', c_char_p),
     ('config', c_char_p),
@@ -2209,53 +2247,6 @@ clast_csv_report._fields_ = [
     ('n_blank', c_int64),
     ('n_missing', c_int64),
     ('n_renamed', c_int32),
-]
-clast_discrepancy._fields_ = [
-    ('U1', c_double),
-    ('U2', c_double),
-    ('D2', c_double),
-    ('A', c_double),
-    ('variance', c_double),
-    ('A_standard', c_double),
-    ('p', c_double),
-    ('p_asymptotic', c_double),
-    ('p_paper', c_double),
-    ('T', c_double),
-    ('p_T', c_double),
-    ('M', c_double),
-    ('xi', c_double),
-    ('zeta2', c_double),
-]
-clast_henze_zirkler._fields_ = [
-    ('beta', c_double),
-    ('HZ', c_double),
-    ('mean', c_double),
-    ('variance', c_double),
-    ('log_mean', c_double),
-    ('log_sd', c_double),
-    ('z', c_double),
-    ('p', c_double),
-    ('p_paper', c_double),
-    ('centre', (c_double * 3)),
-    ('covariance', ((c_double * 3) * 3)),
-]
-clast_pearson._fields_ = [
-    ('n_pair', c_int32),
-    ('r', (c_double * 3)),
-    ('p', (c_double * 3)),
-    ('p_bonferroni', c_double),
-]
-clast_spacing._fields_ = [
-    ('ratio', c_double),
-    ('z', c_double),
-    ('p', c_double),
-]
-clast_boundary_score._fields_ = [
-    ('score', c_double),
-    ('ideal', c_double),
-    ('trapezoid', c_double),
-    ('projected', c_double),
-    ('projected_axis', (c_double * 3)),
 ]
 clast_voxels._fields_ = [
     ('n', (c_int32 * 3)),
@@ -2490,6 +2481,15 @@ clast_aggregate_source._fields_ = [
     ('sizes', clast_sizes),
     ('input', clast_aggregate_input),
 ]
+clast_structure_options._fields_ = [
+    ('envelope', clast_envelope_options),
+    ('solid', clast_union_options),
+    ('fluid', clast_fluid),
+    ('n_line', c_int32),
+    ('n_direction', c_int32),
+    ('n_first', c_int32),
+    ('alpha', c_bool),
+]
 clast_cloud_columns._fields_ = [
     ('columns', clast_text_list),
     ('velocity_columns', clast_text_list),
@@ -2706,9 +2706,9 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_input': (32, {'core': (0, 8), 'n_coat': (8, 4), 'coat': (16, 8), 'sizes': (24, 8)}),
     'clast_aggregate_saved': (32, {'repeat': (0, 4), 'placed': (8, 8), 'history': (16, 8), 'members': (24, 8)}),
     'clast_interval': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
+    'clast_aggregate_report': (32, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8)}),
     'clast_fit_estimate': (40, {'best': (0, 8), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
     'clast_aggregate_fit': (1472, {'cone': (0, 8), 'rays': (8, 4), 'orientations': (12, 4), 'replicate': (16, 4), 'trials': (24, 40), 'n_replica': (64, 40), 'model': (104, 120), 'porosity': (224, 40), 'observed': (264, 24), 'error': (288, 24), 'pull': (312, 24), 'least': (336, 24), 'most': (360, 24), 'chi2': (384, 8), 'n_observed': (392, 4), 'n_choice': (396, 4), 'n_freedom': (400, 4), 'p_value': (408, 8), 'verdict': (416, 4), 'packing_edge': (420, 4), 'replicate_edge': (424, 4), 'n_level': (428, 4), 'cut_short': (432, 1), 'n_run': (436, 4), 'at_level': (440, 4), 'words': (444, 1024)}),
-    'clast_aggregate_report': (32, {'n': (0, 4), 'result': (8, 8), 'confidence': (16, 8), 'folder': (24, 8)}),
     'clast_assembly': (120, {'n_shape': (0, 4), 'shape': (8, 8), 'n_grain': (16, 4), 'shape_id': (24, 8), 'position': (32, 8), 'orientation': (40, 8), 'scale': (48, 8), 'density': (56, 8), 'id': (64, 8), 'n_contact': (72, 4), 'contact': (80, 8), 'contact_point': (88, 8), 'unit': (96, 16), 'grain_capacity': (112, 4), 'contact_capacity': (116, 4)}),
     'clast_rigid_options': (8, {'hull': (0, 1), 'faces': (4, 4)}),
     'clast_union_options': (32, {'tolerance': (0, 8), 'n_sample': (8, 8), 'seed': (16, 8), 'find_depth': (24, 1)}),
@@ -2717,6 +2717,10 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_overlaps': (24, {'n': (0, 4), 'depth': (8, 8), 'share': (16, 8)}),
     'clast_printable_config': (24, {'neck': (0, 8), 'spacing': (8, 8), 'keep_voids': (16, 1)}),
     'clast_printable_report': (72, {'neck': (0, 8), 'spacing': (8, 8), 'smallest_feature': (16, 8), 'resolved': (24, 1), 'n_part': (28, 4), 'n_void': (32, 4), 'void_volume': (40, 8), 'solid_volume': (48, 8), 'volume': (56, 8), 'n_triangle_expected': (64, 8)}),
+    'clast_envelope': (40, {'kind': (0, 4), 'volume': (8, 8), 'error': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
+    'clast_envelope_options': (40, {'tolerance': (0, 8), 'n_ray': (8, 4), 'seed': (16, 8), 'length': (24, 8), 'n_cell': (32, 4)}),
+    'clast_fractal': (56, {'dimension': (0, 8), 'dimension_error': (8, 8), 'prefactor': (16, 8), 'prefactor_error': (24, 8), 'low': (32, 8), 'high': (40, 8), 'n': (48, 4)}),
+    'clast_extent': (104, {'length': (0, 8), 'axis': (8, 72), 'width': (80, 24)}),
     'clast_series': (72, {'kind': (0, 4), 'label': (8, 8), 'x': (16, 8), 'y': (24, 8), 'low': (32, 8), 'high': (40, 8), 'value': (48, 8), 'n': (56, 8), 'colour': (64, 4), 'dashed': (68, 1)}),
     'clast_axis': (32, {'label': (0, 8), 'log': (8, 1), 'low': (16, 8), 'high': (24, 8)}),
     'clast_heat': (72, {'n_x': (0, 4), 'n_y': (4, 4), 'value': (8, 8), 'x_low': (16, 8), 'x_high': (24, 8), 'y_low': (32, 8), 'y_high': (40, 8), 'x_name': (48, 8), 'y_name': (56, 8), 'is_signed': (64, 1), 'has_text': (65, 1)}),
@@ -2724,6 +2728,13 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_chart': (184, {'title': (0, 8), 'x': (8, 32), 'y': (40, 32), 'value_axis': (72, 32), 'series': (104, 8), 'n_series': (112, 4), 'heat': (120, 8), 'mark_y': (128, 8), 'mark_label': (136, 8), 'n_mark': (144, 4), 'note': (152, 8), 'n_note': (160, 4), 'equal': (164, 1), 'width': (168, 8), 'height': (176, 8)}),
     'clast_cloud': (64, {'n': (0, 8), 'dimension': (8, 4), 'x': (16, 8), 'radius': (24, 8), 'mass': (32, 8), 'weight': (40, 8), 'velocity': (48, 8), 'variable': (56, 8)}),
     'clast_points_options': (16, {'dataset': (0, 8), 'frame': (8, 8)}),
+    'clast_domain_map_functions': (40, {'dimension': (0, 4), 'volume': (8, 8), 'map': (16, 8), 'unmap': (24, 8), 'context': (32, 8)}),
+    'clast_domain': (224, {'kind': (0, 4), 'dimension': (4, 4), 'low': (8, 24), 'high': (32, 24), 'radius': (56, 8), 'length': (64, 8), 'is_placed': (72, 1), 'centre': (80, 24), 'axes': (104, 72), 'user': (176, 40), 'surface': (216, 8)}),
+    'clast_discrepancy': (112, {'U1': (0, 8), 'U2': (8, 8), 'D2': (16, 8), 'A': (24, 8), 'variance': (32, 8), 'A_standard': (40, 8), 'p': (48, 8), 'p_asymptotic': (56, 8), 'p_paper': (64, 8), 'T': (72, 8), 'p_T': (80, 8), 'M': (88, 8), 'xi': (96, 8), 'zeta2': (104, 8)}),
+    'clast_henze_zirkler': (168, {'beta': (0, 8), 'HZ': (8, 8), 'mean': (16, 8), 'variance': (24, 8), 'log_mean': (32, 8), 'log_sd': (40, 8), 'z': (48, 8), 'p': (56, 8), 'p_paper': (64, 8), 'centre': (72, 24), 'covariance': (96, 72)}),
+    'clast_pearson': (64, {'n_pair': (0, 4), 'r': (8, 24), 'p': (32, 24), 'p_bonferroni': (56, 8)}),
+    'clast_spacing': (24, {'ratio': (0, 8), 'z': (8, 8), 'p': (16, 8)}),
+    'clast_boundary_score': (56, {'score': (0, 8), 'ideal': (8, 8), 'trapezoid': (16, 8), 'projected': (24, 8), 'projected_axis': (32, 24)}),
     'clast_decompose_config': (144, {'domain': (0, 8), 'outside': (8, 4), 'variant': (12, 4), 'mesh': (16, 4), 'events': (20, 4), 'level': (24, 8), 'votes': (32, 4), 'tests': (40, 8), 'statistic': (48, 4), 'paper': (52, 1), 'ghost_samples': (56, 4), 'crossfit': (60, 1), 'max_pass': (64, 4), 'lower': (68, 4), 'strict': (72, 1), 'beta_dt': (80, 8), 'tree_level': (88, 8), 'tree_root_level': (96, 8), 'variable_tolerance': (104, 8), 'tree_least': (112, 4), 'tree_refine': (116, 1), 'extrapolate': (117, 1), 'pairs': (118, 1), 'pairs_radius': (120, 8), 'estimator': (128, 4), 'seed': (136, 8)}),
     'clast_vote': (40, {'name': (0, 8), 'statistic': (8, 8), 'p': (16, 8), 'reject': (24, 1), 'axis': (28, 8)}),
     'clast_uniformity': (232, {'n_test': (0, 4), 'vote': (8, 200), 'n_reject': (208, 4), 'reject': (212, 1), 'score': (216, 8), 'ideal': (224, 8)}),
@@ -2740,8 +2751,6 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_dem_cell': (96, {'side': (0, 24), 'rate': (24, 24), 'shift': (48, 8), 'shear_rate': (56, 8), 'strain': (64, 24), 'shear_strain': (88, 8)}),
     'clast_dem_load': (264, {'volume': (0, 8), 'solid': (8, 8), 'stress': (16, 48), 'kinetic_stress': (64, 48), 'modulus': (112, 24), 'fabric': (136, 48), 'n_contact': (184, 8), 'n_force': (192, 8), 'coordination': (200, 8), 'n_rattler': (208, 4), 'coordination_held': (216, 8), 'unbalanced': (224, 8), 'force_mean': (232, 8), 'force_below': (240, 24)}),
     'clast_scene_bed': (24, {'n': (0, 4), 'n_vert': (4, 4), 'width': (8, 8), 'fall': (16, 8)}),
-    'clast_domain_map_functions': (40, {'dimension': (0, 4), 'volume': (8, 8), 'map': (16, 8), 'unmap': (24, 8), 'context': (32, 8)}),
-    'clast_domain': (224, {'kind': (0, 4), 'dimension': (4, 4), 'low': (8, 24), 'high': (32, 24), 'radius': (56, 8), 'length': (64, 8), 'is_placed': (72, 1), 'centre': (80, 24), 'axes': (104, 72), 'user': (176, 40), 'surface': (216, 8)}),
     'clast_evolve_input': (56, {'n_shape': (0, 4), 'shape': (8, 8), 'grading': (16, 8), 'domain': (24, 8), 'release': (32, 8), 'points': (40, 8), 'field': (48, 8)}),
     'clast_evolve_source': (656, {'shape': (0, 8), 'n_shape': (8, 4), 'grading': (16, 8), 'domain': (24, 224), 'release': (248, 224), 'points': (472, 64), 'field': (536, 64), 'input': (600, 56)}),
     'clast_text_list': (16, {'n': (0, 4), 'item': (8, 8)}),
@@ -2805,12 +2814,12 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_radial_options': (12, {'method': (0, 4), 'n_ring': (4, 4), 'n_point': (8, 4)}),
     'clast_pore_options': (40, {'n_point': (0, 8), 'n_bin': (8, 4), 'period': (16, 24)}),
     'clast_mean': (40, {'n': (0, 4), 'mean': (8, 8), 'deviation': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
-    'clast_porosity_fit_config': (80, {'target': (0, 8), 'columns': (8, 8), 'group': (16, 8), 'n_term': (24, 4), 'use': (32, 8), 'correlation_limit': (40, 8), 'n_fold': (48, 4), 'n_repeat': (52, 4), 'score': (56, 4), 'validation': (60, 4), 'n_permutation': (64, 4), 'seed': (72, 8)}),
     'clast_form_inputs': (1104, {'n_grain': (0, 8), 'has_deviation': (8, 1), 'is_independent': (9, 1), 'flatness_mean': (16, 8), 'flatness_deviation': (24, 8), 'elongation_mean': (32, 8), 'elongation_deviation': (40, 8), 'equancy_mean': (48, 8), 'equancy_deviation': (56, 8), 'single': (64, 208), 'mixture': (272, 832)}),
     'clast_model_term': (16, {'feature': (0, 8), 'coefficient': (8, 8)}),
     'clast_model_range': (24, {'feature': (0, 8), 'low': (8, 8), 'high': (16, 8)}),
     'clast_porosity_model': (128, {'name': (0, 8), 'source': (8, 8), 'kind': (16, 4), 'intercept': (24, 8), 'n_term': (32, 4), 'term': (40, 8), 'n_range': (48, 4), 'range': (56, 8), 'covariance': (64, 8), 'rounding': (72, 8), 'deviation': (80, 8), 'n_bed': (88, 8), 'r2': (96, 8), 'cv_mean_error': (104, 8), 'cv_median_error': (112, 8), 'leverage_limit': (120, 8)}),
     'clast_prediction': (128, {'porosity': (0, 8), 'standard_error': (8, 8), 'model_error': (16, 8), 'coefficient_error': (24, 8), 'sampling_error': (32, 8), 'in_range': (40, 1), 'leverage': (48, 8), 'n_outside': (56, 4), 'outside': (60, 64)}),
+    'clast_porosity_fit_config': (80, {'target': (0, 8), 'columns': (8, 8), 'group': (16, 8), 'n_term': (24, 4), 'use': (32, 8), 'correlation_limit': (40, 8), 'n_fold': (48, 4), 'n_repeat': (52, 4), 'score': (56, 4), 'validation': (60, 4), 'n_permutation': (64, 4), 'seed': (72, 8)}),
     'clast_image': (24, {'width': (0, 4), 'height': (4, 4), 'rgba': (8, 8), 'pixel_size': (16, 8)}),
     'clast_render_config': (160, {'width': (0, 4), 'height': (4, 4), 'samples': (8, 4), 'ambient_rays': (12, 4), 'projection': (16, 4), 'up': (20, 4), 'azimuth': (24, 8), 'elevation': (32, 8), 'field_of_view': (40, 8), 'zoom': (48, 8), 'colour': (56, 4), 'tint': (64, 8), 'scale': (72, 4), 'shading': (76, 4), 'background': (80, 4), 'ground': (84, 1), 'cut': (88, 4), 'cut_position': (96, 8), 'colour_bar': (104, 1), 'scale_bar': (105, 1), 'unit': (112, 8), 'sun_azimuth': (120, 8), 'sun_elevation': (128, 8), 'sun_radius': (136, 8), 'ambient': (144, 8), 'seed': (152, 8)}),
     'clast_report_config': (24, {'title': (0, 8), 'rows': (8, 4), 'view': (12, 1), 'triangles': (16, 4), 'picture_mb': (20, 4)}),
@@ -2834,11 +2843,6 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_histogram': (48, {'n_bin': (0, 4), 'edge': (8, 8), 'count': (16, 8), 'density': (24, 8), 'mean': (32, 8), 'deviation_ml': (40, 8)}),
     'clast_grain_statistics': (232, {'set': (0, 120), 'statistics': (120, 80), 'zingg': (200, 32)}),
     'clast_monitor': (48, {'report': (0, 8), 'stop': (8, 8), 'note': (16, 8), 'context': (24, 8), 'n_word': (32, 4), 'word': (40, 8)}),
-    'clast_envelope': (40, {'kind': (0, 4), 'volume': (8, 8), 'error': (16, 8), 'low': (24, 8), 'high': (32, 8)}),
-    'clast_envelope_options': (40, {'tolerance': (0, 8), 'n_ray': (8, 4), 'seed': (16, 8), 'length': (24, 8), 'n_cell': (32, 4)}),
-    'clast_fractal': (56, {'dimension': (0, 8), 'dimension_error': (8, 8), 'prefactor': (16, 8), 'prefactor_error': (24, 8), 'low': (32, 8), 'high': (40, 8), 'n': (48, 4)}),
-    'clast_extent': (104, {'length': (0, 8), 'axis': (8, 72), 'width': (80, 24)}),
-    'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_study_config': (120, {'run': (0, 8), 'config': (8, 8), 'argument': (16, 16), 'set': (32, 16), 'vary': (48, 16), 'design': (64, 4), 'table': (72, 8), 'seeds': (80, 4), 'seed': (88, 8), 'keep': (96, 16), 'shard': (112, 8)}),
     'clast_study_item': (32, {'row': (0, 8), 'folder': (8, 8), 'n_argument': (16, 4), 'argument': (24, 8)}),
     'clast_study_worker': (40, {'has_folder': (0, 1), 'has_seed': (1, 1), 'has_resume': (2, 1), 'start': (8, 8), 'wait': (16, 8), 'stop': (24, 8), 'context': (32, 8)}),
@@ -2847,11 +2851,6 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_table': (32, {'name': (0, 8), 'n_column': (8, 4), 'n_row': (16, 8), 'column': (24, 8)}),
     'clast_csv_options': (8, {'separator': (0, 1), 'comment': (1, 1), 'no_comment': (2, 1), 'header': (4, 4)}),
     'clast_csv_report': (48, {'separator': (0, 1), 'has_header': (1, 1), 'n_line': (8, 8), 'n_comment': (16, 8), 'n_blank': (24, 8), 'n_missing': (32, 8), 'n_renamed': (40, 4)}),
-    'clast_discrepancy': (112, {'U1': (0, 8), 'U2': (8, 8), 'D2': (16, 8), 'A': (24, 8), 'variance': (32, 8), 'A_standard': (40, 8), 'p': (48, 8), 'p_asymptotic': (56, 8), 'p_paper': (64, 8), 'T': (72, 8), 'p_T': (80, 8), 'M': (88, 8), 'xi': (96, 8), 'zeta2': (104, 8)}),
-    'clast_henze_zirkler': (168, {'beta': (0, 8), 'HZ': (8, 8), 'mean': (16, 8), 'variance': (24, 8), 'log_mean': (32, 8), 'log_sd': (40, 8), 'z': (48, 8), 'p': (56, 8), 'p_paper': (64, 8), 'centre': (72, 24), 'covariance': (96, 72)}),
-    'clast_pearson': (64, {'n_pair': (0, 4), 'r': (8, 24), 'p': (32, 24), 'p_bonferroni': (56, 8)}),
-    'clast_spacing': (24, {'ratio': (0, 8), 'z': (8, 8), 'p': (16, 8)}),
-    'clast_boundary_score': (56, {'score': (0, 8), 'ideal': (8, 8), 'trapezoid': (16, 8), 'projected': (24, 8), 'projected_axis': (32, 24)}),
     'clast_voxels': (64, {'n': (0, 12), 'edge': (16, 24), 'label': (40, 8), 'grey': (48, 8), 'threshold': (56, 8)}),
     'clast_voxel_label': (40, {'label': (0, 4), 'n_voxel': (8, 8), 'low': (16, 12), 'high': (28, 12)}),
     'clast_volume': (56, {'n': (0, 12), 'edge': (16, 24), 'unit_m': (40, 8), 'value': (48, 8)}),
@@ -2868,6 +2867,7 @@ SIZES: dict[str, tuple[int, dict[str, tuple[int, int]]]] = {
     'clast_aggregate_result': (520, {'n_particle': (0, 4), 'n_grain': (4, 4), 'n_contact': (8, 4), 'n_cluster': (12, 4), 'mass': (16, 8), 'solid_sum': (24, 8), 'solid_union': (32, 8), 'solid_union_error': (40, 8), 'n_envelope': (48, 4), 'envelope': (56, 280), 'porosity': (336, 56), 'd_agg': (392, 8), 'density': (400, 8), 'radius_of_gyration': (408, 8), 'settling_velocity': (416, 8), 'settling_velocity_permeable': (424, 8), 'permeable': (432, 4), 'coat_porosity': (440, 8), 'coat_grain': (448, 8), 'permeability': (456, 8), 'drag_permeable': (464, 8), 'max_overlap': (472, 8), 'max_overlap_relative': (480, 8), 'n_lost': (488, 4), 'stop': (492, 4), 'contact_s': (496, 8), 'envelope_s': (504, 8), 'wall_s': (512, 8)}),
     'clast_aggregate_config': (568, {'params': (0, 336), 'core': (336, 8), 'coat': (344, 16), 'core_spheres': (360, 8), 'coat_spheres': (368, 16), 'fill_spheres': (384, 4), 'fill': (388, 4), 'unit': (392, 8), 'accept_faults': (400, 1), 'sizes': (408, 8), 'size_column': (416, 8), 'size_unit': (424, 8), 'fit': (432, 1), 'observed_size': (440, 8), 'observed_size_error': (448, 8), 'observed_density': (456, 8), 'observed_density_error': (464, 8), 'observed_velocity': (472, 8), 'observed_velocity_error': (480, 8), 'fit_packing': (488, 16), 'fit_repeats': (504, 4), 'fit_replicate_max': (508, 4), 'repeats': (512, 4), 'confidence': (520, 8), 'checkpoint_every': (528, 4), 'picture': (532, 1), 'printable': (533, 1), 'neck': (536, 8), 'spacing': (544, 8), 'force': (552, 1), 'resume': (560, 8)}),
     'clast_aggregate_source': (208, {'core': (0, 120), 'coat': (120, 8), 'n_coat': (128, 4), 'sizes': (136, 40), 'input': (176, 32)}),
+    'clast_structure_options': (112, {'envelope': (0, 40), 'solid': (40, 32), 'fluid': (72, 24), 'n_line': (96, 4), 'n_direction': (100, 4), 'n_first': (104, 4), 'alpha': (108, 1)}),
     'clast_cloud_columns': (80, {'columns': (0, 16), 'velocity_columns': (16, 16), 'radius_column': (32, 8), 'diameter_column': (40, 8), 'mass_column': (48, 8), 'weight_column': (56, 8), 'variable_column': (64, 8), 'unit': (72, 8)}),
     'clast_evolve_config': (512, {'medium': (0, 120), 'kernel': (120, 8), 'alpha': (128, 8), 'sticking': (136, 80), 'out_of_range': (216, 4), 'shapes': (224, 16), 'shape_weight': (240, 16), 'density': (256, 16), 'unit': (272, 8), 'curve': (280, 8), 'particles': (288, 4), 'weight': (296, 8), 'release': (304, 8), 'points': (312, 8), 'diameter_column': (320, 8), 'domain': (328, 8), 'floor': (336, 4), 'sides': (340, 4), 'open_top': (344, 1), 'wind': (352, 8), 'field': (360, 8), 'field_columns': (368, 8), 'wind_shear': (376, 8), 'eddy_diffusivity': (384, 8), 'brownian': (392, 1), 'fall': (396, 4), 'structure': (400, 1), 'collision_radius': (404, 4), 'meeting': (408, 4), 'walk_step': (416, 8), 'max_tries': (424, 4), 'even': (428, 4), 'change_level': (432, 8), 'duration': (440, 8), 'rows': (448, 4), 'step_error': (456, 8), 'time_step': (464, 8), 'seed': (472, 8), 'keep': (480, 4), 'frames': (484, 4), 'checkpoint_time': (488, 8), 'resume': (496, 8), 'force': (504, 1)}),
     'clast_evolve_result': (248, {'n_start': (0, 8), 'n_particle': (8, 8), 'n_event': (16, 8), 'n_deposit': (24, 8), 'n_out': (32, 8), 'n_step': (40, 8), 'time': (48, 8), 'mass_start': (56, 8), 'mass': (64, 8), 'mass_deposit': (72, 8), 'mass_out': (80, 8), 'mass_balance': (88, 8), 'number_balance': (96, 8), 'n_cut': (104, 8), 'n_test': (112, 8), 'grains_most': (120, 8), 'deposit_diameter': (128, 8), 'deposit_porosity': (136, 8), 'deposit_speed': (144, 8), 'deposit_grains': (152, 8), 'fractal_dimension': (160, 8), 'fractal_error': (168, 8), 'range': (176, 40), 'hash': (216, 8), 'wall_s': (224, 8), 'n_frame': (232, 4), 'n_kept': (236, 4), 'folder': (240, 8)}),
@@ -2948,6 +2948,14 @@ VALUES: dict[str, int] = {
     'CLAST_FIT_INSIDE': 0,
     'CLAST_FIT_EDGE': 1,
     'CLAST_FIT_NO': 2,
+    'CLAST_ENVELOPE_SURFACE_HULL': 0,
+    'CLAST_ENVELOPE_SPHERE_HULL': 1,
+    'CLAST_ENVELOPE_SPHERE_RAYS': 2,
+    'CLAST_ENVELOPE_WRAP': 3,
+    'CLAST_ENVELOPE_ENCLOSING_SPHERE': 4,
+    'CLAST_ENVELOPE_GYRATION_SPHERE': 5,
+    'CLAST_ENVELOPE_ALPHA': 6,
+    'CLAST_N_ENVELOPE': 7,
     'CLAST_SERIES_LINE': 0,
     'CLAST_SERIES_STEP': 1,
     'CLAST_SERIES_POINTS': 2,
@@ -2969,6 +2977,20 @@ VALUES: dict[str, int] = {
     'CLAST_FIT_CHART_RESIDUALS': 2,
     'CLAST_FIT_CHART_LEVERAGE': 3,
     'CLAST_N_FIT_CHART': 4,
+    'CLAST_DOMAIN_BOX': 0,
+    'CLAST_DOMAIN_CYLINDER': 1,
+    'CLAST_DOMAIN_HALF_PIPE': 2,
+    'CLAST_DOMAIN_SPHERE': 3,
+    'CLAST_DOMAIN_MAP': 4,
+    'CLAST_DOMAIN_MESH': 5,
+    'CLAST_DOMAIN_TEXT': 256,
+    'CLAST_DISCREPANCY_SYMMETRIC': 0,
+    'CLAST_DISCREPANCY_CENTRED': 1,
+    'CLAST_DISCREPANCY_STAR': 2,
+    'CLAST_N_DISCREPANCY': 3,
+    'CLAST_SUMS_AUTO': 0,
+    'CLAST_SUMS_EXACT': 1,
+    'CLAST_SUMS_BINNED': 2,
     'CLAST_VARIANT_FULL': 0,
     'CLAST_VARIANT_FIRST': 1,
     'CLAST_VARIANT_FAST': 2,
@@ -3021,13 +3043,6 @@ VALUES: dict[str, int] = {
     'CLAST_DEM_CELL': 4,
     'CLAST_DEM_SHARED': 0,
     'CLAST_DEM_EACH': 1,
-    'CLAST_DOMAIN_BOX': 0,
-    'CLAST_DOMAIN_CYLINDER': 1,
-    'CLAST_DOMAIN_HALF_PIPE': 2,
-    'CLAST_DOMAIN_SPHERE': 3,
-    'CLAST_DOMAIN_MAP': 4,
-    'CLAST_DOMAIN_MESH': 5,
-    'CLAST_DOMAIN_TEXT': 256,
     'CLAST_BORDER_DEPOSIT': 0,
     'CLAST_BORDER_REFLECT': 1,
     'CLAST_BORDER_PERIODIC': 2,
@@ -3193,15 +3208,15 @@ VALUES: dict[str, int] = {
     'CLAST_BED_PERIODIC_3D': 4,
     'CLAST_POROSITY_EXACT': 0,
     'CLAST_POROSITY_SPHERES': 1,
-    'CLAST_SCORE_MEAN': 0,
-    'CLAST_SCORE_MEDIAN': 1,
-    'CLAST_VALIDATION_NESTED': 0,
-    'CLAST_VALIDATION_PUBLISHED': 1,
     'CLAST_MODEL_SINGLE': 0,
     'CLAST_MODEL_MIXTURE': 1,
     'CLAST_MODEL_COLUMNS': 2,
     'CLAST_N_MIXTURE_FEATURE': 104,
     'CLAST_N_PUBLISHED_MODEL': 5,
+    'CLAST_SCORE_MEAN': 0,
+    'CLAST_SCORE_MEDIAN': 1,
+    'CLAST_VALIDATION_NESTED': 0,
+    'CLAST_VALIDATION_PUBLISHED': 1,
     'CLAST_RENDER_COLOUR_AUTO': 0,
     'CLAST_RENDER_COLOUR_SINGLE': 1,
     'CLAST_RENDER_COLOUR_SIZE': 2,
@@ -3260,23 +3275,8 @@ VALUES: dict[str, int] = {
     'CLAST_E_CONVERGE': 11,
     'CLAST_E_STOPPED': 12,
     'CLAST_N_STATUS': 13,
-    'CLAST_ENVELOPE_SURFACE_HULL': 0,
-    'CLAST_ENVELOPE_SPHERE_HULL': 1,
-    'CLAST_ENVELOPE_SPHERE_RAYS': 2,
-    'CLAST_ENVELOPE_WRAP': 3,
-    'CLAST_ENVELOPE_ENCLOSING_SPHERE': 4,
-    'CLAST_ENVELOPE_GYRATION_SPHERE': 5,
-    'CLAST_ENVELOPE_ALPHA': 6,
-    'CLAST_N_ENVELOPE': 7,
     'CLAST_STUDY_GRID': 0,
     'CLAST_STUDY_ZIP': 1,
-    'CLAST_DISCREPANCY_SYMMETRIC': 0,
-    'CLAST_DISCREPANCY_CENTRED': 1,
-    'CLAST_DISCREPANCY_STAR': 2,
-    'CLAST_N_DISCREPANCY': 3,
-    'CLAST_SUMS_AUTO': 0,
-    'CLAST_SUMS_EXACT': 1,
-    'CLAST_SUMS_BINNED': 2,
     'CLAST_VOLUME_U8': 0,
     'CLAST_VOLUME_I8': 1,
     'CLAST_VOLUME_U16': 2,
@@ -3300,7 +3300,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_collide': (c_int, [POINTER(clast_population), POINTER(clast_collide_cells), c_double, c_uint64, POINTER(clast_collide_config), POINTER(c_int64)], 'Lets the particles of each cell collide for a time dt.'),
     'clast_collide_idle': (c_char_p, [POINTER(clast_collide_config), c_char_p], 'The key ("kernel", "sticking", "radius_law") by whose value another key of clast_agglomerate_fields changes nothing: one of the fluid that neither the kernels nor their ranges look at, one of another law of sticking, of fractal radii.'),
     'clast_spectrum_has_sectional': (c_bool, [], 'Whether this library was built with the time integrator of the sectional solver (SUNDIALS).'),
-    'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_spectrum_start), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
+    'clast_spectrum_evolve': (c_int, [POINTER(clast_spectrum_start), POINTER(clast_spectrum_config), POINTER(clast_collide_config), POINTER(clast_spectrum)], 'Evolves the spectrum of a box; the same bytes for any number of threads.'),
     'clast_spectrum_free': (None, [POINTER(clast_spectrum)], '.'),
     'clast_agglomerate': (c_int, [POINTER(clast_agglomerate_input), POINTER(clast_agglomerate_config), POINTER(clast_agglomeration)], 'Evolves the cloud; see docs/theory/agglomeration.md.'),
     'clast_agglomeration_free': (None, [POINTER(clast_agglomeration)], '.'),
@@ -3321,12 +3321,6 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_interval_of': (clast_interval, [c_int32, POINTER(c_double), c_double], 'Mean of n values and its interval at this confidence (0 to 1), in the unit of the values.'),
     'clast_aggregate_band': (c_int, [POINTER(clast_table), c_double, POINTER(clast_table)], 'Mean and interval of porosity, density, size and radius of gyration after n = 0, 1, .'),
     'clast_aggregate_achieved': (c_int, [POINTER(clast_aggregate_params), POINTER(clast_sizes), POINTER(clast_table), POINTER(clast_table)], 'Sizes wanted beside those placed: a row for each distinct size or bin of the list, or for each of 12 classes of a law over what it drew.'),
-    'clast_aggregate_fit_observable_name': (c_char_p, [c_int32], '"size", "density", "settling_velocity" and their SI units.'),
-    'clast_aggregate_fit_observable_unit': (c_char_p, [c_int32], '.'),
-    'clast_fit_verdict_name': (c_char_p, [c_int], '"inside", "edge", "no" .'),
-    'clast_aggregate_fit_run': (c_int, [POINTER(clast_aggregate_config), POINTER(clast_aggregate_input), POINTER(clast_monitor), POINTER(clast_aggregate_fit), POINTER(clast_table)], 'Finds (cone, rays, orientations, N_A) that explain config->observed_size, observed_density, observed_velocity (0: not observed), each within its error.'),
-    'clast_aggregate_fit_json': (c_int, [POINTER(clast_aggregate_fit), POINTER(c_char_p)], 'The outcome as one JSON object; free the text with clast_text_free.'),
-    'clast_aggregate_fit_study': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_monitor), POINTER(clast_aggregate_fit)], 'Loads what the configuration names and fits; with a folder writes fit.csv, fit.svg, summary.json and manifest.json into it (all but the last are the same bytes for equal runs).'),
     'clast_aggregate_config_check': (c_int, [POINTER(clast_aggregate_config)], "Combinations of options that a single field's range cannot see."),
     'clast_aggregate_load': (c_int, [POINTER(clast_aggregate_config), POINTER(clast_aggregate_source)], "@return the reader's status and line, with the option and the file's name before it."),
     'clast_aggregate_unload': (None, [POINTER(clast_aggregate_source)], 'may be called twice.'),
@@ -3334,6 +3328,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_aggregate_report_json': (c_int, [POINTER(clast_aggregate_report), c_bool, POINTER(c_char_p)], 'The report as one JSON object: means over repeats under the names of DESIGN section 7, each repeat under `repeats`, intervals under `interval` when there are several.'),
     'clast_aggregate_run': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Grows all repeats; with a folder writes state.h5, history.csv, summary.json, aggregate.stl and manifest.json into it, and checkpoints on the way.'),
     'clast_aggregate_resume': (c_int, [c_char_p, POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_aggregate_report)], 'Goes on from the newest checkpoints of a folder, with any number of ranks; ends in the same bytes as an uninterrupted run.'),
+    'clast_aggregate_fit_observable_name': (c_char_p, [c_int32], '"size", "density", "settling_velocity" and their SI units.'),
+    'clast_aggregate_fit_observable_unit': (c_char_p, [c_int32], '.'),
+    'clast_fit_verdict_name': (c_char_p, [c_int], '"inside", "edge", "no" .'),
+    'clast_aggregate_fit_run': (c_int, [POINTER(clast_aggregate_config), POINTER(clast_aggregate_input), POINTER(clast_monitor), POINTER(clast_aggregate_fit), POINTER(clast_table)], 'Finds (cone, rays, orientations, N_A) that explain config->observed_size, observed_density, observed_velocity (0: not observed), each within its error.'),
+    'clast_aggregate_fit_json': (c_int, [POINTER(clast_aggregate_fit), POINTER(c_char_p)], 'The outcome as one JSON object; free the text with clast_text_free.'),
+    'clast_aggregate_fit_study': (c_int, [POINTER(clast_aggregate_config), c_char_p, POINTER(clast_monitor), POINTER(clast_aggregate_fit)], 'Loads what the configuration names and fits; with a folder writes fit.csv, fit.svg, summary.json and manifest.json into it (all but the last are the same bytes for equal runs).'),
     'clast_assembly_free': (None, [POINTER(clast_assembly)], 'Frees all arrays and shapes; may be called twice.'),
     'clast_assembly_copy': (c_int, [POINTER(clast_assembly), POINTER(clast_assembly)], 'Deep copy into an empty assembly.'),
     'clast_assembly_add_shape': (c_int, [POINTER(clast_assembly), POINTER(clast_shape), POINTER(c_int32)], 'Adds a copy of a shape; its number goes to *shape_id (may be NULL).'),
@@ -3352,6 +3352,22 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_assembly_overlaps': (c_int, [POINTER(clast_assembly), POINTER(clast_period), POINTER(clast_overlaps)], "@param period NULL: none; else every grain's centroid lies in the box @note the same bytes for any thread count."),
     'clast_assembly_printable_plan': (c_int, [POINTER(clast_assembly), POINTER(clast_printable_config), POINTER(clast_printable_report)], 'What clast_assembly_printable will make: neck, spacing, smallest_feature, resolved and n_triangle_expected (50 bytes each in an STL) of the report, at no cost.'),
     'clast_assembly_printable': (c_int, [POINTER(clast_assembly), POINTER(clast_printable_config), POINTER(clast_monitor), POINTER(clast_mesh), POINTER(clast_printable_report)], 'One closed, oriented surface in one piece around all grains and the necks at their contacts.'),
+    'clast_envelope_options_default': (clast_envelope_options, [], 'tolerance 1e-3, 10000 rays, seed 1, no length, 128 cells.'),
+    'clast_envelope_name': (c_char_p, [c_int], '"surface_hull" and so on.'),
+    'clast_envelope_text': (c_char_p, [c_int], '"convex hull of the true surfaces" and so on.'),
+    'clast_envelope_parse': (c_int, [c_char_p, POINTER(c_int)], 'The kind of this name; CLAST_E_CONFIG lists the names.'),
+    'clast_assembly_envelope': (c_int, [POINTER(clast_assembly), c_int, POINTER(clast_envelope_options), POINTER(clast_envelope)], 'One envelope of an assembly.'),
+    'clast_assembly_enclosing_sphere': (c_int, [POINTER(clast_assembly), POINTER(c_double), POINTER(c_double)], 'Smallest sphere about the true surfaces of all grains (exact for spheres, clumps and meshes; to 1e-12 for ellipsoids).'),
+    'clast_assembly_radius_of_gyration': (c_double, [POINTER(clast_assembly)], "Radius of gyration: root mean square distance of the mass from its centre, each grain's own extent included."),
+    'clast_fractal_growth': (c_int, [POINTER(clast_assembly), c_int32, POINTER(clast_fractal)], 'From growth: radius of gyration after each grain, in the order of the grains, from grain n_first (counted from 1) to the last, at up to 40 log-spaced counts.'),
+    'clast_fractal_correlation': (c_int, [POINTER(clast_assembly), POINTER(clast_fractal)], "From the pair correlation: solid volume within r of a grain's centre, mean over the grains by volume, in units of the mean grain, between two mean diameters and the solid's radius of gyration."),
+    'clast_assembly_radial_profile': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(clast_table)], 'Solid volume in n_bin shells of equal thickness about a centre (NULL: centre of mass), out to the farthest grain.'),
+    'clast_assembly_coordination': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'Grains by number of contacts: columns coordination, n_grain, share.'),
+    'clast_assembly_projected_area': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(c_double), POINTER(c_double)], "Area of the shadow along a direction, by n_line scan lines on which the shadow's length is exact; the error is the difference between its even and its odd lines."),
+    'clast_assembly_mean_projection': (c_int, [POINTER(clast_assembly), c_int32, c_int32, POINTER(c_double), POINTER(c_double)], 'Mean shadow over n_direction directions spread evenly over the half sphere; error: standard deviation over the root of their number (an upper bound for even directions).'),
+    'clast_assembly_extent': (c_int, [POINTER(clast_assembly), POINTER(clast_extent)], 'Exact for polyhedra, to 1e-9 for smooth grains.'),
+    'clast_structure_options_default': (clast_structure_options, [], 'Options of the parts, air, 512 lines, 24 directions.'),
+    'clast_structure': (c_int, [POINTER(clast_assembly), POINTER(clast_structure_options), POINTER(clast_table)], 'Everything above in one table: columns name, value, error, unit, meaning.'),
     'clast_chart_write': (c_int, [POINTER(clast_chart), c_char_p], 'Draws the chart into a file: .svg, .pdf or .png (PNG at twice the resolution), atomically.'),
     'clast_chart_svg': (c_int, [POINTER(clast_chart), POINTER(POINTER(c_uint8)), POINTER(c_size_t)], 'The same in memory as SVG text, for a page; the caller frees *bytes with clast_chart_bytes_free.'),
     'clast_chart_bytes_free': (None, [POINTER(c_uint8)], '.'),
@@ -3385,6 +3401,23 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cloud_read': (c_int, [c_char_p, POINTER(clast_points_options), POINTER(clast_table)], 'Reads delimited text, legacy VTK (ASCII, binary), VTP and VTU (ASCII, base64, appended, zlib), PLY (ASCII, both byte orders), XYZ (count, comment, rows "NAME x y z"), a LAMMPS or LIGGGHTS dump, or an HDF5 array: whatever the file\'s first bytes show.'),
     'clast_cloud_read_ranks': (c_int, [POINTER(clast_comm), c_char_p, POINTER(clast_points_options), POINTER(clast_cloud_columns), POINTER(clast_cloud)], 'The points of one file, a part on each rank in the order of the rows: delimited text by stretches of its bytes, HDF5 arrays by rows, some at a time, so that no rank holds the file.'),
     'clast_cloud_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_points_options), POINTER(clast_table)], 'clast_cloud_read from memory, HDF5 excepted; `name` stands for the path.'),
+    'clast_domain_parse': (c_int, [c_char_p, POINTER(clast_domain)], 'Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L" (base centre at the origin, along z), "cylinder:X,Y,Z,NX,NY,NZ,R,L" (base centre, direction of the axis, of any length), "half-pipe:R,L", "sphere:R" or "sphere:X,Y,Z,R" .'),
+    'clast_domain_parse_in': (c_int, [c_char_p, c_double, POINTER(clast_domain)], 'The same where a bare length is in units of `factor` m.'),
+    'clast_domain_format': (None, [POINTER(clast_domain), c_char_p], 'The domain as clast_domain_parse reads it, in m; "no domain" of another, "map" for a map, "mesh:" and the bounding box of a surface.'),
+    'clast_domain_of_map': (c_int, [POINTER(clast_domain_map_functions), POINTER(clast_domain)], "A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the volume of the map's small cells is constant (1e-3)."),
+    'clast_domain_of_mesh': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_domain)], 'The inside of a closed surface, which is copied, its coordinates times `scale`.'),
+    'clast_domain_free': (None, [POINTER(clast_domain)], 'only a mesh holds memory.'),
+    'clast_domain_volume': (c_double, [POINTER(clast_domain)], 'Volume [m^d].'),
+    'clast_domain_map': (c_bool, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'True when the point [dimension] is in the closed domain; u [dimension] is then its image in the unit cube.'),
+    'clast_domain_unmap': (None, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'The inverse map: the point x [dimension] whose image in the unit cube is u [dimension].'),
+    'clast_domain_read': (c_int, [c_char_p, c_char_p, POINTER(clast_domain)], 'As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).'),
+    'clast_discrepancy_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_discrepancy)], 'All three discrepancies of n >= 2 points.'),
+    'clast_henze_zirkler_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_henze_zirkler)], 'Scores are clamped to u in [2^-53, 1 - 2^-53].'),
+    'clast_pearson_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_pearson)], '@return CLAST_E_ARGUMENT for n < 3.'),
+    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their places alone decide.'),
+    'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
+    'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
+    'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
     'clast_uniformity_choose': (c_int, [c_char_p, POINTER(c_uint32)], 'Bits of left_out for a list of the tests that shall vote, "centred,pearson" .'),
     'clast_uniformity_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_uniformity_config), POINTER(clast_uniformity)], '@param u [n][d] in the unit cube @param side [3] for the score.'),
     'clast_decompose_stop_text': (c_char_p, [c_int], 'A stop in words, "rejected by the tests and split" .'),
@@ -3395,8 +3428,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_cells_are_labelled': (c_bool, [POINTER(clast_cells)], 'Whether label and pass mean something: of bins, not of a tree or a single cell.'),
     'clast_cells_locate': (c_int32, [POINTER(clast_cells), POINTER(clast_domain), POINTER(c_double)], 'Cell of a point, -1 outside the domain; O(1) in bins, O(log n) in a tree.'),
     'clast_decomposition_free': (None, [POINTER(clast_decomposition)], '.'),
-    'clast_cells_write_vtu': (c_int, [c_char_p, POINTER(clast_decomposition), POINTER(clast_domain)], 'Cells as an unstructured grid (VTU): lines, quadrilaterals or hexahedra with cell, count, volume, density and events (pair_integral without beta dt), label and pass where cells have them; unit, domain, volume, beta_dt and seed (of what was drawn) as field data.'),
-    'clast_decomposition_write_points': (c_int, [c_char_p, POINTER(clast_cloud), POINTER(clast_decomposition), POINTER(clast_domain)], 'Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass, weight and velocity where the cloud has them; -1 and 0 for points left out.'),
+    'clast_cells_write_vtu': (c_int, [POINTER(clast_decomposition), POINTER(clast_domain), c_char_p], 'Cells as an unstructured grid (VTU): lines, quadrilaterals or hexahedra with cell, count, volume, density and events (pair_integral without beta dt), label and pass where cells have them; unit, domain, volume, beta_dt and seed (of what was drawn) as field data.'),
+    'clast_decomposition_write_points': (c_int, [POINTER(clast_decomposition), POINTER(clast_cloud), POINTER(clast_domain), c_char_p], 'Points as polydata (VTP) with cell (label and pass) and the same field data, and radius, mass, weight and velocity where the cloud has them; -1 and 0 for points left out.'),
     'clast_dem_create': (c_int, [POINTER(clast_dem_config), POINTER(c_void_p)], '@return CLAST_E_CONFIG when the time step does not resolve the stiffest contact, or sizes of the domain make no sense.'),
     'clast_dem_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_dem_add_container': (c_int, [c_void_p, POINTER(clast_mesh)], 'Fixed triangles that grains cannot pass, from either side: a container, closed or open, or any obstacle.'),
@@ -3422,16 +3455,6 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_dem_scene_p1': (c_int, [POINTER(clast_scene_bed), POINTER(c_void_p)], 'Case P1 into *dem, which the caller destroys.'),
     'clast_dem_scene_e1': (c_int, [POINTER(clast_scene_bed), c_void_p, POINTER(c_void_p)], 'Case E1: the grains of a P1 as they are now, replaced by their mass-equivalent ellipsoids (axes times 0.985).'),
     'clast_dem_scene_s1': (c_int, [POINTER(c_void_p)], 'Case S1: 10,830 spheres of 6.7 mm on a simple-cubic lattice of 6.9 mm with random velocities, box of 0.134 m periodic in x and y; to be settled for 0.2 s.'),
-    'clast_domain_parse': (c_int, [c_char_p, POINTER(clast_domain)], 'Parses "box:x0,y0,z0,x1,y1,z1" (2, 4 or 6 numbers), "cylinder:R,L" (base centre at the origin, along z), "cylinder:X,Y,Z,NX,NY,NZ,R,L" (base centre, direction of the axis, of any length), "half-pipe:R,L", "sphere:R" or "sphere:X,Y,Z,R" .'),
-    'clast_domain_parse_in': (c_int, [c_char_p, c_double, POINTER(clast_domain)], 'The same where a bare length is in units of `factor` m.'),
-    'clast_domain_format': (None, [POINTER(clast_domain), c_char_p], 'The domain as clast_domain_parse reads it, in m; "no domain" of another, "map" for a map, "mesh:" and the bounding box of a surface.'),
-    'clast_domain_of_map': (c_int, [POINTER(clast_domain_map_functions), POINTER(clast_domain)], "A domain of the caller's: checks at 64 points that the maps undo each other (1e-8) and that the volume of the map's small cells is constant (1e-3)."),
-    'clast_domain_of_mesh': (c_int, [POINTER(clast_mesh), c_double, POINTER(clast_domain)], 'The inside of a closed surface, which is copied, its coordinates times `scale`.'),
-    'clast_domain_free': (None, [POINTER(clast_domain)], 'only a mesh holds memory.'),
-    'clast_domain_volume': (c_double, [POINTER(clast_domain)], 'Volume [m^d].'),
-    'clast_domain_map': (c_bool, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'True when the point [dimension] is in the closed domain; u [dimension] is then its image in the unit cube.'),
-    'clast_domain_unmap': (None, [POINTER(clast_domain), POINTER(c_double), POINTER(c_double)], 'The inverse map: the point x [dimension] whose image in the unit cube is u [dimension].'),
-    'clast_domain_read': (c_int, [c_char_p, c_char_p, POINTER(clast_domain)], 'As clast_domain_parse, and "mesh:FILE": the inside of a closed surface (STL, OBJ, PLY, OFF).'),
     'clast_evolve_create': (c_int, [POINTER(clast_evolve_config), POINTER(clast_evolve_input), POINTER(c_void_p)], 'All particles at their places at time 0.'),
     'clast_evolve_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_evolve_advance': (c_int, [c_void_p], 'A leg of at most 16 steps, to the next row of the tables at the farthest.'),
@@ -3459,7 +3482,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_field_set': (c_int, [POINTER(clast_field), c_void_p, c_char_p, c_bool], 'Parses a text ("675 um", "50deg", "true", "exact") into a field.'),
     'clast_field_set_si': (c_int, [POINTER(clast_field), c_void_p, c_char_p, c_bool], 'The same of what clast_field_format and clast_fields_json write: every bare number is SI.'),
     'clast_field_clear': (None, [POINTER(clast_field), c_void_p], 'Empties a list field.'),
-    'clast_field_format': (c_int, [POINTER(clast_field), c_void_p, c_int32, c_char_p, c_size_t], 'Value as text, as clast_field_set_si reads it (17 digits, SI, no unit).'),
+    'clast_field_format': (c_int, [POINTER(clast_field), c_void_p, c_int32, c_size_t, c_char_p], 'Value as text, as clast_field_set_si reads it (17 digits, SI, no unit).'),
     'clast_field_count': (c_int32, [POINTER(clast_field), c_void_p], 'Number of items: lists their length, all others 1.'),
     'clast_unit_parse': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'Parses a number with an optional unit of the given dimension ("2.8 mm" for "m"); plain numbers are SI.'),
     'clast_unit_parse_asked': (c_int, [c_char_p, c_char_p, POINTER(c_double)], 'The same where a unit is asked for: a bare length or angle other than 0 is refused, with its nearest correct spelling ("270um", "50deg").'),
@@ -3486,7 +3509,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_row_fault_text': (c_char_p, [c_int], '"missing", "not a number", .'),
     'clast_form_set_of': (c_int, [POINTER(clast_table), c_char_p, POINTER(clast_form_set)], 'Takes the forms out of a table.'),
     'clast_form_set_free': (None, [POINTER(clast_form_set)], '.'),
-    'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_char_p, c_size_t], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
+    'clast_form_set_complaint': (None, [POINTER(clast_form_set), c_size_t, c_char_p], 'One line about the rows left out, "3 rows left out: 2 missing, 1 above 1 (first: row 7)"; empty if none was.'),
     'clast_form_set_factors': (c_int, [POINTER(clast_form_set), POINTER(clast_table)], "The 13 form factors of every grain, in Table 1's order, and its size if known: what clast_statistics_of takes."),
     'clast_form_set_left_out': (c_int, [POINTER(clast_form_set), POINTER(clast_table)], 'Rows left out, as columns row (from 1) and reason.'),
     'clast_reform_principal': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh), POINTER(c_double)], 'The grain with its centroid at the origin, L along x, I along y and S along z, unstretched.'),
@@ -3516,7 +3539,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_grading_size': (c_double, [c_void_p, c_double], 'Size that this share of the grains, or of their volume, does not exceed [m]; the inverses of the two above, in closed form but for masses under `linear` (bisection to the last bits).'),
     'clast_grading_mass_size': (c_double, [c_void_p, c_double], '.'),
     'clast_grading_mean_cube': (c_double, [c_void_p], 'Mean of D^3 [m3]: a mass M of grains of density rho holds M / (rho V mean_cube) grains on average, V the volume at size 1.'),
-    'clast_grading_compare': (c_int, [POINTER(clast_curve), c_void_p, POINTER(clast_grading_sample), POINTER(clast_table), POINTER(clast_grading_match)], 'Grains against the curve that they were to follow: one row a class, below and above it.'),
+    'clast_grading_compare': (c_int, [c_void_p, POINTER(clast_curve), POINTER(clast_grading_sample), POINTER(clast_table), POINTER(clast_grading_match)], 'Grains against the curve that they were to follow: one row a class, below and above it.'),
     'clast_curve_read': (c_int, [c_char_p, POINTER(clast_curve)], 'Sieve curve from delimited text with a header, one row a sieve in any order.'),
     'clast_curve_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_curve)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_grading_load': (c_int, [c_char_p, c_int, c_int, POINTER(clast_curve), POINTER(c_void_p)], 'Sizes by one text, as in the option `curve`: a published case (U1 .'),
@@ -3586,11 +3609,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_format_name': (c_char_p, [c_int], 'Lower-case name of a format ("stl").'),
     'clast_mesh_format_of_path': (c_int, [c_char_p], "Format by a path's extension (any case), or CLAST_MESH_ANY when it is none of ours."),
     'clast_mesh_read': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_read_report)], 'Reads a surface: STL, OBJ, PLY or OFF, by content first, then by extension.'),
-    'clast_mesh_read_welded': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Reads a surface as every command does that needs a solid: clast_mesh_read, then clast_mesh_weld_auto.'),
-    'clast_mesh_require_solid': (c_int, [c_char_p, POINTER(clast_mesh), c_char_p], 'Whether a surface that was read from a file bounds a solid: closed and outward.'),
-    'clast_mesh_cure': (c_int, [c_char_p, POINTER(clast_mesh), c_char_p, c_size_t], 'The shell command that makes a file\'s surface closed and outward, tried here in memory: "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.'),
     'clast_mesh_parse': (c_int, [c_void_p, c_size_t, c_int, POINTER(clast_mesh), POINTER(clast_mesh_read_report)], 'As clast_mesh_read from memory: a pure function of the bytes.'),
-    'clast_mesh_write': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_write_options)], 'Writes a surface.'),
+    'clast_mesh_write': (c_int, [POINTER(clast_mesh), c_char_p, POINTER(clast_mesh_write_options)], 'Writes a surface.'),
     'clast_mesh_check': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh_check_result)], 'What is this surface, and can it be trusted? The counts are exact for the mesh as it is: vertices are the same only when their numbers are.'),
     'clast_mesh_check_free': (None, [POINTER(clast_mesh_check_result)], 'Frees what clast_mesh_check found; may be called twice.'),
     'clast_mesh_check_passed': (c_bool, [POINTER(clast_mesh_check_result)], 'Closed, oriented and manifold, and not flat: no blocking fault.'),
@@ -3600,6 +3620,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_mesh_distance': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh), POINTER(clast_mesh_deviation)], '@return CLAST_E_GEOMETRY if one has no triangles @note O((n + m) log), any thread count alike.'),
     'clast_mesh_simplify': (c_int, [POINTER(clast_mesh), c_int32, POINTER(clast_mesh), POINTER(clast_mesh_simplify_report)], 'Fewer triangles, same volume: edges collapse, cheapest first, each to the point that keeps the volume exactly and moves the surface least.'),
     'clast_mesh_round_float': (c_int, [POINTER(clast_mesh)], 'Rounds coordinates to the 24 bits that an STL keeps, the last bits chosen so that the volume stays: each coordinate is at most two float steps off, the volume by about 1e-11 (plain rounding of a few hundred vertices costs 1e-8).'),
+    'clast_mesh_read_welded': (c_int, [c_char_p, POINTER(clast_mesh), POINTER(clast_mesh_repair_report)], 'Reads a surface as every command does that needs a solid: clast_mesh_read, then clast_mesh_weld_auto.'),
+    'clast_mesh_require_solid': (c_int, [POINTER(clast_mesh), c_char_p, c_char_p], 'Whether a surface that was read from a file bounds a solid: closed and outward.'),
+    'clast_mesh_cure': (c_int, [POINTER(clast_mesh), c_char_p, c_size_t, c_char_p], 'The shell command that makes a file\'s surface closed and outward, tried here in memory: "clast mesh repair grain.stl -o grain-closed.stl"; .ply where an STL could not keep it closed.'),
     'clast_pack_create': (c_int, [POINTER(clast_pack_config), POINTER(clast_pack_input), POINTER(c_void_p)], '@return CLAST_E_CONFIG for weights or densities that do not match the shapes, a mass that cannot fit under the place of generation, a lattice that holds no grain; what clast_dem_create and clast_dem_add_shape refuse.'),
     'clast_pack_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_pack_advance': (c_int, [c_void_p, c_int64], 'Goes on by at most n_step steps, or until done.'),
@@ -3624,12 +3647,12 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_pairs_count': (c_int, [POINTER(clast_domain), POINTER(clast_cloud), POINTER(clast_pairs_config), POINTER(clast_pairs)], 'Counts the pairs of a cloud by their distance in shells of equal ratio, compares them with those of a uniform cloud in the same domain, and estimates the integral of the squared density.'),
     'clast_pairs_free': (None, [POINTER(clast_pairs)], '.'),
     'clast_pairs_uniform': (c_int, [POINTER(clast_domain), c_int32, POINTER(c_double), POINTER(c_double), POINTER(c_double)], 'Probability that two points, uniform in the domain, are closer than each radius.'),
-    'clast_estimate_choose': (clast_estimate, [c_int, POINTER(clast_estimate), POINTER(clast_estimate), POINTER(c_bool)], 'One of two estimates of the same integral; NAN where one is NULL.'),
+    'clast_estimate_choose': (clast_estimate, [POINTER(clast_estimate), POINTER(clast_estimate), c_int, POINTER(c_bool)], 'One of two estimates of the same integral; NAN where one is NULL.'),
     'clast_bed_close': (c_int, [POINTER(clast_mesh), POINTER(clast_mesh)], 'The closed, outward surface of a container that may have holes: each is covered.'),
     'clast_bed_of_surface': (clast_bed, [POINTER(clast_mesh)], 'The inside of such a surface as a bed; its floor is the lowest point.'),
     'clast_bed_volumes': (None, [POINTER(clast_bed), c_int32, POINTER(c_double), POINTER(c_double)], 'Volume between the heights edge[k] and edge[k + 1] [m3].'),
     'clast_bed_parse': (c_int, [c_char_p, POINTER(clast_bed)], 'Reads "cylinder:RADIUS", "cylinder:RADIUS,X,Y", "box:X0,Y0,X1,Y1", "periodic:X0,Y0,X1,Y1" or, in all three directions, "periodic:X0,Y0,Z0,X1,Y1,Z1", each number with an optional unit; the floor is at 0, or at Z0.'),
-    'clast_bed_format': (c_int, [POINTER(clast_bed), c_char_p, c_size_t], 'The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.'),
+    'clast_bed_format': (c_int, [POINTER(clast_bed), c_size_t, c_char_p], 'The text that clast_bed_parse reads, 17 digits; returns its length or -1 when it does not fit.'),
     'clast_bed_period': (c_bool, [POINTER(clast_bed), POINTER(c_double)], 'Periods in x, y and z [m], 0 for none; false for a bed that has none.'),
     'clast_bed_wrap': (None, [POINTER(clast_bed), POINTER(clast_assembly)], "Moves every grain's centroid into the bed's first image."),
     'clast_bed_table': (c_int, [POINTER(clast_bed), POINTER(clast_table)], 'The bed as a one-row table "bed" (text column bed, floor_m), which a run keeps in its state.'),
@@ -3638,9 +3661,9 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_options_default': (clast_porosity_options, [], 'Exact shapes, 1 mm slices, cut at 0.5, nothing trimmed.'),
     'clast_porosity_grain_slabs': (c_int, [POINTER(clast_assembly), c_int32, c_int, c_int32, POINTER(c_double), POINTER(c_double)], 'Solid volume of grain i of an assembly below the heights edge[0] < edge[1] < ...: adds the part between edge[k] and edge[k + 1] to solid[k].'),
     'clast_porosity_profile': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_options), POINTER(clast_table)], 'Porosity by height: columns z_low_m, z_high_m, solid_m3, porosity, from the floor to above the last grain.'),
-    'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_options), POINTER(clast_table), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
+    'clast_porosity_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk)], 'Bulk porosity (16): solid volume between floor + trim and top - trim, not a mean of slices.'),
     'clast_bed_side_walls': (clast_bed_walls, [POINTER(clast_bed), POINTER(clast_assembly)], 'NAN throughout for beds or assemblies that do not hold together.'),
-    'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_options), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
+    'clast_porosity_core_measure': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), POINTER(clast_porosity_bulk), c_double, POINTER(clast_porosity_options), POINTER(clast_porosity_core)], 'Porosity of a cylinder or box away from its side walls, between the same heights as the bulk.'),
     'clast_bed_read': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], "The bed that a run's state file keeps."),
     'clast_bed_load': (c_int, [c_char_p, POINTER(clast_bed), POINTER(clast_mesh)], '"mesh:FILE,UNIT", the inside of a surface whose holes are covered, or what clast_bed_parse takes.'),
     'clast_porosity_local': (c_int, [POINTER(clast_assembly), POINTER(clast_bed), c_double, c_double, POINTER(clast_table)], 'Porosity around each grain: its cell of the radical Voronoi diagram (power diagram) of the spheres of equal volume, inside the bed between two heights.'),
@@ -3652,14 +3675,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_fabric': (c_int, [POINTER(clast_assembly), POINTER(clast_table), POINTER(c_double), POINTER(clast_table)], "How an assembly's contacts and grains are directed: columns name, value, unit, meaning."),
     'clast_stress': (c_int, [POINTER(clast_table), POINTER(clast_bed), POINTER(c_double), POINTER(clast_table)], 'Mean stress between two heights, and what follows from it: columns name, value, unit, meaning.'),
     'clast_stress_profile': (c_int, [POINTER(clast_table), POINTER(clast_bed), POINTER(clast_table), POINTER(clast_table)], 'The same in the slices of a porosity profile: z_low_m, z_high_m, stress_xx_Pa, .'),
-    'clast_fit_data_single': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of one form each: 26 features from each row's flatness and elongation or L, I, S."),
-    'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
-    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code, that is what was varied, unless `use` names features.'),
-    'clast_fit_data_free': (None, [POINTER(clast_fit_data)], '.'),
-    'clast_porosity_fit_data': (c_int, [POINTER(clast_fit_data), POINTER(clast_porosity_fit_config), c_char_p, c_char_p, POINTER(clast_porosity_fit)], 'Fits a model.'),
-    'clast_porosity_fit_free': (None, [POINTER(clast_porosity_fit)], '.'),
     'clast_model_kind_name': (c_char_p, [c_int], '"single_form", "form_mixture", "columns" .'),
-    'clast_mixture_feature_name': (c_bool, [c_int32, c_char_p, c_size_t], 'Name of feature 0 .'),
+    'clast_mixture_feature_name': (c_bool, [c_int32, c_size_t, c_char_p], 'Name of feature 0 .'),
     'clast_mixture_feature_find': (c_int32, [c_char_p], 'Number of the named feature, or -1.'),
     'clast_form_feature_find': (c_int32, [c_char_p], '0 .'),
     'clast_form_inputs_of': (c_int, [POINTER(clast_form_set), POINTER(c_int64), c_int64, POINTER(clast_form_inputs)], 'Inputs from the grains of a set, all or those in `pick` (with repeats allowed).'),
@@ -3675,13 +3692,19 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_porosity_model_read': (c_int, [c_char_p, POINTER(clast_porosity_model)], 'Reads a model file, JSON as clast_porosity_model_write makes it.'),
     'clast_porosity_model_parse': (c_int, [c_char_p, c_void_p, c_size_t, POINTER(clast_porosity_model)], 'The same from memory; `name` stands for the path in messages.'),
     'clast_porosity_model_write': (c_int, [POINTER(clast_porosity_model), POINTER(c_char_p), c_int32, c_char_p], 'Writes the model as JSON that reads back as the same doubles; the file appears whole or not at all.'),
+    'clast_fit_data_single': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of one form each: 26 features from each row's flatness and elongation or L, I, S."),
+    'clast_fit_data_mixture': (c_int, [POINTER(clast_table), POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], "Beds of mixtures: 104 features of the grains that carry the bed's name in the column `group`."),
+    'clast_fit_data_columns': (c_int, [POINTER(clast_table), POINTER(clast_porosity_fit_config), POINTER(clast_fit_data)], 'Any other table: candidates are the columns of numbers that `columns` names; without names all but the target, and in the results of a study (columns run, ..., exit_code, ...) those between run and exit_code, that is what was varied, unless `use` names features.'),
+    'clast_fit_data_free': (None, [POINTER(clast_fit_data)], '.'),
+    'clast_porosity_fit_data': (c_int, [POINTER(clast_fit_data), c_char_p, c_char_p, POINTER(clast_porosity_fit_config), POINTER(clast_porosity_fit)], 'Fits a model.'),
+    'clast_porosity_fit_free': (None, [POINTER(clast_porosity_fit)], '.'),
     'clast_image_alloc': (c_int, [c_int32, c_int32, POINTER(clast_image)], 'Room for the pixels, zeroed; `image` must be empty.'),
     'clast_image_free': (None, [POINTER(clast_image)], 'Frees the pixels; may be called twice.'),
     'clast_image_write_png': (c_int, [POINTER(clast_image), c_char_p], 'Writes a PNG file, whole or not at all.'),
     'clast_render_assembly': (c_int, [POINTER(clast_assembly), POINTER(clast_render_config), POINTER(clast_monitor), POINTER(clast_image)], 'Draws the assembly into `image` (which must be empty).'),
-    'clast_report_write': (c_int, [POINTER(c_char_p), c_int32, POINTER(clast_report_config), c_char_p], 'Writes the page, whole or not at all.'),
+    'clast_report_write': (c_int, [POINTER(c_char_p), c_int32, c_char_p, POINTER(clast_report_config)], 'Writes the page, whole or not at all.'),
     'clast_report_write_run': (c_int, [c_char_p, c_char_p], 'FOLDER/report.html of one run, as a command does at its end.'),
-    'clast_report_write_view': (c_int, [POINTER(clast_assembly), POINTER(clast_report_config), c_char_p], 'A page with nothing but the 3-D view of an assembly, whole or not at all: what a notebook shows in a frame.'),
+    'clast_report_write_view': (c_int, [POINTER(clast_assembly), c_char_p, POINTER(clast_report_config)], 'A page with nothing but the 3-D view of an assembly, whole or not at all: what a notebook shows in a frame.'),
     'clast_manifest_create': (c_int, [c_char_p, c_int, POINTER(c_char_p), POINTER(c_void_p)], 'Starts a manifest: the clocks run from here.'),
     'clast_manifest_destroy': (None, [c_void_p], 'NULL is allowed.'),
     'clast_manifest_config': (c_int, [c_void_p, POINTER(clast_field), c_void_p], 'Keeps the full resolved configuration, SI, as the field table has it.'),
@@ -3705,7 +3728,7 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_run_folder_state': (c_int, [c_char_p, c_char_p], "The state file that a command's argument means: a run folder's state.h5, else the argument itself."),
     'clast_fluid_air': (clast_fluid, [], 'Air at sea level in the International Standard Atmosphere (15 C): 1.225 kg/m3, 1.7894e-5 Pa s; standard gravity 9.80665 m/s2.'),
     'clast_drag_of_form': (c_int, [c_double, c_double, c_double, c_double, c_double, POINTER(clast_drag)], 'Corrections from the form dimensions L >= I >= S and the volume-equivalent diameter d (all in one unit), and from the density of the body over that of the fluid, r.'),
-    'clast_drag_coefficient': (c_double, [c_double, POINTER(clast_drag)], 'Drag coefficient at a Reynolds number > 0 by volume-equivalent diameter and area pi d^2 / 4: C_D = 24 k_S / Re (1 + 0.125 (Re k_N / k_S)^(2/3)) + 0.46 k_N / (1 + 5330 / (Re k_N / k_S)) fitted for Re < 3e5.'),
+    'clast_drag_coefficient': (c_double, [POINTER(clast_drag), c_double], 'Drag coefficient at a Reynolds number > 0 by volume-equivalent diameter and area pi d^2 / 4: C_D = 24 k_S / Re (1 + 0.125 (Re k_N / k_S)^(2/3)) + 0.46 k_N / (1 + 5330 / (Re k_N / k_S)) fitted for Re < 3e5.'),
     'clast_drag_sphere': (c_double, [c_double], 'Drag coefficient of a sphere: the standard curve of Clift and Gauvin, for Re < 3e5.'),
     'clast_drag_sphere_reynolds': (c_double, [c_double], 'Reynolds number at which clast_drag_sphere gives this Best number, C_D Re^2, to rounding.'),
     'clast_slip_correction': (c_double, [c_double], "Cunningham's slip correction C with Davies' constants, by which drag in a gas is less."),
@@ -3725,14 +3748,14 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_shape_clump': (c_int, [c_char_p, POINTER(clast_spheres), POINTER(clast_shape)], "Union of spheres (copied, moved so that the union's centroid is the origin)."),
     'clast_shape_surface': (c_int, [POINTER(clast_shape), c_int, POINTER(clast_mesh)], "A surface for pictures and files: the shape's own mesh, or an icosphere of the given level (one for each sphere of a clump: closed surfaces that may pass through each other)."),
     'clast_spheres_read': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres)], 'Reads a sphere set: a state file (.h5) or delimited text with columns x, y, z and radius.'),
-    'clast_spheres_write': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres), c_char_p], 'Writes a sphere set, whole or not at all: .csv (x,y,z,radius, digits that read back the same) or .h5.'),
+    'clast_spheres_write': (c_int, [POINTER(clast_spheres), c_char_p, c_char_p, c_char_p], 'Writes a sphere set, whole or not at all: .csv (x,y,z,radius, digits that read back the same) or .h5.'),
     'clast_state_write': (c_int, [POINTER(clast_state), c_char_p], 'Writes a state file: built in memory, checked by CRC-32 when read, whole or not at all.'),
     'clast_state_read': (c_int, [c_char_p, POINTER(clast_state)], 'Reads all of a state file into an empty state.'),
     'clast_state_table': (POINTER(clast_table), [POINTER(clast_state), c_char_p], "The state's table of this name, or NULL."),
     'clast_state_free': (None, [POINTER(clast_state)], 'Frees what clast_state_read made, the assembly too; may be called twice.'),
-    'clast_state_write_assembly': (c_int, [c_char_p, POINTER(clast_assembly), c_char_p], 'An assembly alone.'),
+    'clast_state_write_assembly': (c_int, [POINTER(clast_assembly), c_char_p, c_char_p], 'An assembly alone.'),
     'clast_state_read_assembly': (c_int, [c_char_p, POINTER(clast_assembly)], 'The assembly of a state file; CLAST_E_FORMAT if it has none.'),
-    'clast_state_write_spheres': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres), c_char_p], 'One set of spheres alone.'),
+    'clast_state_write_spheres': (c_int, [POINTER(clast_spheres), c_char_p, c_char_p, c_char_p], 'One set of spheres alone.'),
     'clast_state_read_spheres': (c_int, [c_char_p, c_char_p, POINTER(clast_spheres)], 'The named spheres of a state file; `name` NULL: the only ones.'),
     'clast_state_read_table': (c_int, [c_char_p, c_char_p, POINTER(clast_table)], 'The named table of a state file.'),
     'clast_packing_read': (c_int, [c_char_p, POINTER(clast_packing_options), POINTER(clast_assembly)], 'Reads a packing of spheres that another program made, as scaled unit spheres of density 1.'),
@@ -3763,22 +3786,6 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_text_printable': (c_char_p, [c_char_p, c_size_t, c_char_p], 'A text as a terminal, a table or a picture may show it: control characters and bytes that are not UTF-8 become //xNN.'),
     'clast_version': (c_char_p, [], 'Version text, "0.1.0" .'),
     'clast_outputs_abandon': (None, [], 'Removes the temporary files of all outputs under way, of every thread.'),
-    'clast_envelope_options_default': (clast_envelope_options, [], 'tolerance 1e-3, 10000 rays, seed 1, no length, 128 cells.'),
-    'clast_envelope_name': (c_char_p, [c_int], '"surface_hull" and so on.'),
-    'clast_envelope_text': (c_char_p, [c_int], '"convex hull of the true surfaces" and so on.'),
-    'clast_envelope_parse': (c_int, [c_char_p, POINTER(c_int)], 'The kind of this name; CLAST_E_CONFIG lists the names.'),
-    'clast_assembly_envelope': (c_int, [POINTER(clast_assembly), c_int, POINTER(clast_envelope_options), POINTER(clast_envelope)], 'One envelope of an assembly.'),
-    'clast_assembly_enclosing_sphere': (c_int, [POINTER(clast_assembly), POINTER(c_double), POINTER(c_double)], 'Smallest sphere about the true surfaces of all grains (exact for spheres, clumps and meshes; to 1e-12 for ellipsoids).'),
-    'clast_assembly_radius_of_gyration': (c_double, [POINTER(clast_assembly)], "Radius of gyration: root mean square distance of the mass from its centre, each grain's own extent included."),
-    'clast_fractal_growth': (c_int, [POINTER(clast_assembly), c_int32, POINTER(clast_fractal)], 'From growth: radius of gyration after each grain, in the order of the grains, from grain n_first (counted from 1) to the last, at up to 40 log-spaced counts.'),
-    'clast_fractal_correlation': (c_int, [POINTER(clast_assembly), POINTER(clast_fractal)], "From the pair correlation: solid volume within r of a grain's centre, mean over the grains by volume, in units of the mean grain, between two mean diameters and the solid's radius of gyration."),
-    'clast_assembly_radial_profile': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(clast_table)], 'Solid volume in n_bin shells of equal thickness about a centre (NULL: centre of mass), out to the farthest grain.'),
-    'clast_assembly_coordination': (c_int, [POINTER(clast_assembly), POINTER(clast_table)], 'Grains by number of contacts: columns coordination, n_grain, share.'),
-    'clast_assembly_projected_area': (c_int, [POINTER(clast_assembly), POINTER(c_double), c_int32, POINTER(c_double), POINTER(c_double)], "Area of the shadow along a direction, by n_line scan lines on which the shadow's length is exact; the error is the difference between its even and its odd lines."),
-    'clast_assembly_mean_projection': (c_int, [POINTER(clast_assembly), c_int32, c_int32, POINTER(c_double), POINTER(c_double)], 'Mean shadow over n_direction directions spread evenly over the half sphere; error: standard deviation over the root of their number (an upper bound for even directions).'),
-    'clast_assembly_extent': (c_int, [POINTER(clast_assembly), POINTER(clast_extent)], 'Exact for polyhedra, to 1e-9 for smooth grains.'),
-    'clast_structure_options_default': (clast_structure_options, [], 'Options of the parts, air, 512 lines, 24 directions.'),
-    'clast_structure': (c_int, [POINTER(clast_assembly), POINTER(clast_structure_options), POINTER(clast_table)], 'Everything above in one table: columns name, value, error, unit, meaning.'),
     'clast_study_plan': (c_int, [POINTER(clast_study_config), POINTER(clast_table)], 'The runs as a table: number column `run` (from 1), a text column for each varied key, number column `seed`.'),
     'clast_study_run': (c_int, [POINTER(clast_study_config), c_char_p, POINTER(clast_study_worker), POINTER(clast_comm), POINTER(clast_monitor), POINTER(clast_study_report)], 'Does the runs of a plan that its folder does not hold yet, clast_parallel_threads() at a time.'),
     'clast_table_init': (c_int, [POINTER(clast_table), c_char_p, c_int64], 'Empty table of n_row rows with a name.'),
@@ -3794,13 +3801,6 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_table_write_csv': (c_int, [POINTER(clast_table), c_char_p], "Writes RFC 4180 text: a header of the columns' names (which end in their units), ',', lines that end in LF, numbers in the fewest digits that read back as the same double, NaN (what does not exist) as empty cells, infinities as inf."),
     'clast_table_write_csv_note': (c_int, [POINTER(clast_table), c_char_p, c_char_p], 'The same below a line "# NOTE", which clast_table_read_csv passes over; the note is one line.'),
     'clast_table_write_json': (c_int, [POINTER(clast_table), c_char_p], 'Writes {"name", "n_row", "columns": [{"name", "unit", "values": []}]}; nan and inf, which JSON does not have, become null.'),
-    'clast_discrepancy_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_discrepancy)], 'All three discrepancies of n >= 2 points.'),
-    'clast_henze_zirkler_test': (c_int, [POINTER(c_double), c_int64, c_int32, c_int, POINTER(clast_henze_zirkler)], 'Scores are clamped to u in [2^-53, 1 - 2^-53].'),
-    'clast_pearson_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_pearson)], '@return CLAST_E_ARGUMENT for n < 3.'),
-    'clast_spacing_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], '@return CLAST_E_ARGUMENT for n < 5 @note O(n log n); beyond 50,000 points the neighbours of a part of them are looked for, which their places alone decide.'),
-    'clast_spacing_ranks': (c_int, [POINTER(clast_comm), POINTER(c_double), c_int64, c_int32, POINTER(clast_spacing)], 'The same of the points that all ranks have together; called by all of them.'),
-    'clast_boundary_score_test': (c_int, [POINTER(c_double), c_int64, c_int32, POINTER(c_double), POINTER(clast_boundary_score)], '@param side [d] side lengths of the box that the cube stands for, > 0.'),
-    'clast_boundary_score_ideal': (c_double, [c_double, c_int32, POINTER(c_double)], 'Expected score of n uniform points in a box of these sides.'),
     'clast_voxels_alloc': (c_int, [POINTER(c_int32), c_double, POINTER(clast_voxels)], 'Room for n[0] n[1] n[2] cubes of one edge, zeroed; `voxels` must be empty.'),
     'clast_voxels_free': (None, [POINTER(clast_voxels)], '.'),
     'clast_voxels_labels': (c_int, [POINTER(clast_voxels), POINTER(POINTER(clast_voxel_label)), POINTER(c_int32)], 'The labels other than 0, rising.'),
@@ -3827,8 +3827,8 @@ PROTOTYPES: dict[str, tuple[Any, list[Any], str]] = {
     'clast_workspace_test': (c_int, [c_void_p, POINTER(clast_points), POINTER(clast_decompose_config), POINTER(clast_uniformity)], "Step 1 alone: the uniformity tests of config on points in config's domain, whatever the policy."),
     'clast_workspace_decompose': (c_int, [c_void_p, POINTER(clast_points), POINTER(clast_decompose_config), POINTER(POINTER(clast_decomposition))], 'Steps 1 to 3.'),
     'clast_workspace_decompose_in': (c_int, [c_void_p, POINTER(clast_domain), POINTER(clast_points), POINTER(clast_decompose_config), POINTER(POINTER(clast_decomposition))], "The same in a ready domain, which config->domain then only names in messages (may be NULL): the way for a closed surface or the caller's own map, and without parsing a text at each step."),
-    'clast_workspace_cells': (c_int, [c_void_p, POINTER(c_int32), c_int64], 'Cell of each point of the last decomposition, -1 for points left out, into cell[i * stride].'),
-    'clast_workspace_events': (c_int, [c_void_p, POINTER(c_double), c_int64], 'Expected events of the cell of each point, shared evenly among its points, into events[i * stride]: what a solver that keeps its own cells adds up.'),
+    'clast_workspace_cells': (c_int, [c_void_p, c_int64, POINTER(c_int32)], 'Cell of each point of the last decomposition, -1 for points left out, into cell[i * stride].'),
+    'clast_workspace_events': (c_int, [c_void_p, c_int64, POINTER(c_double)], 'Expected events of the cell of each point, shared evenly among its points, into events[i * stride]: what a solver that keeps its own cells adds up.'),
     'clast_workspace_collide': (c_int, [c_void_p, POINTER(clast_population), POINTER(clast_collide_cells), clast_workspace_step, POINTER(clast_collide_config), POINTER(c_int64)], 'clast_collide with the memory of the workspace.'),
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // What the library does with ranks beyond the table's own functions.
 #include "base/status.h"
-#include <clast/machine.h>
 
 /// Bytes of several ranks in the order of ranks; {0} is empty.
 typedef struct clx_gathered {

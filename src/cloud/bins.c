@@ -2,6 +2,7 @@
 #include "cloud/bins.h"
 
 #include "base/alloc.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "cloud/contract.h"
 #include "math/quadrature.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

@@ -15,6 +15,7 @@
 #include "cloud/surface.h"
 #include "cloud/uniformity.h"
 #include "cloud/uniformity_tree.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

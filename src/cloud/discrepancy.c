@@ -6,6 +6,7 @@
 #include "cloud/pair_sums.h"
 #include "cloud/uniformity.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 
 enum { EXACT_LIMIT = 20000 };

@@ -9,6 +9,7 @@
 #include "cloud/resolution.h"
 #include "cloud/surface.h"
 #include "geom/cut_volume.h"
+#include <clast/machine.h>
 #include <math.h>
 
 enum { MOST_PARTS = 8, N_POWER = 4 };

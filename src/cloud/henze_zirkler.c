@@ -8,6 +8,7 @@
 #include "cloud/gauss_sum.h"
 #include "cloud/uniformity.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 
 enum { EXACT_LIMIT = 2000, POINTS_A_BLOCK = 16384 };

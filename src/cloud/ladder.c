@@ -20,6 +20,7 @@
 #include "math/morton.h"
 #include "math/sort.h"
 
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

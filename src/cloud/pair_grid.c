@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "cloud/part.h"
 #include "cloud/surface.h"
 #include <clast/decompose.h>
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

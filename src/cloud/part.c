@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "math/sort.h"
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -9,6 +9,7 @@
 #include "cloud/uniformity.h"
 #include "math/rng.h"
 #include "math/sort.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

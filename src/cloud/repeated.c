@@ -8,6 +8,7 @@
 #include "cloud/place_hash.h"
 #include "math/sort.h"
 
+#include <clast/machine.h>
 #include <string.h>
 
 enum { AT_ONCE = 1 << 22 }; ///< points of a rank that are compared in one round
@@ -108,7 +109,7 @@ done:
     return status;
 }
 
-clast_status clast_cloud_repeated_ranks(const clast_comm *comm, const clast_cloud *cloud,
+clast_status clast_cloud_repeated_ranks(const clast_cloud *cloud, const clast_comm *comm,
                                         int64_t *n_repeated)
 {
     CLX_ARGUMENTS(cloud, n_repeated);
@@ -140,5 +141,5 @@ done:
 
 clast_status clast_cloud_repeated(const clast_cloud *cloud, int64_t *n_repeated)
 {
-    return clast_cloud_repeated_ranks(NULL, cloud, n_repeated);
+    return clast_cloud_repeated_ranks(cloud, NULL, n_repeated);
 }

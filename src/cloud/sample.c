@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "cloud/surface.h"
 #include "math/rng.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

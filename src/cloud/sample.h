@@ -2,7 +2,6 @@
 // The points that are tested and cut into cells, in the unit cube.
 #include <clast/cloud.h>
 #include <clast/decompose.h>
-#include <clast/machine.h>
 
 /// Points in the order: tested and real, tested ghosts (outside a mesh domain), real but not tested
 /// (thinned out for their weights).

@@ -15,6 +15,7 @@
 #include "cloud/place_hash.h"
 #include "math/sort.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

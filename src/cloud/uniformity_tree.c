@@ -12,6 +12,7 @@
 #include "math/morton.h"
 #include "math/sort.h"
 #include "math/special.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

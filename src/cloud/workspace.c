@@ -7,6 +7,7 @@
 #include "cloud/reuse.h"
 #include "math/special.h"
 #include <clast/agglomerate.h>
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

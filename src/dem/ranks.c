@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "dem/fluid.h"
+#include <clast/machine.h>
 #include <math.h>
 #include <string.h>
 

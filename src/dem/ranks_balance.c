@@ -3,6 +3,7 @@
 #include "dem/ranks.h"
 
 #include "base/alloc.h"
+#include <clast/machine.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,6 +8,7 @@
 #include "evolve/rows.h"
 #include "math/rng.h"
 #include <clast/evolve.h>
+#include <clast/shape.h>
 #include <clast/workspace.h>
 #include <math.h>
 

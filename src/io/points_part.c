@@ -4,11 +4,11 @@
 
 #include "base/alloc.h"
 #include "base/comm.h"
-#include "base/file.h"
 #include "base/number.h"
 #include <clast/cloud.h>
 #include <clast/table.h>
 
+#include <clast/machine.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -434,8 +434,8 @@ done:
 }
 
 clast_status clast_cloud_read_ranks(const clast_comm *comm, const char *path,
-                                    const clast_points_options *options,
-                                    const clast_cloud_columns *columns, clast_cloud *cloud)
+                                    const clast_cloud_columns *columns,
+                                    const clast_points_options *options, clast_cloud *cloud)
 {
     CLX_ARGUMENTS(path, columns, cloud);
     clast_status status = CLAST_OK;

@@ -3,6 +3,7 @@
 #include "mpi/zoltan.h"
 
 #ifdef CLAST_HAVE_ZOLTAN
+#include <clast/machine.h>
 #include <zoltan.h>
 
 typedef struct {

@@ -8,6 +8,7 @@
 #include "dem/ranks.h"
 #include "pack/load.h"
 #include "pack/start.h"
+#include <clast/machine.h>
 #include <clast/settling.h>
 #include <inttypes.h>
 #include <math.h>

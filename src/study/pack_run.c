@@ -15,6 +15,7 @@
 #include "run/run.h"
 #include "study/pack_folder.h"
 #include <clast/field.h>
+#include <clast/machine.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

@@ -211,7 +211,7 @@ static int count_together(const clast_comm *comm, void *context)
             x[part.n++] = all[i];
         }
     }
-    RANK_CHECK(clast_cloud_repeated_ranks(comm, &part, &n_repeated) == CLAST_OK);
+    RANK_CHECK(clast_cloud_repeated_ranks(&part, comm, &n_repeated) == CLAST_OK);
     RANK_CHECK(n_repeated == 100);
     RANK_CHECK(clast_spacing_test(all, 600, 1, &alone) == CLAST_OK);
     RANK_CHECK(clast_spacing_ranks(comm, x, part.n, 1, &together) == CLAST_OK);

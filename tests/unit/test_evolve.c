@@ -2,10 +2,10 @@
  * moments of pairs, balances, going on. */
 #include "support.h"
 
+#include <clast/assembly.h>
 #include <clast/evolve.h>
 #include <clast/form.h>
 #include <clast/shape.h>
-#include <clast/assembly.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
